@@ -226,7 +226,7 @@ def _report(options: Namespace) -> None:
 
 
 def _play(options: Namespace) -> None:
-    """Write a page to play with."""
+    """Write an interactive page."""
     from earthspin.views.play import write_page
 
     page = write_page(options.what, options.out or f"play-{options.what}.html")
@@ -316,7 +316,7 @@ def _ensemble(options: Namespace) -> None:
 
 
 def _plan(options: Namespace) -> None:
-    """Show what a scene needs, and what it leaves out."""
+    """Print the plan of a scene: parts that run, and parts that are left out."""
     from earthspin.engine.asking import script_of
     from earthspin.scenes import chosen, plan
 
@@ -361,7 +361,7 @@ def _scenes(_: Namespace) -> None:
 
 
 def _keys(options: Namespace) -> None:
-    """List what can be asked, question by question."""
+    """List the keys of one question or of all questions."""
     from earthspin.engine.question import describe_keys
     from earthspin.scenes import QUESTIONS, question_named
 
@@ -436,7 +436,7 @@ def _open(page: Path) -> None:
 
 @contextmanager
 def _note_of_results(data: str | Path | None) -> Iterator[None]:
-    """Add the place of the stored results to the message of an error that ends the views."""
+    """Add the path of the stored results to any error raised while the views are made."""
     try:
         yield
     except BaseException as error:
@@ -506,7 +506,7 @@ def _complete(parser: ArgumentParser) -> None:
 
 
 def _offer(prefix: str, action: Action, parsed_args: Namespace, **_: object) -> list[str]:
-    """Candidates for an argument: scenes, kernels, keys, sections and files."""
+    """Return completions for an argument: scenes, kernels, keys, sections and files."""
     from argcomplete.completers import FilesCompleter
 
     from earthspin.checks.work_precision import QUANTITIES

@@ -1,4 +1,4 @@
-"""Physical constants with value, unit, uncertainty, source, and the copy in which they were read.
+"""Physical constants with value, unit, uncertainty, source, and the copy of the source read.
 
 Uncertainties are one standard deviation in the unit of the value; 0 means exact or
 defined, None that the source gives none. Plain conversion factors stand at the end.
@@ -47,7 +47,7 @@ class Constant:
 
     @property
     def verified(self) -> bool:
-        """Whether the value was read in a copy of its source."""
+        """Return True if the value was read in a copy of its source."""
         return UNVERIFIED not in self.read_in
 
     @property
@@ -58,14 +58,14 @@ class Constant:
 
 @dataclass(frozen=True, slots=True)
 class Tabulated:
-    """Source of numbers that are kept in a table: poles, orbits, layers.
+    """Source of the numbers in a table: poles, orbits, layers.
 
     Attributes
     ----------
     content : str
-        The numbers.
+        Description of the numbers.
     source, read_in : str
-        As of `Constant`.
+        As in `Constant`.
     """
 
     content: str

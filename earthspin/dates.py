@@ -307,7 +307,7 @@ class TimeGrid:
 
 @dataclass(frozen=True, eq=False)
 class Listed:
-    """Times of a list, in any order.
+    """List of times in any order.
 
     Attributes
     ----------

@@ -104,7 +104,7 @@ class Where:
         return SceneError(self.key, given, problem, source=self.source)
 
     def at(self, inner: str) -> Where:
-        """Place of an element inside this one."""
+        """Return the place of an element of the value at this place."""
         return Where(f"{self.key}.{inner}", self.source, self.typed)
 
 
@@ -239,7 +239,7 @@ class CoverageError(EarthspinError, ValueError):
 
 
 class UndefinedError(EarthspinError, ValueError):
-    """A quantity that has no value here, with the reason.
+    """A quantity that is not defined for these inputs; the message gives the reason.
 
     Examples
     --------
@@ -254,7 +254,7 @@ class UndefinedError(EarthspinError, ValueError):
 
 
 class ApartError(UndefinedError):
-    """Members of an ensemble cannot be computed side by side, although each alone may be.
+    """Members of an ensemble that cannot be computed together, but possibly one by one.
 
     Examples
     --------
@@ -399,7 +399,7 @@ def nearest(word: object, allowed: Iterable[str]) -> str:
 
 
 def _rounded_up(value: float) -> str:
-    """Round up to three digits, so that a request for the printed value succeeds."""
+    """Round up to three digits, so that the printed accuracy can be requested."""
     digits = f"{value:.3g}"
     return digits if float(digits) >= value else f"{value * (1 + 5e-3):.3g}"
 
@@ -437,9 +437,10 @@ def no_plain_file(path: object) -> str:
 
 
 def _shown(given: object) -> str:
-    """Show any input on one line, shortened; no input makes this fail.
+    """Show any input on one line, shortened, without ever raising an error.
 
-    A long list is cut before it is put into words, and what has none is named by its type.
+    A long list is cut before it is converted to text. An object that cannot be converted is shown
+    as its type.
     """
     if isinstance(given, (str, bytes, list, tuple)) and type(given).__module__ == "builtins":
         given = given[: LONGEST_ECHO + 1]
@@ -460,7 +461,7 @@ def _cut(text: str) -> str:
 
 
 def _named(path: object) -> str:
-    """Show a path; only the end of a very long one."""
+    """Show a path; a very long path is shortened to its end."""
     text = printable(str(path))
     return text if len(text) <= LONGEST_PATH else f"...{text[-LONGEST_PATH:]}"
 

@@ -44,12 +44,12 @@ __all__ = ["BodyFixed", "EquatorOfDate", "SkyfieldFrame", "rotations"]
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """Question of an answer, solved at the times of a frame.
+    """Question of an answer, without its times, to be computed at the times of a frame.
 
     Attributes
     ----------
     question : Question
-        Of the answer, without its times.
+        Question of the answer, without its times.
     first : float
         First date of the answer, days from J2000.0 TDB; a rotation starts there.
     text : str
@@ -121,7 +121,10 @@ def _long_term(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]
 
 
 def _pole(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Equator of the figure axis, with nutation, and its node on the ecliptic of date or orbit."""
+    """Matrices to the true equator and equinox of the figure axis, and errors of the pole.
+
+    The equinox is the node on the ecliptic of date or on the orbit.
+    """
     answer = run(model.at(times=_tdb(times))).sel(axis="figure")
     axis = np.stack([answer[name].values for name in "XYZ"])
     body = model.question.body  # type: ignore[attr-defined]
@@ -149,7 +152,7 @@ def _tdb(times: FloatArray) -> Time:
 
 
 def _at(model: Model | None, obstime: Time) -> tuple[FloatArray, FloatArray]:
-    """Matrices and errors at the times of a frame, of their shape."""
+    """Matrices and errors at the times of a frame, with the shape of the times."""
     if model is None:
         raise SceneError("model", "nothing", "give an answer, as in model=answer")
     times = days(obstime.reshape(-1), Where("obstime"))

@@ -98,7 +98,7 @@ def _say(words: str) -> None:
 
 
 def _print(words: str) -> None:
-    """Print on stderr if it can be written."""
+    """Print a line on stderr; ignore the failure if stderr cannot be written."""
     with suppress(OSError, ValueError, AttributeError):
         print(words, file=sys.stderr or None, flush=True)
 

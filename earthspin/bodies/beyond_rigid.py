@@ -1,4 +1,4 @@
-"""Effects on the attitude that a rigid body with three moments does not include, by body."""
+"""Sizes of effects on the attitude that the rigid-body model neglects, for each body."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class BeyondRigid:
     source: str
 
     def after(self, days: float) -> dict[str, float]:
-        """Sizes of the effects a number of days after the start, rad.
+        """Sizes of the effects at a given number of days after the start, rad.
 
         Parameters
         ----------

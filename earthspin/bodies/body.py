@@ -167,7 +167,7 @@ class Body(FromMass):
     LABELLED: ClassVar[frozenset[str]]
 
     def __new__(cls, *places: object, **_: object) -> Body:
-        """Refuse positional arguments: nobody knows the order of thirty fields."""
+        """Refuse positional arguments, because a body has about thirty fields."""
         if places:
             raise TypeError("Body() takes its arguments by name: Body(name='x', gm=1e14)")
         return super().__new__(cls)
@@ -193,7 +193,7 @@ class Body(FromMass):
             object.__setattr__(self, "pole", self._pole_at(obliquity))
 
     def _pole_at(self, value: object) -> Pole:
-        """Pole of the spin at an obliquity, with the equinox of the present pole."""
+        """Return the fixed pole that has a given obliquity and the equinox of the current pole."""
         angle = _READ_AS["obliquity"].read(value, Where(f"{self.name}.obliquity"))
         if hasattr(angle, "dims") or not 0 <= angle <= math.pi:
             raise BodyError(self.name, "obliquity", value, "give one angle from 0 to 180 deg")
@@ -441,7 +441,7 @@ class Body(FromMass):
         return float(value)
 
     def magnitudes(self) -> dict[str, Magnitude]:
-        """Converter of each number that is set, and of the mass, by name."""
+        """Converters for the mass and for each number that is set, by name."""
         kinds = {name: self.KINDS[name] for name in self.UNITS if getattr(self, name) is not None}
         return kinds | {"mass": _READ_AS["mass"]}
 
@@ -511,7 +511,7 @@ class Body(FromMass):
         return _replace(changed, observed_wobble=None)
 
     def _tilted(self, obliquity: object) -> Body:
-        """Return the body with the axis at another obliquity, and the normal of its orbit kept."""
+        """Return the body with another obliquity and the same orbit normal."""
         if self.pole is None:
             return _replace(self, obliquity=obliquity)
         fixed = self
@@ -525,7 +525,7 @@ class Body(FromMass):
         return _replace(fixed, pole=fixed._pole_at(obliquity), pole_uncertainty=None)
 
     def _figure(self, changes: dict[str, Any]) -> dict[str, Numeric]:
-        """Further changes that keep the moments of inertia consistent; removes `moments`."""
+        """Remove `moments` from the changes; return J2, H or triaxiality that fit the changes."""
         if "moments" in changes:
             moments = changes.pop("moments")
             clash = {"j2", "dynamical_flattening", "triaxiality"} & set(changes)
@@ -544,7 +544,7 @@ class Body(FromMass):
         return {"dynamical_flattening": self.needed("dynamical_flattening") * j2 / self.j2}
 
     def _is_another(self, changes: Mapping[str, Any]) -> bool:
-        """Test whether changes make a body to which the observed wobble no longer applies."""
+        """Return True if changes alter a quantity on which the observed wobble depends."""
         changed = _OF_THE_WOBBLE & set(changes)
         return not all(is_close(changes[name], getattr(self, name)) for name in changed)
 
@@ -620,7 +620,7 @@ def body(name: object, where: Where | None = None) -> Body:
 
 
 def _placed(function: Any, where: Where) -> Body:
-    """Built-in body that a Skyfield vector function has as target, with that position."""
+    """Return the built-in body for the target of a Skyfield vector function, with its position."""
     match = next((body for body in BODIES.values() if function.target in body.naif), None)
     if match is None:
         problem = "its mass is not known; give Body(name=..., gm=..., position=...)"

@@ -14,10 +14,10 @@ class FromMass:
     """
 
     def __init__(self, **fields: Any) -> None:
-        """Accept the fields of a body by name, as the body does."""
+        """Accept the fields of a body as keyword arguments; `Body` implements this."""
 
     def replace(self, **changes: Any) -> Self:
-        """Return a copy with some fields changed, as the body does."""
+        """Return a copy with some fields changed; `Body` implements this."""
         raise NotImplementedError
 
     @classmethod

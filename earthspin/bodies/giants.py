@@ -98,7 +98,7 @@ def _year(days: float) -> Constant:
 def _numbers(
     gm: float, radius: float, j2: Constant, spin: float, orbit: Constant
 ) -> dict[str, Constant]:
-    """Numbers of a giant planet, from GM (km3 s-2), radius (km), spin (deg/d) and period."""
+    """GM, radius, J2 and periods of a giant planet; gm in km3 s-2, radius in km, spin in deg/d."""
     return {
         "gm": Constant(gm * 1e9, "m3 s-2", None, DE440 + ", with the satellites", GM_HORIZONS),
         "radius": Constant(radius * 1e3, "m", None, j2.source, j2.read_in),
@@ -110,7 +110,7 @@ def _numbers(
 
 
 def _orbit(a: float, e: float, i: float, node: float, perihelion: float, mean: float) -> Orbit:
-    """Mean elliptical orbit about the Sun, from au and longitudes in degrees."""
+    """Mean elliptical orbit about the Sun, from a in au and angles in degrees."""
     return Orbit(
         a=a * AU,
         e=e,

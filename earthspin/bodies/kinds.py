@@ -168,7 +168,7 @@ class CitedPeriod:
 
 
 class OwnPlace:
-    """Converter of the position source of a body that has none in a kernel."""
+    """Converter of a position source, for a body without positions in a kernel."""
 
     words = "a vector function of Skyfield's, or segments like {kernel, centre, target}"
     hint = "VectorFunction | Trajectory | Mapping[str, Any]"
@@ -202,7 +202,7 @@ def _labelled(table: Mapping[str, Any], where: Where) -> Any:
 
 
 def _labels_of(array: Any) -> dict[str, Any]:
-    """Labels of an array, of any dtype, as tables."""
+    """Coordinate labels of an array as tables, with their dimensions and data types."""
     tables: dict[str, Any] = {}
     for name, label in array.coords.items():
         floats = label.dtype.kind == "f" and label.size

@@ -1,4 +1,4 @@
-"""Limits of validity: bodies must not overlap, spins not exceed break-up, axes turn slowly.
+"""Limits of validity: no overlap of bodies, no spin above break-up, no fast precession.
 
 A body itself may be extreme. Each question applies the limits that its formulas need.
 """

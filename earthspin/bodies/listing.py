@@ -10,7 +10,7 @@ _ASKED = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
 
 
 def all_in_words() -> str:
-    """Table of all bodies: perturber or not, spin or not, and missing numbers."""
+    """Table of all bodies: whether each can be a rotating body, and which numbers are missing."""
     width = max(map(len, BODIES))
     lines = []
     for name, world in BODIES.items():

@@ -85,7 +85,7 @@ _TERMS = {
 
 
 def _terms(sizes: dict[int, float]) -> list[tuple[float, float, float]]:
-    """Amplitude (deg), phase (deg) and rate (deg per century) of each term."""
+    """Amplitude (deg), phase (deg) and rate (deg per century) of each periodic term of the pole."""
     return [(s, _TERMS[n][0], _TERMS[n][1] * DAYS_PER_CENTURY) for n, s in sizes.items()]
 
 

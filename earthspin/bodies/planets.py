@@ -48,7 +48,7 @@ def pulled_by(body: Body) -> tuple[Body, ...]:
 
 
 def on_its_orbit(body: Body) -> Body:
-    """Return a giant planet with its mean orbit if it has no position; other bodies unchanged."""
+    """Return a body, with its mean orbit if it is a giant planet without orbit or position."""
     placed = body.orbit is not None or body.position is not None
     if placed or body.name not in ORBITS:
         return body

@@ -24,7 +24,7 @@ JPL_READ = (
 
 @dataclass(frozen=True)
 class Satellite:
-    """A satellite near the equator.
+    """A satellite whose orbit is near the equator of its planet.
 
     Attributes
     ----------
@@ -65,7 +65,7 @@ def added_by(
 def carried(
     planet: dict[str, Constant], polar_moment: Constant, satellites: tuple[Satellite, ...]
 ) -> dict[str, Constant]:
-    """J2 and H of a planet, including the satellites that precess with it.
+    """J2 and H of a planet together with the satellites that precess with its equator.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Numbers of a body from point masses, a density on a grid, a mesh or layers."""
+"""Fields of a body computed from point masses, a density on a grid, a mesh or layers."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ Fields = dict[str, Any]
 
 
 def of_masses(masses: Any, positions: Any, radius: Any) -> Fields:
-    """Numbers of a body of point masses, kg, at positions, m."""
+    """Fields of a body made of point masses, kg, at positions, m."""
     from earthspin.mass.shape import Shape
 
     return _of(
@@ -48,7 +48,7 @@ def of_masses(masses: Any, positions: Any, radius: Any) -> Fields:
 
 
 def of_density(density: Any, edges: tuple[Any, Any, Any], radius: Any) -> Fields:
-    """Numbers of a body of uniform grid cells: density, kg m-3, and cell edges, m."""
+    """Fields of a body made of uniform grid cells: density, kg m-3, and cell edges, m."""
     from earthspin.mass.shape import Shape
 
     x, y, z = (_si(edge, "m", axis, "1 km") for axis, edge in zip("xyz", edges, strict=True))
@@ -57,7 +57,7 @@ def of_density(density: Any, edges: tuple[Any, Any, Any], radius: Any) -> Fields
 
 
 def of_mesh(mesh: Any, unit: str, density: Any, mass: Any, radius: Any) -> Fields:
-    """Numbers of a homogeneous body bounded by triangles, with vertices in the given unit."""
+    """Fields of a homogeneous body bounded by triangles, with vertices in the given unit."""
     from earthspin.mass.shape import Shape
 
     return _of(
@@ -149,7 +149,7 @@ def _read(file: Path) -> Any:
 
 
 def of_layers(layers: LayeredBody | str | Mapping[str, Any], spin_period: Any) -> Fields:
-    """Numbers of a layered body in hydrostatic equilibrium, to first order in the flattening.
+    """Fields of a layered body in hydrostatic equilibrium, to first order in the flattening.
 
     Parameters
     ----------

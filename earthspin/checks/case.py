@@ -95,17 +95,20 @@ class Case:
 def holds(
     *, bound: float, unit: str = "1", slow: bool = False, long: bool = False
 ) -> Callable[[Measure], Case]:
-    """Decorate a measure whose distance must be within a bound; see `Case` for the arguments."""
+    """Decorate a function that yields distances from a reference, which must be within `bound`.
+
+    The other arguments are those of `Case`.
+    """
     return partial(_case, bound=bound, unit=unit, slow=slow, long=long)
 
 
 def refused(message: str) -> Callable[[Measure], Case]:
-    """Decorate a measure that must be refused with a one-line message that contains `message`."""
+    """Decorate a function that must raise a one-line error whose message contains `message`."""
     return partial(_case, refusal=message)
 
 
 def _case(measure: Measure, refusal: str = "", **numbers: Any) -> Case:
-    """Make a case with name, difficulty and reference from the docstring of its measure."""
+    """Make a case from a decorated function, whose docstring has the name and the reasons."""
     name, _, rest = (measure.__doc__ or measure.__name__).partition("Hard because:")
     why, _, reference = rest.partition("Compared with:")
     if refusal:

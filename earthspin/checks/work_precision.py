@@ -99,7 +99,7 @@ class Method:
 
     @property
     def ours(self) -> bool:
-        """Return True for a method of this package."""
+        """Return True if the method belongs to this package."""
         return math.isfinite(self.bound)
 
 
@@ -169,7 +169,7 @@ class Ladder:
 
     @property
     def rungs(self) -> int:
-        """Largest number of settings of a method."""
+        """Largest number of settings of any method."""
         return max(len(method.settings) for method in self.methods)
 
 
@@ -194,7 +194,7 @@ class Timing(NamedTuple):
 
 @dataclass(frozen=True)
 class Point:
-    """Measured values of a setting: error in SI, times in s, under the names of the result."""
+    """Measured error (SI) and run times (s) of a setting; fields are named as in the result."""
 
     setting: str
     error: float
@@ -335,7 +335,7 @@ def accuracy(quantity: str, *, quick: bool = False) -> xr.Dataset:
 
 
 def ladder_of(quantity: str, *, quick: bool = False) -> Ladder:
-    """Build the settings, from coarse to fine, that measure a quantity.
+    """Build the ladder of a quantity: its methods, their settings and the reference.
 
     Raises
     ------
@@ -473,7 +473,10 @@ def _cheapest(rows: list[_Row]) -> _Row:
 
 
 def _steps(rows: list[_Row]) -> list[tuple[float, _Row]]:
-    """Fastest row for each error level; a row appears once, with the smallest level it reaches."""
+    """Fastest row for each error level, at most `MOST_STEPS` rows.
+
+    A row that is fastest for several levels appears only with the smallest level.
+    """
     finest: dict[_Row, float] = {}
     for level in _levels(min(row.error for row in rows), max(row.error for row in rows)):
         finest[_cheapest([row for row in rows if row.error <= level])] = level
@@ -485,7 +488,7 @@ def _steps(rows: list[_Row]) -> list[tuple[float, _Row]]:
 
 
 def _levels(least: float, largest: float) -> list[float]:
-    """Descending powers of ten that enclose the errors, with 2 and 5 in a short range."""
+    """Descending error levels: powers of ten, with 2 and 5 if the errors span less than 100."""
     between = (5.0, 2.0, 1.0) if largest < 100 * least else (1.0,)
     powers = range(math.floor(math.log10(largest)) + 1, math.floor(math.log10(least)) - 1, -1)
     levels = [float(f"{digit:g}e{power}") for power in powers for digit in between]

@@ -1,4 +1,4 @@
-"""Choices for the true equator: series of nutation, and spacing of its nodes."""
+"""Choices for the true equator: nutation series, and spacing of its interpolation nodes."""
 
 from __future__ import annotations
 

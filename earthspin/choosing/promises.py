@@ -73,7 +73,7 @@ class Report(Variables):
 
 
 def refuse_unkept(asked: float | None, best: float, unit: str, remedy: str) -> None:
-    """Raise an error if a requested accuracy is not reached, except for rounding of units.
+    """Raise an error if the estimated error exceeds the request by more than unit rounding.
 
     Parameters
     ----------

@@ -93,7 +93,10 @@ def window_choices(
 
 
 def _in_reach(rows: Any, reaches: list[float], reach: float) -> FloatArray:
-    """Errors of all settings for a time span (s) from the epoch, extrapolated linearly."""
+    """Errors of all settings for a time span (s), from tabulated error logarithms.
+
+    Beyond the longest tabulated span, errors grow linearly with the span.
+    """
     errors = 10.0 ** np.asarray(rows)
     if errors.ndim == 1:
         return errors

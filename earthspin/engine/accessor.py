@@ -271,7 +271,7 @@ class Answer:
 
 
 def _spread(dataset: xr.Dataset) -> xr.Dataset:
-    """Split variables along all dimensions except those that most variables have."""
+    """Split variables into columns, so that all have the dimensions of most variables."""
     columns: dict[str, xr.DataArray] = {}
     common = Counter(
         frozenset(array.dims).difference(("component", "quaternion", "axis"))

@@ -1,4 +1,4 @@
-"""Make the public call and the plain script of a question from its class."""
+"""Generate the public function and an equivalent Python script from the class of a question."""
 
 from __future__ import annotations
 

@@ -118,7 +118,7 @@ def entries(sums: Mapping[str, str]) -> bytes:
 
 
 def read_entries(ledger: Path) -> dict[str, str]:
-    """Read SHA-256 of each file by its path from a ledger; of two lines for a file, the last."""
+    """Read the SHA-256 of each file from a ledger, by path; the last line for a file is used."""
     lines = ledger.read_bytes().decode("utf-8", "surrogateescape").split("\n")
     return {entry[2]: entry[1] for entry in filter(None, map(_ENTRY.fullmatch, lines))}
 
@@ -189,7 +189,7 @@ def of_content(groups: Mapping[str, xr.Dataset]) -> str:
 
 
 def _add(total: Any, *pieces: str | bytes) -> None:
-    """Add pieces with their number and lengths, so that different lists give different bytes."""
+    """Add pieces to a hash with their number and lengths, so that the encoding is unambiguous."""
     total.update(b"%d;" % len(pieces))
     for piece in pieces:
         coded = piece if isinstance(piece, bytes) else piece.encode("utf-8", "surrogatepass")

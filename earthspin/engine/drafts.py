@@ -166,7 +166,7 @@ def output_errors(path: str | Path, remedy: str = "") -> Iterator[None]:
 
 @contextmanager
 def box_of(target: Path) -> Iterator[Path]:
-    """Make a locked hidden folder next to the target, and remove abandoned folders."""
+    """Yield a new locked hidden folder next to the target, after removing abandoned folders."""
     box = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".draft", dir=target.parent))
     lock = FileLock(box / _LOCK)
     with suppress(OSError, NotImplementedError):  # without locks, abandoned drafts stay
@@ -180,7 +180,7 @@ def box_of(target: Path) -> Iterator[Path]:
 
 
 def put_back(path: str | Path) -> None:
-    """Restore a folder whose writer was killed after it had moved the folder aside.
+    """Restore a folder if its writer was killed after it had moved the folder aside.
 
     Parameters
     ----------
@@ -218,14 +218,14 @@ def check_identity(path: Path, opened: tuple[int, int, int] | None) -> None:
 
 
 def _clear_abandoned_drafts(target: Path, own: Path | None = None) -> None:
-    """Remove drafts whose owners have ended, and restore a folder that one had moved aside."""
+    """Remove drafts whose owners have ended, and restore a target left in such a draft."""
     for box in _boxes(target):
         if box != own and _is_abandoned(box, own):
             _remove(box, target)
 
 
 def _remove(box: Path, target: Path) -> None:
-    """Remove the folder of a draft; what was moved aside goes back if nothing took its place."""
+    """Remove the folder of a draft; an old target in it is restored if the target is missing."""
     if (box / _OLD).exists() and not target.exists():
         os.replace(box / _OLD, target)
     shutil.rmtree(box, ignore_errors=True)

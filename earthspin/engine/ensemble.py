@@ -133,13 +133,13 @@ class Ensemble:
         return Variants(self.question, keys, {entry.key for entry in self.numbers.values()})
 
     def names(self, index: int) -> Names:
-        """Names that a member has in the inputs that are names."""
+        """Names that one member has for the inputs that are chosen by name."""
         inputs = (name for name, entry in self.inputs.items() if entry.named)
         return tuple(str(self.values[name][index]) for name in inputs)
 
     @cached_property
     def groups(self) -> dict[Names, IntArray]:
-        """Indices of the members with the same names, ascending, by names."""
+        """Ascending indices of the members with the same names, as a dict by names."""
         if len(self.numbers) == len(self.inputs):
             return {(): np.arange(len(self.which))}
         indices: dict[Names, list[int]] = {}
@@ -264,7 +264,7 @@ class Ensemble:
         return block.assign_coords(self._labels(slice(first, last), block))
 
     def _together(self, first: int, last: int) -> Iterator[tuple[IntArray, xr.Dataset]]:
-        """Compute whole rows of members with the same names; yield those from first to last - 1.
+        """Compute members with the same names in full rows; yield members `first` to `last` - 1.
 
         Columns of other members hold a copy of a wanted one, so that a row is always complete.
         """
@@ -371,7 +371,7 @@ def _concatenated(pieces: list[xr.Dataset]) -> xr.Dataset:
 def with_members(
     question: Question, members: object, seed: int | None = None, **more: Any
 ) -> Question:
-    """Return the question with members, which replace or modify its own.
+    """Return the question with `members` in place of its own, or with some fields changed.
 
     Parameters
     ----------

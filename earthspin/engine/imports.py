@@ -30,7 +30,7 @@ _CLOCK = _Clock()
 
 
 def _timed_import(*args: Any, **kwargs: Any) -> Any:
-    """Import as Python does, and add the time of the outermost statement."""
+    """Import as Python does, and add the run time of each outermost import to the clock."""
     _CLOCK.depth += 1
     begun = time.perf_counter()
     try:
@@ -43,7 +43,7 @@ def _timed_import(*args: Any, **kwargs: Any) -> Any:
 
 @contextmanager
 def import_clock() -> Iterator[_Clock]:
-    """Time the imports of this thread; the clock's `seconds` is the sum."""
+    """Time the imports of this thread; yield the clock, whose `seconds` is their total time."""
     global _users, _import
     with _LOCK:
         if not _users:

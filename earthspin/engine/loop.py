@@ -169,7 +169,7 @@ def _complete(work: Work, store: Unfinished, target: Path, client: object) -> No
 def _blocks(
     work: Work, numbers: list[int], client: object, folder: Path | None = None
 ) -> Iterator[tuple[int, Any]]:
-    """Yield the number and the data of each block; with a folder, the checksums of its files."""
+    """Yield the number of each block, with its data or, if a folder is given, file checksums."""
     if client is None:
         yield from (_make_block(work, number, folder) for number in numbers)
     elif numbers:
@@ -252,7 +252,7 @@ def _check_client(client: object) -> None:
 
 
 def _digest_of_store(target: Path) -> str | None:
-    """Digest of the request that a complete store answers; None if there is no store."""
+    """Digest of the request stored in a complete store; None if there is no store."""
     drafts.put_back(target)
     if not target.exists():
         return None

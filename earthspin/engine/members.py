@@ -246,7 +246,7 @@ class Members:
         )
 
     def write(self) -> dict[str, Any]:
-        """Return the table of a scene, with every number."""
+        """Return the `members` table of a scene, from which `read` restores all values."""
         table: dict[str, Any] = {"seed": self.seed, "impossible": self.impossible}
         options = {
             "n": self.n,
@@ -335,7 +335,7 @@ def count_of(members: Members, inputs: Mapping[str, Distribution], where: Where)
 def draw(
     members: Members, inputs: Mapping[str, Distribution], which: FloatArray, where: Where
 ) -> dict[str, NDArray[Any]]:
-    """Draw values from the distributions of all inputs.
+    """Draw one value for each member from the distribution of each input.
 
     Parameters
     ----------
@@ -365,7 +365,10 @@ def draw(
 
 
 def _correlated(normal: FloatArray, root: FloatArray) -> FloatArray:
-    """Multiply each row by the root, without a BLAS, whose rounding depends on the row count."""
+    """Multiply each row by the matrix `root`, without BLAS.
+
+    The rounding of BLAS depends on the number of rows.
+    """
     mixed = np.zeros_like(normal)
     for column, weights in zip(normal.T, root.T, strict=True):
         mixed += np.multiply.outer(column, weights)

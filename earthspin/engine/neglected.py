@@ -45,7 +45,7 @@ class Neglected:
 
     @classmethod
     def cited(cls, sizes: Mapping[str, Constant], what: str) -> Self:
-        """Make from constants that have the same unit and their own sources."""
+        """Make a `Neglected` from constants with the same unit, each with its own source."""
         (unit,) = {size.unit for size in sizes.values()}
         return cls(
             {name: size.value / from_si(unit) for name, size in sizes.items()},
@@ -78,7 +78,7 @@ class Neglected:
         attrs = {name: words for name, words in notes.items() if words}
 
         class Effects(Variables, along=("effect",), no_error=BOUND):
-            """Variables of the section."""
+            """Variables of the section of neglected effects."""
 
             neglected_effect: Value = number(self.unit, self.what)
             effect: Labels = labels()

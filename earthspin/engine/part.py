@@ -37,7 +37,7 @@ class Block:
 
 
 class Part(Generic[P, R]):
-    """A typed function that computes one result; a part is called like its function.
+    """A typed function that computes one result; it is called like an ordinary function.
 
     Attributes
     ----------

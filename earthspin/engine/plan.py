@@ -141,7 +141,7 @@ def plan_parts(question: Question, sections: str | Iterable[str] = ()) -> Plan:
     reasons: dict[str, str] = {}
 
     def choose(name: str) -> bool:
-        """Choose a part and its inputs, or store the reason for leaving it out."""
+        """Return True if a part can run; store its inputs, or the reason for leaving it out."""
         if name in chosen or name in reasons:
             return name in chosen
         part, used = graph.parts[name], list[str]()

@@ -68,7 +68,7 @@ class Key:
 
     @cached_property
     def default(self) -> Any:
-        """Default value, as its type reads it."""
+        """Default value, converted by the type of the key."""
         return None if self.shown is None else self.kind.read(self.shown, Where(self.name))
 
     @property
@@ -281,7 +281,7 @@ class Question:
         return table | ({self.table: own} if own else {})
 
     def _superseded_keys(self) -> set[str]:
-        """Keys without effect, because another group of exclusive keys was given."""
+        """Keys that have no effect because a key of a mutually exclusive group was given."""
         used = next((group for group in self.exclusive if self.given & set(group)), None)
         if used is None:
             return set()
@@ -304,7 +304,7 @@ class Question:
         return self._changed(changes, {})
 
     def holding(self, **arrays: Any) -> Self:
-        """Return the question with arrays of all members' numbers in some keys, without checks.
+        """Return the question with arrays of values, one per member, in some keys, unchecked.
 
         Parameters
         ----------
@@ -369,7 +369,7 @@ def unknown_key(question: type[Question], name: str) -> str:
 
 @dataclass(frozen=True)
 class Graph:
-    """The parts of a question.
+    """The parts of a question and the results that they produce.
 
     Attributes
     ----------

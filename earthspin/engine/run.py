@@ -65,7 +65,7 @@ class Run:
         return xr.DataTree.from_dict({"/": answer, **nodes, "plan": plan_data(self.plan)})
 
     def _merged(self, parts: Iterable[str], effects: Sequence[str] = ()) -> xr.Dataset:
-        """Merge the datasets of parts; labels along `effect` are those of the answer, if any."""
+        """Merge the datasets of parts; neglected effects use the labels `effects`, if any."""
         results = [self.results[name] for name in parts if name in self.results]
         first, *others = (
             result.dataset(effects) if isinstance(result, Neglected) else result
@@ -85,7 +85,7 @@ def _sources(values: Iterable[Any]) -> dict[str, str]:
 
 
 def behind(plan: Plan, parts: Iterable[str]) -> set[str]:
-    """Names of the parts and of all their direct and indirect inputs."""
+    """Names of some parts and of all their direct and indirect inputs."""
     names = {*parts}
     for part in reversed(plan.parts):
         if part.name in names:
@@ -112,7 +112,10 @@ class Rerun:
         self.fixed = run_parts(replace(self.plan, parts=fixed))
 
     def __call__(self, question: Question | None = None, **values: object) -> Run:
-        """Run the parts that depend on the changing keys, of this question or of a changed one."""
+        """Run the parts that depend on the changing keys, and reuse the other results.
+
+        The question may differ from the original one in these keys.
+        """
         plan = self.plan if question is None else plan_parts(question)
         names = {part.name for part in plan.parts} - self.changing
         before = {name: value for name, value in self.fixed.results.items() if name in names}

@@ -162,7 +162,7 @@ def _raise_system_error(path: Path, size: int) -> None:
 
 
 def _groups(result: xr.Dataset | xr.DataTree) -> dict[str, xr.Dataset]:
-    """Answer, with the date in its history, and sections, by their paths in a file."""
+    """Datasets of an answer and its sections, by path in the file; the history gets the date."""
     import xarray as xr
 
     tree = xr.DataTree(result) if isinstance(result, xr.Dataset) else result
@@ -182,7 +182,7 @@ UNITS, SHOWN = "units", "units_shown"
 
 
 def spelled(node: xr.Dataset) -> xr.Dataset:
-    """Return a copy with units in the spelling of files, and the original in `units_shown`."""
+    """Return a dataset with units spelled as in files; `units_shown` has the original spelling."""
     node = node.copy()
     for name, variable in node.variables.items():
         unit = variable.attrs.get(UNITS)
@@ -373,7 +373,7 @@ def _read(path: Path) -> dict[str, xr.Dataset]:
 
 
 def _unreadable(path: Path, error: Exception) -> OutputError:
-    """Make the error for a file that cannot be read; an `OutputError` among the causes is kept."""
+    """Return the error for an unreadable file; an `OutputError` among its causes is reused."""
     cause: BaseException | None = error
     while cause is not None:
         if isinstance(cause, OutputError):

@@ -126,7 +126,7 @@ class Unfinished:
             _append_to_ledger(self.folder / LEDGER, sums)
 
     def check_frame(self) -> None:
-        """Refuse a store if a file that no block writes differs from what `begin` wrote.
+        """Refuse a store if its files outside all blocks differ from those that `begin` wrote.
 
         Raises
         ------
@@ -160,7 +160,7 @@ class Unfinished:
         return damaged
 
     def finish(self, place: Path) -> None:
-        """Write the ledger of the complete store, move the store to `place`, remove the folder."""
+        """Complete the store: write its ledger, move it to `place`, delete the working folder."""
         for stray in self.store.rglob("*.partial"):  # a chunk whose writer was killed
             stray.unlink()
         sums = _frame_checksums(self.store, self.layout.along)
@@ -235,24 +235,24 @@ def _frame_checksums(store: Path, along: str) -> dict[str, str]:
 
 @contextmanager
 def locked_folder(place: Path, request: Mapping[str, str]) -> Iterator[Path | None]:
-    """Hold the folder of the store in the making that belongs to a place, if there is one.
+    """Lock and yield the folder of the unfinished store for a path; None if there is none.
 
     Parameters
     ----------
     place : Path
-        Where the complete store shall stand.
-    asked : mapping of str to str
-        What is asked, and of which versions.
+        Path of the complete store.
+    request : mapping of str to str
+        Record of the question and of the versions.
 
     Yields
     ------
     Path or None
-        None if nothing was begun.
+        None if there is no unfinished store.
 
     Raises
     ------
     OutputError
-        If something else was asked there, or another run holds it.
+        If the store was begun for another request, or another run has locked it.
     """
     folder = place.with_name(place.name + PARTIAL)
     if not folder.exists():
@@ -272,7 +272,7 @@ def locked_folder(place: Path, request: Mapping[str, str]) -> Iterator[Path | No
 
 
 def _refuse_another(folder: Path, request: dict[str, str]) -> None:
-    """Refuse to continue a store of another question, another version or another layout."""
+    """Refuse to continue a store begun for another question, version or layout."""
     try:
         begun = json.loads((folder / REQUEST).read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):
@@ -296,7 +296,7 @@ def begin(place: Path, request: Mapping[str, str], layout: Layout, first: xr.Dat
     Parameters
     ----------
     place : Path
-    asked : mapping of str to str
+    request : mapping of str to str
     layout : Layout
     first : Dataset
         Block 0, with the attributes of the whole result.

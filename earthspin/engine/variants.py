@@ -1,7 +1,7 @@
-"""Variants of a question: one for each combination of names that members of an ensemble have.
+"""Variants of a question: one for each combination of names among the members.
 
-Another orbit, kernel or model is another question, not another number in one. Members with the same
-names share theirs, whose parts that no number of a member touches run once.
+Members that differ in the orbit, the kernel or a model belong to different questions. Members with
+the same names share one question; parts that do not depend on the numbers of members run once.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _WHOLE, _SOURCES = "/", "/sources"
 
 
 class Variants:
-    """A question with other names in some of its keys.
+    """Variants of a question, which differ in the keys chosen by name.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ class Variants:
         return self._question.replace(**dict(zip(self._keys, names, strict=True)))
 
     def __getitem__(self, names: Names) -> Rerun:
-        """Return a `Rerun` of the question with these names; its constant parts have run."""
+        """Return the `Rerun` of the variant with these names, whose constant parts have run."""
         if names not in self._runs:
             self._runs[names] = Rerun(self.question(names), self._moving)
             if len(self._runs) > LARGEST_NUMBER_OF_RUNS:
@@ -75,7 +75,7 @@ class Variants:
         return answer
 
     def _attributes(self, groups: Iterable[Names], name: str) -> dict[Names, Mapping[str, Any]]:
-        """Attributes of the whole or of a variable, for each variant that has the variable."""
+        """Attributes of the result or of a variable, for each variant that has them."""
         for names in groups:
             if names not in self._descriptions:
                 self.nominal(names)
@@ -94,7 +94,7 @@ class Variants:
         }
 
     def describe(self, answer: xr.Dataset, groups: Iterable[Names]) -> xr.Dataset:
-        """Assign the attributes of all variants; texts that differ are listed with the names."""
+        """Combine the attributes of all variants; texts that differ are listed with the names."""
         described = answer.assign_attrs(_joined(self._attributes(groups, _WHOLE)))
         for name in described.variables:
             attributes = self._attributes(groups, str(name))
@@ -104,7 +104,7 @@ class Variants:
 
 
 def _joined(attributes: Mapping[Names, Mapping[str, Any]]) -> dict[str, Any]:
-    """Join attributes of variants: equal values once, all differing texts, no differing numbers."""
+    """Combine attributes: equal values once, differing texts all; differing numbers are dropped."""
     joined: dict[str, Any] = {}
     for name in dict.fromkeys(name for entry in attributes.values() for name in entry):
         values = {names: entry[name] for names, entry in attributes.items() if name in entry}

@@ -40,6 +40,6 @@ def anelastic_strain(period: Numeric, exponent: Numeric) -> Numeric:
 
 
 def _expm1_over(exponent: Numeric, log: Numeric) -> Numeric:
-    """Compute (x^alpha - 1)/alpha, with a nonzero placeholder for alpha = 0."""
+    """Compute (x^alpha - 1)/alpha from ln x; the value for alpha = 0 must not be used."""
     safe = np.where(np.equal(exponent, 0), 1.0, exponent)
     return np.expm1(safe * log) / safe

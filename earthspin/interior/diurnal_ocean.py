@@ -77,7 +77,7 @@ def wave_response(wave: Wave) -> complex:
 
 
 def diurnal_response(sigma: Array) -> Array:
-    """Change of the Love number due to the ocean, at body-fixed frequencies in turns per turn.
+    """Change of the Love number due to the ocean, at body-fixed frequencies in cycles per rotation.
 
     Linear interpolation between the waves; constant beyond the first and the last.
 

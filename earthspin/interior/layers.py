@@ -110,6 +110,6 @@ def _primitive(density: tuple[float, ...], power: int, x: float) -> float:
 
 
 def tidal_inertia(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
-    """Ratio Omega2 R5/(3 G A): product of inertia over A, per radian of wobble and unit k2."""
+    """Ratio Omega2 R5/(3 G A): product of inertia over A for k2 = 1 and a wobble of 1 rad."""
     moment = layers.moment_of_inertia()
     return spin_rate**2 * layers.radius**5 / (3 * G.value * moment)

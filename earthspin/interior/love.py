@@ -87,12 +87,12 @@ class Yielding:
 
     @property
     def k_pressure(self) -> Array:
-        """Love number for a potential in the core only, from its rotation about another axis."""
+        """Love number for a potential in the core only, due to a tilt of its rotation axis."""
         return np.asarray(self.answers[..., 0, 1:].sum(axis=-1))
 
     @property
     def core_k_pressure(self) -> Array:
-        """Contribution of the core's masses to the Love number for a potential in the core only."""
+        """Contribution of the masses of the core to `k_pressure`."""
         return np.asarray(self.answers[..., 1:, 1:].sum(axis=(-1, -2)))
 
 
@@ -221,7 +221,7 @@ def _solved(profile: Profile, body: LayeredBody, strain: Array, carry: Carry) ->
 
 
 def _inside(state: Array, r: float) -> Array:
-    """Contribution of the masses inside r to the potential at r, r3 (y5 - r y6/5), as a k."""
+    """Contribution of the masses inside r to a Love number k: r3 (y5 - r y6/5)."""
     return np.asarray(r**3 * (state[:, 4] - r * state[:, 5] / 5))
 
 
@@ -241,7 +241,7 @@ def _across(profile: Profile, first: int, y: Array, strain: Array, carry: Carry)
 def _through_inner_core(
     profile: Profile, body: LayeredBody, strain: Array, carry: Carry
 ) -> tuple[Array, Array | None, list[Array]]:
-    """Integrate the inner core: (y5, y7) above it, its state at the top, boundary conditions."""
+    """Integrate the inner core; return (y5, y7) above it, its state at the top, and conditions."""
     if not body.inner_core_radius:
         pair = np.zeros((strain.size, 2, 3 + 4), dtype=strain.dtype)
         pair[:, :, 0] = liquid_centre(profile, profile.first)
@@ -259,7 +259,7 @@ def _through_inner_core(
 
 
 def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
-    """State with y5 and y6 changed across a boundary where the applied potential changes."""
+    """Return y5 and y6 after the jump at a boundary where the applied potential changes."""
     y5, y6 = y[:, 4].copy(), y[:, 5].copy()
     y5[:, -4:] += step * r**2
     y6[:, -4:] += 5 * step * r
@@ -269,7 +269,7 @@ def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
 def _through_liquid(
     profile: Profile, body: LayeredBody, pair: Array, carry: Carry
 ) -> tuple[Array, int]:
-    """The pair at the top of the liquid, and the index of the first layer above it."""
+    """Integrate (y5, y7) to the top of the liquid; return also the index of the next layer."""
     r = body.inner_core_radius / body.radius or START
     liquids = (n for n, layer in enumerate(profile.layers) if not layer.vs)
     i = max(next(liquids), profile.first)

@@ -169,7 +169,7 @@ def held_by_mantle(parts: Parts) -> Parts:
 
 
 def wobble_response(parts: Parts, sigma: Array) -> Array:
-    """Wobble per unit tidal potential, m/phi, at body-fixed frequencies in turns per turn."""
+    """Wobble per unit tidal potential, m/phi, at body-fixed frequencies in cycles per rotation."""
     p, q, right, left = system(parts)
     at = np.asarray(sigma)[..., None]
     solution = np.linalg.solve(at[..., None] * p + q, (at * right + left)[..., None])
@@ -183,7 +183,7 @@ def transfer(parts: Parts, sigma: Array, rigid_e: float) -> Array:
     ----------
     parts : Parts
     sigma : ndarray
-        Frequencies in turns per turn of the body, negative if retrograde; -1 is at rest in space.
+        Frequencies in cycles per rotation, negative if retrograde; -1 is at rest in space.
     rigid_e : float
         (C - A)/A of the rigid body. For any interior, T(-1) is H of the body divided by H of the
         rigid one.
@@ -192,7 +192,7 @@ def transfer(parts: Parts, sigma: Array, rigid_e: float) -> Array:
 
 
 def free_modes(parts: Parts) -> dict[str, complex]:
-    """Body-fixed frequencies of the free modes, turns per turn; decaying modes have Im > 0.
+    """Body-fixed frequencies of the free modes, cycles per rotation; Im > 0 for decaying ones.
 
     A mode whose region is absent is not included.
     """
@@ -235,7 +235,7 @@ def parts_of(layers: LayeredBody, spin_rate: float, answers: Array, e: float) ->
 
 
 def chandler_by_core(layers: LayeredBody, e: float, spin_rate: float) -> dict[str, float]:
-    """Period of the free wobble, in turns of the body, for three treatments of the inner core.
+    """Period of the free wobble, in rotations, for three treatments of the inner core.
 
     Parameters
     ----------

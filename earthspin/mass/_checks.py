@@ -13,7 +13,7 @@ FloatArray = NDArray[np.float64]
 
 
 def positive(body: str, field: str, value: ArrayLike) -> FloatArray:
-    """Return finite positive numbers as an array; raise an error that names any other value."""
+    """Return numbers as an array; raise an error unless all are finite and positive."""
     values = np.asarray(value, dtype=float)
     wrong = ~(np.isfinite(values) & (values > 0))
     if np.any(wrong):

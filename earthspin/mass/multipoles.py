@@ -129,7 +129,9 @@ class Multipoles:
         return np.real(self.moments[:, 0])
 
     def moment(self, n: int, m: int) -> complex:
-        """Moment T_nm (I.9.20) with Racah's harmonics, in kg m^n, or kg m^(-n-1) inside.
+        """Moment T_nm (I.9.20) with Racah's harmonics.
+
+        The unit is kg m^n for exterior and kg m^(-n-1) for interior moments.
 
         Divide by sqrt(f(n, -m)) for the source's unnormalised harmonics, and multiply by
         sqrt((2n + 1)/(4 pi)) for Jackson's q_nm.

@@ -118,7 +118,10 @@ def _choose(
 
 
 def _signed(axis: FloatArray) -> FloatArray:
-    """The axis or its opposite, by the sign of its first component above 0.55 in size."""
+    """Return the axis or its opposite, so that the first component above 0.55 is positive.
+
+    The condition refers to the absolute value of the component.
+    """
     leading = axis[np.argmax(np.abs(axis) > 0.55)]
     return np.asarray(axis * np.sign(leading))
 

@@ -1,4 +1,4 @@
-r"""Numbers of a body from its mass distribution: moments, axes, J2 to J4, triaxiality.
+r"""Moments, principal axes, J2 to J4 and triaxiality of a body from its mass distribution.
 
 Every distribution is represented by points: point masses, or Gauss points in the cells of a grid or
 the tetrahedra of a mesh. About the centre of mass, along the principal axes, with C the polar

@@ -65,7 +65,7 @@ class AttractionIntegrals(NamedTuple):
 
 
 def confocal_squares(flattening: ArrayLike, position: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Squared semi-axes U, T of the confocal spheroid through a point; inside, of the body.
+    """Squared semi-axes of the confocal spheroid through a point, or of the body if inside.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def confocal_squares(flattening: ArrayLike, position: ArrayLike) -> tuple[FloatA
 
 
 def _quadratic(f: FloatArray, square: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Squared focal distance, and p and w of s2 - p s - w = 0.
+    """Squared focal distance, and coefficients p and w of s2 - p s - w = 0.
 
     s is the smaller squared semi-axis.
     """

@@ -100,7 +100,7 @@ def moments_of_density(
 
 
 def zonal_moments(integrals: ArrayLike, radius: float) -> FloatArray:
-    """Zonal moments J_n = -G s^n Z_n of the source (I.9.23), m^(n+3) s-2.
+    """Zonal moments J_n = -G s^n Z_n as defined in (I.9.23), m^(n+3) s-2.
 
     J0 = -GM and J2 = G (C - A).
     """

@@ -255,7 +255,7 @@ def _displacement(path: AxisPath, figure: FloatArray) -> FloatArray:
 def _directions(
     epoch: float, span: tuple[float, float], limits: tuple[float, float], window: float
 ) -> list[tuple[FloatArray, bool]]:
-    """Edges of windows from the epoch outward; True for windows after the epoch."""
+    """Window edges from the epoch forward and backward in time; True marks the forward ones."""
     directions: list[tuple[FloatArray, bool]] = []
     for end, limit, sign in ((span[1], limits[1], 1.0), (span[0], limits[0], -1.0)):
         count = int(np.ceil(sign * (end - epoch) / window))
@@ -279,7 +279,7 @@ def _one_window(
 
 
 def _segment_length(segments: list[Segment], left: int, window: float) -> int:
-    """Number of windows in the next segment: few at first, then from the speed of the axis."""
+    """Number of windows in the next segment: few at first, later limited by the axis speed."""
     if not segments:
         return min(left, 32)
     last = segments[-1]

@@ -52,7 +52,7 @@ class Divergence:
 
     @property
     def rate(self) -> tuple[float, float]:
-        """Mean rate of growth over the parts of the span and its 95 % half-width, 1/s."""
+        """Mean growth rate over the span without its first part, and its 95 % half-width, 1/s."""
         edges = np.linspace(self.times[0], self.times[-1], STRETCHES + 1)
         rates = np.diff(np.interp(edges, self.times, self.growth)) / np.diff(edges)
         late = rates[1:]
@@ -68,20 +68,20 @@ class Divergence:
         return bool(late > CHAOTIC and rate > spread)
 
     def at(self, times: FloatArray) -> FloatArray:
-        """Growth at some times, s."""
+        """Interpolate the growth at times in s from the start."""
         return np.asarray(np.interp(times, self.times, self.growth))
 
 
 def divergence(
     body: Rigid, masses: Masses, start: State, end: float, direction: int = 0
 ) -> Divergence:
-    """Integrate a rotation and a slightly different one, to see how fast they separate.
+    """Integrate a rotation and a slightly different one, and measure how fast they diverge.
 
     Parameters
     ----------
     body : Rigid
         Body, of which the first lane is used.
-    above : Above
+    masses : Masses
     start : State
         Initial state, of which the first lane is used.
     end : float
@@ -112,7 +112,7 @@ def divergence(
 
 
 def _duplicated(body: Rigid) -> Rigid:
-    """Return the first lane twice."""
+    """Return a `Rigid` that has the first body twice."""
     first = body.first()
     return replace(
         first,

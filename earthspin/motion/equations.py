@@ -45,7 +45,7 @@ FLATTENING, TRIAXIALITY, PULL, ROUNDING = "flattening", "triaxiality", "pull", "
 
 @dataclass(frozen=True, kw_only=True)
 class Rigid:
-    """Numbers of rigid bodies on which their motion depends, one for each lane.
+    """Parameters of rigid bodies that share their perturbers; one body per lane (column).
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ class Rigid:
 
     @property
     def levers(self) -> FloatArray:
-        """C - B, A - C and B - A divided by C, shape (3, lanes)."""
+        """Moment differences C - B, A - C and B - A divided by C, shape (3, lanes)."""
         return np.stack([self.c_minus_b, -self.c_minus_a, self.c_minus_a - self.c_minus_b])
 
     @property
@@ -93,7 +93,7 @@ class Rigid:
         return int(self.tide.size)
 
     def first(self) -> Rigid:
-        """Return only the first lane."""
+        """Return the parameters of the first body only."""
         lane = slice(0, 1)
         return replace(
             self,
@@ -117,7 +117,7 @@ class Rigid:
 
 @dataclass(frozen=True)
 class Pull:
-    """Masses and their positions at the nodes of one window.
+    """Perturbing masses and their positions at the nodes of one window.
 
     Attributes
     ----------
@@ -141,7 +141,9 @@ class Pull:
 
 
 class Equations:
-    """Rates of the unknowns of one window, angular momentum and p, shape (7, lanes * n).
+    """Time derivatives of the unknowns in one window: angular momentum and quaternion p.
+
+    Arrays of unknowns and of rates have the shape (7, lanes * n).
 
     Parameters
     ----------
@@ -180,7 +182,7 @@ class Equations:
         self._matrix_ahead = rotations.matrices(ahead)
 
     def _rows(self, values: FloatArray) -> FloatArray:
-        """Repeat the number of each lane for all nodes."""
+        """Repeat the value of each lane for all nodes."""
         return np.repeat(values, self._nodes, axis=-1)
 
     def attitude(self, unknowns: FloatArray) -> FloatArray:
@@ -188,7 +190,9 @@ class Equations:
         return np.asarray(np.einsum("abm,bm->am", self._ahead, unknowns[3:]))
 
     def unknowns(self, state: FloatArray) -> FloatArray:
-        """Unknowns of every lane from angular momentum along the sky's axes and attitude, (7, n).
+        """Unknowns of all lanes, from angular momentum along the sky's axes and attitude.
+
+        `state` has the shape (7, n).
 
         This is only valid for the form with the angular momentum along the sky's axes.
         """
@@ -228,7 +232,7 @@ class Equations:
         return np.asarray(torque)
 
     def _further_torque(self, matrix: FloatArray, momentum: FloatArray) -> FloatArray:
-        """Torque on J_n and from effects, along the sky's axes, s-1."""
+        """Torque on the zonal harmonics J_n, and torques of effects, along the sky's axes, s-1."""
         body, pull = self._body, self._pull
         lanes = (3, self._lanes, self._nodes)
         axis, along = matrix[:, 2].reshape(lanes), momentum.reshape(lanes)

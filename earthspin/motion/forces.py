@@ -29,7 +29,7 @@ Torque = Callable[["Forces", Windows, Places], RateLaw]
 
 @dataclass(frozen=True, kw_only=True)
 class Figure:
-    """Numbers of a rotating body on which its motion depends.
+    """Parameters of a rotating body that determine its motion.
 
     Attributes
     ----------

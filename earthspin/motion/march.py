@@ -150,7 +150,7 @@ class Solver:
     Attributes
     ----------
     body : Rigid
-    above : Above
+    masses : Masses
     in_space : bool
         True for the form with the angular momentum along the sky's axes.
     tolerance : float
@@ -201,7 +201,7 @@ class Solver:
         return np.asarray(edges)
 
     def through(self, edges: FloatArray, start: FloatArray, near: Piece | None = None) -> Piece:
-        """Solve windows, up to the first that is too long for its nodes.
+        """Solve windows in sequence, and stop before the first one that is too long to be accurate.
 
         Parameters
         ----------
@@ -209,12 +209,12 @@ class Solver:
             s.
         start : ndarray, shape (7, lanes)
         near : Piece, optional
-            What is about as good, of the first lane: the rounds begin with it.
+            Approximate solution, whose first lane is the first estimate for the iteration.
 
         Returns
         -------
         Piece
-            Of as many windows as could be solved, none among them.
+            Solution over the windows that were solved; there may be none.
         """
         windows, lanes = Windows(edges, self.order), start.shape[1]
         rates: list[FloatArray] = []
@@ -259,7 +259,11 @@ class Solver:
     def _solve(
         self, equations: Equations, start: FloatArray, half: float, guess: FloatArray | None
     ) -> tuple[FloatArray, float]:
-        """Rates in one window, and the ratio of their last terms to the tolerance."""
+        """Return the rates of the unknowns in one window, and an error ratio.
+
+        The ratio compares the last two Legendre terms with the tolerance; the window fails if it is
+        above 1.
+        """
         gauss = rule(self.order)
         rows = np.repeat(start, self.order, axis=1)
         unknowns, change = rows if guess is None else guess, np.inf
@@ -296,7 +300,7 @@ class Solver:
         return np.concatenate([end[:3], q / np.sqrt(np.sum(q * q, axis=0))])
 
     def _resize(self, over: float, *, complete: bool) -> None:
-        """Choose the next window length from the ratio of the last terms to the tolerance."""
+        """Choose the next window length from the error ratio of `_solve`."""
         if not np.isfinite(over):
             self.window *= 0.5
             return
@@ -308,5 +312,5 @@ class Solver:
 
 
 def half_windows(edges: FloatArray) -> FloatArray:
-    """Edges of windows of half the length."""
+    """Edges of the windows after each window is divided into two halves."""
     return np.sort(np.concatenate([edges, (edges[1:] + edges[:-1]) / 2]))

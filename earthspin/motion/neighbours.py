@@ -1,4 +1,4 @@
-"""Prepare a body, its perturbing masses and its neighbours for the attitude solver.
+"""Prepare a body, its variants with changed inputs, and its perturbers for the attitude solver.
 
 A neighbour is the same body with one uncertain number changed by its half-width. The difference of
 its motion is the effect of this uncertainty. All are integrated together with the same masses.
@@ -37,7 +37,7 @@ def rigid_bodies(
     epoch: float = 0.0,
     own: CustomTorque | None = None,
 ) -> tuple[Rigid, tuple[str, ...]]:
-    """Make a body and its neighbours.
+    """Make a body and its neighbours, which each have one uncertain input changed.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def rigid_bodies(
 
 
 def masses(forces: Forces, epoch: float = 0.0) -> Masses:
-    """Perturbing masses of some forces, at times relative to an epoch, s from J2000.0."""
+    """Perturbing masses and effects, as functions of time in s from the epoch."""
 
     def laws(window: Windows, places: Mapping[str, FloatArray]) -> Sequence[SkyLaw]:
         dated = Windows(window.edges + epoch, window.order)

@@ -47,7 +47,7 @@ class Start:
     is_figure: bool
 
     def momentum_with(self, tilt: FloatArray) -> FloatArray:
-        """Angular momentum at the start, from its tilt with respect to the figure axis."""
+        """Initial angular momentum; `tilt` is added if the start is a figure axis."""
         return self.axis + tilt if self.is_figure else self.axis
 
     def guess(self, windows: Windows, forward: bool) -> FloatArray:
@@ -162,7 +162,7 @@ def solve(forces: Forces, windows: Windows, start: Start, forward: bool) -> Segm
 
 
 def _remaining_change(change: float, previous: float) -> float:
-    """Total change of the axis in all further rounds, as a geometric series, rad."""
+    """Total change of the axis in all later Picard rounds, estimated as a geometric series, rad."""
     if not change < previous < np.inf:
         return change
     return change * min(1.0, change / (previous - change))

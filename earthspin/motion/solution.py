@@ -48,7 +48,7 @@ KINDS = ("attitude", "omega", "angular_momentum")
 
 @dataclass(frozen=True)
 class State:
-    """Angular momentum and attitude at a time, one for each lane.
+    """Angular momentum, attitude and angular velocity at a time, in one column for each lane.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class RotationSeries:
 
 
 def start_of(body: Rigid, attitude: FloatArray, omega: FloatArray) -> State:
-    """Initial state of a body and its neighbours.
+    """Initial state of a body and its neighbours from attitude and angular velocity.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def start_of(body: Rigid, attitude: FloatArray, omega: FloatArray) -> State:
 
 
 def tolerance_for(accuracy: float | None) -> float:
-    """Tolerance of windows for an error of the attitude over many rotations.
+    """Tolerance per window for a requested error of the attitude over many rotations.
 
     Parameters
     ----------
@@ -116,13 +116,13 @@ def tolerance_for(accuracy: float | None) -> float:
 
 
 class Motion:
-    """Integration of a motion; past windows are not stored, so the span may be of any length.
+    """Numerical solution of a rotation; past windows are discarded, so any span is possible.
 
     Parameters
     ----------
     body : Rigid
         The body, and in further lanes its neighbours with one uncertain number changed.
-    above : Above
+    masses : Masses
     start : State
     end : float
         Last time, s from the start.
@@ -233,14 +233,14 @@ class Motion:
         )
 
     def _errors_at(self, times: FloatArray) -> FloatArray:
-        """Largest errors up to some times."""
+        """Largest errors of the rotation from the start to each given time."""
         assert self._now is not None
         edges = self._now[0].edges
         before = self._errors_until(edges)[..., np.clip(np.searchsorted(edges, times) - 1, 0, None)]
         return np.maximum(before, self._errors(times))
 
     def _errors_until(self, edges: FloatArray) -> FloatArray:
-        """Largest errors up to the edges of the current windows."""
+        """Largest errors of the rotation from the start to each edge of the current windows."""
         return np.maximum(np.maximum.accumulate(self._errors(edges), axis=2), self._worst)
 
     def _errors(self, times: FloatArray) -> FloatArray:

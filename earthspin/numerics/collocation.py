@@ -95,7 +95,7 @@ def carry(
 
 
 def _largest(change: Array, space: Array | None) -> float:
-    """Largest element of a change, without its component in a space of solutions."""
+    """Largest element of a change of solutions, without its component in `space`."""
     if space is not None:
         change = change - space @ (np.linalg.pinv(space) @ change)
     return float(np.max(abs(change)))
@@ -104,7 +104,7 @@ def _largest(change: Array, space: Array | None) -> float:
 def _through(
     matrix: Callable[[Array], Array], start: float, stop: float, y: Array, count: int
 ) -> Array:
-    """Solutions at the end, with `count` panels whose ends have a constant ratio."""
+    """Integrate solutions from `start` to `stop` in `count` panels in geometric progression."""
     edges = np.geomspace(start, stop, count + 1)
     width = np.diff(edges)
     radii = edges[:-1, None] + width[:, None] * _NODES

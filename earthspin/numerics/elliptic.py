@@ -87,7 +87,7 @@ def landen_descent(complementary_modulus: DoubleDouble) -> LandenDescent:
 
 
 def jacobi(u: FloatArray, descent: LandenDescent) -> tuple[Jacobi, Jacobi]:
-    """Jacobi's functions at the modulus k, and one Landen step down (DLMF 22.7).
+    """Jacobi's functions at the modulus k, and at k1 after one Landen transformation (DLMF 22.7).
 
     Parameters
     ----------
@@ -147,7 +147,7 @@ def first_kind(sine: FloatArray, cosine: FloatArray, complementary: FloatArray) 
 
 
 def third_kind_mean(n: DoubleDouble, descent: LandenDescent) -> DoubleDouble:
-    """Mean of sn^2/(1 + n sn^2) over a period, at the lower modulus (DLMF 19.8.7).
+    """Mean of sn^2/(1 + n sn^2) over a period, at the modulus k1 = (1 - k')/(1 + k') (DLMF 19.8.7).
 
     Parameters
     ----------
@@ -172,7 +172,7 @@ def third_kind_mean(n: DoubleDouble, descent: LandenDescent) -> DoubleDouble:
 def third_kind_periodic(
     u: FloatArray, lower: Jacobi, n: FloatArray, mean: FloatArray, descent: LandenDescent
 ) -> FloatArray:
-    """Periodic part of the integral of sn^2/(1 + n sn^2) dv at the lower modulus (DLMF 19.25.14).
+    """Periodic part of the integral of sn^2/(1 + n sn^2) dv at the modulus k1 (DLMF 19.25.14).
 
     Parameters
     ----------

@@ -106,7 +106,7 @@ def _apply(values: Any, matrix: FloatArray) -> Any:
 
 
 class Rule:
-    """Nodes on [-1, 1], and matrices that multiply values at the nodes from the right."""
+    """Gauss-Legendre nodes on [-1, 1], and matrices that multiply nodal values from the right."""
 
     def __init__(self, order: int) -> None:
         self.nodes, self.weights = legendre.leggauss(order)

@@ -91,7 +91,7 @@ def conjugate(q: FloatArray) -> FloatArray:
 
 
 def rotation_about(omega: FloatArray, time: FloatArray) -> FloatArray:
-    """Turns at a steady angular velocity.
+    """Quaternions of rotations at constant angular velocities for given times.
 
     Parameters
     ----------

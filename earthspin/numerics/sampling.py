@@ -57,7 +57,7 @@ class Shares(NamedTuple):
 
 
 def columns_of(labels: NDArray[Any]) -> FloatArray:
-    """Code a class by columns of 0 and 1, one for each label except the last.
+    """Indicator columns (0 or 1) of a categorical input, one for each label except the last.
 
     The shape is (n, labels - 1).
 

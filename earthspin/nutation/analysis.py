@@ -85,7 +85,7 @@ class PoleAnalysis:
 def shifted_start(
     start: FloatArray, ours: Secular, wanted: Secular, ecliptic: FloatArray, epoch: float
 ) -> FloatArray:
-    """Initial axis for which the secular part of the computed pole matches another at the start.
+    """Correct the initial axis so that the mean pole agrees with another one at the start.
 
     Parameters
     ----------

@@ -55,7 +55,7 @@ FIRST_ORDER = "first-order"
 
 
 def contributions(total: float, without: Mapping[str, float]) -> dict[str, float]:
-    """Contribution of each effect to a rate, from switching it off; the first order is the rest.
+    """Contribution of each effect to a rate, by switching it off, and the first-order remainder.
 
     Parameters
     ----------

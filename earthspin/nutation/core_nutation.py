@@ -62,7 +62,7 @@ class CoreNutation:
 
     @property
     def detected(self) -> NDArray[np.bool_]:
-        """Whether the amplitude is above the detection limit, shape (w,)."""
+        """True for windows whose amplitude is above the detection limit, shape (w,)."""
         return np.asarray(np.abs(self.amplitude) > self.limit)
 
     @property
@@ -72,10 +72,9 @@ class CoreNutation:
         return np.where(self.detected, np.arcsin(np.minimum(ratio, 1.0)), np.pi)
 
     def at(self, time: FloatArray) -> ComplexArray:
-        """Free core nutation at times, d, from the amplitude interpolated between the middles.
+        """Free core nutation at times, d, with the amplitude interpolated between window centres.
 
-        The amplitude of the first or last window is taken before the first or after the last
-        middle.
+        The amplitude of the first or last window is used before the first or after the last centre.
         """
         amplitude = np.interp(time, self.time, self.amplitude.real) + 1j * np.interp(
             time, self.time, self.amplitude.imag
@@ -84,7 +83,7 @@ class CoreNutation:
 
 
 def circle(time: FloatArray, period: float = PERIOD) -> ComplexArray:
-    """exp(2 pi i t/T)."""
+    """Unit circular term exp(2 pi i t/T) with the period T."""
     return np.asarray(np.exp(2j * np.pi * time / period))
 
 

@@ -1,4 +1,4 @@
-"""Nutation of a body predicted from its layers, in models of increasing completeness.
+"""Nutation of a body predicted from its layers, by models of increasing completeness (rungs).
 
 Each rung adds one effect to the previous rung. The observed H is used in all, and only the last two
 rungs use numbers inferred from nutation.
@@ -67,7 +67,7 @@ class Rung:
     Attributes
     ----------
     parts : callable
-        Parameters of the system at body-fixed frequencies (turns per turn, an array).
+        Parameters of the system at body-fixed frequencies (cycles per rotation, an array).
     observed_core : bool
         Whether the flattening of the core is inferred from the observed free core nutation.
     """
@@ -82,7 +82,7 @@ class Rung:
         return float(parts.e_f) if parts.count > 1 else 0.0
 
     def coupled(self, k_cmb: complex, k_icb: complex) -> Rung:
-        """The model with additional coupling of the fluid core to the mantle and the inner core."""
+        """Return the model with additional coupling of the fluid core to mantle and inner core."""
         return replace(
             self, parts=lambda sigma: replace(self.parts(sigma), k_cmb=k_cmb, k_icb=k_icb)
         )
@@ -93,13 +93,13 @@ class Rung:
         return transfer(self.parts(sigma), sigma, rigid_e)
 
     def modes(self, refined: bool = True) -> dict[str, complex]:
-        """Body-fixed frequencies of the free modes, turns per turn; decaying modes have Im > 0.
+        """Body-fixed frequencies of the free modes, cycles per rotation; Im > 0 for decaying ones.
 
         Parameters
         ----------
         refined : bool
-            Whether the body's parameters are evaluated at the period of each mode; otherwise at 400
-            turns and at one turn.
+            Whether the body's parameters are evaluated at the period of each mode; otherwise at
+            periods of 400 rotations and of one rotation.
         """
         refined_modes: dict[str, complex] = {}
         for near in (1 / 400, -1.0):
@@ -165,7 +165,7 @@ _INPUTS = {"k2": "answers", "core_fraction": "fluid", "core_ellipticity": "e_f"}
 
 @dataclass(frozen=True)
 class Setting:
-    """Inputs shared by all rungs.
+    """Inputs shared by all models.
 
     Attributes
     ----------
@@ -244,7 +244,7 @@ def without_core(parts: Parts) -> Parts:
 
 
 def climb(setting: Setting, coupling: bool = False) -> dict[str, Rung]:
-    """All rungs, and the additional models.
+    """Models of increasing completeness (rungs), and additional models for comparison.
 
     Parameters
     ----------

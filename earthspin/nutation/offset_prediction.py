@@ -38,7 +38,7 @@ STARTING = 2 * 365
 
 @dataclass(frozen=True)
 class Fits:
-    """The fit up to each day of a series, all in one pass.
+    """Fits of the constant and the free core nutation to the data up to each day of a series.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ class Fits:
     fast: ComplexArray
 
     def ahead(self, horizon: float, days: slice | int) -> ComplexArray:
-        """Predict from some days a number of days ahead."""
+        """Predict the offsets `horizon` days after each of the selected days."""
         then = circle(np.atleast_1d(self.time[days]) + horizon)
         slow, fast = np.exp(-horizon / SLOW_FADE), np.exp(-horizon / FAST_FADE)
         return np.asarray(
@@ -112,7 +112,7 @@ def predict(
 
 
 def fit_each_day(time: FloatArray, eta: ComplexArray, weight: FloatArray) -> Fits:
-    """Fit the constant and the free core nutation up to each day, with weights that halve.
+    """Fit the constant and the free core nutation up to each day, with exponential weights.
 
     Parameters
     ----------
@@ -173,7 +173,7 @@ def _check(mjd: FloatArray, values: FloatArray, horizon: FloatArray) -> None:
 
 
 def too_short(size: int, longest: float) -> str | None:
-    """Return why so many days of offsets are too few for a prediction, or None if they suffice."""
+    """Return the reason if `size` days of offsets are too few for a prediction, else None."""
     needed = STARTING + FEWEST + int(np.ceil(longest))
     if size >= needed:
         return None

@@ -55,7 +55,7 @@ class Response:
     spin_rate : float
         rad/s.
     core_nutation : complex
-        Body-fixed frequency s of the free core nutation, turns per turn.
+        Body-fixed frequency s of the free core nutation, cycles per rotation.
     strengths : ndarray, shape (4,), complex
         Q_0, and Q of Chandler wobble, free core and inner-core nutation.
     """
@@ -111,7 +111,7 @@ def added_half_width(response: Response, frequency: FloatArray, rigid: ComplexAr
 def _form(
     frequency: FloatArray, h: float, spin_rate: float, core_nutation: complex
 ) -> tuple[FloatArray, ComplexArray]:
-    """Transfer function T without the resonances, and the factor of each strength."""
+    """Non-resonant part of the transfer function T, and the factor of each resonance strength."""
     in_space = frequency / spin_rate
     sigma = in_space - 1
     e = h / (1 - h)

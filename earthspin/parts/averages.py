@@ -81,7 +81,7 @@ def torque_samples(
     perturbers: tuple[Body, ...],
     chosen_average: Choice[Averaging] | None = None,
 ) -> Samples:
-    """Torque of each perturber from its declination, over the fastest converging window."""
+    """Torque of each perturber from its declination, over the window that converges fastest."""
     pole, orbit = body.needed("pole"), body.orbit_pole
     cycle = max(map(slowest_cycle, perturbers))
     window, step = best_window(stretch.first * DAY, stretch.last * DAY, cycle), SAMPLING
@@ -254,7 +254,7 @@ def window_means(
 
 @part(unless=no_exact_means)
 def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
-    """Exact means over each ellipse, and over its node if it precesses, with the J2000.0 axis."""
+    """Exact means over each orbit and over its precessing node, if any, with the J2000.0 axis."""
     pole, now = body.needed("pole"), np.zeros(1)
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
     axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
@@ -299,7 +299,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
 def mean_torques(
     window_means: MeanTorques | None = None, orbit_means: MeanTorques | None = None
 ) -> MeanTorques:
-    """Means of the torque per unit of C - A: exact means if available, else windowed means."""
+    """Mean torques per unit of C - A: exact means if available, else windowed means."""
     means = orbit_means if window_means is None else window_means
     assert means is not None  # a plan without both leaves this part out
     return means
@@ -344,7 +344,7 @@ def total_of(by_perturber: Numeric) -> Numeric:
 
 
 def item_of(by_perturber: Numeric, index: int) -> Numeric:
-    """Value of one perturber by its index."""
+    """Value for one perturber, selected by its index."""
     if hasattr(by_perturber, "dims"):
         return by_perturber.isel(perturber=index, drop=True)
     return by_perturber[index]
@@ -386,7 +386,7 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
 def _rates_over_motions(
     rate: Numeric, means: MeanTorques, body: Body, perturbers: tuple[Body, ...]
 ) -> tuple[Numeric, Numeric]:
-    """Precession rate relative to the mean motions of the perturbers, and to the spin rate."""
+    """Ratios of the precession rate to the mean motions of the perturbers, and to the spin rate."""
     by_orbit = sum(
         abs(item_of(rate, index)) / ((body.gm + p.gm) * near) ** 0.5
         for index, (p, near) in enumerate(zip(perturbers, means.nearness, strict=True))

@@ -28,7 +28,7 @@ def available_windows(
     pulls: Pulls,
     epochs: Epochs,
 ) -> list[Choice[PoleWindows]]:
-    """Windows of the axis solver with measured errors; empty for another sky or other effects."""
+    """Windows of the axis solver with their errors; empty if the errors were not measured."""
     measured = set(effects) <= set(MEASURED_WITH)
     if not measured or not all(member.naif for member in (body, *perturbers)):
         return []
@@ -91,12 +91,12 @@ def chosen_average(
 
 
 def on_mean_equator(equator: str) -> str | None:
-    """Leave nutation out if the mean equator is requested."""
+    """Return the reason to leave out nutation if the mean equator is requested."""
     return "the equator is the mean one" if equator == "mean" else None
 
 
 def source_has_equator(source: SourceName) -> str | None:
-    """Leave nutation out if the source of positions has its own true equator."""
+    """Return the reason to leave out nutation if the source has its own true equator."""
     return f"{source} has the equator of date" if source in OF_DATE else None
 
 
@@ -104,7 +104,7 @@ def source_has_equator(source: SourceName) -> str | None:
 def chosen_nutation(
     sky: Sky, epochs: Epochs, accuracy: float | None
 ) -> Choice[NutationNodes | None] | None:
-    """Choose the cheapest nutation within the requested accuracy less the error of the kernel."""
+    """Choose the cheapest nutation whose error plus that of the kernel is within the request."""
     kernel = max(sky.error(place, epochs.span())[0] for place in sky.targets.values())
     allowed = (accuracy or math.inf) - kernel
     first, last = epochs.span()

@@ -33,7 +33,7 @@ class EllipseChain(NamedTuple):
 
 
 def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, EllipseChain]:
-    """Chain of ellipses to each perturber whose position follows from elements, by name.
+    """Sequence of ellipses (chain) to each perturber that is placed by elements, by name.
 
     A chain starts from the spinning body if possible, else from a body without elements.
 
@@ -69,7 +69,7 @@ def _add_chain(
     links: Mapping[str, Mapping[str, tuple[Ellipse, int]]],
     reached: dict[str, EllipseChain],
 ) -> None:
-    """Add the chain to a body, and those to bodies that are linked to it."""
+    """Add the chain to one body, and recursively the chains to the bodies linked to this body."""
     reached[end] = chain
     for name, link in links[end].items():
         if name not in reached:
@@ -77,7 +77,7 @@ def _add_chain(
 
 
 def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
-    """Name of the body that another orbits; empty if the orbit does not lead to a perturber."""
+    """Name of the body that `member` orbits; empty if it orbits no perturber."""
     assert member.orbit is not None
     about = member.orbit.about
     if about:
@@ -190,7 +190,10 @@ def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
 
 
 def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """Leave windows out if each perturber moves on an ellipse about the body."""
+    """Return the reason to leave out windowed means if exact means are possible.
+
+    They are possible if each perturber moves on an ellipse about the body.
+    """
     by_name = ellipse_chains(body, perturbers)
     single = all(chain.start is body and len(chain.ellipses) == 1 for chain in by_name.values())
     if len(by_name) < len(perturbers) or not single:
@@ -199,7 +202,7 @@ def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 
 def no_exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """Leave exact means out unless each perturber moves on an ellipse about the body."""
+    """Return the reason to leave out exact means if a perturber has no ellipse about the body."""
     if exact_means(body, perturbers) is None:
         return "not all perturbers move on ellipses about the body, so windowed averages are used"
     return None

@@ -123,7 +123,7 @@ def daily_insolation(
 
 
 def _quantile(moved: Callable[[float], xr.DataArray], value: xr.DataArray) -> xr.DataArray:
-    """95 % quantile of the change of a value over draws of a longitude."""
+    """95 % quantile of the absolute change of a value for random errors of a longitude."""
     quantiles = Quantiles()
     for (by,) in draws(1):
         quantiles.add({_CALL: (moved(float(by)) - value).values})

@@ -35,7 +35,7 @@ def interior_of(body: Body) -> Interior | None:
 
 
 def of_another_body(layers: LayeredBody, body: Body) -> str | None:
-    """Leave out results from layers whose mass or mean radius differs from that of the body."""
+    """Return the reason to leave out results if the layers have another mass or radius."""
     flattening = 0.0 if body.flattening is None else body.flattening
     mean_radius = body.needed("radius") * (1 - flattening / 3)
     for what, own, model in (
@@ -61,13 +61,13 @@ def refuse_unknown(question: Question, body: Body) -> None:
 
 
 def no_interior(body: Body) -> str | None:
-    """Leave out results that need an interior if none is known."""
+    """Return the reason to leave out results that need an interior, if none is known."""
     none = interior_of(body) is None
     return f"no interior of {in_a_sentence(body.name)} is known" if none else None
 
 
 def not_layered(body: Body) -> str | None:
-    """Leave out results that need layers if none are known."""
+    """Return the reason to leave out results that need layers, if none are known."""
     interior = interior_of(body)
     if interior is None or interior.layers is not None:
         return no_interior(body)
@@ -102,6 +102,6 @@ def layers(interior: LayeredBody | None, body: Body) -> LayeredBody:
 
 
 def not_prem(interior: LayeredBody | None, body: Body) -> str | None:
-    """Leave published numbers out for layers other than PREM."""
+    """Return the reason to leave out published numbers if the layers are not PREM."""
     name = (interior or layers_of(body)).name
     return None if name == "prem" else f"no published numbers of '{name}' are known"

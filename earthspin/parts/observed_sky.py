@@ -34,7 +34,7 @@ def observed_series() -> PoleSeries:
 
 
 def not_observed_then(span: Span, step: float) -> str | None:
-    """Leave out the comparison if too few dates have an observed pole."""
+    """Return the reason to leave out the comparison if too few dates have an observed pole."""
     first, last = span.days
     first, last = max(first, FIRST_DAY), min(last, float(observed_series().mjd[-1]) - MJD)
     if (last - first) * DAY >= FEWEST * step:

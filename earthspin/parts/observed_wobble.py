@@ -15,7 +15,7 @@ class ObservedWobble(Variables):
 
 
 def not_observed(body: Body) -> str | None:
-    """Leave the observed period out for a body without an observed wobble."""
+    """Return the reason to leave out the observed period if no wobble was observed."""
     if body.observed_wobble:
         return None
     return f"no observed wobble of this {proper(body.name)} is known"

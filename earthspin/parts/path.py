@@ -207,7 +207,7 @@ def largest_error(
 
 @dataclass(frozen=True)
 class LongitudeCycles:
-    """Continuous longitude of a path, from which whole revolutions are added to longitudes.
+    """Continuous longitude along a path, used to add whole revolutions to principal values.
 
     Attributes
     ----------
@@ -226,7 +226,7 @@ class LongitudeCycles:
 
 
 def longitude_cycles(path: AxisPath, first: float, ecliptic: FloatArray) -> LongitudeCycles:
-    """Compute the continuous longitude, which is a principal value at the time `first`, s."""
+    """Compute the continuous longitude that equals the principal value at the time `first`, s."""
     psi = np.unwrap(on_fixed_ecliptic(path.at_starts(), ecliptic)[:, 0])
     times = path.windows.edges[:-1]
     principal = on_fixed_ecliptic(path.at(np.array([first]))["angular_momentum"], ecliptic)[0, 0]
@@ -242,7 +242,10 @@ def _integrate(
     choice: Choice[PoleWindows] | None,
     start: FloatArray | None,
 ) -> AxisPath:
-    """Integrate on chosen or the finest windows, from the body's pole or another initial axis."""
+    """Integrate the axes with the chosen windows, by default the most accurate ones.
+
+    The initial axis is that of the body, unless `start` is given.
+    """
     pulls.sky.check_times(epochs.span(), pulls.targets)
     own, epoch = start_of(body, pulls)
     axis = own if start is None else start
@@ -268,7 +271,7 @@ def _integrate(
 
 
 class Comparison(AxisMotion):
-    """Keys of every question that compares the pole in time with that of the IAU."""
+    """Keys of every question that compares the computed pole with that of the IAU over time."""
 
     span: Span = key(
         ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
@@ -279,7 +282,7 @@ class Comparison(AxisMotion):
 
 @dataclass(frozen=True)
 class PoleComparison:
-    """Identical analyses of the computed pole and of the pole of IAU 2006/2000A.
+    """Computed pole and pole of IAU 2006/2000A, analysed in the same way.
 
     Attributes
     ----------
@@ -324,7 +327,7 @@ def path_over(
     start: FloatArray,
     days: FloatArray,
 ) -> AxisPath:
-    """Axes of the rigid body over some days; the positions are stored for the next run."""
+    """Axes of the rigid body over a range of days; positions are stored for the next run."""
     _, epoch = start_of(body, pulls)
     forces = forces_of(body, pulls, rigid(effects), keep=True)
     span = days[0] * DAY, days[-1] * DAY
@@ -438,7 +441,7 @@ def core_response(pole_analysis: PoleComparison, body: Body) -> Response:
 def _response_between(
     circles: Circles, rigid: ComplexArray, other: ComplexArray, body: Body
 ) -> Response:
-    """Fit the response that converts rigid amplitudes of circles to other amplitudes."""
+    """Fit the transfer function from rigid amplitudes of circles to non-rigid ones."""
     from earthspin.nutation.response import fit_response
 
     used = _circles_for_fit(circles)
@@ -460,7 +463,7 @@ def _circles_for_fit(circles: Circles) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True)
 class ResponseFit:
-    """Response that is fitted without terms that are no response of the interior.
+    """Response fitted to IAU 2000A without terms that do not come from the interior.
 
     Attributes
     ----------
@@ -488,7 +491,7 @@ class ResponseFit:
 def response_apart(
     pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
 ) -> ResponseFit:
-    """Fit the resonance formula without geodesic nutation and additive terms."""
+    """Fit the resonance formula after removing geodesic nutation and additive terms."""
     from earthspin.nutation.additions import added_to
     from earthspin.nutation.circles import complex_nutation
     from earthspin.sky import iau
@@ -511,7 +514,7 @@ def response_apart(
 
 @dataclass(frozen=True)
 class Shift:
-    """Shift of the axes of a rigid body due to the non-rigid response.
+    """Displacement of the axes of a rigid body that represents the non-rigid response.
 
     Attributes
     ----------
@@ -554,7 +557,7 @@ class Shift:
 
 
 def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[str]) -> Shift:
-    """Make a shift from amplitudes of circles, with its residuals from IAU 2006/2000A."""
+    """Make a `Shift` from amplitudes of circles, with its residuals from IAU 2006/2000A."""
     from earthspin.sky import iau
 
     circles = replace(analysed.our_circles, amplitude=amplitude)

@@ -50,7 +50,7 @@ class Daily(Variables, along=("time",)):
 
 
 def not_observed(body: Body) -> str | None:
-    """Leave out polar motion for a body without an observed pole."""
+    """Return the reason to leave out polar motion if the body has no observed pole."""
     return f"no polar motion of {in_a_sentence(body.name)} is known" if no_iau_model(body) else None
 
 

@@ -53,7 +53,7 @@ class Prediction:
         return [name for name in self.rungs if name not in ladder.BESIDE]
 
     def transfer(self, name: str, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
-        """Transfer function of a rung at frequencies in space in rad/s."""
+        """Transfer function of a rung at frequencies in space, rad/s."""
         return self.rungs[name].transfer(frequency / self.spin_rate - 1, self.e)
 
     def half_width(self, name: str, frequency: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -63,7 +63,7 @@ class Prediction:
 
 
 def layered(body: Body) -> Interior | None:
-    """Interior of a body if it has layers with a core and an inner core, else None."""
+    """Interior of a body if its layers include an inner core, else None."""
     interior = interior_of(body)
     if interior is None or interior.layers is None or not interior.layers.inner_core_radius:
         return None
@@ -71,7 +71,7 @@ def layered(body: Body) -> Interior | None:
 
 
 def no_layers(body: Body) -> str | None:
-    """Leave a prediction out if the layers of the body are not known."""
+    """Return the reason to leave out a prediction if no fitting layers or IAU model are known."""
     if no_iau_model(body):
         return no_iau_model(body)
     interior = layered(body)

@@ -111,7 +111,7 @@ def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = Fal
 
 
 def figure_of(body: Body, spin_rate: float) -> Figure:
-    """Numbers of a body on which its motion without effects depends."""
+    """Parameters of a body that determine its motion when all effects are switched off."""
     h = body.number("dynamical_flattening")
     return Figure(
         h=h,
@@ -137,7 +137,7 @@ def start_of(body: Body, pulls: Pulls) -> tuple[FloatArray, float]:
 
 
 def start_note(body: Body) -> dict[str, str]:
-    """Attribute of an error that does not include the uncertainty of the initial pole.
+    """Attribute stating that an error does not include the uncertainty of the initial pole.
 
     Empty if the pole follows the models of the IAU.
     """

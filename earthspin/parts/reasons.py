@@ -1,4 +1,4 @@
-"""Conditions for leaving parts out that several questions share, and published sizes."""
+"""Shared conditions for leaving parts out, and published rates of neglected effects."""
 
 from __future__ import annotations
 
@@ -11,13 +11,16 @@ from earthspin.nutation.budget import published_effects
 
 
 def no_iau_model(body: Body) -> str | None:
-    """Leave out parts that need IAU models, for a body without such models."""
+    """Return the reason to leave out parts that need IAU models, if the body has none."""
     described = body.pole is not None and body.pole.of_the_iau
     return None if described else f"the IAU has no precession model for {in_a_sentence(body.name)}"
 
 
 def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """Leave out comparisons with the IAU unless Sun and Moon are the only perturbers."""
+    """Return the reason to leave out comparisons with the IAU if body or perturbers do not fit.
+
+    They need a body with an IAU precession model and only the Sun and the Moon as perturbers.
+    """
     if no_iau_model(body):
         return no_iau_model(body)
     names = {p.name for p in perturbers}
@@ -28,7 +31,7 @@ def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 
 def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """Leave out numbers of the IAU for a modified Earth."""
+    """Return the reason to leave out numbers of the IAU if body or perturbers are modified."""
     if not_sun_and_moon(body, perturbers):
         return not_sun_and_moon(body, perturbers)
     if body.is_as_named:
@@ -37,7 +40,7 @@ def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 
 def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """Leave out parts that use the Moon's declination, unless the Moon perturbs the Earth."""
+    """Return the reason to leave out parts that need the Moon, if it does not perturb the Earth."""
     if no_iau_model(body):
         return no_iau_model(body)
     has_moon = "moon" in {p.name for p in perturbers}
@@ -45,12 +48,12 @@ def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 
 def no_accuracy(accuracy: float | None) -> str | None:
-    """Leave out the choice of settings if no accuracy is requested."""
+    """Return the reason to leave out the choice of settings if no accuracy is requested."""
     return "no accuracy is requested, so the finest settings are used" if accuracy is None else None
 
 
 def many_pulls(perturbers: tuple[Body, ...]) -> str | None:
-    """Leave out parts that need one mass for each perturber, if a mass is an array."""
+    """Return the reason to leave out parts that need scalar masses, if a mass is an array."""
     arrays = [p.name for p in perturbers if hasattr(p.gm, "dims")]
     return f"the mass of '{arrays[0]}' is an array" if arrays else None
 

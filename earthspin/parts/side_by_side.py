@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SideBySide:
-    """Numbers by name, broadcast to common dimensions.
+    """Named numbers and arrays, broadcast to common dimensions.
 
     Attributes
     ----------

@@ -340,7 +340,7 @@ class Stretch:
 
 
 def _place(source: Source, name: str, chain: EllipseChain) -> Place:
-    """Place of a body in a source, or at the end of its chain of ellipses."""
+    """Place of a body in a source, or at the end of a chain of ellipses from another body."""
     if chain.ellipses:
         return ByElements(chain.ellipses, source.code(chain.start.naif, name))
     return place_of(source, name, chain.start.naif, chain.start.position)

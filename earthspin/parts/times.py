@@ -66,7 +66,7 @@ BYTES_PER_TIME = 128
 
 
 def by_region(store: str) -> str:
-    """Advice for a series that is too long for memory but can be written block by block."""
+    """Advice to write a series block by block, because it is too long for memory."""
     return f"write them by region with write_series(scene, '{store}') or run --out"
 
 

@@ -83,7 +83,7 @@ def ladder(quick: bool) -> Ladder:
 
 
 def scaled_error(true: DoubleDouble, result: Array) -> float:
-    """Largest error of a compliance, relative to the geometric mean of the two diagonal ones."""
+    """Largest error of a compliance ij, relative to the geometric mean of compliances ii and jj."""
     own = np.sqrt(abs(np.diagonal(true.hi)))
     return float(np.max(abs((result - true).hi) / np.outer(own, own)))
 

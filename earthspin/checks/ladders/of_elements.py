@@ -58,7 +58,7 @@ ROUNDING = 1e-28
 
 
 def days() -> FloatArray:
-    """Days of the positions, rounded to sixteenths so that they are the same on every machine."""
+    """Times of the positions, rounded to 1/16 d so that they are the same on every machine, d."""
     period = 2 * math.pi / ORBIT.motion / DAY
     return np.asarray(np.rint(16 * np.linspace(0, TURNS * period, TIMES)) / 16)
 
@@ -97,7 +97,10 @@ def ladder(quick: bool) -> Ladder:
 
 
 def _error(difference: FloatArray) -> float:
-    """Largest length of the differences, m, shape (3, n, 3), relative to the semi-major axis."""
+    """Largest distance between positions, relative to the semi-major axis.
+
+    The differences, in m, have the shape (3, n, 3).
+    """
     return float(np.max(np.linalg.norm(difference, axis=-1)) / ORBIT.a)
 
 
@@ -106,7 +109,7 @@ def _by_elements(t: FloatArray) -> Result:
 
 
 def _on_all_orbits(run: InPlane, t: FloatArray, setting: float) -> Result:
-    """Positions on all ellipses by a method that computes them in the plane of the orbit."""
+    """Positions on all orbits by a method that computes them in the plane of the orbit."""
     positions, calls = [], 0
     for orbit in ORBITS:
         x, y, more = run(orbit, orbit.mean_anomaly + orbit.motion * DAY * t, setting)

@@ -93,7 +93,7 @@ def _from_draws(members: int, seed: int) -> Result:
 
 
 def _from_even_members(members: int) -> Result:
-    """Half-width from members in the middle of intervals of equal probability."""
+    """Half-width of the period from values of H at evenly spaced probabilities."""
     grid = H * (1 + UNCERTAINTY * ndtri((np.arange(members) + 0.5) / members))
     return _half_width({NAME: {"grid": grid.tolist()}}), members
 
@@ -113,7 +113,7 @@ def _linear() -> Result:
 
 
 def _by_numpy(members: int, seed: int) -> Result:
-    """Compute the half-width by NumPy: one answer, scaled by random draws of 1/H."""
+    """Half-width from random draws of H by NumPy: one computed period divided by each draw."""
     period = run(QUESTIONS["precession"]()).precession_period.sel(TOTAL).values
     drawn = np.random.default_rng(seed).normal(1.0, UNCERTAINTY, members)
     low, high = np.quantile(period / drawn, ENDS)

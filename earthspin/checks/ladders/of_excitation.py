@@ -117,14 +117,14 @@ def weighting_error(step: float, *, resonant: bool) -> float:
 def _method(
     name: str, task: str, steps: tuple[float, ...], setting: Callable[[float], Setting]
 ) -> Method:
-    """Make a scheme with every step; only the exact schemes have a bound."""
+    """Make the `Method` of a scheme for all steps; only exact schemes have a finite bound."""
     claimed = 1.1 * weighting_error(steps[-1], resonant=task == FROM) * MAS
     bound = claimed if name.startswith("exact") else np.inf
     return Method(name, [setting(step) for step in steps], bound, task)
 
 
 def _excitation_setting(scheme: str, step: float, span: float) -> Setting:
-    """Excitation by a scheme, and the true mean over the interval of each value."""
+    """Make a setting that derives excitation from polar motion, with the true mean excitation."""
     t, s = np.asarray(step * np.arange(round(span / step) + 1)), frequency()
     intervals = 2 if scheme == "central difference" else 1
     p, true = true_polar_motion(t), true_mean(t[:-intervals], intervals * step)
@@ -132,7 +132,7 @@ def _excitation_setting(scheme: str, step: float, span: float) -> Setting:
 
 
 def _polar_motion_setting(scheme: str, step: float, span: float) -> Setting:
-    """Polar motion by a scheme from the mean excitation of each interval, and the true one."""
+    """Make a setting that derives polar motion from mean excitation, with the true polar motion."""
     t, s = np.asarray(step * np.arange(round(span / step) + 1)), frequency()
     chi, true = true_mean(t[:-1], step), true_polar_motion(t)
     return Setting(

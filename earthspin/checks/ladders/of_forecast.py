@@ -68,7 +68,10 @@ def ladder(quick: bool) -> Ladder:
 
 
 def usual(p: Complex, days: int, years: float) -> Complex:
-    """Least squares with a free wobble, seasons and a line, and autoregression of the residual."""
+    """Predict by least squares plus autoregression of the residual, as is common.
+
+    The fit has a free wobble, annual and semiannual circles, a constant and a trend.
+    """
     count = round(years * YEAR)
     t = np.arange(-count + 1, days + 1) / YEAR
     rates = 2j * np.pi * np.array([1, -1, 2, -2, YEAR / PERIOD])
@@ -112,7 +115,7 @@ def origins() -> NDArray[np.intp]:
 
 @cache
 def _fitted_once() -> FastExcitation:
-    """Parameters fitted before the first origin and used for all origins."""
+    """Fit the parameters to the data before the first origin; all origins use them."""
     return fit(_observed()[1][: origins()[0]])
 
 

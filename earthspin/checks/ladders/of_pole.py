@@ -48,7 +48,7 @@ REFERENCE_ERROR = 1e-19
 
 
 def days() -> FloatArray:
-    """Times of the reference in quarters of days from J2000.0, many of them early."""
+    """Times of the reference, multiples of 1/4 d from J2000.0, part of them within `FEW_DAYS`."""
     generator = np.random.default_rng(7)
     early = generator.choice(np.arange(4, 4 * FEW_DAYS), FEW_TIMES, replace=False)
     late = generator.choice(np.arange(4 * FEW_DAYS, 4 * DAYS), TIMES - FEW_TIMES, replace=False)
@@ -158,7 +158,7 @@ def _peer(motion: Motion, tolerance: float) -> Result:
 
 
 def _by_scipy(method: str, motion: Motion, rtol: float) -> Result:
-    """Integrate the angular momentum with the torque of an aligned body, and add the tilt.
+    """Integrate the angular momentum as if the figure axis were parallel to it; correct the axis.
 
     The tilt between angular momentum and figure axis is computed to first order.
     """

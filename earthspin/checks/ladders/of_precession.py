@@ -65,7 +65,7 @@ def ladder(quick: bool) -> Ladder:
 
 
 def _setting(words: str, taper: str, length: float, step: int, epochs: FloatArray) -> Setting:
-    """Window about one epoch for the run time, and about all epochs for the error."""
+    """Make a setting that is timed for one epoch, and whose error is measured for all epochs."""
 
     def mean_about(
         epoch: float, torque: Callable[[FloatArray], FloatArray] = _daily_torque

@@ -71,7 +71,7 @@ def ladder(quick: bool) -> Ladder:
 
 
 def _places(t: FloatArray) -> FloatArray:
-    """Positions on the ellipse, shape (n, 3)."""
+    """Positions of the perturber on its ellipse, in units of the semi-major axis, shape (n, 3)."""
     anomaly = eccentric_anomaly(t, ECCENTRICITY, steps=6)
     across = math.sqrt(1 - ECCENTRICITY**2) * np.sin(anomaly)
     return np.stack([np.cos(anomaly) - ECCENTRICITY, across, 0 * anomaly], axis=-1)

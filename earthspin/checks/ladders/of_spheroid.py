@@ -95,7 +95,7 @@ def _exact(r: FloatArray) -> tuple[Any, Any]:
 
 
 def _torque(push: Any, r: Any) -> Any:
-    """Torque on the body from a unit mass at r, by the non-radial part `push` of the attraction."""
+    """Torque on the body from a unit mass at r, which is `push` times r x z."""
     return np.stack([push * r[:, 1], -push * r[:, 0], np.zeros_like(push)], axis=-1)
 
 

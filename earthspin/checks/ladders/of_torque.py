@@ -143,7 +143,7 @@ def _arcsec() -> Any:
 
 
 def _about(axis: int, angle: LongArray) -> LongArray:
-    """Matrices of rotations of the axes about one axis, shape (n, 3, 3)."""
+    """Matrices that rotate the frame about a coordinate axis, shape (n, 3, 3)."""
     c, s = np.cos(angle), np.sin(angle)
     first, second = (axis + 1) % 3, (axis + 2) % 3
     matrix = np.zeros((angle.size, 3, 3), dtype=np.longdouble)

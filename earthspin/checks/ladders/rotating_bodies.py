@@ -64,7 +64,7 @@ def ladder_of_rotation(
 def periods(
     true: Mapping[str, DoubleDouble], quick: bool
 ) -> tuple[FloatArray, str, tuple[float, ...], float]:
-    """Times, tolerances and bound of a ladder whose reference covers a hundred periods.
+    """Times, tolerances and error bound for a ladder with a reference over a hundred periods.
 
     Returns
     -------

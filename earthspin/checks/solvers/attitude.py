@@ -91,5 +91,5 @@ def attitude_about(axis: FloatArray, angle: float) -> FloatArray:
 
 
 def figure_axis(quaternion: FloatArray) -> FloatArray:
-    """Third axis of the body in the axes of the sky, shape (t, 3), from `attitude_motion`."""
+    """Third axis of the body in inertial axes, shape (t, 3), from attitude quaternions."""
     return np.asarray(Rotation.from_quat(quaternion, scalar_first=True).as_matrix()[:, :, 2])

@@ -53,7 +53,7 @@ class Effect:
     source: str = SOURCE
 
     def size_at(self, reach: float) -> float:
-        """Bound on the change of the figure axis, rad.
+        """Bound on the change of the figure axis due to the effect, rad.
 
         Parameters
         ----------

@@ -61,7 +61,7 @@ def geodesic_rate(
 
 
 def geodesic_torque(primary: str) -> Torque:
-    """Represent the rotation of the local inertial frame about a mass as a torque on l.
+    """Represent geodesic precession about a mass as a torque on the angular momentum.
 
     Parameters
     ----------
