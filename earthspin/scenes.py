@@ -95,7 +95,7 @@ def Scene(*, compute: str, **keys: Any) -> Question:
 
 
 def question_named(word: object, source: str = "") -> type[Question]:
-    """Class of a question by its word.
+    """Return the class of a question from its name.
 
     Raises
     ------
@@ -188,7 +188,7 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
 
 
 def _names(table: Mapping[str, Any]) -> set[str]:
-    """Keys of a scene, and those of its tables of settings."""
+    """Keys of a scene and of its tables of settings."""
     return {*table}.union(*(inner for inner in table.values() if isinstance(inner, Mapping)))
 
 
@@ -247,7 +247,7 @@ def plan(scene: Any, sections: str | Iterable[str] = ()) -> planning.Plan:
 
 
 def run(scene: Any) -> xr.Dataset:
-    """Answer a question.
+    """Run a question and return its answer.
 
     Parameters
     ----------
@@ -281,7 +281,7 @@ def run(scene: Any) -> xr.Dataset:
 
 
 def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
-    """Answer a question, and compute sections of it; return also the plan with run times.
+    """Run a question and some of its sections; return also the plan with run times.
 
     Parameters
     ----------
@@ -385,7 +385,7 @@ def series_length(question: Question) -> int:
 
 
 def members_of(question: Question) -> int:
-    """Number of bodies of a question, including those of labelled arrays."""
+    """Number of bodies of a question, counting each body of labelled arrays."""
     groups = [value if isinstance(value, tuple) else (value,) for value in question.keys().values()]
     return members(value for group in groups for value in group if isinstance(value, Body))
 
@@ -430,7 +430,7 @@ def _scene_of(answer: Any) -> str:
 
 
 def _read(scene: str | Path) -> tuple[str, str, str]:
-    """Return the text of a scene, its place for messages, and a title."""
+    """Return the text of a scene, its origin for messages, and a title."""
     text = str(scene)
     if "/" not in text and not text.endswith(".toml"):
         names = shipped_scenes()
@@ -466,7 +466,7 @@ def toml(text: str) -> dict[str, Any]:
 
 
 def files_of(question: Question, but: Iterable[str] = ()) -> list[tuple[str, Path, FileName]]:
-    """Files that a question reads: the key, the path, and the kind of the key.
+    """Return the files that a question reads, each as key, path and expected kind of file.
 
     Parameters
     ----------
@@ -513,7 +513,7 @@ def _check_kind(key: str, path: Path, kind: FileName, source: str) -> None:
 
 
 def _set_key(table: dict[str, Any], key: str, value: Any, source: str) -> None:
-    """Set a key, dotted or not, in a table as read."""
+    """Set a key, which may be dotted, in the table of a scene before it is checked."""
     if key.count(".") >= MOST_PARTS:
         raise SceneError(key, value, f"give a key of at most {MOST_PARTS} parts", source=source)
     *path, last = key.split(".")

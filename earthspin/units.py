@@ -70,12 +70,12 @@ class Kind(Protocol[T]):
 
 
 def by_name(kind: object) -> bool:
-    """Return True if text alone gives a value of a kind: a word, a name, a path.
+    """Return True if a kind of input can be a word, a name or a path.
 
     Parameters
     ----------
     kind : Kind
-        One that says so with an attribute `by_name`.
+        The kind; its attribute `by_name`, if any, gives the result.
     """
     return bool(getattr(kind, "by_name", False))
 
@@ -137,7 +137,7 @@ class _Target:
         return UnitsError(str(self.where), value, self.unit or "a pure number", self.example)
 
     def factor(self, value: object, unit: str) -> float:
-        """Conversion factor from another unit to this one."""
+        """Factor that converts a value from the given unit to the required unit."""
         import astropy.units as u
 
         try:
@@ -250,7 +250,7 @@ def _plain(value: Any, target: _Target) -> Any:
 
 
 def real_numbers(value: Any) -> FloatArray:
-    """Floats of an array or list; NaN and infinity stay.
+    """Convert an array or list to floats; NaN and infinity are allowed.
 
     Raises
     ------
@@ -280,21 +280,21 @@ def real_numbers(value: Any) -> FloatArray:
 
 @dataclass(frozen=True)
 class Number:
-    """One finite number, an SI float inside.
+    """One finite number, stored as a float in `unit`.
 
     Attributes
     ----------
     unit : str
-        In which it is kept; empty for pure numbers.
+        Unit of the stored number; empty for pure numbers.
     example : str
     low, high : float
         Smallest and largest allowed.
     above : float
-        It must be greater than this.
+        Bound that the number must exceed.
     text : bool
-        Whether text is taken; a pure number may want none.
+        Whether text is accepted.
     plain : bool
-        Whether a number without a unit is taken, as one in `unit`.
+        Whether a number without a unit is accepted and taken to be in `unit`.
     """
 
     unit: str
@@ -346,16 +346,16 @@ class Number:
 
 @dataclass(frozen=True)
 class Numbers:
-    """An array of finite numbers, SI floats inside.
+    """An array of finite numbers, stored as floats in `unit`.
 
     Attributes
     ----------
     unit, example : str
     shape : tuple
-        Length along each dimension, None where it is free; a leading dimension of which there
-        is just one may be left out, and is then put in front.
+        Length along each dimension, None if any length is allowed; a leading dimension of length 1
+        may be omitted and is then added.
     optional_row : bool
-        Whether a leading dimension that was left out stays away.
+        Whether an omitted leading dimension is not added.
     """
 
     unit: str
@@ -453,7 +453,7 @@ class _AsItIs:
 
 @dataclass(frozen=True)
 class Whole(_AsItIs):
-    """Whole number, limited by memory."""
+    """A whole number between `low` and `high`."""
 
     low: int = 1
     high: int = LONGEST_IN_MEMORY
@@ -522,7 +522,7 @@ class Text(_AsItIs):
 
 @dataclass(frozen=True)
 class FileName(_AsItIs):
-    """Path of a file or folder, or a word for one.
+    """Path of a file or folder, or a name that stands for a file.
 
     Attributes
     ----------

@@ -28,7 +28,7 @@ from earthspin.units import FloatArray
 class CassiniStates(
     Question, word="cassini-states", call="cassini_states", positional=("body", "orbit")
 ):
-    """Cassini states of a body: axis, normal of the orbit and its mean in one plane.
+    """Cassini states of a body: spin axis, orbit normal and mean orbit normal in one plane.
 
     The orbit's node turns evenly on its plane. The spin may be locked to the orbit, like that of
     the Moon (one turn in each) and of Mercury (three in two), or free.
@@ -98,13 +98,13 @@ class Locking:
 
 
 def orbit_of(body: Body, orbit: Orbit | None) -> Orbit | None:
-    """Orbit of the question, else that of the body, else a known mean orbit."""
+    """Return the orbit as for the part `own_orbit`; None if it is unknown."""
     return orbit or body.orbit or PRECESSING_ORBITS.get(body.name)
 
 
 @part
 def own_orbit(body: Body, orbit: Orbit | None) -> Orbit:
-    """Orbit of the question, else that of the body, else a known mean orbit."""
+    """Orbit that was given, or else the orbit of the body, or else its known mean orbit."""
     usual = orbit_of(body, orbit)
     assert usual is not None  # `check` has seen to it
     return usual
@@ -127,7 +127,7 @@ def locking(body: Body, own_orbit: Orbit) -> Locking:
 
 
 def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
-    """Strengths of the torques on a body, and the precession of its orbit."""
+    """Compute the strengths of the torques on a body and the precession rate of its orbit."""
     axial, locked = strengths(
         locking.motion,
         body.spin_rate,
@@ -177,7 +177,7 @@ def states(body: Body, own_orbit: Orbit, locking: Locking) -> States:
 
 
 def _error(body: Body, orbit: Orbit, locking: Locking, obliquity: FloatArray) -> FloatArray:
-    """Half-width of the obliquity from the uncertain numbers of the body, rad."""
+    """Half-width of the obliquity due to the uncertainties of J2, H and the triaxiality, rad."""
     squares = np.zeros_like(obliquity)
     for name, share in body.relative_uncertainty.items():
         if name not in ("j2", "dynamical_flattening", "triaxiality"):
@@ -193,7 +193,7 @@ def _error(body: Body, orbit: Orbit, locking: Locking, obliquity: FloatArray) ->
 
 @part
 def neglected(body: Body, own_orbit: Orbit) -> Neglected:
-    """Known sizes of effects that averages over spin, orbit and pericentre leave out."""
+    """Known sizes of effects that the average over spin, orbit and pericentre neglects."""
     sizes = LEFT_OUT_OF_STATES.get(body.name, {})
     if sizes and body.is_as_named and own_orbit == PRECESSING_ORBITS.get(body.name):
         return Neglected.cited(sizes, "change of the obliquity in the upright state")

@@ -74,7 +74,7 @@ def numbers(layers: LayeredBody, body: Body) -> Numbers:
 
 
 class Published(Variables, along=("published_number",), no_error="the source gives none"):
-    """Published numbers of PREM."""
+    """Published compliances and coupling numbers of PREM."""
 
     published_value: Value = number("1", "published number")
     published_source: Value = words("where it is published")
@@ -83,7 +83,7 @@ class Published(Variables, along=("published_number",), no_error="the source giv
 
 @part(unless=not_prem)
 def published() -> Published:
-    """Published numbers of PREM, each with its source."""
+    """Published compliances and coupling numbers of PREM, each with its source."""
     return Published(
         published_value=[constant.value for constant in PREM_PUBLISHED.values()],
         published_source=[constant.source for constant in PREM_PUBLISHED.values()],
@@ -117,7 +117,7 @@ def modes(layers: LayeredBody, body: Body) -> Modes:
 
 @part
 def neglected() -> Neglected:
-    """Effects that a non-rotating sphere leaves out."""
+    """Effects that the model, a non-rotating sphere, neglects."""
     return Neglected(what="rotation and ellipticity in the answers, about one per cent")
 
 

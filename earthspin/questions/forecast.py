@@ -71,7 +71,7 @@ class ObservedPole(TableFile):
     hint = "str | PathLike[str] | xr.Dataset"
 
     def read(self, value: Any, where: Where) -> Any:
-        """Read a Dataset, its stored form, a word or a path."""
+        """Read polar motion from a Dataset or its stored form, or the name or path of a table."""
         if isinstance(value, GivenPole):
             return value
         if hasattr(value, "data_vars"):
@@ -82,7 +82,7 @@ class ObservedPole(TableFile):
         return super().read(value, where)
 
     def write(self, value: Any) -> Plain:
-        """Return a word or a path, or the rows of a Dataset as bytes."""
+        """Return the name or path of a table, or the rows of a Dataset as bytes."""
         return pack(value.rows) if isinstance(value, GivenPole) else super().write(value)
 
 
@@ -222,7 +222,7 @@ def predicted(record: Record, days: float, parameters: str) -> Predicted:
 
 
 class AheadOfOrigin(Variables, along=("time",)):
-    """Variables along the days of a forecast."""
+    """Base class of results along the days of a forecast."""
 
     time: Labels = labels("time", standard_name="time", comment="0h UTC in daily tables")
 
@@ -238,13 +238,13 @@ class ForecastPole(AheadOfOrigin):
 
 
 def _shown(days: float, step: float) -> Any:
-    """Select the rows of the answer from daily values."""
+    """Return the slice that selects the requested days from a daily forecast."""
     every = round(step / DAY)
     return slice(every - 1, int(days), every)
 
 
 def _times(record: Record, days: float, step: float) -> Any:
-    """Dates of an answer."""
+    """Dates of the requested days of a forecast."""
     return datetime64(record.time[-1] + np.arange(1, int(days) + 1)[_shown(days, step)])
 
 
@@ -283,7 +283,7 @@ def _words(fast: FastExcitation) -> str:
 
 
 class Components(AheadOfOrigin):
-    """Parts of a forecast of the pole."""
+    """Components of the forecast pole: wobbles and slow pole."""
 
     component_x: Pair = measured("mas", "part of x", along=("component", "time"))
     component_y: Pair = measured("mas", "part of y", along=("component", "time"))
@@ -385,13 +385,13 @@ class AheadOffsets(AheadOfOrigin):
 
 
 def offsets_until(file: str | Path, last: float | None) -> PoleSeries:
-    """Observed celestial pole offsets of a table up to a day from J2000.0, all if None."""
+    """Observed celestial pole offsets of a table, up to a day from J2000.0 if a day is given."""
     table = read_pole_offsets(file)
     return table if last is None else table.between(table.mjd[0], last + MJD)
 
 
 def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Predict celestial pole offsets after the last observation, and half-widths, shape (n, 2)."""
+    """Predict celestial pole offsets and their half-widths at given dates, shape (n, 2) each."""
     from earthspin.nutation.offset_prediction import predict
 
     return predict(table.mjd, table.x, table.y, table.x_error, table.y_error, mjd)
@@ -434,7 +434,7 @@ def pole_offsets(
 
 @part
 def neglected() -> Neglected:
-    """Effects that the forecast leaves out."""
+    """Effects that the forecast neglects."""
     return Neglected(
         unknown="forecasts of the angular momentum of air, water and ground; "
         "tides of a day and of half a day, which tables of the pole leave out by convention"
@@ -488,5 +488,5 @@ def iers_table(question: Forecast) -> PoleTable:
 
 
 def _continued(mjd: FloatArray, last: float) -> FloatArray:
-    """Daily dates continued to a last one."""
+    """Return the dates, continued day by day up to a given last date."""
     return np.concatenate([mjd, np.arange(mjd[-1] + 1, last + 0.5)])

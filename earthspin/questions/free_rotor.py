@@ -45,7 +45,7 @@ class Moments:
 
     @classmethod
     def read(cls, given: object, where: Where) -> Moments:
-        """Read three moments, or one and two differences."""
+        """Read the three principal moments, or one moment and two differences of moments."""
         if isinstance(given, Moments):
             return given
         table = isinstance(given, Mapping)
@@ -59,18 +59,18 @@ class Moments:
         return cls((first, second, third), table)
 
     def write(self) -> Plain:
-        """Return the numbers as text."""
+        """Return the moments as text with their unit."""
         texts = [f"{number!r} kg m2" for number in self.numbers]
         return dict(zip(KEYS, texts, strict=True)) if self.differences else texts
 
     @property
     def values(self) -> list[float] | dict[str, float]:
-        """Numbers as arguments of the physics functions."""
+        """Moments as a list, or as a mapping if differences of moments were given."""
         numbers = list(self.numbers)
         return dict(zip(KEYS, numbers, strict=True)) if self.differences else numbers
 
     def of_many(self, starts: int) -> FloatArray | dict[str, FloatArray]:
-        """Arrays of many bodies for the physics, with axes of length 1 for their starts."""
+        """Moments of many bodies as arrays, with `starts` trailing axes of length 1."""
         many = np.broadcast_arrays(*(np.asarray(number) for number in self.numbers))
         columns = [moment.reshape(moment.shape + (1,) * starts) for moment in many]
         if self.differences:
@@ -248,19 +248,19 @@ def poinsot(moments: Moments, omega: FloatArray, instants: FloatArray) -> Poinso
 
 
 class RotationAccuracy(Report, units="1", error_of="relative, of angular velocity and attitude"):
-    """Accuracy of the rotation: asked, estimated, and the method."""
+    """Requested and estimated error of the rotation, and the method."""
 
 
 @part(unless=no_accuracy)
 def rotation_accuracy(free_rotation: xr.Dataset, accuracy: float | None) -> RotationAccuracy:
-    """Accuracy of the rotation: asked, estimated, and the method."""
+    """Requested and estimated error of the rotation, and the method."""
     size, bound = free_rotation.attitude.size // 4, float(free_rotation.relative_error)
     return RotationAccuracy.closed_form(accuracy, bound, "Jacobi's closed form", size)
 
 
 @part
 def neglected() -> Neglected:
-    """Effects that a rigid body without torque leaves out."""
+    """Report that the model of a rigid body without torque neglects nothing."""
     return Neglected(what="nothing: the question is about a rigid body without torque")
 
 

@@ -90,7 +90,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     views, page = "iau", "pole"
 
     def check(self) -> None:
-        """Require positions with a known error: differences reach the microarcsecond."""
+        """Require positions with a known error, which the errors of the comparison need."""
         super().check()
         problem = (
             "how far off its positions are was never measured, and the comparison with the IAU "
@@ -211,7 +211,7 @@ def budget(rates_by_effect: Budget) -> EffectRates:
 
 
 def _over(closure: float, uncertainty: float) -> float:
-    """Ratio; infinite if the uncertainty is not known, as for a custom H."""
+    """Ratio of the remainder to its uncertainty; infinite if the uncertainty is unknown."""
     return closure / uncertainty if uncertainty else math.copysign(math.inf, closure)
 
 
@@ -345,7 +345,7 @@ def residuals_by_model(differences: Differences) -> ResidualsByModel:
 
 
 class ResidualSizes(Variables, along=("model", "direction")):
-    """Sizes of the residuals, model by model."""
+    """Root mean square and largest value of the residuals, model by model."""
 
     residual_rms: Value = number(
         "mas",
@@ -374,7 +374,7 @@ class ResidualSizes(Variables, along=("model", "direction")):
 
 @part
 def residual_sizes(differences: Differences) -> ResidualSizes:
-    """Sizes of the residuals, model by model."""
+    """Root mean square and largest value of the residuals, model by model."""
     plain, fitted = differences.plain, differences.fitted
     return ResidualSizes(
         residual_rms=np.sqrt(np.mean(fitted**2, axis=0)),
@@ -388,7 +388,7 @@ def residual_sizes(differences: Differences) -> ResidualSizes:
 
 @part
 def observed(differences: Differences, observed_sky: ObservedSky) -> ObservedSizes:
-    """Sizes of the differences from the observed celestial pole, model by model."""
+    """Root mean square difference of each model from the observed celestial pole."""
     plain = dict(zip(differences.models, differences.plain.swapaxes(0, 1), strict=True))
     return observed_sky.sizes(plain, differences.error)
 
@@ -400,7 +400,7 @@ _FIT = "part of a fit; left_in_phase and left_out_of_phase are its residuals"
 
 
 class Nutation(Variables, along=("term",)):
-    """The largest circular terms of both poles."""
+    """The largest circular nutation terms of the computed pole and of the IAU pole."""
 
     period: Value = number(
         "d", "period of the circle in space, negative if retrograde", no_error=_ARGUMENTS
@@ -430,7 +430,7 @@ class Nutation(Variables, along=("term",)):
 
 @part
 def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation:
-    """The thirty largest circular terms of both poles, their ratios and residuals."""
+    """The thirty largest circular nutation terms of both poles, with their ratios and residuals."""
     from earthspin.nutation.circles import phases, term_names
     from earthspin.nutation.neighbours import amplitude_error, neighbours_of
     from earthspin.sky import iau
@@ -542,7 +542,7 @@ def core(
 
 
 class Angles(Variables, along=("angle", "degree")):
-    """Polynomials of the angles of precession."""
+    """Polynomials of the precession angles."""
 
     angle_coefficient: Value = number(
         "arcsec", "coefficient of (t/century)^degree, computed pole, ecliptic of IAU 2006"
@@ -594,7 +594,7 @@ class Inferred(Variables, along=("origin",)):
 
 @part
 def inferred_flattening(rates_by_effect: Budget, body: Body) -> Inferred:
-    """H and C/(M a2) implied by the rate of the IAU, beside published values and PREM."""
+    """H and C/(M a2) implied by the precession rate of the IAU, published, and from PREM."""
     h, j2, radius = (body.number(name) for name in ("dynamical_flattening", "j2", "radius"))
     u_h, u_j2 = (
         body.relative_uncertainty.get(name, 0.0) for name in ("dynamical_flattening", "j2")
@@ -613,7 +613,7 @@ def inferred_flattening(rates_by_effect: Budget, body: Body) -> Inferred:
 
 @part
 def neglected(effects: tuple[str, ...]) -> Neglected:
-    """Published sizes of effects on the rate of psi_A that are off or not modelled."""
+    """Published effects on the rate of psi_A that are switched off or not modelled."""
     # The fitted response acts on nutation; the published non-linear term in the rate has no model.
     return neglected_rates(rigid(effects))
 

@@ -139,12 +139,12 @@ def _unknown_start(body: Body) -> str:
 
 
 class FromStart(Variables):
-    """Numbers of an axis that starts from the pole of a body at J2000.0."""
+    """Base class of results for an axis that starts from the pole of a body at J2000.0."""
 
     _unknown_start = ""
 
     def started_from(self, body: Body) -> Self:
-        """Mark errors that depend on the start as unknown if the pole of the body has none."""
+        """Mark errors that depend on the start as unknown if the pole's uncertainty is unknown."""
         if body.pole_uncertainty is None:
             self._unknown_start = f"NaN, not given: {_unknown_start(body)}"
         return self
@@ -183,7 +183,7 @@ def numbers(
     obliquity_shift: float,
     longitude_shift: float,
 ) -> SideBySide:
-    """Inputs that may differ among members, broadcast against one another."""
+    """Inputs of the axis that may differ among ensemble members, broadcast to one shape."""
     rate, error = mean_rates.total()
     as_published = 0.0 if not_sun_and_moon(body, perturbers) else body.are_as_named
     return SideBySide.of(
@@ -209,11 +209,11 @@ def strength(
     body: Body,
     orbit_table: OrbitTable,
 ) -> Strength:
-    """Precession constant of today and its changes.
+    """Precession constant at J2000.0 and its variation in time.
 
-    From the rates of `precession` over the cosine of the obliquity; what is published of second
-    order, planets, J4 and the inside goes with the Moon's share. What the lag of the Moon's plane
-    does at J2000.0, which those rates contain, is taken out of it.
+    It follows from the rates of `precession` divided by the cosine of the obliquity. The published
+    effects of second order, planets, J4 and the interior are added to the Moon's part, which is
+    then divided by the effect of the lag of the Moon's plane at J2000.0.
     """
     cosine, now = math.cos(mean_torques.obliquity), orbit_table.at(np.zeros(1))
     # the rates are those on the body's own orbit, whichever is given
@@ -266,7 +266,7 @@ def solved(
     wanted: FloatArray,
     body: Body,
 ) -> solutions.Solved:
-    """Solve for the axis, and again with each cause changed and with windows twice as long."""
+    """Solve for the axis, then again with each error source varied and with doubled windows."""
     span = float(wanted.min()), float(wanted.max())
     orbit_table.check_times(np.array(span))
     (relative_error,) = numbers.columns("relative_error")
@@ -297,7 +297,7 @@ def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArr
 
 @part
 def readings(solved: solutions.Solved, wanted: FloatArray, body: Body) -> reading.Readings:
-    """Quantities derived from the axis, nominal and with each cause changed."""
+    """Quantities derived from the nominal axis, and from the axis with each error source varied."""
     fixed = body.needed("pole").without_nutation().orbit_axes(body.orbit_pole)
     return reading.readings(solved, wanted, fixed)
 
@@ -417,12 +417,12 @@ def series(
 
 
 class PoleAccuracy(Report, units="arcsec", error_of="in direction"):
-    """Accuracy of the pole: asked, estimated, and the method."""
+    """Requested and estimated error of the pole, and the method."""
 
 
 @part(unless=no_accuracy)
 def long_term_accuracy(series: xr.Dataset, accuracy: float | None) -> PoleAccuracy:
-    """Accuracy of the pole: asked, estimated, and the method."""
+    """Requested and estimated error of the pole, and the method."""
     return PoleAccuracy.of_series(accuracy, series.pole_error)
 
 
@@ -445,7 +445,7 @@ class Budget(Variables, along=("cause", "epoch"), no_error="a share of an error"
     epoch: Labels = labels()
 
     def dataset(self) -> xr.Dataset:
-        """Build the dataset of contributions, with their meaning."""
+        """Build the dataset of contributions, with a comment that explains them."""
         return super().dataset().assign_attrs(comment=_ONE_AT_A_TIME)
 
 

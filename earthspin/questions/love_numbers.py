@@ -74,7 +74,7 @@ _FIELDS = {
 
 
 def _numbers(response: Yielding) -> NDArray[np.complex128]:
-    """Love numbers along a first axis."""
+    """Love numbers of a response as one complex array."""
     return np.array([getattr(response, field) for field in _FIELDS.values()], dtype=complex)
 
 
@@ -150,7 +150,7 @@ def by_period(layers: LayeredBody, anelastic_exponent: float) -> ByPeriod:
 
 @part
 def neglected() -> Neglected:
-    """Effects that a non-rotating sphere leaves out."""
+    """Effects that the model, a non-rotating sphere, neglects."""
     return Neglected(what="rotation and ellipticity of the body, about one per cent")
 
 

@@ -1,4 +1,4 @@
-"""Nutation predicted from the layers of the body, step by step, beside IAU 2000A."""
+"""Nutation predicted from the layers of the body, step by step, compared with IAU 2000A."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class NutationLadder(
     table="nutation",
     positional=("start", "stop", "step"),
 ):
-    """Nutation predicted from the layers of the Earth, step by step, beside IAU 2000A.
+    """Nutation predicted from the layers of the Earth, step by step, compared with IAU 2000A.
 
     A ladder of models, each of which adds one thing to the model before, from a rigid Earth to
     the layers of the `interior` of the body. The dynamical flattening H is the observed one
@@ -67,7 +67,7 @@ class NutationLadder(
     Dataset
         Along `rung`: `rms_dpsi_sineps` and `rms_deps` (mas), what is left against IAU 2000A after
         a constant and a rate, and `adds`, what the rung adds. `earthspin.run_tree` adds the
-        sections: two models beside the ladder, the main circular terms, the free modes, the
+        sections: two models outside the ladder, the main circular terms, the free modes, the
         transfer function, compliances, and the residuals in time.
 
     Raises
@@ -146,7 +146,7 @@ def left(
     body: Body,
     effects: tuple[str, ...],
 ) -> RungResiduals:
-    """Computed pole with the response of each step minus that of the IAU, in time."""
+    """Computed pole, with the response of each step, minus the IAU pole, in time."""
     from earthspin.nutation.circles import complex_nutation, responses, without_line
     from earthspin.sky import iau
 
@@ -179,7 +179,7 @@ _ADDS = "what the model adds, or what it is"
 
 
 class RungSizes(Variables, along=("rung",), error="rms_error"):
-    """Differences from IAU 2000A, step by step."""
+    """Root mean square differences of each step from IAU 2000A."""
 
     rms_dpsi_sineps: Value = number(
         "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
@@ -205,7 +205,7 @@ def rung_sizes(left: RungResiduals, models: Prediction) -> RungSizes:
 
 
 class ModelSizes(Variables, along=("model",), error="model_rms_error"):
-    """Differences from IAU 2000A of the models beside the ladder."""
+    """Root mean square differences from IAU 2000A of the models outside the ladder."""
 
     model_rms_dpsi_sineps: Value = number(
         "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
@@ -218,7 +218,7 @@ class ModelSizes(Variables, along=("model",), error="model_rms_error"):
 
 @part
 def beside(left: RungResiduals) -> ModelSizes:
-    """Differences from IAU 2000A of two models beside the ladder."""
+    """Root mean square differences from IAU 2000A of two models outside the ladder."""
     longitude, obliquity = left.rms(list(ladder.BESIDE))
     return ModelSizes(
         model_rms_dpsi_sineps=longitude,
@@ -299,7 +299,7 @@ class Modes(Variables, along=("mode",)):
 
 @part
 def modes(models: Prediction) -> Modes:
-    """Free modes of each step; steps without a mode leave it out."""
+    """Free modes of each step of the ladder; only the modes that a step has."""
     rows = []
     for name in models.ladder:
         rung = models.rungs[name]
@@ -371,7 +371,7 @@ def residuals(left: RungResiduals, models: Prediction) -> Residuals:
 
 @part
 def observed(left: RungResiduals, models: Prediction, observed_sky: ObservedSky) -> ObservedSizes:
-    """Differences from the observed celestial pole, step by step."""
+    """Root mean square difference of each step from the observed celestial pole."""
     return observed_sky.sizes({name: left.plain[name] for name in models.ladder}, left.error)
 
 
@@ -398,7 +398,7 @@ def compliances(models: Prediction) -> Compliances:
 
 @part
 def neglected() -> Neglected:
-    """Effects that the last step leaves out."""
+    """Effects that the last step of the ladder neglects."""
     return Neglected.cited(ladder.LEFT_OUT, "change of the largest term that is concerned")
 
 

@@ -114,7 +114,7 @@ class ObservedPole(Daily):
 
 @part(unless=not_observed)
 def pole_table(file: str, kind: str | None) -> PoleSeries:
-    """A table of the IERS."""
+    """Polar motion from a table of the IERS."""
     return read_polar_motion(file, kind)
 
 
@@ -189,7 +189,7 @@ def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> Fr
 def _free_wobble(
     time: FloatArray, p: ComplexArray, fit: WobbleFit, window: float | None
 ) -> FreeWobble:
-    """Period and quality factor of a fit, and amplitudes of its period in sliding windows."""
+    """Fitted period and quality factor, and amplitudes of the wobble in sliding windows."""
     from earthspin.wobble.resonance import coordinates_of
 
     wobbles = envelope(time, p, fit.period, window)
@@ -322,7 +322,7 @@ def fit_chandler(
 
 
 def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArray, ComplexArray]:
-    """Days, pole and mean excitation between them, mas, over the span that both cover."""
+    """Dates, pole and mean excitation between dates, mas, over the common span of both series."""
     from earthspin.wobble.resonance import ends_of_steps
 
     time, p = complex_pole(pole)

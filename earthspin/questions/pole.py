@@ -264,14 +264,14 @@ def pole_angles(
 
 
 class DirectionAccuracy(Report, units="uas", error_of="in direction"):
-    """Accuracy of the pole: asked, estimated, and the method chosen."""
+    """Requested and estimated error of the pole, and the method."""
 
 
 @part(unless=no_accuracy)
 def pole_accuracy(
     axes: xr.Dataset, largest_error: LargestError, accuracy: float | None
 ) -> DirectionAccuracy:
-    """Accuracy of the pole: asked, estimated, and the method chosen."""
+    """Requested and estimated error of the pole, and the method."""
     by = axes.direction_error.attrs
     return DirectionAccuracy(
         error_asked=accuracy,

@@ -37,7 +37,7 @@ class PoleOffsets(Question, word="pole-offsets", call="pole_offsets", table="pol
     Dataset
         Over `time`: `dX`, `dY` (mas) with their 95 % half-widths. `earthspin.run_tree` gives the
         amplitude and phase of the free core nutation as the section `core_nutation`, over
-        `middle`, the middles of sliding windows, and its period, from the whole series, as the
+        `middle`, the middles of sliding windows, and its period, from the series since 1984, as the
         section `period`.
 
     Raises
@@ -119,14 +119,14 @@ class CoreNutation(Variables, along=("middle",)):
 
 
 def shorter_than_a_window(span: Span | None, window: float | None) -> str | None:
-    """Leave out a span that is shorter than a window."""
+    """Leave the section out if the span is shorter than a window."""
     if span is None or _length(span) >= (core.WINDOW if window is None else window):
         return None
     return "the span is shorter than a window, which is three years if not given"
 
 
 def too_short_for_a_period(span: Span | None) -> str | None:
-    """Leave out a span too short to separate the free core nutation from the year."""
+    """Leave the period out if the span cannot separate the free core nutation from the year."""
     needed = 2 * shortest_span()
     if span is None or _length(span) >= needed:
         return None
@@ -156,7 +156,7 @@ def core_nutation(offset_table: PoleSeries, window: float | None) -> CoreNutatio
 
 
 class CorePeriod(Variables):
-    """The period of the free core nutation from the whole series."""
+    """The period of the free core nutation from the series since 1984."""
 
     core_nutation_period: Pair = measured(
         "d",
@@ -175,7 +175,7 @@ class CorePeriod(Variables):
 
 @part(unless=too_short_for_a_period)
 def period(offset_table: PoleSeries) -> CorePeriod:
-    """Period of the free core nutation since 1984, as an oscillator driven by noise."""
+    """Period of the free core nutation since 1984, fitted as a noise-driven oscillator."""
     from earthspin.wobble.observed import fit
 
     good = offset_table.mjd >= FIRST_MJD
@@ -198,7 +198,7 @@ def period(offset_table: PoleSeries) -> CorePeriod:
 
 @part
 def neglected() -> Neglected:
-    """Effects that the fit of the free core nutation leaves out."""
+    """Effects that the fit of the free core nutation neglects."""
     return Neglected(
         unknown="retrograde annual terms that IAU 2006/2000A lacks, which three years do not "
         "separate from the free core nutation"

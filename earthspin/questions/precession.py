@@ -167,12 +167,12 @@ def _plane(body: Body) -> str:
 
 
 class RateAccuracy(Report, units="1", error_of="relative, of the rate by all perturbers"):
-    """Accuracy of the rate: asked, estimated, and the method chosen."""
+    """Requested and estimated error of the rate, and the method."""
 
 
 @part(unless=reasons.no_accuracy)
 def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> RateAccuracy:
-    """Accuracy of the rate: asked, estimated, and the method chosen."""
+    """Requested and estimated error of the rate, and the method."""
     rate = mean_rates.rate
     size = abs(total_of(rate.value))
     if not all_of(size != 0):
@@ -368,7 +368,7 @@ def seasons(
 
 
 class BesideIAU(Variables):
-    """Table of the computed rate beside that of IAU 2006."""
+    """Computed rate compared with the rate of IAU 2006."""
 
     iau_rate: Value = number(
         "arcsec/yr",
@@ -383,7 +383,7 @@ class BesideIAU(Variables):
 
 @part(unless=reasons.not_the_iaus_earth)
 def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> BesideIAU:
-    """IAU 2006 precession compared with the computed one, published effects included."""
+    """Computed rate minus the rate of IAU 2006, before and after the published effects."""
     from earthspin.sky.iau import precession_rates
 
     rate, error = mean_rates.total()

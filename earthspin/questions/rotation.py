@@ -130,7 +130,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
             refuse_break_up(_spinning(self.body.replace(spin_period=None), self.start_omega))
 
     def check(self) -> None:
-        """Require a rigid body whose three moments follow, and a unit quaternion."""
+        """Require a rigid body with H other than zero, and a unit quaternion."""
         super().check()
         if NONRIGID.name in self.effects:
             raise self.error("effects", NONRIGID.name, "the body is rigid here; leave it out")
@@ -165,7 +165,7 @@ class Pulling:
 
 
 def nothing_pulls(perturbers: tuple[Body, ...]) -> str | None:
-    """Leave the positions out if there is no perturber."""
+    """Leave the positions of perturbers out if there are no perturbers."""
     return None if perturbers else "nothing pulls on the body"
 
 
@@ -244,7 +244,7 @@ class Rotor:
         return float(self.since(self.end))
 
     def motion(self, tolerance: float) -> Motion:
-        """Motion of the body with a tolerance per window."""
+        """Prepare the integration of the motion with a given tolerance per window."""
         return Motion(self.body, self.masses, self.start, self.duration, tolerance=tolerance)
 
     def turns(self, seconds: float) -> float:
@@ -382,7 +382,7 @@ class Attitudes(Dated, along=("time", "component")):
 
 
 def _followed(motion: Motion, rotor: Rotor, seconds: FloatArray, begin: float) -> RotationSeries:
-    """Integrate the motion to some times, with a progress bar if it takes long."""
+    """Integrate the motion to the given times, with a progress bar if it takes long."""
     total, shown = round(rotor.turns(float(seconds[-1]) - begin)), 0
     with progress("turns of the body", total) as advance:
 
@@ -447,12 +447,12 @@ def turning(
 
 
 class AttitudeAccuracy(Report, units="mas", error_of="of the attitude"):
-    """Accuracy of the attitude: asked, estimated, and the method."""
+    """Requested and estimated error of the attitude, and the method."""
 
 
 @part(unless=no_accuracy)
 def rotation_accuracy(turning: xr.Dataset, accuracy: float | None) -> AttitudeAccuracy:
-    """Accuracy of the attitude: asked, estimated, and the method."""
+    """Requested and estimated error of the attitude, and the method."""
     return AttitudeAccuracy.of_series(accuracy, turning.attitude_error)
 
 

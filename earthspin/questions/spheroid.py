@@ -107,19 +107,19 @@ def field(body: Body, position: FloatArray, point_mass: float) -> Field:
 
 
 class FieldAccuracy(Report, units="1", error_of="relative, of potential, attraction and torque"):
-    """Accuracy of the field: asked, estimated, and the method."""
+    """Requested and estimated error of the field, and the method."""
 
 
 @part(unless=no_accuracy)
 def field_accuracy(field: xr.Dataset, accuracy: float | None) -> FieldAccuracy:
-    """Accuracy of the field: asked, estimated, and the method."""
+    """Requested and estimated error of the field, and the method."""
     points, worst = field.sizes["point"], float(field.relative_error.max())
     return FieldAccuracy.closed_form(accuracy, worst, "exact closed form", points)
 
 
 @part
 def neglected(body: Body, position: FloatArray) -> Neglected:
-    """Effect of the uniform density: real bodies are denser inside and have a smaller J2."""
+    """Effect of assuming uniform density: real bodies are denser inside and have a smaller J2."""
     from earthspin.mass.figure import eccentricity_squared
 
     if body.labelled or body.j2 is None:

@@ -232,14 +232,14 @@ def potential(heavy_top_start: HeavyTop) -> Potential:
 
 
 class TopAccuracy(Report, units="1", error_of="relative, of angles, angular velocity and attitude"):
-    """Accuracy of the top: asked, estimated, and the method."""
+    """Requested and estimated error of the top's motion, and the method."""
 
 
 @part(unless=no_accuracy)
 def top_accuracy(
     heavy_top_start: HeavyTop, instants: FloatArray, accuracy: float | None
 ) -> TopAccuracy:
-    """Accuracy of the top: asked, estimated, and the method."""
+    """Requested and estimated error of the top's motion, and the method."""
     from earthspin.top.rounding import error_bound
 
     bound = float(error_bound(heavy_top_start, instants))
@@ -248,7 +248,7 @@ def top_accuracy(
 
 @part
 def neglected() -> Neglected:
-    """Effects that a top without friction leaves out."""
+    """Report that the model of a rigid top without friction neglects nothing."""
     return Neglected(what="nothing: the question is about a rigid top without friction")
 
 

@@ -195,18 +195,18 @@ def _equator_words(
 
 
 class DirectionAccuracy(Report, units="mas", error_of="in direction"):
-    """Accuracy of the directions: asked, estimated, and the method chosen."""
+    """Requested and estimated error of the directions, and the method."""
 
 
 @part(unless=no_accuracy)
 def series_accuracy(torques: xr.Dataset, accuracy: float | None) -> DirectionAccuracy:
-    """Accuracy of the directions: asked, estimated, and the method chosen."""
+    """Requested and estimated error of the directions, and the method."""
     return DirectionAccuracy.of_series(accuracy, torques.direction_error)
 
 
 @part
 def neglected(torques: xr.Dataset, body: Body, perturbers: tuple[Body, ...]) -> Neglected:
-    """Largest torques of the parts of the figure beyond J2, at the smallest distance."""
+    """Largest torques on J3, J4 and the triaxiality, at the smallest distance of each perturber."""
     if body.labelled:
         return Neglected(what="effects whose sizes are given for one body at a time")
     nearest = torques.distance.min("time")

@@ -1,4 +1,4 @@
-"""The wobble ladder: rigid steps, steps of the interior, and their sensitivity to the inputs.
+"""The wobble ladder: free wobble period of rigid and non-rigid models, and its sensitivity.
 
 A rung is a model that adds one effect to the model before.
 """
@@ -56,7 +56,7 @@ _INTERIOR = {
 
 
 class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
-    """Period of the free wobble, from the formula with the flattening to a deformable body (I.6).
+    """Period of the free wobble for a ladder of models, from rigid to deformable (I.6).
 
     A ladder of models: each rung adds one effect to the rung before. The `interior` of the body
     determines the last rung.
@@ -121,7 +121,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
             raise self.error("ocean_love_number", self.ocean_love_number, "the body has no ocean")
 
     def published_inputs(self) -> Mapping[str, tuple[str, tuple[float, float]]]:
-        """Distributions of the interior's numbers and of the anelastic exponent."""
+        """Distributions of the interior parameters and of the anelastic exponent."""
         if why_rigid(self.body) or self.body.labelled:
             return {}
         ranges: dict[str, tuple[str, tuple[float, float]]] = {}
@@ -152,7 +152,7 @@ def why_rigid(body: Body) -> str | None:
 
 @dataclass(frozen=True)
 class Inside:
-    """Inputs of the upper steps, as arrays of one shape.
+    """Inputs of the non-rigid steps of the ladder, as arrays of one shape.
 
     Attributes
     ----------
@@ -174,7 +174,7 @@ class Inside:
 
     @property
     def setting(self) -> tuple[ladder.Spin, Interior, str]:
-        """Further arguments of the steps."""
+        """Arguments of the non-rigid steps after the inputs: spin, interior and ocean."""
         return self.spin, self.interior, self.ocean
 
     def label(self, value: Numeric) -> xr.DataArray:
@@ -185,7 +185,7 @@ class Inside:
         return xr.DataArray(array, dims=self.dims[len(self.dims) - array.ndim :])
 
     def stack(self, values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
-        """Stack arrays along a new dimension."""
+        """Stack arrays with dimension names along a new dimension."""
         return _along({name: self.label(value) for name, value in values.items()}, dim)
 
 
@@ -199,7 +199,7 @@ def inside(
     core_ellipticity: Numeric | None = None,
     ocean_love_number: Numeric | None = None,
 ) -> Inside:
-    """Collect the inputs of the upper steps from the body, its interior and the ocean."""
+    """Collect the inputs of the non-rigid steps from the body, its interior and the ocean."""
     import xarray as xr
 
     interior = layered.interior_of(body)
@@ -253,7 +253,7 @@ class Rungs(
 
 @part
 def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
-    """Period of the free wobble, from the formula with the flattening to a deformable body."""
+    """Period of the free wobble for each step of the ladder, from rigid to deformable."""
     import xarray as xr
 
     h, j2 = body.needed("dynamical_flattening"), body.needed("j2")
@@ -358,7 +358,7 @@ def interior_response(body: Body) -> InteriorNumbers:
 
 
 class Sensitivity(Variables, along=("input",), no_error="a share of an error, or an input of it"):
-    """Dependence of the last step on each input."""
+    """Sensitivity of the last step's period to each input."""
 
     days_per_unit: Value = number("d", "change of the last rung per unit of the input")
     input_value: Value = number("1", "value of the input")
@@ -370,7 +370,7 @@ class Sensitivity(Variables, along=("input",), no_error="a share of an error, or
 
 @part
 def sensitivity(inside: Inside) -> Sensitivity:
-    """Derivative of the last step by each input, in days per unit."""
+    """Derivative of the last step's period with respect to each input, in days per unit."""
     slopes = propagation.sensitivities(inside.inputs, *inside.setting)
     anelastic = "anelastic" in ladder.climb(inside.inputs, *inside.setting).turns
     half_widths = propagation.half_widths(inside.inputs, inside.uncertainty, anelastic)
@@ -398,7 +398,7 @@ class CoreNutation(
 
 @part
 def core_nutation(inside: Inside, body: Body) -> CoreNutation:
-    """Free core nutation, the second root of the equations, for different shapes of the core."""
+    """Free core nutation of the mantle-core system, for different shapes of the core."""
     shapes = {"hydrostatic": inside.inputs}
     attributes = {}
     observed = inside.interior.observed_core_ellipticity
@@ -452,7 +452,7 @@ def inner_core(body: Body) -> InnerCore:
 
 @part
 def neglected(body: Body, inside: Inside | None = None) -> Neglected:
-    """Effects that the last step leaves out."""
+    """Effects that the last step of the ladder neglects."""
     if inside is None:
         return Neglected(what=f"all deformation: {why_rigid(body)}")
     left_out = inside.interior.neglected

@@ -264,7 +264,7 @@ def _numbered(unit: PrincipalMoments, spin: FloatArray) -> _Start:
 
 
 def _along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _Start:
-    """Transform moments and initial state to axes 1, 2, 3 and form their combinations."""
+    """Transform moments and initial state to axes 1, 2, 3, in the form of `_Start`."""
     parity = np.where((axes[..., 1] - axes[..., 0]) % 3 == 1, 1.0, -1.0)
     moment, spin = _take(unit.moment, axes), np.take_along_axis(spin, axes, -1)
     signs = np.where(spin < 0, -1.0, 1.0)

@@ -249,7 +249,7 @@ def nearest_closure(advance: float, most_periods: int = 100) -> Closure:
 
 
 def _across(motion: JacobiMotion, phase: Phase) -> FloatArray:
-    """Vector omega x (angular momentum/G) along 1, 2, 3, from the differences of moments."""
+    """Vector omega x L/|L| along axes 1, 2, 3, computed from the differences of moments."""
     w = phase.along(motion.amplitudes)
     factor = _differences(motion) * [1.0, -1.0, 1.0] / motion.angular_momentum[..., np.newaxis]
     return np.asarray(w[..., [1, 2, 0]] * w[..., [2, 0, 1]] * factor[..., np.newaxis, :])

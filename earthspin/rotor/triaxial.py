@@ -183,7 +183,7 @@ def momentum_frame(motion: JacobiMotion, phase: Phase) -> FloatArray:
 
 
 def _attitude(motion: JacobiMotion, phase: Phase) -> FloatArray:
-    """Attitude quaternion relative to the first of the times, along the body axes."""
+    """Attitude quaternion relative to the first time, along the body axes."""
     frame = momentum_frame(motion, phase)
     turn = quaternion.multiply(quaternion.conjugate(frame[..., :1, :]), frame)
     return np.concatenate([turn[..., :1], to_body(motion, turn[..., 1:])], axis=-1)
@@ -197,7 +197,7 @@ def _shortest_turn(cosines: FloatArray) -> FloatArray:
 
 
 def _half_psi(motion: JacobiMotion, phase: Phase) -> FloatArray:
-    """Half the angle about the angular momentum since the first of the times, rad."""
+    """Half the angle about the angular momentum since the first time, rad."""
     precession = motion.precession
     run = precession.rate.scaled(0.5)[..., np.newaxis] * phase.times
     rest = run - TWO_PI * np.rint(run.hi / TWO_PI.hi)

@@ -77,7 +77,7 @@ def equator_and_equinox(axis: FloatArray, normal: FloatArray) -> FloatArray:
 def inclined_axis(
     axis: FloatArray, normal: FloatArray, more: Numeric, turned: Numeric
 ) -> FloatArray:
-    """Axis with increments of its obliquity and longitude.
+    """Change the obliquity and longitude of an axis by given increments.
 
     Parameters
     ----------

@@ -56,7 +56,7 @@ class Setting:
 
 @dataclass(frozen=True)
 class Uncertainty:
-    """95 % half-widths of the inputs of a solution, by cause.
+    """95 % half-widths of the inputs of a solution, by error source.
 
     Attributes
     ----------
@@ -78,14 +78,14 @@ class Uncertainty:
 
     @property
     def causes(self) -> tuple[str, ...]:
-        """Names of the causes; a cause with several independent directions is repeated."""
+        """Names of the error sources; the name is repeated for each independent direction."""
         moved = ("constant", *(("start",) * len(self.start)), "orbit", "orbit")
         return moved + OF_THE_EARTH if self.earth else moved
 
 
 @dataclass(frozen=True)
 class Solved:
-    """The axis in time, and its solutions with each cause changed.
+    """The axis in time, and the solutions with each error source varied.
 
     Attributes
     ----------
@@ -108,7 +108,7 @@ class Solved:
 
 
 def solved(setting: Setting, span: tuple[float, float], uncertainty: Uncertainty) -> Solved:
-    """Solve for the axis, also with each cause changed, and with doubled windows.
+    """Solve for the axis, then again with each error source varied and with doubled windows.
 
     The doubled windows give the error of the method.
 
@@ -186,7 +186,7 @@ def inclined_axis(setting: Setting, angles: Sequence[float]) -> FloatArray:
 
 
 def changes(setting: Setting, uncertainty: Uncertainty) -> tuple[tuple[str, Setting], ...]:
-    """Settings with each cause changed by its half-width; the orbit in two directions."""
+    """Settings with one error source varied by its half-width; the orbit in two directions."""
     causes = uncertainty.causes
     return tuple(
         (cause, changed(setting, uncertainty, amounts))
@@ -195,7 +195,7 @@ def changes(setting: Setting, uncertainty: Uncertainty) -> tuple[tuple[str, Sett
 
 
 def changed(setting: Setting, uncertainty: Uncertainty, amounts: FloatArray) -> Setting:
-    """Setting with all its causes changed.
+    """Setting with all error sources varied by given amounts.
 
     Parameters
     ----------

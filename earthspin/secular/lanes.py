@@ -81,7 +81,7 @@ def _mean(values: FloatArray) -> float:
 
 
 def _padded(strength: Strength, width: int, members: int) -> Strength:
-    """Strength with every array padded to the number of lanes."""
+    """Precession strength with every array padded to the width of the batch."""
 
     def long(value: FloatArray | float) -> FloatArray:
         row = np.broadcast_to(np.asarray(value, dtype=float), (members,))
@@ -129,7 +129,7 @@ class _Lanes:
             )
 
     def run(self, times: FloatArray, longest: float) -> Iterator[FloatArray]:
-        """Axes at times in order away from J2000.0, shape (3, lanes) each, GCRS."""
+        """Yield the axes at times sorted by distance from J2000.0, shape (3, lanes) each, GCRS."""
         if not times.size or times[-1] == 0.0:
             yield from (self.axes.T @ self.start for _ in times)
             return

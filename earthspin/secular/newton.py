@@ -31,7 +31,7 @@ TINY = 1e-300
 
 
 class Turn(NamedTuple):
-    """Rates and axes of the torque at the nodes of windows, in a frame whose third axis is N.
+    """Axis m, rotation g and constant a of the torque at the nodes of windows, relative to N.
 
     Attributes
     ----------
@@ -51,7 +51,7 @@ class Turn(NamedTuple):
 
     @classmethod
     def of(cls, on: Pull, axes: FloatArray, windows: Windows) -> Turn:
-        """Transform the averaged torque to a frame whose last axis is N."""
+        """Transform the averaged torque to a frame whose third axis is the reference axis N."""
         shape = windows.times.shape
 
         def seen(vector: FloatArray) -> tuple[ComplexArray, FloatArray]:
@@ -63,7 +63,7 @@ class Turn(NamedTuple):
 
 
 class Slope(NamedTuple):
-    """Rates at the nodes, and their derivatives; shape (..., w, n).
+    """Rates of longitude and height at the nodes, and their derivatives; shape (..., w, n).
 
     Attributes
     ----------
@@ -194,7 +194,7 @@ def _linear(
 
 
 def _shifts(ends: FloatArray) -> FloatArray:
-    """Change of each window's start, shape (2, ..., w), from the changes over all windows.
+    """Corrections of the initial states of all windows, shape (2, ..., w), from linear changes.
 
     Parameters
     ----------

@@ -42,7 +42,7 @@ _TURN = 2 * np.pi
 
 @dataclass(frozen=True)
 class Read:
-    """Quantities derived from one trajectory, or from those of members.
+    """Quantities derived from one trajectory, or from the trajectories of ensemble members.
 
     Axes of members precede the time axis.
 
@@ -97,13 +97,13 @@ class Readings:
         return linear + self.weight * (self.sampled[name] - linear)
 
     def apart(self, name: str) -> dict[str, FloatArray]:
-        """Change of a value by each cause."""
+        """Change of a value due to each error source."""
         return _by_cause(
             (cause, moved_by(changed, self.mine, name)) for cause, changed in self.moved
         )
 
     def poles_apart(self, which: Literal["pole", "normal"]) -> dict[str, FloatArray]:
-        """Change in direction of the pole, or of the normal of the orbit, by each cause, rad."""
+        """Change in direction of the spin axis or orbit normal due to each error source, rad."""
         mine = getattr(self.mine, which)
         return _by_cause(
             (cause, angle(getattr(changed, which), mine)) for cause, changed in self.moved
@@ -129,7 +129,7 @@ def angle(of: FloatArray, mine: FloatArray) -> FloatArray:
 
 
 def _by_cause(shares: Iterable[tuple[str, FloatArray]]) -> dict[str, FloatArray]:
-    """Root sum square of the changes of each cause."""
+    """Root sum square of the changes, for each error source separately."""
     totals: dict[str, FloatArray] = {}
     for cause, share in shares:
         totals[cause] = np.hypot(totals.get(cause, 0.0), share)
@@ -137,7 +137,7 @@ def _by_cause(shares: Iterable[tuple[str, FloatArray]]) -> dict[str, FloatArray]
 
 
 def together(shares: dict[str, FloatArray]) -> FloatArray:
-    """Root sum square of contributions from all causes."""
+    """Root sum square of the contributions of all error sources."""
     return np.sqrt(sum(share**2 for share in shares.values()))
 
 
@@ -177,7 +177,7 @@ def readings(solved: Solved, times: FloatArray, fixed: FloatArray) -> Readings:
 
 
 def phase_error(solved: Solved, times: FloatArray) -> FloatArray:
-    """Largest error of the precession phase between J2000.0 and times, rad, shape (..., n).
+    """Largest error of the precession phase between J2000.0 and each time, rad, shape (..., n).
 
     It is the half-width of the axis divided by the sine of its obliquity. The largest value up to
     each time is used, because after a large phase error changes are no longer proportional to their
@@ -201,7 +201,7 @@ def phase_error(solved: Solved, times: FloatArray) -> FloatArray:
 def _sampled(
     solved: Solved, mine: Read, times: FloatArray, fixed: FloatArray, perihelion: FloatArray
 ) -> dict[str, FloatArray]:
-    """95 % quantiles of the deviations of a sample from the solution, by name and for the pole."""
+    """95 % quantiles of the deviations of sampled solutions, for each quantity and for the pole."""
     names = [name for name in mine.values if name not in OF_THE_ORBIT]
     span, quantiles = (float(times.min()), float(times.max())), Quantiles()
     for amounts in draws(len(solved.uncertainty.causes)):

@@ -1,4 +1,4 @@
-"""Solutions with all causes of error varied together, and quantiles of their deviations.
+"""Solutions with all error sources varied together, and quantiles of their deviations.
 
 If the phase of precession is uncertain by a large fraction of a turn, a solution with one cause
 changed may coincide with the nominal one, so its deviation is no half-width. Then the half-width is
@@ -30,7 +30,7 @@ PROBABILITY = 0.95
 
 
 def draws(causes: int) -> FloatArray:
-    """Multiples of the half-widths for each member and cause, shape (MEMBERS, causes)."""
+    """Multiples of the half-widths for each member and error source, shape (MEMBERS, causes)."""
     from scipy.special import ndtri  # imported here because it takes 0.1 s
 
     member, cause = np.arange(MEMBERS)[:, np.newaxis], np.arange(causes)
@@ -40,7 +40,7 @@ def draws(causes: int) -> FloatArray:
 
 
 class Quantiles:
-    """Quantiles of deviations of members added one at a time; only the largest are stored.
+    """Quantiles of deviations of members added one at a time; stores only the largest deviations.
 
     The k-th smallest of N has the probability (k - 1/2)/N, with linear interpolation in between, as
     in numpy's method "hazen".
@@ -53,7 +53,7 @@ class Quantiles:
         self._largest: dict[str, FloatArray] = {}
 
     def add(self, distances: Mapping[str, FloatArray]) -> None:
-        """Add the deviations of a member by name, each of any shape."""
+        """Add the deviations of a member, each of any shape, by the name of the quantity."""
         for name, distance in distances.items():
             if name not in self._largest:
                 self._largest[name] = np.zeros((self._count + 1, *distance.shape))
@@ -62,7 +62,7 @@ class Quantiles:
             self._largest[name].sort(axis=0)
 
     def at_probability(self) -> dict[str, FloatArray]:
-        """Quantiles by name, after all members have been added."""
+        """Quantile at the probability `PROBABILITY`, by name, after all members have been added."""
         return {
             name: largest[1] + self._share * (largest[2] - largest[1])
             for name, largest in self._largest.items()

@@ -178,7 +178,10 @@ def faded(times: FloatArray) -> FloatArray:
 
 
 def band(times: FloatArray) -> FloatArray:
-    """Half-width of the effective time of `faded`, s: a fraction at present, later the whole.
+    """Half-width of the effective time of `faded`, s.
+
+    It is the fraction `J2_SHARE` of the time up to `FADES_FROM`, the whole time at `FADES_TO`, and
+    zero beyond twice `FADES_TO`.
 
     Beyond twice `FADES_TO`, J2 has its present value apart from a drift of the mean (see `budget`).
     """
@@ -188,6 +191,6 @@ def band(times: FloatArray) -> FloatArray:
 
 
 def _falling(times: FloatArray, start: float, end: float) -> FloatArray:
-    """Cosine taper from 1 at one distance from J2000.0 to 0 at another."""
+    """Cosine taper in |t|: 1 up to `start`, 0 beyond `end`."""
     phase = np.clip((np.abs(times) - start) / (end - start), 0.0, 1.0)
     return np.asarray(0.5 * (1 + np.cos(np.pi * phase)))

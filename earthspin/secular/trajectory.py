@@ -42,7 +42,7 @@ TOO_NEAR = 0.99
 
 @dataclass(frozen=True)
 class Trajectory:
-    """Spin axis in time, or those of many members, as piecewise polynomials.
+    """Spin axis in time, or spin axes of many members, as piecewise polynomials.
 
     Attributes
     ----------
@@ -225,7 +225,7 @@ class _BlockSolver:
         return pull(self.strength, (normal, eccentricity, turning), times)
 
     def _guess(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
-        """Initial values: another trajectory shifted to the state, or uniform precession."""
+        """Initial values: a neighbouring trajectory shifted to the state, or uniform precession."""
         if self.near is None:
             return self._at_one_height(windows, on, state)
         times = np.append(windows.times, windows.edges[0])
@@ -234,7 +234,7 @@ class _BlockSolver:
         return values[..., :-1].reshape(*state.shape, *windows.times.shape)
 
     def _at_one_height(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
-        """Uniform precession at the height of the start, or at the mean height so far."""
+        """Uniform precession at the initial height, or at the mean height of the previous block."""
         phi, z = state[..., np.newaxis, np.newaxis]
         if self.height is not None:
             z = self.height[..., np.newaxis, np.newaxis]

@@ -128,7 +128,7 @@ class Epochs:
 
 
 def _laid_out(record: IntArray, place: FloatArray) -> _InOrder | _InAnyOrder:
-    """Row layout if times are in order and fill the rows nearly; otherwise one row per time."""
+    """Choose the layout of times: rows if sorted times fill them nearly evenly, else any order."""
     if place.size >= _FEWEST_TO_A_RECORD:
         low, high = int(record[0]), int(record[-1])
         if (high - low) * _FEWEST_TO_A_RECORD < place.size and np.all(np.diff(record) >= 0):
@@ -139,7 +139,7 @@ def _laid_out(record: IntArray, place: FloatArray) -> _InOrder | _InAnyOrder:
 
 
 class _InOrder(NamedTuple):
-    """Ordered times, in rows as long as the fullest record, with coefficients that broadcast.
+    """Sorted times in rows of equal length, so that the coefficients broadcast.
 
     If there are many times per record, the rows are records. Otherwise the rows are the first times
     of all records, the second times, and so on, because numpy is fast on long rows.

@@ -37,7 +37,7 @@ def lines_of(file: Path) -> list[str]:
 
 
 def is_table(head: bytes) -> bool:
-    """Whether a file may be a table: it starts with text that includes a line with a number.
+    """Return True if a file may be a table: it starts with text, and a line starts with a number.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def checksum(file: Path) -> str:
 
 
 def is_number(word: str) -> bool:
-    """Whether a word is a number."""
+    """Return True if a word is a number."""
     try:
         float(word)
     except ValueError:
@@ -71,7 +71,7 @@ def rows_of(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
 
 
 def text_between(lines: list[str], is_row: Callable[[str], bool]) -> list[int]:
-    """Numbers of the lines after the first row that are neither rows, blank, nor comments.
+    """Line numbers of text below the first row of the table; comments and blank lines do not count.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def text_between(lines: list[str], is_row: Callable[[str], bool]) -> list[int]:
 
 
 def starts_with_number(line: str) -> bool:
-    """Whether the first word of a line is a number; commas also separate words."""
+    """Return True if the first word of a line is a number; commas also separate words."""
     words = re.split(r"[\s,;]", line.strip(" \t,;"), maxsplit=1)
     return is_number(FORTRAN.sub("e", words[0]))
 

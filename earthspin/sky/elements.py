@@ -93,7 +93,7 @@ class Plane:
         return np.asarray(np.array(tilted) @ self.matrix)
 
     def mean_normal(self, i: float, node: float, node_period: float | None) -> Direction:
-        """Direction of the normal of an orbit; for a precessing node, of the plane's pole."""
+        """Mean normal of an orbit: its normal, or for a precessing node the pole of the plane."""
         x, y, z = self.normal(0.0 if node_period is not None else i, node)
         return Direction(math.atan2(y, x), math.atan2(z, math.hypot(x, y)))
 
@@ -170,7 +170,7 @@ class Ellipse:
         return angle, self.a * (1 + self.e) * angle
 
     def rounding(self, day: float) -> float:
-        """Relative change of the tide equivalent to the rounding error on a day.
+        """Relative change of the tidal tensor due to rounding errors on a day.
 
         Half a unit in the last place of the mean longitude: measured, see docs/coverage.md.
         """
@@ -213,7 +213,7 @@ class ByElements:
         return sum(angles), sum(distances)
 
     def rounding(self, day: float) -> float:
-        """Relative change of the tide equivalent to the rounding error on a day."""
+        """Relative change of the tidal tensor due to rounding errors on a day."""
         return sum(ellipse.rounding(day) for ellipse, _ in self.ellipses)
 
     def __str__(self) -> str:

@@ -190,7 +190,7 @@ def c04_path() -> Path:
 
 
 def finals_path() -> Path:
-    """The finals2000A file that astropy carries."""
+    """Path of the finals2000A file included in astropy."""
     from astropy_iers_data import IERS_A_FILE
 
     return Path(IERS_A_FILE)
@@ -201,7 +201,7 @@ CARRIED = {"c04": c04_path, "finals": finals_path}
 
 
 def file_of(path: str | Path) -> Path:
-    """File of a path, or of a word for one that astropy includes."""
+    """Return the path of a file, or of the file that astropy includes under the given name."""
     return CARRIED[str(path)]() if str(path) in CARRIED else Path(path)
 
 
@@ -251,7 +251,7 @@ def _read(path: str | Path, kind: str | None, pair: _Coordinates) -> PoleSeries:
 
 @lru_cache(maxsize=8)
 def _parsed(file: Path, sha256: str, kind: str | None, name: str) -> PoleSeries:
-    """Parse a file, and refuse or repair what is wrong; the arrays are read-only."""
+    """Parse a file, repair small defects and refuse other errors; the arrays are read-only."""
     pair = _POLE_OFFSETS if name == _POLE_OFFSETS.name else _POLAR_MOTION
     lines = lines_of(file)
     kind = kind or _kind(file, lines)
@@ -378,7 +378,7 @@ _READERS: dict[str, Callable[[Path, list[str], _Coordinates], Iterator[_Row]]] =
 
 
 def _is_row_of_finals(line: str) -> bool:
-    """Whether a line has a flag and a date; beyond the predictions there is only the date."""
+    """Return True if a row has a flag "I" or "P", or a date and nothing after it."""
     return line[16:17] in ("I", "P") or (is_number(line[7:15]) and not line[15:].strip())
 
 

@@ -177,7 +177,7 @@ class Ephemeris:
     def positions(
         self, targets: Mapping[str, Place], centre: Place, days: FloatArray
     ) -> dict[str, FloatArray]:
-        """Positions of several bodies relative to one, at the same times.
+        """Positions of several bodies relative to one body, at the same times.
 
         Parameters
         ----------
@@ -213,7 +213,7 @@ class Ephemeris:
     def _difference(
         self, target: Place, centre: Place, epochs: Epochs, steps: dict[Step, FloatArray]
     ) -> FloatArray:
-        """Position of target minus centre, m, shape (3, n); common steps cancel."""
+        """Position of target minus centre, m, shape (3, n); segments in both paths are skipped."""
         outward, homeward = self._path_to_root(target), self._path_to_root(centre)
         total = np.zeros((3, epochs.days.size))
         for path, combine in ((outward, np.add), (homeward, np.subtract)):
@@ -229,7 +229,7 @@ class Ephemeris:
         return total
 
     def _evaluate(self, step: Step, epochs: Epochs) -> FloatArray:
-        """Relative position along one step, m, shape (3, n)."""
+        """Position of the target of one segment relative to its centre, m, shape (3, n)."""
         self.evaluations[step] += epochs.days.size
         return self._along(step, epochs)
 
@@ -245,7 +245,7 @@ class Ephemeris:
         return position
 
     def _path_to_root(self, place: Place) -> list[Step]:
-        """Steps from the solar-system barycentre to a body, the last step first."""
+        """Segments from the solar-system barycentre to a body, the last segment first."""
         path: list[Step] = []
         if not isinstance(place, int):
             path, place = [place], place.centre
@@ -341,7 +341,7 @@ def _sha256(path: Path, size: int, changed: int) -> str:
 
 
 def open_ephemeris(kernel: str | os.PathLike[str] | Any) -> Ephemeris:
-    """Open a kernel by name or path, or the file of a Skyfield kernel.
+    """Open a kernel from its name, its path, or an open Skyfield kernel.
 
     Parameters
     ----------

@@ -25,17 +25,17 @@ class PoleTable(iers.IERS_A):  # type: ignore[misc]
     iers_table = None
 
     def ut1_utc(self, jd1: Any, jd2: Any = 0.0, return_status: bool = False) -> Any:
-        """UT1 - UTC, as of `astropy.utils.iers.IERS`."""
+        """UT1 - UTC, with the arguments of `astropy.utils.iers.IERS.ut1_utc`."""
         self._require(jd1, jd2)
         return super().ut1_utc(jd1, jd2, return_status)
 
     def dcip_xy(self, jd1: Any, jd2: Any = 0.0, return_status: bool = False) -> Any:
-        """Celestial pole offsets, as of `astropy.utils.iers.IERS`."""
+        """Celestial pole offsets, with the arguments of `astropy.utils.iers.IERS.dcip_xy`."""
         self._require(jd1, jd2)
         return super().dcip_xy(jd1, jd2, return_status)
 
     def pm_xy(self, jd1: Any, jd2: Any = 0.0, return_status: bool = False) -> Any:
-        """Polar motion, as of `astropy.utils.iers.IERS`."""
+        """Polar motion, with the arguments of `astropy.utils.iers.IERS.pm_xy`."""
         self._require(jd1, jd2)
         return super().pm_xy(jd1, jd2, return_status)
 

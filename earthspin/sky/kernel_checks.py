@@ -163,7 +163,7 @@ class Records:
         return Table(series, self.start, self.length)
 
     def check(self, days: FloatArray) -> None:
-        """Check the records that contain these times, and their continuity with adjacent records.
+        """Check the records that contain given times, and their continuity with adjacent records.
 
         Parameters
         ----------
@@ -190,13 +190,13 @@ class Records:
 
     @cached_property
     def _usual_gap(self) -> float:
-        """Median gap between records, relative to the sum of their terms; NaN if too few."""
+        """Median gap between records relative to their sum of terms; NaN for too few records."""
         sample = np.unique(np.linspace(0, self.count - 2, _SAMPLE).astype(np.int64))
         gaps, sizes, _ = self._gaps(sample)
         return float(np.median(gaps / sizes)) if sample.size >= _FEWEST else np.nan
 
     def _check_joints(self, joints: IntArray) -> None:
-        """Check that each of these records ends where the next begins."""
+        """Check that each given record ends where the next record begins."""
         gaps, sizes, tails = self._gaps(joints)
         bound = _JOINT * sizes
         if not self._usual_gap <= _TIED:  # not continuous by construction
@@ -334,7 +334,7 @@ def _distances(
 
 
 def _pulls(positions: Mapping[int, FloatArray]) -> Iterator[tuple[str, FloatArray, FloatArray]]:
-    """Bodies with their positions and Newtonian accelerations by the others, m s-2."""
+    """Bodies with their positions and Newtonian accelerations due to the other bodies, m s-2."""
     if _SUN not in positions:
         return
     places = {code: vectors[:, 2] for code, vectors in positions.items()}

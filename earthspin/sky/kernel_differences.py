@@ -107,7 +107,7 @@ def growth(day: float) -> float:
 
 
 def drift_is_measured(centre: int, target: int) -> bool:
-    """Whether `DRIFT` was measured for the torque of one body on another."""
+    """Return True if `DRIFT` was measured for the torque of one body on another."""
     pair = sorted((_barycentre(centre), _barycentre(target)))
     return (pair[0], pair[1]) in DRIFT_MEASURED
 

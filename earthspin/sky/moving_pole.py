@@ -132,7 +132,7 @@ class MovingPole:
         return self.at(0.0).orbit_normal(orbit)
 
     def is_upright(self, orbit: Direction | None) -> bool:
-        """Whether the axis at J2000.0 is too close to the orbit's normal to have a longitude."""
+        """Return True if the axis at J2000.0 is too near the orbit's normal to have a longitude."""
         return self.at(0.0).is_upright(orbit)
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:

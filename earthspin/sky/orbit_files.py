@@ -333,7 +333,7 @@ class _Rows:
 
 
 def _chosen(names: Sequence[str], source: object) -> dict[str, int]:
-    """Indices of the required columns, by the names used here."""
+    """Indices of the required columns, by the standard names of `NAMES`."""
     places = {}
     for name, words in NAMES.items():
         exact = [at for at, column in enumerate(names) if column in words]

@@ -42,7 +42,7 @@ UNIT = 1e-9
 
 
 class Growth(NamedTuple):
-    """95 % half-widths of a shipped orbit in addition to those of its integration, per direction.
+    """95 % half-widths of a shipped orbit, apart from the error of its integration.
 
     Attributes
     ----------
@@ -271,7 +271,7 @@ def fitted(
 def _left_out(
     table: OrbitTable, times: FloatArray, normal: FloatArray, eccentricity: FloatArray
 ) -> FloatArray:
-    """Residuals of the samples in each window, as twice their scatter, shape (2, w)."""
+    """Twice the root mean square residual of the samples in each window, shape (2, w)."""
     n, e, _ = table.at(times)
     windows = len(table.edges) - 1
     window = np.clip(np.searchsorted(table.edges, times) - 1, 0, windows - 1)
@@ -282,7 +282,7 @@ def _left_out(
 
 
 def _to_meet(ends: FloatArray, samples: FloatArray) -> FloatArray:
-    """Corrections of the last two terms that make a series continuous with the next one.
+    """Corrections of the last two terms of a series that make it pass through its two end samples.
 
     These terms are 1 at the end, plus and minus 1 at the start, and small in between.
     """

@@ -18,7 +18,7 @@ class Angles:
     form = '["... deg", "... deg"]'
 
     def read(self, value: object, where: Where) -> object:
-        """Read two angles, in radians by default; names are resolved by the body."""
+        """Read a pole: two angles, in radians by default, a name, or a table of a moving pole."""
         if isinstance(value, str) or hasattr(value, "of_the_iau"):
             return value
         if isinstance(value, Mapping):

@@ -104,7 +104,7 @@ class Pole(Protocol):
         """
 
     def is_upright(self, orbit: Direction | None) -> bool:
-        """Whether the axis is too close to the normal of the orbit to have a longitude."""
+        """Return True if the axis is too near the orbit's normal to have a longitude."""
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
         """Matrix from the GCRS to the orbital plane and the equinox of J2000.0, shape (3, 3)."""
@@ -148,7 +148,7 @@ class FixedPole(Direction):
         return orbit.vector()
 
     def is_upright(self, orbit: Direction | None) -> bool:
-        """Whether the axis is within `UPRIGHT` of the orbit's normal, prograde or retrograde."""
+        """Return True if the axis is within `UPRIGHT` of the orbit's normal or its opposite."""
         if orbit is None:
             return False
         (ra, dec), (ra0, dec0) = self, orbit
@@ -157,7 +157,7 @@ class FixedPole(Direction):
         return min(half, 1 - half) < (UPRIGHT / 2) ** 2
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
-        """Matrix from the GCRS to the orbital plane, from the body's equinox."""
+        """Matrix from the GCRS to the orbital plane, with the body's equinox as first axis."""
         normal = self.orbit_normal(orbit)
         equinox = self.equator(orbit)[0]
         return np.stack([equinox, np.cross(normal, equinox), normal])

@@ -132,18 +132,18 @@ class OfDate(Protocol):
 
 
 def measured_code(place: Place) -> int | None:
-    """NAIF code under which the error of a place was measured; None if it was not."""
+    """NAIF code whose error bounds apply to a position source; None if there is none."""
     return place if isinstance(place, int) else getattr(place, "code", None)
 
 
 def words(place: object) -> str:
-    """One-line description of a place, identical in every run."""
+    """One-line description of a NAIF code or trajectory, identical in every run."""
     text = f"NAIF {place}" if isinstance(place, int) else " ".join(str(place).split())
     return re.sub(r" at 0x[0-9a-fA-F]+", "", text)
 
 
 def checked(positions: FloatArray, place: Place, days: FloatArray) -> FloatArray:
-    """Return positions of a place; refuse anything but one finite vector for each time.
+    """Return positions from a trajectory; require one finite vector for each time.
 
     Raises
     ------

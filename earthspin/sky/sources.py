@@ -24,7 +24,7 @@ _LIVE = "live"
 
 
 def open_source(word: SourceName, ephemeris: str | PathLike[str]) -> Source:
-    """Open a kernel with a source given by name.
+    """Open a kernel with the reader of the given name: jplephem or Skyfield.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def describe_source(word: SourceName, ephemeris: object) -> str:
 
 
 def is_vector_function(value: object) -> bool:
-    """Whether an object is a Skyfield vector function, without importing Skyfield."""
+    """Return True if an object is a Skyfield vector function, without importing Skyfield."""
     return any(
         kind.__module__ == "skyfield.vectorlib" and kind.__name__ == "VectorFunction"
         for kind in type(value).__mro__
@@ -122,7 +122,7 @@ def describe_position(position: object) -> str:
 
 
 def write_position(position: Any) -> Any:
-    """Return the table of kernel segments of a position, or a marker if it has other parts."""
+    """Return the table of a position's kernel segments; otherwise a marker with its description."""
     if is_vector_function(position):
         from earthspin.sky.vector_functions import write_segments
 
@@ -133,12 +133,12 @@ def write_position(position: Any) -> Any:
 
 
 def is_measured(position: Any) -> bool:
-    """Whether the error of a position is known: it is based on kernels only."""
+    """Return True if the error of a position is known, because it is based on kernels only."""
     return getattr(trajectory(position), "code", None) is not None
 
 
 def place_of(source: Source, name: str, codes: tuple[int, ...], position: Any = None) -> Place:
-    """Place of a body in a source: its custom trajectory if it has one, otherwise its NAIF code.
+    """Return the custom trajectory of a body, or its NAIF code in the source.
 
     Raises
     ------

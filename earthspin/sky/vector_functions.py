@@ -119,7 +119,7 @@ class _Along(VectorFunction):  # type: ignore[misc]
 
 
 def function_of(trajectory: Trajectory) -> VectorFunction:
-    """Skyfield vector function of a trajectory: its own, or a wrapper."""
+    """Skyfield vector function of a trajectory: the original function, or a wrapper."""
     if isinstance(trajectory, VectorTrajectory):
         return trajectory.function
     return _Along(trajectory)
@@ -140,14 +140,14 @@ def _leaves(function: VectorFunction) -> Iterator[VectorFunction]:
 
 
 def _segments(function: VectorFunction) -> Sequence[SPICESegment]:
-    """Kernel segments that make up a vector function; empty if it has other parts."""
+    """Kernel segments that make up a vector function; empty if it has any other component."""
     if isinstance(function, Stack):
         return list(function.segments)
     return [function] if isinstance(function, SPICESegment) else []
 
 
 def write_segments(function: VectorFunction) -> list[dict[str, Any]] | None:
-    """Tables of the kernel segments of a vector function; None if it has other parts."""
+    """Tables of the kernel segments of a vector function; None if it has any other component."""
     tables = []
     for term in getattr(function, "vector_functions", (function,)):
         inner = term.vector_function if isinstance(term, ReversedVector) else term

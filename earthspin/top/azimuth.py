@@ -44,7 +44,7 @@ _SINE = np.array([0.0, 1.0, 0.0, -1.0])
 
 
 class Turned(NamedTuple):
-    """Angles by which phi and psi have advanced, with psi as if I1 = I3.
+    """Angles by which phi and psi have advanced; psi is that of a top with I1 = I3.
 
     Attributes
     ----------
@@ -119,12 +119,12 @@ def _upper_winding(nutation: Nutation) -> FloatArray:
 
 
 def _has_lower_arc(nutation: Nutation) -> BoolArray:
-    """Whether sigma has an arctangent: unless u1 is closer to u3 than to the lower pole."""
+    """Return True if sigma has an arctangent: u1 is not nearer to u3 than to the lower pole."""
     return np.asarray(nutation.stiffness >= nutation.start.beta * nutation.gaps.lower_pole)
 
 
 def _has_upper_arc(nutation: Nutation) -> BoolArray:
-    """Whether delta has an arctangent: unless u3 is closer to the upper pole than u2."""
+    """Return True if delta has an arctangent: u3 is not nearer to the upper pole than u2."""
     return np.asarray(nutation.gaps.outer >= nutation.start.beta * nutation.gaps.upper_pole)
 
 
@@ -174,7 +174,7 @@ def _arc_tangents(nutation: Nutation, place: Place) -> Turned:
 def _sum_or(
     one: FloatArray, two: FloatArray, three: FloatArray, four: FloatArray, root: FloatArray
 ) -> FloatArray:
-    """Sum one + two, or the equal 2 (three + four)/root, whichever has less cancellation."""
+    """Return the sum with less cancellation: one + two, or the equal 2 (three + four)/root."""
     open_ = root > 0
     factor = 2 / np.where(open_, root, 1.0)
     better = factor * (np.abs(three) + np.abs(four)) < np.abs(one) + np.abs(two)
@@ -212,7 +212,7 @@ class _Integral(NamedTuple):
 
 
 def _integrals(nutation: Nutation, upper: BoolArray) -> tuple[_Integral, _Integral]:
-    """Integrals in sigma and delta besides the arctangents, from a lower or upper turning point."""
+    """Integrals in sigma and delta without the arctangents, from a lower or upper turning point."""
     start, gaps, stiffness = nutation.start, nutation.gaps, 4 * nutation.rate**2
     sigma = _integral(
         nutation,
@@ -250,7 +250,7 @@ def _integral(
     arc: BoolArray,
     regular_shape: FloatArray,
 ) -> _Integral:
-    """Integral of total/2/(u - pole): its regular part, or the whole without an arctangent.
+    """Integral of total/2/(u - pole); only its regular part if the arctangent is separate.
 
     The ends are the distances of the turning points from the pole.
     """

@@ -71,7 +71,7 @@ class AxisStart(NamedTuple):
 
     @property
     def asleep(self) -> NDArray[np.bool_]:
-        """Whether the axis is vertical and at rest, in stable or unstable equilibrium."""
+        """Return True if the axis is vertical and at rest, in stable or unstable equilibrium."""
         return np.asarray((self.sine2 == 0) & (self.theta_rate == 0))
 
     @property

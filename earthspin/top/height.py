@@ -33,7 +33,7 @@ _MOMENT = 1e-120
 
 
 class Nutation(NamedTuple):
-    """Time-independent quantities of a nutation; rates and times in the start's rate unit.
+    """Time-independent quantities of a nutation, with rates in the start's rate unit.
 
     Attributes
     ----------
@@ -67,17 +67,17 @@ class Nutation(NamedTuple):
 
     @property
     def rate(self) -> FloatArray:
-        """Omega; 1 for a steady motion, to allow division."""
+        """Rate Omega of the elliptic functions; 1 for a steady motion, to allow division."""
         return np.sqrt(np.where(self.stiffness > 0, self.stiffness, 4.0)) / 2
 
     @property
     def crosses_lower_pole(self) -> BoolArray:
-        """Whether the axis passes exactly through the lower pole."""
+        """Return True if the axis passes exactly through the lower pole."""
         return np.asarray((self.gaps.lower_pole == 0) & (self.swing > 0))
 
     @property
     def crosses_upper_pole(self) -> BoolArray:
-        """Whether the axis passes exactly through the upper pole."""
+        """Return True if the axis passes exactly through the upper pole."""
         return np.asarray((self.gaps.upper_pole == 0) & (self.swing > 0))
 
     @property
@@ -208,7 +208,10 @@ def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
 
 
 def height_at(nutation: Nutation, place: Place) -> AxisHeight:
-    """Height of the axis from both poles, as sums of positive terms, and its rate of change."""
+    """Height of the axis relative to both poles and to the start, and its rate of change.
+
+    The distances from the poles are sums of positive terms.
+    """
     gaps, swing, complement = nutation.gaps, nutation.swing, nutation.complement
     upper, sn, cn, dn = place.upper, place.sn, place.cn, place.dn
     climbed = swing * np.where(upper, cn / dn, sn) ** 2  # u - u1

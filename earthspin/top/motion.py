@@ -27,7 +27,7 @@ _EIGHTHS = np.exp(0.25j * np.pi * np.arange(8))
 
 @dataclass(frozen=True, eq=False)
 class HeavyTopMotion:
-    """Motion of a top; arrays over time have the shape of the tops, then that of the times.
+    """Motion of a top; arrays over time have the shape of the tops, then the shape of the times.
 
     Attributes
     ----------
@@ -145,7 +145,7 @@ def _with_axes(top: HeavyTop, count: int) -> HeavyTop:
 
 
 def _inclination(nutation: Nutation, below: FloatArray, above: FloatArray) -> FloatArray:
-    """Inclination theta of the original end of the axis, from both half-angle sides."""
+    """Inclination theta of the axis from its distances from the two poles."""
     up, down = np.sqrt(below), np.sqrt(above)
     turned = nutation.start.turned
     theta: FloatArray = 2 * np.arctan2(np.where(turned, down, up), np.where(turned, up, down))
@@ -193,7 +193,7 @@ def _attitude(theta: FloatArray, phi: Angle, psi: Angle) -> FloatArray:
 
 
 def _omega_body(top: HeavyTop, nutation: Nutation, height: AxisHeight, psi: Angle) -> FloatArray:
-    """Angular velocity in the body, (theta' + i phi' sin(theta)) e^(-i psi) for 1 and 2."""
+    """Angular velocity along the body axes: (theta' + i phi' sin(theta)) e^(-i psi), and omega3."""
     start = nutation.start
     sine = np.sqrt(height.below * height.above)
     tilted = sine > 0

@@ -109,7 +109,7 @@ def pattern_limits(top: HeavyTop) -> PatternLimits:
 
 
 def _is_steady(start: AxisStart) -> NDArray[np.bool_]:
-    """Whether theta'' = theta' = 0."""
+    """Return True if theta'' = theta' = 0."""
     phi_rate = start.phi_rate
     gyroscopic, centrifugal = 2 * phi_rate * start.a, 2 * phi_rate**2 * start.cosine
     size = np.abs(gyroscopic) + np.abs(centrifugal) + start.beta

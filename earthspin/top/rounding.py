@@ -24,7 +24,7 @@ CLOSED_FORM_ERROR = 1e-13
 
 
 def error_bound(top: HeavyTop, times: ArrayLike) -> FloatArray:
-    """Bound on the error of `heavy_top_motion`, the largest over times and quantities.
+    """Bound on the largest error of `heavy_top_motion` over all times and quantities.
 
     Parameters
     ----------
@@ -87,12 +87,12 @@ def _difference(one: HeavyTopMotion, other: HeavyTopMotion) -> FloatArray:
 
 
 def _largest(values: Numbers) -> FloatArray:
-    """Largest value over the times, with an axis of length 1 in their place."""
+    """Largest absolute value over the times; the time axis is retained with length 1."""
     return np.asarray(np.max(np.abs(values), axis=-1, keepdims=True))
 
 
 def _relative(difference: Numbers, size: FloatArray) -> FloatArray:
-    """Largest ratio over the times; zero if there are none."""
+    """Largest ratio |difference|/size over the times; elements of size zero count as zero."""
     ratio = np.zeros(difference.shape)
     np.divide(np.abs(difference), size, out=ratio, where=size > 0)
     return np.asarray(np.max(ratio, axis=-1))

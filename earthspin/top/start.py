@@ -185,7 +185,7 @@ def _broadcast(names: list[str], values: list[FloatArray]) -> list[FloatArray]:
 
 
 def _require(holds: Any, field: str, value: Any, allowed: str) -> None:
-    """Refuse the first value for which the condition fails."""
+    """Refuse the first value that does not meet the condition."""
     holds, value = np.broadcast_arrays(holds, value)
     if not np.all(holds):
         raise BodyError(_NAME, field, float(value[~holds].flat[0]), allowed)

@@ -145,7 +145,7 @@ def best_window(start: float, end: float, cycle: float, epoch: float = 0.0) -> W
 
 
 def neighbours(window: Window) -> list[Window]:
-    """Windows for an error estimate: other tapers, and one cycle less."""
+    """Alternative windows for an error estimate: another taper, one cycle fewer, or both."""
     shorter = window.cycles - 1
     others = [(window.cycles, "hann"), (shorter, "hann")]
     if shorter >= FEWEST_CYCLES:

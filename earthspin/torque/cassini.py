@@ -93,7 +93,7 @@ class States(NamedTuple):
 
 
 def is_locked(spin_rate: float, motion: float) -> bool:
-    """Whether the spin rate is a positive multiple of half the mean motion."""
+    """Return True if the spin rate is a positive multiple of half the mean motion."""
     halves = round(2 * spin_rate / motion)
     return halves > 0 and abs(2 * spin_rate / motion / halves - 1) < LOCKED
 
@@ -169,7 +169,7 @@ def cassini_states(of: Precessing) -> States:
 
 
 def _numbers(angles: FloatArray, stable: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """Numbers of the states; the state of largest obliquity is the retrograde one."""
+    """Conventional numbers 1 to 4 of the states, from their angles and stability."""
     number = np.where(angles < 0, 1, 2)
     number[~stable] = 4
     number[np.argmax(np.where(stable, np.abs(angles), -1.0))] = 3

@@ -37,7 +37,7 @@ def write_json(tree: xr.DataTree, stream: TextIO) -> None:
 def _write_members(
     title: str, members: Mapping[Any, T], write: Callable[[T, TextIO], None], stream: TextIO
 ) -> None:
-    """Write members by name; the closing brace of each member is written here."""
+    """Write a JSON object of named members, each without its closing brace, which is added here."""
     stream.write(f',\n"{title}": {{')
     for number, (name, member) in enumerate(members.items()):
         stream.write(f"{',' if number else ''}\n{json.dumps(str(name))}: ")

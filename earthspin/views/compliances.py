@@ -1,4 +1,4 @@
-"""Compliances and coupling numbers beside published ones, and the free modes."""
+"""Compliances and coupling numbers compared with published ones, and the free modes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ LINEAR = 1e-10
 
 
 def numbers(tree: Result) -> Table:
-    """Table of the numbers, with published ones where they exist."""
+    """Table of the compliances and coupling numbers, with published ones where they exist."""
     answer, known = answer_of(tree), section(tree, "published")
     published, sources = beside_published(known, "number", "number_value")
     note = (
@@ -49,7 +49,7 @@ TABLES = [("", numbers), ("modes", modes)]
 
 
 def plot_compliances(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Each number as a dot, and the published one as a ring, on a symmetric logarithmic axis.
+    """Draw each number as a dot and its published value as a ring, on a symmetric log axis.
 
     Parameters
     ----------

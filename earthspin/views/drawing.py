@@ -194,7 +194,7 @@ def figure_of(shown: Axes | Figure) -> Figure:
 def stacked(
     count: int, height: float, figure: Figure | None = None, *, width: float = 8.0, **how: Any
 ) -> tuple[Figure, list[Axes]]:
-    """Axes one above the other with one horizontal axis, on a figure of their own by default."""
+    """Axes one above the other with one horizontal axis, on a new figure by default."""
     figure = empty(width, height) if figure is None else figure
     return figure, list(figure.subplots(count, 1, sharex=True, squeeze=False, **how)[:, 0])
 
@@ -241,7 +241,7 @@ def rungs(ax: Axes, labels: Sequence[object]) -> None:
 
 
 def empty(width: float, height: float) -> Figure:
-    """Empty figure with sides in inches."""
+    """Empty figure of a given width and height, in inches."""
     _matplotlib()
     from matplotlib.figure import Figure
 

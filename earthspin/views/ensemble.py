@@ -85,7 +85,7 @@ TABLES = [("", spread), ("", shares)]
 
 
 def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray, list[float]]:
-    """Main numbers of an ensemble, shares of the inputs in their variances, remainders."""
+    """Main quantities of an ensemble, with the variance share of each input and the remainders."""
     result, chiefs = sensitivity(answer), _chiefs(answer)
     rows = [number for number in _numbers(answer) if number.name in chiefs]
     share = [result[f"{name}_share"].sel(labels).values for name, labels, _ in rows]
@@ -235,7 +235,7 @@ def _alike(answer: xr.Dataset) -> str:
 
 
 def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
-    """Names of the main numbers of a question that differ among the members.
+    """Names of the main quantities of a question that differ among the members.
 
     If the view of the question names none that differs, this is the first number that does; empty
     if no number differs.
@@ -246,7 +246,7 @@ def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
 
 
 def _chief(answer: xr.Dataset, name: str = "") -> Number:
-    """Last value of the main number: the total, the last step, the last time."""
+    """Last element of the main quantity: its total, last step or last time."""
     chiefs = (name,) if name else _chiefs(answer)[:1]
     numbers = [number for number in _numbers(answer) if number.name in chiefs]
     if not numbers:
@@ -256,7 +256,7 @@ def _chief(answer: xr.Dataset, name: str = "") -> Number:
 
 
 def _digits(value: float, other: float) -> str:
-    """Write a number with two digits more than distinguish it from another."""
+    """Write a number with enough digits to show its difference from another number."""
     apart = abs(other - value) / max(abs(value), abs(other), 1e-300)
     digits = int(np.clip(2 - np.floor(np.log10(max(apart, 1e-15))), 3, 16))
     return short_exponents(f"{value:.{digits}g}")

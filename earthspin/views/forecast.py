@@ -94,7 +94,7 @@ def _days(answer: xr.Dataset) -> FloatArray:
 
 
 def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Forecast of x and y with 95 % bands, and that of Bulletin A if it is there.
+    """Draw the forecast of x and y with 95 % bands, and the one of Bulletin A if the answer has it.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_skill(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Error and coverage by horizon, from origins on which no parameter was chosen.
+    """Draw error and coverage by horizon, from origins not used to choose parameters.
 
     Parameters
     ----------

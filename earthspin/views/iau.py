@@ -106,7 +106,7 @@ def observed(tree: Result) -> Table:
 
 
 def nutation(tree: Result) -> Table:
-    """Table of the largest nutations of the computed pole and of the IAU's."""
+    """Table of the largest nutation terms of the computed pole and of the IAU pole."""
 
     def neighbour(row: xr.Dataset) -> str:
         return f"{float(row.neighbour_in_phase):+.3f}" if row.neighbour else ""
@@ -173,7 +173,7 @@ def _both_phases(row: xr.Dataset, name: str) -> str:
 
 
 def angles(tree: Result) -> Table:
-    """Polynomials of the angles of precession."""
+    """Polynomials of the precession angles."""
     rows = [
         (f"{angle}, {whose}", *(f"{coefficient:.6f}" for coefficient in row[name].values[:4]))
         for angle, row in table.along(needed(tree, "angles"), "angle")

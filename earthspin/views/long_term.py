@@ -95,7 +95,7 @@ def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
 def _plot_curves(
     ax: Axes | None, curves: list[tuple[str, xr.DataArray, xr.DataArray]], height: float
 ) -> Axes:
-    """Draw curves with their half-widths in panels, or the first alone on given axes."""
+    """Draw curves with their half-widths in panels, or only the first curve on given axes."""
     if ax is None:
         figure, rows = drawing.stacked(len(curves), height)
         figure.align_ylabels(rows)

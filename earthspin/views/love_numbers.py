@@ -1,4 +1,4 @@
-"""Love numbers beside published ones, and their dependence on the period."""
+"""Love numbers compared with published ones, and their dependence on the period."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ MARKS = {"a day": 1.0, "14 months": 430.0, "the node": 6798.4}
 
 
 def numbers(tree: Result) -> Table:
-    """Table of the numbers, with published ones where they exist."""
+    """Table of the Love numbers, with published ones where they exist."""
     answer = answer_of(tree)
     published, sources = beside_published(section(tree, "published"), "love", "love_number")
 

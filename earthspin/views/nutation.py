@@ -44,7 +44,7 @@ def ladder(tree: Result) -> Table:
 
 
 def beside(tree: Result) -> Table:
-    """Table of two models beside the ladder."""
+    """Table of the residuals of two models outside the ladder."""
     return _sizes(
         "Beside the ladder",
         needed(tree, "beside"),

@@ -72,7 +72,7 @@ def solids_for(tree: Result) -> list[Solid]:
 
 
 def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> list[T]:
-    """Make the views whose sections the answer has."""
+    """Make the views for which the answer has all required sections."""
     return [
         make(tree)
         for sections, make in makers
@@ -119,7 +119,7 @@ def figures_of_fit(fit: xr.Dataset) -> list[Figure]:
 
 
 def print_tables(tree: Result, *, with_plan: bool = False) -> None:
-    """Print the tables of an answer, and its run time or its parts."""
+    """Print the tables of an answer, with its run time or with the table of its parts."""
     from earthspin.views.terminal import Terminal
 
     console = Terminal()
@@ -221,7 +221,7 @@ def _explained(tree: Result) -> str:
 
 
 def _accuracy(answer: xr.Dataset) -> Table:
-    """Error asked for, error claimed, and the settings chosen for it."""
+    """Table of requested error, estimated error, and chosen settings."""
     unit = answer.error_asked.attrs["units"]
     shown = "" if unit == "1" else f", {unit}"
     columns = (

@@ -58,7 +58,7 @@ def _sky() -> dict[str, object]:
 
 
 def _interior() -> dict[str, object]:
-    """Inputs of the upper steps of the Earth's wobble ladder, and the observed period."""
+    """Inputs of the non-rigid steps of the Earth's wobble ladder, and the observed period."""
     interior = INTERIORS["prem"]
     spin = Spin(gm=EARTH.gm, radius=EARTH.radius, period=EARTH.spin_period)
     figure = {"dynamical_flattening": EARTH.dynamical_flattening, "j2": EARTH.j2}

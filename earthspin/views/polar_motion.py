@@ -66,7 +66,7 @@ def observed(tree: Result) -> Table:
 
 
 def statements(tree: Result) -> Table:
-    """Table of statements of the source text about the wobble, with years when true."""
+    """Table of statements of the source text on the wobble, compared with observation."""
     fit, metres = needed(tree, "chandler"), _metres(answer_of(tree))
     period, error = float(fit.chandler_period), float(fit.chandler_period_error)
     size = fit.chandler_amplitude

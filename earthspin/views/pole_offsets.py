@@ -43,7 +43,7 @@ def series(tree: Result) -> Table:
 
 
 def core_nutation(tree: Result) -> Table:
-    """Amplitude of the free core nutation every two years or so."""
+    """Table of the amplitude of the free core nutation, about every two years."""
     fit = needed(tree, "core_nutation")
     rows = [
         (

@@ -53,7 +53,7 @@ def _with_known_effects(known: xr.Dataset) -> tuple[float, float]:
 
 
 def periods(tree: Result) -> Table:
-    """Table of the three periods of precession, and the one to quote."""
+    """Table of the three periods of precession, which recommends one of them."""
     answer, known, seasons = answer_of(tree), needed(tree, "iau_2006"), needed(tree, "seasons")
     total, iau = answer.isel(perturber=-1), FULL_TURN / float(known.iau_rate)
     period, error = _with_known_effects(known)
@@ -210,7 +210,7 @@ def free_wobble(tree: Result) -> Table:
 
 
 def iau(tree: Result) -> Table:
-    """Table of the computed rate beside that of IAU 2006."""
+    """Table of the computed rate compared with the rate of IAU 2006."""
     known, left_out, answer = needed(tree, "iau_2006"), section(tree, "neglected"), answer_of(tree)
     effects = () if left_out is None else table.along(left_out, "effect")
     rows = [
@@ -267,7 +267,7 @@ TABLES = [
 
 
 def chain(tree: Result, year: Result) -> drawing.Drawing:
-    """Data of the figure of the method: declination, torque, average, period."""
+    """Figure of the method, with caption: declination, torque, averaged rate and period."""
     return PageFigure(
         "From declination to the period of precession",
         "Top: declination of each perturber through a year, at the mean equator of date. Middle: "
@@ -335,7 +335,7 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def _caption_of_circle(tree: Result) -> str:
-    """Caption of the circle, with the stars within two degrees of the path and their years."""
+    """Caption of the circle of the celestial pole: stars near its path, with years."""
     total = answer_of(tree).isel(perturber=-1)
     years = np.arange(-9900, 14001, 100)
     path = _circle(total, years)
@@ -355,7 +355,7 @@ def _caption_of_circle(tree: Result) -> str:
 
 
 def _circle(total: xr.Dataset, years: ArrayLike) -> FloatArray:
-    """Positions of the pole on the chart by year, at the present rate and obliquity."""
+    """Positions of the celestial pole on the chart by year, at the present rate and obliquity."""
     radius, rate = float(total.obliquity), float(si(total.precession_rate))
     back = rate * (np.asarray(years) - 2000) * JULIAN_YEAR  # its longitude falls: to the left
     return np.stack([-radius * np.sin(back), radius * np.cos(back)], axis=-1)

@@ -17,7 +17,7 @@ Result = xr.Dataset | xr.DataTree
 
 
 def answer_of(result: Result) -> xr.Dataset:
-    """Dataset of the answer; for many bodies or starts, of the first."""
+    """Dataset of the answer; if it has many bodies or starts, only the first."""
     whole = result.to_dataset() if isinstance(result, xr.DataTree) else result
     return _first(whole, whole.attrs)
 
@@ -28,7 +28,7 @@ def question_of(result: Result) -> type[Question] | None:
 
 
 def views_of(result: Result) -> ModuleType:
-    """Module that makes the tables and figures of an answer; a plain table without one."""
+    """Module that makes the tables and figures of an answer; by default the plain table."""
     question = question_of(result)
     return import_module(f"earthspin.views.{question.views if question else 'plain'}")
 

@@ -115,7 +115,7 @@ def gallery() -> list[Solid]:
 
 
 def gallery_page() -> str:
-    """Page of rotors and tops that comes with the report."""
+    """HTML page of rotors and tops, a part of the report."""
     return page(
         "Rotors and tops",
         solids=gallery(),

@@ -46,12 +46,12 @@ def rows_by_part(result: xr.Dataset) -> Iterator[tuple[str, list[dict[str, Any]]
 
 
 def tally(result: xr.Dataset) -> dict[str, int]:
-    """Numbers of cases that hold, are refused, and fail."""
+    """Numbers of cases with the verdicts "holds", "refused" and "fails"."""
     return {word: int((result.verdict == word).sum()) for word in ("holds", "refused", "fails")}
 
 
 def tally_line(result: xr.Dataset) -> str:
-    """Number of cases that hold, are refused and fail, in one line."""
+    """One line with the numbers of cases that hold, are refused, and fail."""
     count = tally(result)
     must = int(result.must_hold.sum())
     return (

@@ -27,7 +27,7 @@ NUMBERS_ONLY = "numbers only"
 
 @dataclass(frozen=True)
 class Table:
-    """Table with title, note and cost.
+    """Table with title, note and run time.
 
     Attributes
     ----------
@@ -162,7 +162,7 @@ def beside_published(known: xr.Dataset | None, dim: str, value: str) -> tuple[li
 
 
 def quantities(data: xr.Dataset, *rows: Column | str) -> list[tuple[str, str]]:
-    """Rows of a table of quantities, given as the columns of `table_along`: label, and number."""
+    """Rows of a table of quantities, from columns as for `table_along`: header and text of each."""
     return [(row.header(data), row.text(data)) for row in map(_column, rows)]
 
 

@@ -21,7 +21,7 @@ WIDTH = 100
 
 
 class Terminal(Console):
-    """Console that passes a closed pipe on to the command line."""
+    """Console that reports a closed pipe to the command line."""
 
     def __init__(self, width: int = WIDTH) -> None:
         super().__init__(width=None if sys.stdout.isatty() else width, highlight=False)
@@ -31,7 +31,7 @@ class Terminal(Console):
         raise BrokenPipeError
 
     def print_table(self, table: Table) -> None:
-        """Print a table, its note and its cost."""
+        """Print a table, its note and its run time."""
         shown = RichTable(
             title=_plain(table.title), title_justify="left", title_style="bold", box=box.SIMPLE_HEAD
         )

@@ -18,7 +18,7 @@ MANY_SWINGS = 200
 
 
 def extremes(tree: Result) -> Table:
-    """Extremes by perturber."""
+    """Table of the extremes of declination, distance and torque, by perturber."""
     answer = answer_of(tree)
     first, last = date(answer.time[0], "s"), date(answer.time[-1], "s")
 
@@ -44,7 +44,7 @@ TABLES = [("", extremes)]
 
 
 def through(tree: Result, title: str, smooth_days: float) -> drawing.Drawing:
-    """Draw declination and torque over years, fast oscillations as bands."""
+    """Figure of declination and torque over years, with fast oscillations drawn as bands."""
     plot, caption = partial(_plot_both, smooth_days=smooth_days), _caption(tree, smooth_days)
     return PageFigure(title, caption, plot).drawn(tree)
 

@@ -81,7 +81,7 @@ def _unit(result: xr.Dataset) -> str:
 
 
 def print_accuracy(results: Sequence[xr.Dataset]) -> None:
-    """Print table and sentence of each quantity to the terminal."""
+    """Print the table and the recommendation for each quantity to the terminal."""
     console = Terminal(WIDTH + 10)
     for result in results:
         console.print_table(accuracy_table(result))
@@ -138,7 +138,7 @@ def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
 
 
 def _front(time: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Pareto front: points than which no other is faster and more accurate."""
+    """Pareto front: the results for which no other is both faster and more accurate."""
     order = np.lexsort((error, time))
     time, error = time[order], error[order]
     kept = error < np.concatenate([[np.inf], np.minimum.accumulate(error)[:-1]])

@@ -87,13 +87,13 @@ class FastExcitation:
 
     @property
     def density(self) -> Array:
-        """Covariance that the noise adds in a day, of the real and the imaginary part."""
+        """Covariance of the noise added in one day, for real and imaginary parts, shape (2, 2)."""
         across = -self.correlation * self.x * self.y
         return np.array([[self.x**2, across], [across, self.y**2]])
 
     @property
     def free(self) -> Array:
-        """The seven numbers in a form without bounds, for an optimiser."""
+        """The seven parameters transformed to unbounded values, for an optimiser."""
         logs = np.log([self.first_decay, self.second_decay, self.x, self.y])
         turns = [self.first_turn, self.second_turn, np.arctanh(self.correlation)]
         return np.array([*logs, *turns])
@@ -105,7 +105,7 @@ class FastExcitation:
         return cls(first, float(free[4]), second, float(free[5]), x, y, float(np.tanh(free[6])))
 
     def as_mapping(self) -> Mapping[str, float]:
-        """The numbers by name, for the attributes of an answer."""
+        """The parameters by name, for the attributes of an answer."""
         return dict(vars(self))
 
 

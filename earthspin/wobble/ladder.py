@@ -1,8 +1,8 @@
-"""The wobble ladder: period of the free wobble from a formula of flattening to a deformable body.
+"""The wobble ladder: free wobble period for models from rigid to deformable.
 
-Each rung gives the period in turns of the body. The rungs are factors, not steps of
-days: they do not commute, the liquid core takes 34 days from a rigid mantle and 51 from
-an elastic one. Their order is part of the answer.
+Each rung (step) gives the period in rotations of the body. The effects of the rungs are factors
+and do not commute: the fluid core shortens the period by 34 days with a rigid mantle, and by 51
+days with an elastic mantle. The result for each rung depends on the order of the rungs.
 
 Rungs from `elastic` on are roots of the system of mantle and core, `mantle_and_core`.
 """
@@ -113,7 +113,7 @@ def factors(turns: Numeric) -> Numeric:
 
 @dataclass(frozen=True)
 class Inputs:
-    """Inputs of the upper steps; floats or arrays of one shape.
+    """Inputs of the non-rigid steps; floats or arrays of one shape.
 
     Attributes
     ----------
@@ -233,7 +233,7 @@ def inputs_of(
     ocean: str = "real",
     exponent: Numeric = ANELASTIC_EXPONENT.value,
 ) -> Inputs:
-    """Collect the inputs of the upper steps from an interior.
+    """Collect the inputs of the non-rigid steps from an interior.
 
     Parameters
     ----------
@@ -333,7 +333,7 @@ def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -
 def _soften(
     inputs: Inputs, spin: Spin, interior: Interior, unit: Numeric, water: Any, turns: Array
 ) -> Roots:
-    """The anelastic step, by iteration: the shear modulus depends on the resulting period."""
+    """Compute the anelastic step by iteration: the shear modulus depends on the period."""
     assert interior.layers is not None
     compliance = _compliance(interior, inputs)
     for _ in range(3):  # each pass shrinks the error by a factor of a thousand

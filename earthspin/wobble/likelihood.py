@@ -235,7 +235,7 @@ def largest(likelihood: Likelihood, method: str) -> WobbleFit:
         nearby = at.copy()
 
         def profile(value: float) -> float:
-            """Decrease of the likelihood, in standard deviations."""
+            """Square root of the increase of -2 log(likelihood) above its minimum."""
             nonlocal nearby
             nearby[of] = value
             nearby, height = lowest(likelihood, nearby, fixed=of)

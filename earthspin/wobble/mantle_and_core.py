@@ -36,7 +36,7 @@ Array = NDArray[Any]
 
 
 def over(numerator: Numeric, denominator: Numeric) -> Numeric:
-    """Quotient that is infinite for a zero denominator, since a sphere does not wobble."""
+    """Quotient that is infinite for a zero denominator, as for the wobble period of a sphere."""
     with np.errstate(divide="ignore"):
         return np.divide(numerator, denominator)
 
@@ -95,7 +95,7 @@ class Mantle:
     ocean: Array | None = None
 
     def traces_and_determinants(self) -> tuple[Numeric, Numeric, Numeric, Numeric]:
-        """Return tr M, |M|, tr D and |D| of M = T + K and D = E - K."""
+        """Return tr M, |M|, tr D and |D| of the matrices M and D of the mantle (see the module)."""
         water = np.zeros((2, 2)) if self.ocean is None else self.ocean
         first, second, off = water[..., 0, 0], water[..., 1, 1], water[..., 0, 1]
         m1 = 1 - self.half + self.kappa + first

@@ -80,7 +80,7 @@ class Periodogram:
         return cls(frequency, np.asarray(abs(sums) ** 2, dtype=float))
 
     def between(self, longest: float, shortest: float) -> Periodogram:
-        """Part between two periods in d."""
+        """Part of the periodogram between two periods in d."""
         inside = (self.frequency >= 1 / longest) & (self.frequency <= 1 / shortest)
         return Periodogram(self.frequency[inside], self.power[inside])
 

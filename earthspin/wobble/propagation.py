@@ -1,10 +1,10 @@
-"""Errors of the upper steps by sampling, and their derivatives by input.
+"""Errors of the non-rigid steps by sampling, and derivatives with respect to the inputs.
 
-The inputs are drawn a fixed number of times, the same for every body, so that a body's error
-does not depend on which others are asked for. The ladder is not climbed for every draw: each
-body's periods are a parabola in each normal input, and a polynomial in the exponent, which is
-drawn evenly and wide. `tests/wobble/test_propagation.py` holds that to climbing for every
-draw.
+The same draws of the inputs are used for every body, so that the error of a body does not depend
+on the other bodies of the computation. The ladder is not computed for every draw: the periods are
+interpolated by a parabola in each normally distributed input and by a polynomial in the exponent,
+which is uniformly distributed. `tests/wobble/test_propagation.py` compares the interpolation with
+the computation of every draw.
 """
 
 from __future__ import annotations
@@ -94,7 +94,7 @@ def sampled_half_widths(
     interior: Interior,
     ocean: str = "real",
 ) -> dict[str, Numeric]:
-    """95 % half-widths of the rotations per wobble on the upper steps, by sampling the inputs.
+    """95 % half-widths of the rotations per wobble of the non-rigid steps, by sampling the inputs.
 
     Parameters
     ----------
@@ -168,7 +168,7 @@ def _points(
 
 
 def _exponent_nodes() -> Array:
-    """Chebyshev points over the range of published work."""
+    """Chebyshev points over the published range of the anelastic exponent."""
     low, high = EXPONENT_RANGE
     points = np.polynomial.chebyshev.chebpts1(_EXPONENTS)
     return np.asarray((low + high) / 2 + (high - low) / 2 * points)
@@ -186,14 +186,14 @@ def _lagrange(nodes: Array, at: Array) -> Array:
 
 
 def _column(values: Array, ndim: int) -> Array:
-    """Reshape values to the first of several axes."""
+    """Reshape values so that they lie along the first of several axes."""
     return values.reshape(-1, *(1,) * ndim)
 
 
 def half_widths(
     inputs: Inputs, uncertainty: Mapping[str, float], anelastic: bool
 ) -> dict[str, Array]:
-    """95 % half-widths of the inputs; that of the exponent is half the range of published work.
+    """95 % half-widths of the inputs; for the anelastic exponent, half its published range.
 
     Parameters
     ----------
@@ -214,7 +214,7 @@ def half_widths(
 def sensitivities(
     inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real"
 ) -> dict[str, Numeric]:
-    """Derivative of the last step by each input in days per unit, by central differences.
+    """Sensitivity of the last step's period to each input, d per unit, by central differences.
 
     Parameters
     ----------

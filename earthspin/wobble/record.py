@@ -92,7 +92,7 @@ def block_means(values: Any, size: int) -> Any:
 
 
 def in_blocks(time: Array, p: Complex, length: float) -> tuple[Array, Complex, float]:
-    """Block means of about a length in days, and their spacing.
+    """Times and means of blocks of about a given length in days, and the length of a block.
 
     A sinusoid stays one and is shortened by sinc(block/T).
     """
