@@ -354,7 +354,7 @@ class BulletinA(AheadOfOrigin):
 
 
 def not_in_file(file: str | Path | GivenPole, origin: float | None, days: float) -> str | None:
-    """Leave Bulletin A out if the table has no prediction from the origin over the horizon."""
+    """Return the reason to leave out Bulletin A if the table has no such prediction."""
     if origin is not None:
         return "Bulletin A predicts from the newest observed day; leave origin out"
     if isinstance(file, GivenPole) or (table := read_bulletin_a(file)) is None:
@@ -398,7 +398,7 @@ def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, F
 
 
 def no_offsets(file: str | Path | GivenPole, origin: float | None, days: float) -> str | None:
-    """Leave the offsets out if the table has too few of them up to the origin."""
+    """Return the reason to leave out the offsets if the table has too few of them."""
     from earthspin.nutation.offset_prediction import LONGEST as FARTHEST
     from earthspin.nutation.offset_prediction import too_short
 

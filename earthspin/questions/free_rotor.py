@@ -175,7 +175,7 @@ def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> 
 
 
 def several_starts(omega: FloatArray) -> str | None:
-    """Leave Poinsot's construction out if there are several starts."""
+    """Return the reason to leave out Poinsot's construction if there are several starts."""
     return None if omega.ndim == 1 else "there are several starts"
 
 

@@ -318,7 +318,7 @@ def modes(models: Prediction) -> Modes:
     )
 
 
-#: Frequencies of the transfer function in the body, turns per turn: dense about -1.
+#: Frequencies of the transfer function in the body, cycles per rotation: dense about -1.
 _IN_SPACE = np.concatenate([-np.geomspace(0.1, 2e-4, 240), np.geomspace(2e-4, 0.1, 240)])
 
 
@@ -333,7 +333,7 @@ class Transfer(
     transfer_imaginary: Value = number("1", "nutation over that of a rigid body, imaginary part")
     rung: Labels = labels()
     frequency: Labels = labels(
-        "frequency in space, turns per turn of the body", "1", default=_IN_SPACE
+        "frequency in space, cycles per rotation of the body", "1", default=_IN_SPACE
     )
 
 

@@ -97,17 +97,17 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
 
 
 def not_nonrigid(effects: tuple[str, ...]) -> str | None:
-    """Leave the response of the interior out of a rigid body."""
+    """Return the reason to leave out the response of the interior, for a rigid body."""
     return None if NONRIGID.name in effects else "the non-rigid response is switched off"
 
 
 def not_fitted(response: str) -> str | None:
-    """Leave the fitted response of the interior out if the predicted one is chosen."""
+    """Return the reason to leave out the fitted response if the predicted one is chosen."""
     return None if response == "fitted" else "the response is predicted"
 
 
 def not_predicted(response: str) -> str | None:
-    """Leave the predicted response of the interior out if the fitted one is chosen."""
+    """Return the reason to leave out the predicted response if the fitted one is chosen."""
     return None if response == "predicted" else "the response is fitted"
 
 
@@ -223,7 +223,7 @@ def response_error(
 
 
 def no_longitude(body: Body) -> str | None:
-    """Leave the angles out without an orbit, or if the axis is normal to it."""
+    """Return the reason to leave out the angles if the axis has no inclination to an orbit."""
     pole = body.needed("pole")
     if body.orbit_pole is None and not pole.of_the_iau:
         return f"psi is counted along the orbit, and {in_a_sentence(body.name)} has no orbit_pole"

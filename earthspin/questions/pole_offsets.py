@@ -119,14 +119,14 @@ class CoreNutation(Variables, along=("middle",)):
 
 
 def shorter_than_a_window(span: Span | None, window: float | None) -> str | None:
-    """Leave the section out if the span is shorter than a window."""
+    """Return the reason to leave out the section if the span is shorter than a window."""
     if span is None or _length(span) >= (core.WINDOW if window is None else window):
         return None
     return "the span is shorter than a window, which is three years if not given"
 
 
 def too_short_for_a_period(span: Span | None) -> str | None:
-    """Leave the period out if the span cannot separate the free core nutation from the year."""
+    """Return the reason to leave out the period if the span is too short to determine it."""
     needed = 2 * shortest_span()
     if span is None or _length(span) >= needed:
         return None

@@ -229,7 +229,7 @@ def convergence(torque_samples: Samples, body: Body) -> Convergence:
 
 
 def no_figure(body: Body) -> str | None:
-    """Leave out the models of the figure if J2 or the flattening is not known."""
+    """Return the reason to leave out the models of the figure if J2 or flattening is unknown."""
     missing = [k for k in ("j2", "flattening", "radius") if getattr(body, k) is None]
     if missing:
         return f"{in_a_sentence(body.name)} has no {missing[0]}"
@@ -281,7 +281,7 @@ def figure_models(mean_torques: MeanTorques, body: Body) -> FigureModels:
 
 
 def is_sphere(body: Body) -> str | None:
-    """Leave the wobble of a sphere out."""
+    """Return the reason to leave out the free wobble, for a sphere."""
     oblate = all_of(body.needed("dynamical_flattening") != 0)
     return None if oblate else "a sphere does not wobble"
 

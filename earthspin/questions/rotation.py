@@ -165,7 +165,7 @@ class Pulling:
 
 
 def nothing_pulls(perturbers: tuple[Body, ...]) -> str | None:
-    """Leave the positions of perturbers out if there are no perturbers."""
+    """Return the reason to leave out the positions of perturbers if there are no perturbers."""
     return None if perturbers else "nothing pulls on the body"
 
 
@@ -485,7 +485,7 @@ class Growth(Dated):
 
 
 def one_date(span: Span, times: TimeList | None) -> str | None:
-    """Leave the section out for a single date."""
+    """Return the reason to leave out the section for a single date."""
     first, last = span.days if times is None else times.span()
     return None if last > first else "neighbours part in time, and one date is asked for"
 
