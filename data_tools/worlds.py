@@ -20,7 +20,7 @@ from earthspin.bodies.moon import OBLIQUITY as MOON_OBLIQUITY
 from earthspin.bodies.moons import TITAN_OBLIQUITY, TITAN_OBLIQUITY_IF_SOLID
 from earthspin.constants import PSI_A_RATE, Constant
 from earthspin.errors import EarthspinError
-from earthspin.questions.cassini import CassiniStates
+from earthspin.questions.cassini_states import CassiniStates
 from earthspin.questions.precession import Precession
 from earthspin.views.table import NUMBERS_ONLY, some_unknown
 

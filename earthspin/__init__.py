@@ -27,7 +27,7 @@ _QUESTIONS = {
     "free_rotor": "earthspin.questions.free_rotor",
     "heavy_top": "earthspin.questions.top",
     "spheroid_field": "earthspin.questions.spheroid",
-    "cassini_states": "earthspin.questions.cassini",
+    "cassini_states": "earthspin.questions.cassini_states",
     "love_numbers": "earthspin.questions.love_numbers",
     "compliances": "earthspin.questions.compliances",
 }

@@ -31,11 +31,29 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-#: Every question, by the word after ``compute =``.
-QUESTIONS: dict[str, type[Question]] = {
-    question.word: question
-    for question in (getattr(earthspin, call).question for call in vars(earthspin)["_QUESTIONS"])
-}
+class _Questions(Mapping[str, type[Question]]):
+    """Classes of questions, by the word after ``compute =``.
+
+    A module is named after the word of its question, and imported when the class is needed.
+    """
+
+    @property
+    def calls(self) -> dict[str, str]:
+        """Public calls of the questions, by word."""
+        modules = vars(earthspin)["_QUESTIONS"].items()
+        return {path.rpartition(".")[2].replace("_", "-"): call for call, path in modules}
+
+    def __getitem__(self, word: str) -> type[Question]:
+        return getattr(earthspin, self.calls[word]).question  # type: ignore[no-any-return]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.calls)
+
+    def __len__(self) -> int:
+        return len(self.calls)
+
+
+QUESTIONS = _Questions()
 
 #: Most parts of a key between dots.
 MOST_PARTS = 32

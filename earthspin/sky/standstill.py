@@ -13,13 +13,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from earthspin.sky.iau import mean_longitude_of_node
 
 FloatArray = NDArray[np.float64]
 
-SAMPLING = 0.5  # days; gives the time of the extreme to 2 minutes
+#: Spacing of the samples among which extremes are looked for, and that of the three samples about
+#: each, d; the second determines the times of the extremes to 0.5 s.
+_SAMPLING, _CLOSE = 0.5, 0.02
 _REACH = 2.0 * 365.25  # days searched before and after the passage of the node
 
 
@@ -81,12 +82,22 @@ def find_standstills(
     """
     standstills = []
     for kind, passage in node_passages(start, end):
-        days = np.arange(passage - _REACH, passage + _REACH, SAMPLING)
-        turning = CubicSpline(days, declination(days)).derivative().roots(extrapolate=False)
-        # The spline gives only the time; near an extreme, its error affects the value in second
-        # order.
+        days = np.arange(passage - _REACH, passage + _REACH, _SAMPLING)
+        rising = np.diff(declination(days)) > 0
+        near = days[1:-1][rising[1:] != rising[:-1]]
+        turning = _vertices(declination, _vertices(declination, near, _SAMPLING), _CLOSE)
         extremes = declination(turning)
         swing = np.abs(extremes)
         best = np.argmax(swing) if kind == "major" else np.argmin(swing)
         standstills.append(Standstill(kind, float(turning[best]), float(extremes[best])))
     return standstills
+
+
+def _vertices(
+    declination: Callable[[FloatArray], FloatArray], days: FloatArray, spacing: float
+) -> FloatArray:
+    """Days of the vertices of parabolas through three evenly spaced values about given days."""
+    before, middle, after = np.split(
+        declination(np.concatenate([days - spacing, days, days + spacing])), 3
+    )
+    return days + spacing / 2 * (before - after) / (before - 2 * middle + after)

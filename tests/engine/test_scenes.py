@@ -91,6 +91,10 @@ def test_changes_reach_into_tables() -> None:
         load_scene("torque", {"step.size": 1})
 
 
+def test_each_module_is_named_after_its_question() -> None:
+    assert all(question.word == word for word, question in QUESTIONS.items())
+
+
 def test_a_key_replaces_the_keys_that_it_excludes() -> None:
     times = ["2020-01-01", "2021-01-01"]
     question = load_scene("pole", {"times": times})

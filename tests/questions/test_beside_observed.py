@@ -12,7 +12,7 @@ from earthspin.bodies import SATURN
 from earthspin.bodies.moon import OBLIQUITY
 from earthspin.bodies.moons import IAPETUS, TITAN_OBLIQUITY
 from earthspin.engine.neglected import Neglected
-from earthspin.questions.cassini import CassiniStates
+from earthspin.questions.cassini_states import CassiniStates
 from earthspin.questions.precession import Precession
 from earthspin.views.of_question import tables_for
 from earthspin.views.table import NUMBERS_ONLY, beside_observed, some_unknown

@@ -29,9 +29,9 @@ def test_each_extreme_is_one_of_skyfields(precession_tree: xr.DataTree, number: 
 
     best = minimize_scalar(minus_swing, bounds=(-3, 3), method="bounded", options={"xatol": 1e-8})
     kernel.close()
-    assert abs(best.x) < 1e-3
+    assert abs(best.x) < 2e-5  # measured: 5.3e-6, half a second
     off = abs(-sign * best.fun - float(found.standstill_declination))
-    assert off < 5e-8  # deg; measured: 1.3e-8, the second order of the error in time
+    assert off < 5e-10  # deg; measured: 9e-11
 
 
 def test_they_alternate_every_nine_years(precession_tree: xr.DataTree) -> None:
