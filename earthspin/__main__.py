@@ -1,4 +1,4 @@
-"""`python -m earthspin`."""
+"""Entry point of the command line when it is started by `python -m earthspin`."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""Modules that are imported on first use as an attribute of their package."""
+"""Import modules only when they are first used as attributes of their package."""
 
 from importlib import import_module
 

@@ -205,7 +205,7 @@ def _welcome(_: Namespace) -> None:
 
 
 def _report(options: Namespace) -> None:
-    """Print and write the precession or wobble report."""
+    """Write the report on precession or on the wobble, and print its tables."""
     from earthspin.views import report
     from earthspin.views.of_question import print_tables
 
@@ -226,7 +226,7 @@ def _report(options: Namespace) -> None:
 
 
 def _play(options: Namespace) -> None:
-    """Write an interactive page."""
+    """Write an interactive HTML page about the chosen topic."""
     from earthspin.views.play import write_page
 
     page = write_page(options.what, options.out or f"play-{options.what}.html")
@@ -361,7 +361,7 @@ def _scenes(_: Namespace) -> None:
 
 
 def _keys(options: Namespace) -> None:
-    """List the keys of one question or of all questions."""
+    """Print the input keys of one question or of all questions."""
     from earthspin.engine.question import describe_keys
     from earthspin.scenes import QUESTIONS, question_named
 
@@ -427,7 +427,7 @@ def _print_written(*paths: str | Path, file: Any = None) -> None:
 
 
 def _open(page: Path) -> None:
-    """Open a page in the default browser, or print that there is none."""
+    """Open a page in the default browser; print a message if no browser can be opened."""
     import webbrowser
 
     if not webbrowser.open(page.resolve().as_uri()):
@@ -463,7 +463,7 @@ def _keys_of(scene: str) -> str:
 
 
 def _question(options: Namespace) -> Question:
-    """Build the question of a command from the scene, then --set, then --ephemeris."""
+    """Build the question of a scene, with the changes of --set and then of --ephemeris."""
     from earthspin.scenes import files_of, typed_scene
 
     changes = dict(_setting(text) for text in options.settings)

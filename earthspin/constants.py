@@ -136,7 +136,7 @@ EPSILON_0 = Constant(84381.406, "arcsec", 0.001, P03 + ": obliquity at J2000.0",
 
 
 def _rate(value: float, source: str, read_in: str) -> Constant:
-    """Rate in arcseconds per year whose source gives no uncertainty."""
+    """Constant for a rate in arcseconds per year whose source gives no uncertainty."""
     return Constant(value, "arcsec yr-1", None, source, read_in)
 
 

@@ -124,7 +124,7 @@ def days(times: object, where: Where) -> FloatArray:
 
 
 def _counts(times: Any, where: Where) -> NDArray[np.int64]:
-    """Convert a list of dates other than a Time to whole microseconds from J2000.0 TDB."""
+    """Convert a list of dates, not an astropy Time, to whole microseconds from J2000.0 TDB."""
     if is_masked(times):
         raise where.error("a masked time", "give times that are all known")
     zone = getattr(times, "tz", None) or getattr(getattr(times, "dt", None), "tz", None)
@@ -290,7 +290,10 @@ class TimeGrid:
 
     @classmethod
     def over(cls, span: Span, step: float) -> TimeGrid:
-        """Times from the start of a span to its end inclusive, `step` seconds apart."""
+        """Make a grid of times from the start of a span up to its end, `step` seconds apart.
+
+        The last time is the end, or the last step before it.
+        """
         spacing = round(step * 1e6)
         return cls(span.first, spacing, (span.last - span.first) // spacing + 1)
 
@@ -299,7 +302,7 @@ class TimeGrid:
         return float(self.days(0, 1)[0]), float(self.days(self.size - 1)[0])
 
     def days(self, first: int = 0, last: int | None = None) -> FloatArray:
-        """Days from J2000.0 TDB of the times from `first` up to `last`."""
+        """Days from J2000.0 TDB of the times with index `first` to `last` - 1."""
         index = np.arange(first, self.size if last is None else last, dtype=np.int64)
         whole, rest = np.divmod(self.start + self.step * index, MICROSECONDS_PER_DAY)
         return np.asarray(whole + rest / MICROSECONDS_PER_DAY)
@@ -352,7 +355,7 @@ class TimeList(Listed):
         return float(self.listed.min()), float(self.listed.max())
 
     def days(self, first: int = 0, last: int | None = None) -> FloatArray:
-        """Days from J2000.0 TDB of the times from `first` up to `last`."""
+        """Days from J2000.0 TDB of the times with index `first` to `last` - 1."""
         return self.listed[first:last]
 
 
@@ -362,13 +365,13 @@ Epochs = TimeGrid | TimeList
 
 @dataclass(frozen=True)
 class Spacing(Number):
-    """Kind of a step between times: a microsecond or more, less than 10,000 years."""
+    """Converter of a time step: at least a microsecond, and less than 10,000 years."""
 
     unit: str = "s"
     example: str = "6 h"
 
     def read(self, value: object, where: Where) -> float:
-        """Check a value and convert it."""
+        """Convert a time step to seconds, and check its range."""
         try:
             step = super().read(value, where)
         except SceneError as error:

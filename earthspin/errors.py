@@ -79,7 +79,7 @@ class SceneError(EarthspinError, ValueError):
 
 @dataclass(frozen=True)
 class Where:
-    """Place of a value in the input, for messages.
+    """Location of a value in the input of the user, for messages.
 
     Attributes
     ----------
@@ -100,11 +100,11 @@ class Where:
         return f"{self.source}: {self.key}" if self.source else self.key
 
     def error(self, given: object, problem: str) -> SceneError:
-        """Build the error for an input at this place."""
+        """Build the error for a wrong value of the key that this object locates."""
         return SceneError(self.key, given, problem, source=self.source)
 
     def at(self, inner: str) -> Where:
-        """Return the place of an element of the value at this place."""
+        """Return the location of an element within the value that this object locates."""
         return Where(f"{self.key}.{inner}", self.source, self.typed)
 
 
@@ -138,7 +138,7 @@ class BodyError(EarthspinError, ValueError):
 
     @classmethod
     def lacking(cls, body: str, forms: Mapping[str, str]) -> BodyError:
-        """Build the error for a number that the question needs and the body lacks.
+        """Build the error for numbers that a body lacks and the question needs.
 
         Parameters
         ----------
@@ -378,7 +378,7 @@ def _rebuild(
 
 
 def nearest(word: object, allowed: Iterable[str]) -> str:
-    """List the allowed words, with the one most similar to the input first.
+    """List the allowed words for a message; name the one most similar to the wrong word first.
 
     Parameters
     ----------
@@ -405,7 +405,7 @@ def _rounded_up(value: float) -> str:
 
 
 def one_line(error: BaseException) -> str:
-    """Message of an error of a library or of the system, on one line."""
+    """Message of an exception of a library or the operating system, on one line."""
     return " ".join(str(getattr(error, "strerror", None) or error).split())
 
 
@@ -419,7 +419,9 @@ def in_bytes(count: float) -> str:
 
 
 def no_plain_file(path: object) -> str:
-    """Reason why a path is not a regular file (a device or a pipe); empty for a regular file.
+    """Reason why a path cannot be read as a file: a folder, device or pipe; otherwise empty.
+
+    It is also empty if nothing exists at the path.
 
     Parameters
     ----------
@@ -452,7 +454,7 @@ def _shown(given: object) -> str:
 
 
 def _brief(word: object) -> str:
-    """Show a word of the input, shortened and without quotes."""
+    """Show a word of the input in a message, shortened and without quotes."""
     return _cut(printable(word)) if isinstance(word, str) else _shown(word)
 
 
@@ -461,7 +463,7 @@ def _cut(text: str) -> str:
 
 
 def _named(path: object) -> str:
-    """Show a path; a very long path is shortened to its end."""
+    """Show a path in a message; only the end of a very long path is shown."""
     text = printable(str(path))
     return text if len(text) <= LONGEST_PATH else f"...{text[-LONGEST_PATH:]}"
 

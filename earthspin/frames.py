@@ -1,4 +1,4 @@
-"""Axes of answers as frames of astropy and Skyfield.
+"""Frames of astropy and Skyfield whose axes are those of a computed answer.
 
 The frames rotate directions: no light time, aberration or light deflection is applied, unlike in
 astropy's GCRS and CIRS. The question of an answer is solved again at the very time of the frame,
@@ -44,7 +44,7 @@ __all__ = ["BodyFixed", "EquatorOfDate", "SkyfieldFrame", "rotations"]
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """Question of an answer, without its times, to be computed at the times of a frame.
+    """Question of an answer, without its times, to be solved again at the times of a frame.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ class Model:
 
     @classmethod
     def of(cls, answer: Any, words: tuple[str, ...]) -> Model:
-        """Read the model of an answer.
+        """Make the model from an answer.
 
         Raises
         ------
@@ -95,7 +95,7 @@ class Model:
         return f"<answer to '{self.question.word}'>"
 
     def at(self, **times: Any) -> Question:
-        """Build the question with other times."""
+        """Build the question of the model for other times."""
         own = {
             name: getattr(self.question, name)
             for name in self.question.given
@@ -107,7 +107,10 @@ class Model:
 
 @lru_cache(maxsize=64)
 def _solved(model: Model, times: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
-    """Matrices from the ICRS, shape (n, 3, 3), and 95 % half-widths of pole or attitude, rad."""
+    """Rotation matrices from the ICRS, shape (n, 3, 3), and 95 % half-widths of their error, rad.
+
+    The error is that of the pole or of the attitude.
+    """
     solvers = {"long-term": _long_term, "pole": _pole, "rotation": _rotation}
     return solvers[model.question.word](model, np.array(times))
 
@@ -121,7 +124,7 @@ def _long_term(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]
 
 
 def _pole(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Matrices to the true equator and equinox of the figure axis, and errors of the pole.
+    """Matrices from the ICRS to the true equator and equinox of date, and pole errors, rad.
 
     The equinox is the node on the ecliptic of date or on the orbit.
     """
@@ -137,7 +140,7 @@ def _pole(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _rotation(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Principal axes of the body."""
+    """Matrices from the ICRS to the principal axes of the body, and attitude errors, rad."""
     if times.min() < model.first:
         start, asked = datetime64(np.array([model.first, times.min()]))
         problem = f"the rotation starts at {start} TDB; take a later time"
@@ -152,7 +155,7 @@ def _tdb(times: FloatArray) -> Time:
 
 
 def _at(model: Model | None, obstime: Time) -> tuple[FloatArray, FloatArray]:
-    """Matrices and errors at the times of a frame, with the shape of the times."""
+    """Matrices from the ICRS, and errors (rad), in the shape of the times of a frame."""
     if model is None:
         raise SceneError("model", "nothing", "give an answer, as in model=answer")
     times = days(obstime.reshape(-1), Where("obstime"))
@@ -168,12 +171,12 @@ class _ModelAttribute(Attribute):  # type: ignore[misc]
         super().__init__(default=None)
 
     def convert_input(self, value: Any) -> tuple[Any, bool]:
-        """Read the model of an answer."""
+        """Convert an answer to its model, as astropy requires for attributes of frames."""
         return (None, False) if value is None else (Model.of(value, self.words), True)
 
 
 class _Rotated(BaseCoordinateFrame):  # type: ignore[misc]
-    """Frame with the axes of an answer."""
+    """Base class of astropy frames whose axes are those of an answer."""
 
     default_representation = SphericalRepresentation
 

@@ -78,7 +78,7 @@ def run_command(command: Callable[[], int | None], *, show_traceback: bool = Fal
 
 
 def _judged(error: Exception) -> tuple[int, str]:
-    """Return the exit status and the printed line for an error."""
+    """Return the exit status for an error, and the line to print."""
     if isinstance(error, EarthspinError):
         return USAGE_ERROR, str(error)
     if isinstance(error, MemoryError):
@@ -129,7 +129,7 @@ def _check_streams() -> None:
 
 @contextmanager
 def _endings() -> Iterator[None]:
-    """Turn terminating signals into interrupts, so that temporary files are removed."""
+    """Turn signals that end the process into KeyboardInterrupt, so that files are cleaned up."""
 
     def end(number: int, frame: FrameType | None) -> None:
         signal.signal(number, signal.SIG_DFL)  # the second one ends it at once

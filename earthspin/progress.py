@@ -99,10 +99,10 @@ def _bar(label: str, total: int, already: int) -> Iterator[Advance]:
     from rich.text import Text
 
     class Rate(columns.TextColumn):
-        """Column with the work done per second."""
+        """Column of the progress bar that shows the work done per second."""
 
         def render(self, task: columns.Task) -> Text:
-            """Show three digits as soon as the rate is known."""
+            """Show the work done per second with three digits, or nothing before it is known."""
             speed = task.finished_speed or task.speed
             return Text(f"{speed:.3g}/s" if speed else "")
 

@@ -255,7 +255,7 @@ class Body(FromMass):
         return card(self.name, rows)
 
     def _source(self, name: str) -> str:
-        """Source of a number; empty if the number has been changed."""
+        """Source of a number of this body; empty if the number differs from the built-in body's."""
         value, cited = getattr(self, name), NUMBERS.get(self.name, {}).get(name)
         if isinstance(value, c.Constant):
             return value.source
@@ -345,7 +345,7 @@ class Body(FromMass):
 
     @property
     def changes(self) -> str:
-        """Description of the changes from the built-in body of the same name; empty if none."""
+        """Describe the differences from the built-in body of the same name; empty if none."""
         start = BODIES.get(self.name)
         if start is None or start is self:
             return ""
@@ -400,7 +400,7 @@ class Body(FromMass):
         )
 
     def needed(self, name: str) -> Numeric:
-        """Return a field, or raise an error if this body does not have it.
+        """Return the value of a field; raise an error if the field is not set.
 
         Raises
         ------
@@ -428,7 +428,7 @@ class Body(FromMass):
             raise BodyError.lacking(self.name, {name: self.KINDS[name].form for name in missing})
 
     def number(self, name: str) -> float:
-        """Return a field as one float.
+        """Return the value of a field as a float; refuse an array of several values.
 
         Raises
         ------
@@ -441,7 +441,7 @@ class Body(FromMass):
         return float(value)
 
     def magnitudes(self) -> dict[str, Magnitude]:
-        """Converters for the mass and for each number that is set, by name."""
+        """Converters, by field name, of the mass and of each numerical field that is set."""
         kinds = {name: self.KINDS[name] for name in self.UNITS if getattr(self, name) is not None}
         return kinds | {"mass": _READ_AS["mass"]}
 
@@ -525,7 +525,10 @@ class Body(FromMass):
         return _replace(fixed, pole=fixed._pole_at(obliquity), pole_uncertainty=None)
 
     def _figure(self, changes: dict[str, Any]) -> dict[str, Numeric]:
-        """Remove `moments` from the changes; return J2, H or triaxiality that fit the changes."""
+        """Return new values of J2, H and triaxiality that follow from changes of other fields.
+
+        Remove `moments` from the changes.
+        """
         if "moments" in changes:
             moments = changes.pop("moments")
             clash = {"j2", "dynamical_flattening", "triaxiality"} & set(changes)
@@ -544,13 +547,16 @@ class Body(FromMass):
         return {"dynamical_flattening": self.needed("dynamical_flattening") * j2 / self.j2}
 
     def _is_another(self, changes: Mapping[str, Any]) -> bool:
-        """Return True if changes alter a quantity on which the observed wobble depends."""
+        """Return True if a changed field that affects the wobble differs by more than 1 %.
+
+        The observed wobble then does not apply to the body.
+        """
         changed = _OF_THE_WOBBLE & set(changes)
         return not all(is_close(changes[name], getattr(self, name)) for name in changed)
 
     @property
     def are_as_named(self) -> Numeric:
-        """Test element-wise whether figure and spin equal those of the built-in body to 1 %."""
+        """Test for each member whether figure and spin agree with the built-in body to 1 %."""
         named = BODIES.get(self.name)
         if named is None:
             return False
@@ -559,7 +565,7 @@ class Body(FromMass):
 
     @property
     def is_as_named(self) -> bool:
-        """True if figure and spin equal those of the built-in body to 1 %, in all members."""
+        """True if figure and spin of all ensemble members agree with the built-in body to 1 %."""
         return all_of(self.are_as_named)
 
 
@@ -620,7 +626,10 @@ def body(name: object, where: Where | None = None) -> Body:
 
 
 def _placed(function: Any, where: Where) -> Body:
-    """Return the built-in body for the target of a Skyfield vector function, with its position."""
+    """Return the built-in body whose positions a Skyfield vector function gives.
+
+    The function becomes the position source of the body.
+    """
     match = next((body for body in BODIES.values() if function.target in body.naif), None)
     if match is None:
         problem = "its mass is not known; give Body(name=..., gm=..., position=...)"
@@ -629,7 +638,7 @@ def _placed(function: Any, where: Where) -> Body:
 
 
 def members(bodies: Iterable[Body]) -> int:
-    """Number of ensemble members described by the labelled arrays of several bodies.
+    """Number of ensemble members: product of the lengths of all array dimensions of the bodies.
 
     Parameters
     ----------

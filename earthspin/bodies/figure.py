@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def flattening_of(j2: Constant, moment: Constant) -> Constant:
-    """H = J2 / (C/(M R2)), with its propagated uncertainty."""
+    """Dynamical flattening H = J2/(C/(M R2)), with its propagated uncertainty."""
     h = j2.value / moment.value
     u = math.hypot(j2.relative_uncertainty, moment.relative_uncertainty)
     return Constant(
@@ -29,7 +29,9 @@ def flattening_of(j2: Constant, moment: Constant) -> Constant:
 
 
 def moments_of(j2: float, h: float, triaxiality: float) -> NDArray[np.float64]:
-    """Principal moments A <= B <= C in units of M a2, with C about the spin axis, shape (3,).
+    """Principal moments of inertia from J2, H and triaxiality, divided by M a2, shape (3,).
+
+    The order is A <= B <= C, with C about the spin axis.
 
     Parameters
     ----------

@@ -40,7 +40,7 @@ POLES = Tabulated("poles of the giant planets", IAU_2015, PCK11)
 
 
 def _moon(name: str, gm: float, a: float, days: float) -> Satellite:
-    """Satellite from GM (km3 s-2), semi-major axis (km) and period (d)."""
+    """Satellite of a planet, from GM (km3 s-2), semi-major axis (km) and orbital period (d)."""
     return Satellite(
         name,
         Constant(gm * 1e9, "m3 s-2", None, JPL, JPL_READ),
@@ -85,7 +85,7 @@ SATURN_CONSTANT = Constant(
 
 
 def _year(days: float) -> Constant:
-    """Sidereal orbital period, converted from days."""
+    """Constant with the sidereal orbital period of a planet in seconds, from days."""
     return Constant(
         days * DAY,
         "s",
@@ -98,7 +98,10 @@ def _year(days: float) -> Constant:
 def _numbers(
     gm: float, radius: float, j2: Constant, spin: float, orbit: Constant
 ) -> dict[str, Constant]:
-    """GM, radius, J2 and periods of a giant planet; gm in km3 s-2, radius in km, spin in deg/d."""
+    """Fields of a giant planet, from J2, orbital period and other numbers.
+
+    GM is in km3 s-2, the radius in km and the spin in deg/d.
+    """
     return {
         "gm": Constant(gm * 1e9, "m3 s-2", None, DE440 + ", with the satellites", GM_HORIZONS),
         "radius": Constant(radius * 1e3, "m", None, j2.source, j2.read_in),
@@ -110,7 +113,7 @@ def _numbers(
 
 
 def _orbit(a: float, e: float, i: float, node: float, perihelion: float, mean: float) -> Orbit:
-    """Mean elliptical orbit about the Sun, from a in au and angles in degrees."""
+    """Mean elliptical orbit of a planet about the Sun, from a in au and angles in degrees."""
     return Orbit(
         a=a * AU,
         e=e,

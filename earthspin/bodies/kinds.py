@@ -39,18 +39,18 @@ class Magnitude:
 
     @property
     def form(self) -> str:
-        """Example of a valid value in a scene, for any body."""
+        """Pattern of a valid value in a scene file: text with the unit, or a pure number."""
         return f'"... {self.text.partition(" ")[2]}"' if self.unit else self.ratio
 
     def read(self, value: object, where: Where) -> Any:
-        """Read text, a number in SI units, a Quantity, a labelled array, or output of `write`."""
+        """Convert text, a number, a Quantity, an array or a table of `write` to SI units."""
         if isinstance(value, Mapping):
             return _labelled(value, where)
 
         return quantity(value, self.unit, where, self.text)
 
     def write(self, value: Any) -> Plain:
-        """Return a number with its unit, or an array as a table of its bytes, dims and labels."""
+        """Return a number with its unit, or an array as a table of values, dims and labels."""
         if hasattr(value, "dims"):
             table = pack(value.values) | {"dims": list(map(str, value.dims))}
             return table | {"labels": _labels_of(value)}
@@ -94,14 +94,17 @@ class Uncertainties:
     words, hint = "standard deviation divided by value, by field", "Mapping[str, float]"
 
     def read(self, value: object, where: Where) -> dict[str, float]:
-        """Read each number; the body checks the names."""
+        """Read a table of relative standard deviations by field name.
+
+        The body checks the field names.
+        """
         if not isinstance(value, Mapping):
             raise where.error(value, "give a table of one number for each field")
 
         return {name: quantity(u, "", where.at(name), "1e-4") for name, u in value.items()}
 
     def write(self, value: Mapping[str, float]) -> Plain:
-        """Return the table of uncertainties."""
+        """Return the relative standard deviations as a table by field name."""
         return dict(value)
 
 
@@ -144,7 +147,7 @@ class CitedPeriod:
     )
 
     def read(self, value: object, where: Where) -> Constant:
-        """Return a `Constant` from a constant or a table of its fields."""
+        """Read a period in days from a `Constant`, or from a table of its fields."""
         if isinstance(value, Constant):
             return value
 
@@ -163,12 +166,12 @@ class CitedPeriod:
             raise where.error(value, f"give a table of {names}") from None
 
     def write(self, value: Constant) -> Plain:
-        """Return the table of the fields that are set."""
+        """Return a table of those fields of the `Constant` that are set."""
         return {name: entry for name, entry in asdict(value).items() if entry not in (None, "")}
 
 
 class OwnPlace:
-    """Converter of a position source, for a body without positions in a kernel."""
+    """Converter of a body's own position source: a Skyfield function or kernel segments."""
 
     words = "a vector function of Skyfield's, or segments like {kernel, centre, target}"
     hint = "VectorFunction | Trajectory | Mapping[str, Any]"

@@ -23,14 +23,14 @@ def is_finite(value: Numeric) -> Numeric:
 
 
 def are_close(value: Numeric | None, other: Numeric | None) -> Numeric:
-    """Test element-wise whether two values agree to within `SAME_BODY`."""
+    """Test element-wise whether two values agree to within the relative tolerance `SAME_BODY`."""
     if value is None or other is None:
         return value is other
     return abs(value - other) <= SAME_BODY * abs(other)
 
 
 def is_close(value: Numeric | None, other: Numeric | None) -> bool:
-    """Test whether two values agree to within `SAME_BODY`, in all elements."""
+    """Test whether all elements of two values agree to within the tolerance `SAME_BODY`."""
     return all_of(are_close(value, other))
 
 

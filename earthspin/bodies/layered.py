@@ -1,4 +1,4 @@
-"""Converters of interiors, given by name, as a table of layers or samples, or as an object."""
+"""Converters of the interior of a body: a name, a table of layers or samples, or a layered body."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Layers:
         return LayeredBody(name, layers, reference)
 
     def write(self, value: LayeredBody) -> dict[str, Any]:
-        """Return the table of layers."""
+        """Return a layered body as a table of its name, reference and layers."""
         return {
             "name": value.name,
             "reference": value.reference,
@@ -112,7 +112,7 @@ def _sampled(table: Any, name: str, reference: str, where: Where) -> LayeredBody
 
 
 class UnderTheSurface:
-    """Converter of the interior of a body: a name is stored as text, all else as a layered body."""
+    """Converter of the interior of a body, which is a name or a layered body."""
 
     words = (
         'a name, like "prem", or a table: name, and either layers (top, density, vp, vs, '
@@ -129,5 +129,5 @@ class UnderTheSurface:
         return Text().read(value, where)
 
     def write(self, value: str | LayeredBody) -> str | dict[str, Any]:
-        """Return the name, or the table of layers."""
+        """Return the name of the interior, or the table of a layered body."""
         return value if isinstance(value, str) else Layers().write(value)

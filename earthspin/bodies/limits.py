@@ -24,7 +24,7 @@ OF_AVERAGE = 2.0
 
 
 def largest(value: Numeric) -> float:
-    """Return a number, or the largest element of an array."""
+    """Return the largest element of an array, or a plain number unchanged."""
     return float(value.max() if hasattr(value, "max") else value)
 
 
@@ -41,7 +41,7 @@ def extent(body: Any) -> float:
 
 
 def overlap(distance: float, reach: float, name: str, centre: str) -> str | None:
-    """Message that two bodies overlap at a distance, or None if they do not.
+    """Message that two bodies overlap at a given distance of their centres; None if they do not.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def refuse_break_up(body: Any) -> None:
 
 
 def refuse_fast_axis(by_orbit: Numeric, by_spin: Numeric) -> None:
-    """Refuse an axis that precesses too fast for an average over orbits and spin.
+    """Raise an error if an axis precesses too fast for averages over orbits and rotations.
 
     Parameters
     ----------

@@ -32,7 +32,7 @@ class Epoch:
         return microseconds(value, where) / MICROSECONDS_PER_DAY
 
     def write(self, value: float) -> Plain:
-        """Return the days, because a date would be rounded to the microsecond."""
+        """Return the date as days from J2000.0 TDB, without rounding to the microsecond."""
         return value
 
 
@@ -167,7 +167,7 @@ _RULES: dict[str, tuple[Callable[[float], bool], str]] = {
 
 
 def _checked(elements: Mapping[str, Any], where: Where) -> dict[str, Any]:
-    """Read the elements and check that each is within its bounds.
+    """Convert orbital elements to SI units, and refuse an element outside its allowed range.
 
     Raises
     ------

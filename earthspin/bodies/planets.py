@@ -48,7 +48,7 @@ def pulled_by(body: Body) -> tuple[Body, ...]:
 
 
 def on_its_orbit(body: Body) -> Body:
-    """Return a body, with its mean orbit if it is a giant planet without orbit or position."""
+    """Return a body; a giant planet without orbit and position source gets its mean orbit."""
     placed = body.orbit is not None or body.position is not None
     if placed or body.name not in ORBITS:
         return body

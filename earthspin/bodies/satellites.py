@@ -46,7 +46,7 @@ class Satellite:
 def added_by(
     satellites: Iterable[Satellite], gm: float, radius: float, spin_period: float
 ) -> tuple[float, float]:
-    """Contributions of satellites to J2 and to C/(M R^2), called q and l.
+    """Contributions of satellites to J2 and to the polar moment factor C/(M R^2) of their planet.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def added_by(
 def carried(
     planet: dict[str, Constant], polar_moment: Constant, satellites: tuple[Satellite, ...]
 ) -> dict[str, Constant]:
-    """J2 and H of a planet together with the satellites that precess with its equator.
+    """Effective J2 and H of a planet, including the satellites that precess with its equator.
 
     Parameters
     ----------

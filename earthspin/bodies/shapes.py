@@ -89,7 +89,7 @@ def _si(value: Any, unit: str, name: str, example: str) -> Any:
 
 
 def _single(value: Any, unit: str, name: str, example: str) -> float:
-    """Convert one nonzero number to SI."""
+    """Convert one number to SI units; refuse zero and anything but a single number."""
     number = _si(value, unit, name, example)
     if not isinstance(number, float) or number == 0:
         raise Where(name).error(value, f"give one number other than zero, like '{example}'")

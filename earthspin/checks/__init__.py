@@ -1,1 +1,1 @@
-"""Self-checks on request: ladders of error against run time, and stiff and extreme cases."""
+"""Self-checks on request: error of methods against run time, and stiff or extreme test cases."""

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases, and how they are judged.
+"""Stiff and extreme test cases of the self-checks, and how their results are judged.
 
 A case measures the distance of a result from a reference: an invariant, a closed form or another
 method. During a case, every warning and every overflow, division by zero and invalid operation of
@@ -49,7 +49,7 @@ _NOT_NUMERICAL = (DeprecationWarning, PendingDeprecationWarning, FutureWarning, 
 
 @dataclass(frozen=True, kw_only=True)
 class Case:
-    """One stiff or extreme case.
+    """One stiff or extreme test case of the self-checks.
 
     Attributes
     ----------
@@ -88,14 +88,14 @@ class Case:
 
     @property
     def must_hold(self) -> bool:
-        """Return True if an answer is expected, False if a refusal is expected."""
+        """Return True if the case must give an answer, False if it must raise an error."""
         return not self.refusal
 
 
 def holds(
     *, bound: float, unit: str = "1", slow: bool = False, long: bool = False
 ) -> Callable[[Measure], Case]:
-    """Decorate a function that yields distances from a reference, which must be within `bound`.
+    """Make a case of a decorated function, whose distances from a reference must be within `bound`.
 
     The other arguments are those of `Case`.
     """
@@ -108,7 +108,7 @@ def refused(message: str) -> Callable[[Measure], Case]:
 
 
 def _case(measure: Measure, refusal: str = "", **numbers: Any) -> Case:
-    """Make a case from a decorated function, whose docstring has the name and the reasons."""
+    """Make a `Case` from a decorated function; its docstring gives name, reason and reference."""
     name, _, rest = (measure.__doc__ or measure.__name__).partition("Hard because:")
     why, _, reference = rest.partition("Compared with:")
     if refusal:
@@ -144,7 +144,7 @@ class Outcome:
 
 
 def judge(case: Case) -> Outcome:
-    """Run a case and judge it.
+    """Run a case, and compare its result with the bound or with the expected error message.
 
     Parameters
     ----------

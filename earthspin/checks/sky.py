@@ -29,7 +29,7 @@ CENTRE = BODY.naif[0]
 
 @cache
 def kernel() -> Ephemeris:
-    """DE421, opened once."""
+    """Ephemeris DE421, which is opened once and then reused."""
     return open_ephemeris("de421")
 
 
@@ -55,7 +55,7 @@ def unit_vectors(longitude: FloatArray, latitude: FloatArray) -> FloatArray:
 def eccentric_anomaly(
     mean: FloatArray, e: float, steps: int, start: FloatArray | None = None
 ) -> FloatArray:
-    """Solve Kepler's equation by a fixed number of plain Newton steps; eccentric anomaly in rad.
+    """Eccentric anomaly (rad) from Kepler's equation, by a fixed number of plain Newton steps.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def chebyshev_pieces(
     count: int,
     nodes: int,
 ) -> FloatArray:
-    """Chebyshev series of a function over pieces of equal length, shape (count, nodes, k).
+    """Chebyshev coefficients of a function in intervals of equal length, shape (count, nodes, k).
 
     Parameters
     ----------
@@ -136,7 +136,7 @@ class Tide:
         return tensor
 
     def __call__(self, time: float) -> FloatArray:
-        """Tensor at a time in s, s-2, shape (3, 3)."""
+        """Tidal tensor of Sun and Moon at a time in s, s-2, shape (3, 3)."""
         self.calls += 1
         piece = int(time / self.PIECE)
         angle = np.arccos(min(max(2 * (time / self.PIECE - piece) - 1, -1.0), 1.0))

@@ -26,7 +26,7 @@ _UNIT = "in the unit of the case, see 'unit'"
 
 
 class Cases(Variables, along=("case",)):
-    """Cases and their outcomes."""
+    """Variables of the dataset of stiff and extreme cases, with the outcome of each case."""
 
     measured: Value = words("distance from the reference", comment=_UNIT)
     bound: Value = words("largest allowed distance", comment=_UNIT)
@@ -83,7 +83,7 @@ def stability(*, quick: bool = False, only: str | None = None, long: bool = Fals
 
 
 def all_cases() -> tuple[Case, ...]:
-    """Return every case, in the order of `PARTS` and of their definition."""
+    """Return all stiff and extreme cases, in the order of `PARTS` and of their definition."""
     modules = (import_module(f"earthspin.checks.cases.{part}") for part in PARTS)
     return tuple(c for module in modules for c in vars(module).values() if isinstance(c, Case))
 
@@ -124,7 +124,7 @@ def chosen_cases(
 
 
 def labelled(cases: Sequence[Case], outcomes: Sequence[Outcome]) -> xr.Dataset:
-    """Return the dataset of cases and their outcomes."""
+    """Make a dataset of the cases and their outcomes, labelled by the name of the case."""
     # The later keys win: the bound of an outcome replaces that of its case.
     rows = [
         {"case_part": case.part, "must_hold": case.must_hold} | vars(case) | vars(outcome)

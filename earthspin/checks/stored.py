@@ -23,7 +23,7 @@ FOLDER = Path(__file__).parent / "references"
 
 
 def load(name: str, inputs: Mapping[str, Any]) -> dict[str, DoubleDouble]:
-    """Read a reference and check that it belongs to the current inputs of the problem.
+    """Read stored reference values, and refuse them if they were computed for other inputs.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def attitude_error(values: FloatArray, true: DoubleDouble) -> float:
 def rotation_error(
     values: tuple[FloatArray, FloatArray], omega: DoubleDouble, attitude: DoubleDouble
 ) -> float:
-    """Larger of the relative error of the angular velocity and the error of the attitude, rad.
+    """Larger of the relative error of the angular velocity and the attitude error in rad.
 
     Parameters
     ----------

@@ -78,7 +78,7 @@ class Setting:
 
 @dataclass(frozen=True)
 class Method:
-    """A method with its settings.
+    """A computing method, with all settings at which its error and run time are measured.
 
     Attributes
     ----------
@@ -110,7 +110,7 @@ def method(
     values: Iterable[float] | None = None,
     bound: float = math.inf,
 ) -> Method:
-    """Return a method whose settings differ in one number.
+    """Make a `Method` whose settings differ in one number, such as a tolerance.
 
     Parameters
     ----------
@@ -169,7 +169,7 @@ class Ladder:
 
     @property
     def rungs(self) -> int:
-        """Largest number of settings of any method."""
+        """Largest number of settings (rungs) that any method of the ladder has."""
         return max(len(method.settings) for method in self.methods)
 
 
@@ -235,7 +235,7 @@ def timed(run: Callable[[], Any]) -> Timing:
 
 
 def _seconds(run: Callable[[], Any], loops: int) -> tuple[float, Any]:
-    """Run time of `loops` calls, s, and the result of the last call."""
+    """Total run time of `loops` calls of a function, s, and the result of the last call."""
     result = None
     begin = time.perf_counter()
     for _ in range(loops):
@@ -394,7 +394,7 @@ def dataset(ladder: Ladder, points: Sequence[Sequence[Point]], *, quick: bool) -
 
 
 def points_class(unit: str) -> type[Variables]:
-    """Return the class of a result with errors in `unit`."""
+    """Make the class for the measured points of a ladder, with errors in `unit`."""
     by_method = ("method",)
 
     class Points(Variables, along=("method", "rung")):
@@ -456,7 +456,7 @@ def _sentence_of_task(ladder: Ladder, points: Sequence[Sequence[Point]], task: s
 
 
 class _Row(NamedTuple):
-    """A point with the error in the unit of the result."""
+    """Error, run time and name of one measured setting; the error is in the result's unit."""
 
     error: float
     run_time: float
@@ -466,14 +466,14 @@ class _Row(NamedTuple):
 
 
 def _cheapest(rows: list[_Row]) -> _Row:
-    """Fastest row; among rows whose run times agree within their spread, the most accurate."""
+    """Fastest setting; of settings as fast within the spread of run times, the most accurate."""
     fastest = min(rows, key=lambda row: row.run_time)
     similar = [r for r in rows if r.run_time - fastest.run_time <= max(r.spread, fastest.spread)]
     return min(similar, key=lambda row: row.error)
 
 
 def _steps(rows: list[_Row]) -> list[tuple[float, _Row]]:
-    """Fastest row for each error level, at most `MOST_STEPS` rows.
+    """Fastest setting that reaches each error level, for at most `MOST_STEPS` levels.
 
     A row that is fastest for several levels appears only with the smallest level.
     """

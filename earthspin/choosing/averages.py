@@ -1,4 +1,4 @@
-"""Choices for averages over orbits: length of the window and time between samples."""
+"""Possible settings of averages over orbits: length of the time window, and sampling step."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Averaging:
 def average_choices(
     body: Body, perturbers: tuple[Body, ...], first: float, last: float
 ) -> list[Choice[Averaging]]:
-    """Settings of an average over orbits, with the relative error of the precession rate.
+    """Possible settings of an average over orbits, with relative errors of the precession rate.
 
     Parameters
     ----------

@@ -39,7 +39,7 @@ class Choice(Generic[S]):
 
 @lru_cache
 def models() -> dict[str, Any]:
-    """Read the file of measured errors, and return its content."""
+    """Read the measured errors of the settings of all methods from their data file."""
     table: dict[str, Any] = json.loads(DATA.read_text(encoding="utf-8"))
     return table
 

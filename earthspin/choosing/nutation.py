@@ -1,4 +1,4 @@
-"""Choices for the true equator: nutation series, and spacing of its interpolation nodes."""
+"""Possible settings of the true equator: nutation series, and spacing of interpolation nodes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ NUTATION_MEASURED, NUTATION_PHASE = 36525.0, 1.1
 
 @dataclass(frozen=True)
 class NutationNodes:
-    """Settings of a nutation series that is interpolated between nodes.
+    """Nutation series, and time between the nodes at which it is evaluated for interpolation.
 
     Attributes
     ----------
@@ -29,7 +29,7 @@ class NutationNodes:
 
 
 def nutation_choices(first: float, last: float, size: int) -> list[Choice[NutationNodes | None]]:
-    """Settings for the true equator, with their errors.
+    """Possible settings of nutation for the true equator, each with its error.
 
     Parameters
     ----------

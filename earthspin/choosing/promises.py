@@ -28,7 +28,7 @@ class Report(Variables):
     evaluations: Value = number("1", "evaluations of positions, or of terms of nutation")
 
     def __init_subclass__(cls, units: str, error_of: str) -> None:
-        """Declare the unit and the quantity of the errors."""
+        """Set the unit of the error variables of a report, and the quantity in error."""
         super().__init_subclass__()
         cls.schema = {
             name: replace(variable, units=units, long_name=f"{variable.long_name}, {error_of}")
@@ -46,7 +46,10 @@ class Report(Variables):
 
     @classmethod
     def of_series(cls, asked: float | None, error: xr.DataArray) -> Self:
-        """Report the largest error of a series, whose attributes name its method."""
+        """Report on a series: requested accuracy, largest estimated error, and method.
+
+        The attributes of the error name the method.
+        """
         return cls(
             error_asked=asked,
             error_estimated=float(si(error).max()),

@@ -1,4 +1,4 @@
-"""Choices for the windows of the axis solver: length and number of nodes."""
+"""Possible settings of the axis solver: length of its time windows, and nodes in each window."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def window_choices(
     *,
     geodesic: float = 0.0,
 ) -> list[Choice[PoleWindows]]:
-    """Windows of the axis solver, with the error of each.
+    """Possible window lengths and node numbers of the axis solver, each pair with its error.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def window_choices(
 
 
 def _in_reach(rows: Any, reaches: list[float], reach: float) -> FloatArray:
-    """Errors of all settings for a time span (s), from tabulated error logarithms.
+    """Errors of all settings over a time span (s), from tabulated logarithms of measured errors.
 
     Beyond the longest tabulated span, errors grow linearly with the span.
     """

@@ -35,7 +35,7 @@ _NO_VECTOR = "the answer has no vector in the GCRS"
 @xr.register_datatree_accessor("earthspin")  # type: ignore[no-untyped-call]
 @xr.register_dataset_accessor("earthspin")  # type: ignore[no-untyped-call]
 class Answer:
-    """Question, plan, tables, statistics and figures of an answer.
+    """Accessor of an answer: its question, plan, tables, statistics and figures.
 
     Attributes
     ----------
@@ -211,7 +211,7 @@ class Answer:
         return quantiles(self._dataset, shares)
 
     def sensitivity(self) -> xr.Dataset:
-        """Slope and share of variance of each number of an ensemble, for each input.
+        """Slope and share of variance of each number of an ensemble with respect to each input.
 
         The numbers are fitted by a linear function of all inputs (`numerics.sampling`). An input
         that is a name, such as an orbit table, divides the members into classes: its share is that
@@ -241,7 +241,7 @@ class Answer:
         return sensitivity(self._dataset)
 
     def plot(self) -> Any:
-        """Draw the figures of the question.
+        """Draw the figures that belong to the question of this answer.
 
         Returns
         -------
@@ -271,7 +271,7 @@ class Answer:
 
 
 def _spread(dataset: xr.Dataset) -> xr.Dataset:
-    """Split variables into columns, so that all have the dimensions of most variables."""
+    """Split variables along less common dimensions into columns, one column for each label."""
     columns: dict[str, xr.DataArray] = {}
     common = Counter(
         frozenset(array.dims).difference(("component", "quaternion", "axis"))

@@ -50,7 +50,9 @@ def answer(question: Question) -> xr.Dataset:
 
 
 def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.DataTree:
-    """Answer a question with sections; an ensemble has the sections `plan` and `neglected` only.
+    """Answer a question, and return the answer as a tree with the requested sections.
+
+    An ensemble has only the sections `plan` and `neglected`.
 
     Parameters
     ----------
@@ -83,7 +85,7 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
 
 
 def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
-    """Add to each linearly propagated error of an answer the error from a sample.
+    """Add to an answer, next to each linearly propagated error, the error from random members.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ ENDS = ("start", "stop")
 
 
 def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
-    """Make the public function of a question; its keys are the arguments.
+    """Make the public Python function of a question; its arguments are the keys of the question.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
 
 
 def _with_span(question: type[Question], values: dict[str, Any]) -> dict[str, Any]:
-    """Replace `start` and `stop` by `span`; refuse one without the other."""
+    """Replace the arguments `start` and `stop` by `span`; refuse one without the other."""
     if "start" not in question.positional:
         return values
     ends = {end: values.pop(end, None) for end in ENDS}
@@ -57,7 +57,10 @@ def _with_span(question: type[Question], values: dict[str, Any]) -> dict[str, An
 
 
 def arguments_of(question: type[Question]) -> dict[str, Key | None]:
-    """Arguments of the call in order; `start` and `stop`, which are not keys, map to None."""
+    """Arguments of the public function of a question, in order, each with its key.
+
+    The arguments `start` and `stop` are not keys; they map to None.
+    """
     keys = {name: entry for name, entry in keys_of(question).items() if name != "title"}
     ends = "start" in question.positional
     rest = [n for n in keys if n not in question.positional and not (ends and n == "span")]
@@ -65,7 +68,7 @@ def arguments_of(question: type[Question]) -> dict[str, Key | None]:
 
 
 def signature_of(question: type[Question]) -> inspect.Signature:
-    """Signature of the public call."""
+    """Signature of the public Python function of a question."""
     parameters = []
     for name, entry in arguments_of(question).items():
         free = name in question.positional
@@ -85,7 +88,7 @@ def _as_written(value: Any) -> Any:
 
 
 def docstring_of(question: type[Question]) -> str:
-    """Docstring of the public call: the class docstring with a sentence for each argument."""
+    """Docstring of the public function of a question: the class docstring and all arguments."""
     head, _, rest = inspect.cleandoc(question.__doc__ or "").partition("\n")
     lines = [head, "", "Parameters", "----------"]
     for name, entry in arguments_of(question).items():

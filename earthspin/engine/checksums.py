@@ -52,7 +52,7 @@ _ENTRY = re.compile(r"([0-9a-f]{64})  (.+)")
 
 
 def append_line(path: Path) -> None:
-    """Append the line with the checksum to a complete file."""
+    """Append a last line to a complete file, with the checksum of all bytes before it."""
     with path.open("r+b") as file:
         size = file.seek(0, os.SEEK_END)
         line = _line(file, size)
@@ -84,7 +84,7 @@ def line_holds(path: Path) -> bool | None:
 
 
 def _line(file: BinaryIO, size: int) -> bytes:
-    """Make the line with the checksum of the first `size` bytes of a file."""
+    """Make the line of text that holds the checksum of the first `size` bytes of a file."""
     total = hashlib.sha256()
     file.seek(0)
     while size and (piece := file.read(min(size, _AT_ONCE))):
@@ -97,7 +97,7 @@ def _line(file: BinaryIO, size: int) -> bytes:
 
 
 def files_in(store: Path) -> list[str]:
-    """Paths of all files in a Zarr store except its ledger, sorted."""
+    """Sorted relative paths of all files in a Zarr store, except its file of checksums (ledger)."""
     files = (path for path in store.rglob("*") if path.is_file() and path.name != LEDGER)
     return sorted(path.relative_to(store).as_posix() for path in files)
 
@@ -112,7 +112,7 @@ def of_files(store: Path, names: Iterable[str]) -> dict[str, str]:
 
 
 def entries(sums: Mapping[str, str]) -> bytes:
-    """Write checksums as the lines of a ledger."""
+    """Format the checksums of files as the lines of a ledger, one line for each file."""
     lines = "".join(f"{digest}  {path}\n" for path, digest in sums.items())
     return lines.encode("utf-8", "surrogateescape")
 
@@ -189,7 +189,7 @@ def of_content(groups: Mapping[str, xr.Dataset]) -> str:
 
 
 def _add(total: Any, *pieces: str | bytes) -> None:
-    """Add pieces to a hash with their number and lengths, so that the encoding is unambiguous."""
+    """Add texts or bytes to a hash, with number and lengths, so that the encoding is unique."""
     total.update(b"%d;" % len(pieces))
     for piece in pieces:
         coded = piece if isinstance(piece, bytes) else piece.encode("utf-8", "surrogatepass")
@@ -198,7 +198,10 @@ def _add(total: Any, *pieces: str | bytes) -> None:
 
 
 def _attributes(attrs: Mapping[Any, Any]) -> Iterator[str]:
-    """Yield a line for each attribute, sorted; netCDF reads a list of length one as a number."""
+    """Yield a line of text for each attribute, sorted by name.
+
+    A number gives the same line as a list of length one, which netCDF reads as a number.
+    """
     for name, value in sorted(attrs.items()):
         if name != CONTENT:
             listed = [value] if isinstance(value, str) else np.ravel(value).tolist()

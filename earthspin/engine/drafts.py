@@ -103,7 +103,7 @@ def refuse_what_does_not_fit(path: Path, size: float, what: str) -> None:
 
 @contextmanager
 def replacing(path: str | Path) -> Iterator[Path]:
-    """Yield the path of a draft, and replace `path` by the draft if no error occurs.
+    """Yield the path of a draft for a result; replace `path` by the draft if no error occurs.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
 
 
 def prepared(path: str | Path) -> Path:
-    """Create the parent folder of a target, and return the target with links resolved.
+    """Resolve links in the path of a target, and create its parent folder.
 
     Raises
     ------
@@ -166,7 +166,10 @@ def output_errors(path: str | Path, remedy: str = "") -> Iterator[None]:
 
 @contextmanager
 def box_of(target: Path) -> Iterator[Path]:
-    """Yield a new locked hidden folder next to the target, after removing abandoned folders."""
+    """Yield a new locked hidden folder for a draft, next to the target.
+
+    Abandoned drafts are removed first.
+    """
     box = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".draft", dir=target.parent))
     lock = FileLock(box / _LOCK)
     with suppress(OSError, NotImplementedError):  # without locks, abandoned drafts stay
@@ -225,7 +228,7 @@ def _clear_abandoned_drafts(target: Path, own: Path | None = None) -> None:
 
 
 def _remove(box: Path, target: Path) -> None:
-    """Remove the folder of a draft; an old target in it is restored if the target is missing."""
+    """Remove the folder of a draft; if the target is missing, first restore it from there."""
     if (box / _OLD).exists() and not target.exists():
         os.replace(box / _OLD, target)
     shutil.rmtree(box, ignore_errors=True)

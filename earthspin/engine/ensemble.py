@@ -123,23 +123,23 @@ class Ensemble:
 
     @cached_property
     def numbers(self) -> dict[str, Input]:
-        """Inputs that are numbers; the others are names."""
+        """Inputs of the ensemble whose values are numbers, not names."""
         return {name: entry for name, entry in self.inputs.items() if not entry.named}
 
     @cached_property
     def variants(self) -> Variants:
-        """The questions of the ensemble, one for each combination of names."""
+        """Variants of the question, one for each combination of names that the members use."""
         keys = tuple(entry.key for entry in self.inputs.values() if entry.named)
         return Variants(self.question, keys, {entry.key for entry in self.numbers.values()})
 
     def names(self, index: int) -> Names:
-        """Names that one member has for the inputs that are chosen by name."""
+        """Names, such as files, that one member has for the inputs chosen by name."""
         inputs = (name for name, entry in self.inputs.items() if entry.named)
         return tuple(str(self.values[name][index]) for name in inputs)
 
     @cached_property
     def groups(self) -> dict[Names, IntArray]:
-        """Ascending indices of the members with the same names, as a dict by names."""
+        """Ascending indices of the members with the same input names, by tuple of names."""
         if len(self.numbers) == len(self.inputs):
             return {(): np.arange(len(self.which))}
         indices: dict[Names, list[int]] = {}
@@ -149,7 +149,7 @@ class Ensemble:
 
     @cached_property
     def nominal(self) -> xr.Dataset:
-        """Answer to the question without members, with the names of the first member."""
+        """Answer to the question without members, with the input names of the first member."""
         return self.variants.nominal(next(iter(self.groups)))
 
     @cached_property
@@ -241,7 +241,7 @@ class Ensemble:
     # --- blocks ----------------------------------------------------------------------------------
 
     def first(self) -> xr.Dataset:
-        """Make block 0, with the attributes of the whole result."""
+        """Compute the first block of members, with the attributes of the whole result."""
         question = self.full_question
         attributes = {"title": question.title, SCENE: scene_text(question)}
         if self.dropped:
@@ -264,7 +264,9 @@ class Ensemble:
         return block.assign_coords(self._labels(slice(first, last), block))
 
     def _together(self, first: int, last: int) -> Iterator[tuple[IntArray, xr.Dataset]]:
-        """Compute members with the same names in full rows; yield members `first` to `last` - 1.
+        """Compute members `first` to `last` - 1, all members with the same names at once.
+
+        Yield their indices and answers.
 
         Columns of other members hold a copy of a wanted one, so that a row is always complete.
         """
@@ -295,7 +297,7 @@ class Ensemble:
         return _along_all_members(self._answer(self.names(index), values, which), 1)
 
     def _answer(self, names: Names, values: Mapping[str, Any], which: str) -> xr.Dataset:
-        """Compute the numbers of one member, or of several members with the same names."""
+        """Compute the results of one member, or of several members with the same input names."""
         try:
             rerun = self.variants[names]
             answer = rerun(with_values(rerun.plan.question, self.numbers, values)).numbers()
@@ -310,11 +312,11 @@ class Ensemble:
 
     @property
     def _number_values(self) -> dict[str, NDArray[Any]]:
-        """Values of the inputs that are numbers, by name."""
+        """Values for all members of each input that is a number, by name of the input."""
         return {name: self.values[name] for name in self.numbers}
 
     def _labels(self, which: slice, block: xr.Dataset) -> dict[str, Any]:
-        """Make the coordinates along `member`: the numbers of the members, and their inputs.
+        """Make the coordinates along `member`: number of each member, and its value of each input.
 
         An input with the name of a result, such as theta, is labelled ``<name>_given``.
         """
@@ -345,7 +347,7 @@ def _as_slice(indices: IntArray) -> IntArray | slice:
 
 
 def _along_all_members(answer: xr.Dataset, count: int) -> xr.Dataset:
-    """Repeat the numbers of an answer without dimension `member` for `count` members."""
+    """Repeat those variables of an answer that lack the dimension `member` for `count` members."""
     repeated = {
         name: variable.expand_dims({MEMBER: count})
         for name, variable in answer.data_vars.items()
@@ -371,7 +373,9 @@ def _concatenated(pieces: list[xr.Dataset]) -> xr.Dataset:
 def with_members(
     question: Question, members: object, seed: int | None = None, **more: Any
 ) -> Question:
-    """Return the question with `members` in place of its own, or with some fields changed.
+    """Return a question with another specification of its ensemble members.
+
+    If `members` is None, those of the question are kept, and only the given fields are changed.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ _SYMBOLS = {"H": "body.dynamical_flattening", "J2": "body.j2", "J3": "body.j3", 
 
 @dataclass(frozen=True)
 class Input:
-    """One number of a question, or a key that takes a name.
+    """Input of a question in which ensemble members may differ: one number, or a key with a name.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class Input:
         return self.name.replace(".", "_")
 
     def checked(self, values: NDArray[Any], where: Where) -> NDArray[Any]:
-        """Return the values of the members if their type fits the input.
+        """Return the values of all members for this input; refuse values of a wrong type.
 
         Raises
         ------
@@ -147,7 +147,7 @@ def _all_inputs(question: Question) -> Iterator[Input]:
 
 
 def published(question: Question) -> dict[str, Distribution]:
-    """Distributions of the numbers with a published uncertainty, by name of the input.
+    """Distributions of all inputs that have a published uncertainty, by name of the input.
 
     Numbers of bodies have normal distributions; of a perturber, only the mass varies. The question
     adds distributions of its own keys. No correlations are published.
@@ -231,12 +231,12 @@ def _along_members(values: NDArray[Any]) -> xr.DataArray:
 
 
 def along_members(values: Mapping[str, NDArray[Any]], which: Any) -> dict[str, Any]:
-    """Return the values of several members as labelled arrays."""
+    """Return the input values of several members as arrays along the dimension `member`."""
     return {name: _along_members(array[which]) for name, array in values.items()}
 
 
 def one_member(values: Mapping[str, NDArray[Any]], number: int) -> dict[str, Any]:
-    """Return the values of one member."""
+    """Return the input values of one member, by name of the input."""
     return {
         name: array[number].item() if array.ndim == 1 else array[number]
         for name, array in values.items()

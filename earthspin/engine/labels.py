@@ -50,7 +50,7 @@ IN_FILES: dict[str, str] = {
 
 
 def from_si(unit: str) -> float:
-    """Factor from SI to a unit.
+    """Factor that converts a value from SI to a unit.
 
     Raises
     ------

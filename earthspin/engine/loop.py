@@ -38,21 +38,24 @@ class Work(Protocol):
 
     @property
     def what(self) -> str:
-        """Name of the result, for the progress bar."""
+        """Name of the computed result, which the progress bar shows."""
 
     @property
     def layout(self) -> Layout:
-        """Division into blocks."""
+        """Division of the result into blocks along one dimension."""
 
     @property
     def request(self) -> Mapping[str, str]:
-        """Record of the question and the versions, by name; equal records mean equal results."""
+        """Record of question and versions as texts by name; equal records mean equal results."""
 
     def first(self) -> xr.Dataset:
-        """Make block 0, with the attributes of the whole result."""
+        """Compute the first block (number 0), with the attributes of the whole result."""
 
     def make(self, number: int) -> xr.Dataset:
-        """Make a block; the dimension of the layout is the first of every variable that has it."""
+        """Compute one block of the result, by its number.
+
+        The dimension of the layout is the first dimension of every variable that has it.
+        """
 
 
 def write(work: Work, path: str | Path, *, client: object = None, replace: bool = False) -> Path:
@@ -169,7 +172,10 @@ def _complete(work: Work, store: Unfinished, target: Path, client: object) -> No
 def _blocks(
     work: Work, numbers: list[int], client: object, folder: Path | None = None
 ) -> Iterator[tuple[int, Any]]:
-    """Yield the number of each block, with its data or, if a folder is given, file checksums."""
+    """Compute blocks; yield the number of each block with its data, or with checksums of its files.
+
+    Checksums are given if there is a folder into which the blocks are written.
+    """
     if client is None:
         yield from (_make_block(work, number, folder) for number in numbers)
     elif numbers:
@@ -178,7 +184,7 @@ def _blocks(
 
 
 def _make_block(work: Work, number: int, folder: Path | None) -> tuple[int, Any]:
-    """Make a block, and write it if a folder is given; runs on workers, too."""
+    """Compute one block of the result, and write it if a folder is given; workers run this, too."""
     block = work.make(number)
     return number, block if folder is None else write_block(folder, work.layout, number, block)
 

@@ -62,7 +62,10 @@ _ZARR: dict[str, Any] = {"engine": "zarr", "consolidated": False}
 
 
 def values_from_dataset(dataset: Any, where: Where) -> dict[str, NDArray[Any]]:
-    """Values by name from a Dataset along `member`, which may be the answer of an ensemble."""
+    """Input values of the members, by input name, from a Dataset along `member`.
+
+    The Dataset may be the answer of an ensemble.
+    """
     values: dict[str, NDArray[Any]] = {}
     for name, array in {**dataset.data_vars, **dataset.coords}.items():
         if name == MEMBER or (name in dataset.coords and "input" not in array.attrs):
@@ -80,14 +83,14 @@ def values_from_dataset(dataset: Any, where: Where) -> dict[str, NDArray[Any]]:
 
 
 def values_from_scene(values: Any, where: Where) -> NDArray[Any]:
-    """Read values of one input, packed numbers or names, as `Members.write` writes them."""
+    """Read the values of one input for all members, as `Members.write` stores them in a scene."""
     if isinstance(values, Mapping):
         return unpack(values, where)
     return _names(np.array(values, dtype=object), where)
 
 
 def _checked(values: NDArray[Any], where: Where) -> NDArray[Any]:
-    """Check that values are finite numbers, or a name for each member."""
+    """Return one input's values for all members; refuse all but finite numbers and names."""
     if values.dtype.kind not in "fiu":
         return _names(values.astype(object), where)
     if not np.isfinite(values).all():

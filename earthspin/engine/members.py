@@ -67,7 +67,7 @@ class Distribution:
         return cls(shape, tuple(map(_scene_value, numbers)))
 
     def checked(self, kind: Any, where: Where) -> Distribution:
-        """Check the distribution and return it with its numbers converted to SI units."""
+        """Return the distribution with numbers in SI units; refuse what does not suit the input."""
         if by_name(kind):
             if self.shape not in ("choice", "grid"):
                 problem = f"{self.shape} applies to numbers; for names give choice or grid"
@@ -126,7 +126,7 @@ def checked_names(values: Iterable[Any], kind: Any, where: Where) -> tuple[str, 
 
 
 def _scene_value(number: Any) -> Any:
-    """Convert a number, Quantity or path to the value that a scene file holds."""
+    """Convert a number, Quantity or path to the form in which a scene file stores it."""
     if isinstance(number, os.PathLike):
         return os.fspath(number)
     if hasattr(number, "to_value"):
@@ -157,7 +157,7 @@ def standard_normal(seed: int, members: FloatArray, inputs: int) -> FloatArray:
 
 @dataclass(frozen=True, eq=False)
 class Members:
-    """Specification of the members of an ensemble.
+    """Specification of the members of an ensemble: their number, and the inputs that vary.
 
     Attributes
     ----------
@@ -277,7 +277,10 @@ def _whole_number(value: Any, where: Where, low: int, high: int = LARGEST_COUNT)
 def _distributions(
     table: Mapping[str, Any], where: Where, before: str = ""
 ) -> Iterator[tuple[str, Distribution]]:
-    """Distributions by name; a dotted name in TOML becomes a table within a table."""
+    """Yield the name and the distribution of each input in a table.
+
+    TOML turns a dotted name into a table within a table.
+    """
     for name, entry in table.items():
         full = f"{before}{name}"
         if not isinstance(entry, Mapping):
@@ -365,7 +368,7 @@ def draw(
 
 
 def _correlated(normal: FloatArray, root: FloatArray) -> FloatArray:
-    """Multiply each row by the matrix `root`, without BLAS.
+    """Correlate rows of normal numbers: multiply each row by the matrix `root`, without BLAS.
 
     The rounding of BLAS depends on the number of rows.
     """
@@ -376,7 +379,7 @@ def _correlated(normal: FloatArray, root: FloatArray) -> FloatArray:
 
 
 def _root(members: Members, names: list[str], where: Where) -> FloatArray:
-    """Cholesky factor of the matrix of correlations."""
+    """Cholesky factor of the correlation matrix of the inputs."""
     matrix = np.eye(len(names))
     for first, second, size in members.correlations:
         for name in (first, second):

@@ -21,7 +21,7 @@ BOUND = "this is a bound on a neglected effect, or its published size"
 
 @dataclass(frozen=True)
 class Neglected:
-    """Sizes of neglected effects.
+    """Sizes of the effects that a model neglects, with their source.
 
     Attributes
     ----------
@@ -78,7 +78,7 @@ class Neglected:
         attrs = {name: words for name, words in notes.items() if words}
 
         class Effects(Variables, along=("effect",), no_error=BOUND):
-            """Variables of the section of neglected effects."""
+            """Variables of the dataset of neglected effects."""
 
             neglected_effect: Value = number(self.unit, self.what)
             effect: Labels = labels()

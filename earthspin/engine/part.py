@@ -30,7 +30,7 @@ BLOCK = "block"
 
 @dataclass(frozen=True)
 class Block:
-    """A block of a long series: the epochs with indices from `first` to `last` - 1."""
+    """Range of epochs of a long series: indices from `first` to `last` - 1."""
 
     first: int
     last: int
@@ -93,16 +93,16 @@ class Part(Generic[P, R]):
 
     @cached_property
     def needs(self) -> tuple[str, ...]:
-        """Names of the parameters without a default."""
+        """Names of the function's parameters without a default, which are required inputs."""
         return _parameters(self.function, inspect.Parameter.empty)
 
     @cached_property
     def uses(self) -> tuple[str, ...]:
-        """Names of the parameters that may be None."""
+        """Names of the function's parameters with default None, which are optional inputs."""
         return _parameters(self.function, None)
 
     def reason(self, keys: dict[str, Any]) -> str | None:
-        """Return why the part is left out for these keys of the question; None if it runs."""
+        """Return the reason to leave out this part for given keys; None if the part runs."""
         for condition in self.unless:
             why = condition(**_arguments(condition, keys))
             if why is not None:
@@ -110,7 +110,7 @@ class Part(Generic[P, R]):
         return None
 
     def description(self, keys: dict[str, Any]) -> str:
-        """Describe in a plan what the part does for these keys of the question."""
+        """Describe for the plan what the part does, given the values of the question's keys."""
         return (
             self.does if self.describe is None else self.describe(**_arguments(self.describe, keys))
         )
@@ -155,7 +155,7 @@ def part(
 
 
 def _arguments(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any]:
-    """Select the keys that are parameters of a function."""
+    """Select, from the keys of a question, those that are parameters of a function."""
     return {name: keys[name] for name in _parameters(function, inspect.Parameter.empty)}
 
 
@@ -176,6 +176,6 @@ def _parameters(function: Callable[..., Any], default: object) -> tuple[str, ...
 
 
 def _first_sentence(function: Callable[..., Any]) -> str:
-    """First line of a docstring, lower case and without a full stop, for lists."""
+    """First line of a function's docstring, in lower case and without a full stop, for lists."""
     line = (function.__doc__ or "").strip().split("\n")[0].rstrip(".")
     return line[:1].lower() + line[1:] if line[1:2].islower() else line

@@ -39,7 +39,7 @@ _SECONDS: OrderedDict[str, Mapping[str, float]] = OrderedDict()
 
 @dataclass(frozen=True)
 class Row:
-    """One row of a plan: part, status, description or reason for leaving it out, run time in s."""
+    """Row of the table of a plan: part, status, reason or description, and run time in s."""
 
     part: str
     status: str
@@ -141,7 +141,10 @@ def plan_parts(question: Question, sections: str | Iterable[str] = ()) -> Plan:
     reasons: dict[str, str] = {}
 
     def choose(name: str) -> bool:
-        """Return True if a part can run; store its inputs, or the reason for leaving it out."""
+        """Return True if a part can run; otherwise store the reason to leave it out.
+
+        For a part that can run, the names of its inputs are stored.
+        """
         if name in chosen or name in reasons:
             return name in chosen
         part, used = graph.parts[name], list[str]()

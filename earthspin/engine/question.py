@@ -36,7 +36,7 @@ def key(default: Any = MISSING, *, doc: str) -> Any:
 
 
 def setting(default: Any = MISSING, *, doc: str) -> Any:
-    """Declare a key in the question's own table of a scene."""
+    """Declare a key that scenes hold in the table named after the question."""
     return field(default=default, metadata={"doc": doc, "setting": True})
 
 
@@ -63,12 +63,12 @@ class Key:
 
     @property
     def required(self) -> bool:
-        """Return True if the key has no default."""
+        """Return True if the user must give this key, because it has no default."""
         return self.shown is MISSING
 
     @cached_property
     def default(self) -> Any:
-        """Default value, converted by the type of the key."""
+        """Default value of the key, converted by the type of the key."""
         return None if self.shown is None else self.kind.read(self.shown, Where(self.name))
 
     @property
@@ -104,7 +104,7 @@ def plain_words(value: Any) -> str:
 
 
 class Question:
-    """Base class of all questions; its fields are the keys that every question has.
+    """Base class of all questions; its fields are the keys that all questions share.
 
     Attributes
     ----------
@@ -196,7 +196,7 @@ class Question:
         return self
 
     def _check_groups(self) -> None:
-        """Refuse combinations of keys that exclude one another."""
+        """Refuse keys that exclude one another, such as `times` together with `span`."""
         groups = [group for group in self.exclusive if self.given & set(group)]
         if len(groups) > 1:
             ways = ", or ".join(" and ".join(group) for group in self.exclusive)
@@ -281,18 +281,18 @@ class Question:
         return table | ({self.table: own} if own else {})
 
     def _superseded_keys(self) -> set[str]:
-        """Keys that have no effect because a key of a mutually exclusive group was given."""
+        """Names of keys without effect, because the user gave keys that exclude them."""
         used = next((group for group in self.exclusive if self.given & set(group)), None)
         if used is None:
             return set()
         return {name for group in self.exclusive for name in group} - set(used)
 
     def keys(self) -> dict[str, Any]:
-        """Values of all keys by name."""
+        """Values of all keys of this question, by name of the key."""
         return {name: getattr(self, name) for name in keys_of(type(self))}
 
     def published_inputs(self) -> Mapping[str, tuple[str, tuple[float, float]]]:
-        """Published distributions of keys that are numbers: shape and numbers, by key.
+        """Published distributions of the question's own numerical keys: shape and numbers, by key.
 
         An entry is ``("normal", (mean, standard deviation))`` or ``("uniform", (low, high))``.
         The distributions of numbers of bodies follow from the bodies themselves.
@@ -304,7 +304,7 @@ class Question:
         return self._changed(changes, {})
 
     def holding(self, **arrays: Any) -> Self:
-        """Return the question with arrays of values, one per member, in some keys, unchecked.
+        """Return the question with arrays of member values in some keys, without checks.
 
         Parameters
         ----------
@@ -369,7 +369,7 @@ def unknown_key(question: type[Question], name: str) -> str:
 
 @dataclass(frozen=True)
 class Graph:
-    """The parts of a question and the results that they produce.
+    """The parts of a question, and which of them make up the answer and its sections.
 
     Attributes
     ----------

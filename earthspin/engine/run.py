@@ -30,16 +30,19 @@ class Run:
 
     @property
     def provenance(self) -> dict[str, str]:
-        """Sources of the numbers: versions, and checksums of files."""
+        """Sources of all results of the run: versions, and checksums of files, by name."""
         return _sources(self.results.values())
 
     def provenance_of(self, parts: Iterable[str]) -> dict[str, str]:
-        """Sources of the numbers of some parts, and of the keys of the question."""
+        """Sources of the results of some parts: versions, and checksums of files, by name.
+
+        Sources of the inputs of these parts and of the keys of the question are included.
+        """
         others = {part.name for part in self.plan.parts} - behind(self.plan, parts)
         return _sources(value for name, value in self.results.items() if name not in others)
 
     def numbers(self) -> xr.Dataset:
-        """Merge the datasets of the answer, without the attributes of the whole."""
+        """Merge the datasets of all parts of the answer, without attributes of the whole answer."""
         return self._merged(self.plan.question.graph.answer)
 
     def answer(self) -> xr.Dataset:
@@ -77,7 +80,7 @@ class Run:
 
 
 def _sources(values: Iterable[Any]) -> dict[str, str]:
-    """Merge the sources that results and keys name."""
+    """Merge the sources (versions and checksums, by name) of some results and keys."""
     sources: dict[str, str] = {}
     for value in values:
         sources |= getattr(value, "provenance", {})
@@ -85,7 +88,7 @@ def _sources(values: Iterable[Any]) -> dict[str, str]:
 
 
 def behind(plan: Plan, parts: Iterable[str]) -> set[str]:
-    """Names of some parts and of all their direct and indirect inputs."""
+    """Names of some parts, and of everything on which they directly or indirectly depend."""
     names = {*parts}
     for part in reversed(plan.parts):
         if part.name in names:
@@ -112,7 +115,7 @@ class Rerun:
         self.fixed = run_parts(replace(self.plan, parts=fixed))
 
     def __call__(self, question: Question | None = None, **values: object) -> Run:
-        """Run the parts that depend on the changing keys, and reuse the other results.
+        """Run the parts that depend on the changed keys, and reuse the results of all other parts.
 
         The question may differ from the original one in these keys.
         """

@@ -35,7 +35,7 @@ class Series:
 
     @property
     def what(self) -> str:
-        """Name of the result, for the progress bar."""
+        """Name of the series, which the progress bar shows."""
         return f"{self.question.word} series"
 
     @property

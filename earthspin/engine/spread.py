@@ -92,7 +92,10 @@ def sensitivity(answer: xr.Dataset) -> xr.Dataset:
 
 
 def inputs_of(answer: xr.Dataset) -> dict[str, NDArray[Any]]:
-    """Input values of the members by name: one column for each number, then names."""
+    """Input values of the members, by name of the input; inputs that are numbers come first.
+
+    An input of several numbers has one entry for each number.
+    """
     inputs = [array for array in answer.coords.values() if "input" in array.attrs]
     numbers = {
         f"{array.attrs['input']}{'' if array.ndim == 1 else f'.{k}'}": column
@@ -116,7 +119,7 @@ def members_needed(answer: xr.Dataset) -> int:
 
 
 def _members(answer: xr.Dataset, what: str) -> dict[str, xr.DataArray]:
-    """Select the numbers that differ among the members, with `member` first."""
+    """Select the numerical variables along `member`, with `member` as first dimension."""
     if not is_ensemble(answer):
         problem = "it is not an ensemble; earthspin.ensemble makes one"
         raise SceneError(what, answer.attrs.get("title", "a Dataset"), problem)

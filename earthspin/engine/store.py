@@ -140,7 +140,7 @@ def _is_storable(value: object) -> bool:
 
 
 def _raise_system_error(path: Path, size: int) -> None:
-    """Repeat a failed write with zeros, to get the error message of the operating system.
+    """Raise the operating system's error for a failed write, by writing zeros of the same size.
 
     Raises
     ------
@@ -162,7 +162,10 @@ def _raise_system_error(path: Path, size: int) -> None:
 
 
 def _groups(result: xr.Dataset | xr.DataTree) -> dict[str, xr.Dataset]:
-    """Datasets of an answer and its sections, by path in the file; the history gets the date."""
+    """Datasets of an answer and its sections, by path in the file.
+
+    The date is added to the attribute `history`.
+    """
     import xarray as xr
 
     tree = xr.DataTree(result) if isinstance(result, xr.Dataset) else result
@@ -182,7 +185,7 @@ UNITS, SHOWN = "units", "units_shown"
 
 
 def spelled(node: xr.Dataset) -> xr.Dataset:
-    """Return a dataset with units spelled as in files; `units_shown` has the original spelling."""
+    """Return a dataset with units spelled as files need; `units_shown` keeps the originals."""
     node = node.copy()
     for name, variable in node.variables.items():
         unit = variable.attrs.get(UNITS)
@@ -373,7 +376,7 @@ def _read(path: Path) -> dict[str, xr.Dataset]:
 
 
 def _unreadable(path: Path, error: Exception) -> OutputError:
-    """Return the error for an unreadable file; an `OutputError` among its causes is reused."""
+    """Make the error for a file that cannot be read; reuse an `OutputError` among its causes."""
     cause: BaseException | None = error
     while cause is not None:
         if isinstance(cause, OutputError):
@@ -397,7 +400,7 @@ read = open
 def encoding_of(
     node: xr.Dataset, *, zarr: bool = True, chunked: str = ""
 ) -> dict[str, dict[str, Any]]:
-    """Return the encoding of each variable.
+    """Return the encoding with which each variable is stored in a file, by name of the variable.
 
     The CF conventions require that coordinate variables are numeric, so text labels are stored as
     arrays of characters, which xarray reads back as text. The scene is stored as characters too,

@@ -62,15 +62,15 @@ class Layout:
 
     @property
     def count(self) -> int:
-        """Number of blocks."""
+        """Number of blocks in the store."""
         return -(-self.size // self.block)
 
     def bounds(self, number: int) -> tuple[int, int]:
-        """First index of a block, and the first after it."""
+        """First index of a block along the divided dimension, and first index after the block."""
         return number * self.block, min((number + 1) * self.block, self.size)
 
     def length(self, number: int) -> int:
-        """Length of a block."""
+        """Number of indices of a block along the divided dimension."""
         first, last = self.bounds(number)
         return last - first
 
@@ -116,7 +116,7 @@ class Unfinished:
 
     @property
     def length(self) -> int:
-        """Total length of the finished blocks."""
+        """Total number of indices in the finished blocks, along the divided dimension."""
         return sum(map(self.layout.length, self.done))
 
     def note(self, number: int, sums: Mapping[str, str]) -> None:
@@ -212,7 +212,7 @@ def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) ->
 
 
 def _variables_in_blocks(store: Path, along: str) -> dict[str, int]:
-    """Number of dimensions of each variable that blocks write, by name."""
+    """Number of dimensions of each variable that is written block by block, by variable name."""
     dims = {
         path.parent.name: json.loads(path.read_bytes()).get("_ARRAY_DIMENSIONS", ())
         for path in sorted(store.glob("*/.zattrs"))
@@ -272,7 +272,7 @@ def locked_folder(place: Path, request: Mapping[str, str]) -> Iterator[Path | No
 
 
 def _refuse_another(folder: Path, request: dict[str, str]) -> None:
-    """Refuse to continue a store begun for another question, version or layout."""
+    """Refuse to continue an unfinished store if its question, versions or layout differ."""
     try:
         begun = json.loads((folder / REQUEST).read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):
@@ -291,7 +291,7 @@ def _damaged(folder: Path, what: str) -> OutputError:
 
 
 def begin(place: Path, request: Mapping[str, str], layout: Layout, first: xr.Dataset) -> None:
-    """Create an unfinished store with its first block.
+    """Create an unfinished store, and write the first block into it.
 
     Parameters
     ----------

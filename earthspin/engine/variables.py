@@ -71,7 +71,7 @@ class Variable:
     short: str = ""
 
     def attributes(self, name: str, others: Iterable[str]) -> dict[str, Any]:
-        """Attributes of the variable `name` in a dataset that also has the variables `others`."""
+        """Attributes with which the variable is stored under `name`, next to variables `others`."""
         attributes = {"long_name": self.long_name}
         if self.units:
             attributes["units"] = self.units
@@ -89,7 +89,7 @@ class SchemaError(Exception):
 
 @dataclass(frozen=True)
 class Field:
-    """Declaration of one field of an answer.
+    """Declaration of one field of a `Variables` class, which makes one or more variables.
 
     Attributes
     ----------
@@ -127,7 +127,7 @@ def _field(
 
 
 def number(units: str, long_name: str, **options: Any) -> Any:
-    """Declare a number.
+    """Declare a field of a `Variables` class that holds numbers.
 
     Parameters
     ----------
@@ -172,12 +172,12 @@ def amplitude(units: str, long_name: str, **options: Any) -> Any:
 
 
 def words(long_name: str, **options: Any) -> Any:
-    """Declare text or dates, which have no unit."""
+    """Declare a field of a `Variables` class that holds text or dates, which have no unit."""
     return _field(_ALONE, "", long_name, **options)
 
 
 def labels(long_name: str = "", units: str = "", **options: Any) -> Any:
-    """Declare the labels of the dimension that has the name of the field.
+    """Declare a field that holds the labels of the dimension of the same name.
 
     Parameters
     ----------
@@ -298,7 +298,7 @@ class Variables:
         return result
 
     def _by_variable(self) -> tuple[dict[str, Any], dict[Any, Any]]:
-        """Values by name of the variable, and labels by dimension."""
+        """Values of the data variables, by variable name, and coordinate labels, by dimension."""
         values: dict[str, Any] = {}
         coords: dict[Any, Any] = {}
         for name, field in self.fields.items():

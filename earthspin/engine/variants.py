@@ -26,7 +26,7 @@ _WHOLE, _SOURCES = "/", "/sources"
 
 
 class Variants:
-    """Variants of a question, which differ in the keys chosen by name.
+    """Variants of a question that differ in the keys with a name as value, such as a file.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ class Variants:
         self._descriptions: dict[Names, dict[str, Mapping[str, Any]]] = {}
 
     def question(self, names: Names) -> Question:
-        """Return the question with these names.
+        """Return the question with the given names as values of its varying keys.
 
         Raises
         ------
@@ -55,7 +55,7 @@ class Variants:
         return self._question.replace(**dict(zip(self._keys, names, strict=True)))
 
     def __getitem__(self, names: Names) -> Rerun:
-        """Return the `Rerun` of the variant with these names, whose constant parts have run."""
+        """Return the stored `Rerun` of the question with the given names in its varying keys."""
         if names not in self._runs:
             self._runs[names] = Rerun(self.question(names), self._moving)
             if len(self._runs) > LARGEST_NUMBER_OF_RUNS:
@@ -64,7 +64,7 @@ class Variants:
         return self._runs[names]
 
     def nominal(self, names: Names) -> xr.Dataset:
-        """Return the answer to the question with these names, without members."""
+        """Answer the question without members, with the given names in its varying keys."""
         run = self[names]()
         answer = run.answer()
         self._descriptions[names] = {
@@ -75,7 +75,7 @@ class Variants:
         return answer
 
     def _attributes(self, groups: Iterable[Names], name: str) -> dict[Names, Mapping[str, Any]]:
-        """Attributes of the result or of a variable, for each variant that has them."""
+        """Attributes of one variable or of the whole answer, by variant that has them."""
         for names in groups:
             if names not in self._descriptions:
                 self.nominal(names)
@@ -86,7 +86,7 @@ class Variants:
         }
 
     def provenance(self, groups: Iterable[Names]) -> dict[str, str]:
-        """Sources of the numbers of each variant, with its names."""
+        """Sources of the results of each variant; the names of the variant are part of each key."""
         return {
             f"{name} of {', '.join(names)}" if names else name: source
             for names, sources in self._attributes(groups, _SOURCES).items()
@@ -94,7 +94,10 @@ class Variants:
         }
 
     def describe(self, answer: xr.Dataset, groups: Iterable[Names]) -> xr.Dataset:
-        """Combine the attributes of all variants; texts that differ are listed with the names."""
+        """Set the attributes of an answer to the combined attributes of all variants.
+
+        Texts that differ are listed with the names of the variants.
+        """
         described = answer.assign_attrs(_joined(self._attributes(groups, _WHOLE)))
         for name in described.variables:
             attributes = self._attributes(groups, str(name))
@@ -104,7 +107,10 @@ class Variants:
 
 
 def _joined(attributes: Mapping[Names, Mapping[str, Any]]) -> dict[str, Any]:
-    """Combine attributes: equal values once, differing texts all; differing numbers are dropped."""
+    """Combine the attributes of variants: keep equal values, and list differing texts.
+
+    Other differing attributes are dropped.
+    """
     joined: dict[str, Any] = {}
     for name in dict.fromkeys(name for entry in attributes.values() for name in entry):
         values = {names: entry[name] for names, entry in attributes.items() if name in entry}

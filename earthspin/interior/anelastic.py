@@ -13,7 +13,7 @@ ABSORPTION_BAND = 200.0
 
 
 def anelastic_strain(period: Numeric, exponent: Numeric) -> Numeric:
-    """Relative change of the shear modulus, for quality factor 1, from 1 s to a long period.
+    """Relative change of the shear modulus from 1 s to a long period, for quality factor 1.
 
     The loss is independent of the period up to 200 s, and grows as a power of the period beyond:
 
@@ -40,6 +40,6 @@ def anelastic_strain(period: Numeric, exponent: Numeric) -> Numeric:
 
 
 def _expm1_over(exponent: Numeric, log: Numeric) -> Numeric:
-    """Compute (x^alpha - 1)/alpha from ln x; the value for alpha = 0 must not be used."""
+    """Compute (x^alpha - 1)/alpha from ln x and the exponent alpha; the result at 0 is invalid."""
     safe = np.where(np.equal(exponent, 0), 1.0, exponent)
     return np.expm1(safe * log) / safe

@@ -68,7 +68,9 @@ WAVES = {
 
 
 def wave_response(wave: Wave) -> complex:
-    """Change of the Love number due to one wave, for exp(i sigma Omega t) with sigma near -1.
+    """Change of the Love number due to the ocean tide of one diurnal wave.
+
+    The phase is that of exp(i sigma Omega t) with sigma near -1.
 
     The Conventions give the complex conjugate, for a phase that increases with time.
     """

@@ -54,15 +54,18 @@ class Profile:
         return FOUR_PI_G * np.polynomial.Polynomial((0.0, 0.0, *density)).integ()
 
     def density(self, i: int, r: Any) -> Any:
-        """Density of layer i at radius r."""
+        """Density of layer i at radius r, in normalised units."""
         return _horner(self.layers[i].density, r) / self.density_unit
 
     def gravity(self, i: int, r: Any) -> Any:
-        """Gravity G m(r)/r2, with 4 pi G = 3."""
+        """Gravity at radius r in layer i, in normalised units with 4 pi G = 3."""
         return (self._mass[i](r) + self._below[i]) / r**2
 
     def moduli(self, i: int, r: Any, strain: Array) -> tuple[Array, Array]:
-        """Lame parameters lambda and mu at radii r, for each strain; shape (strain, r)."""
+        """Lame parameters lambda and mu of layer i at radii r, shape (strain, r) each.
+
+        One row for each strain.
+        """
         layer, rho = self.layers[i], _horner(self.layers[i].density, r)
         seismic = rho * _horner(layer.vs, r) ** 2 / self.modulus_unit
         bulk = rho * _horner(layer.vp, r) ** 2 / self.modulus_unit - 4 / 3 * seismic
@@ -78,7 +81,10 @@ def _horner(coefficients: tuple[float, ...], x: Any) -> Any:
 
 
 def solid(profile: Profile, i: int, strain: Array) -> Callable[[Array], Array]:
-    """Matrix M of dy/dr = M y in solid layer i, shape (strain, r, 6, 6); degree two."""
+    """Function of radii that gives M of dy/dr = M y in solid layer i, shape (strain, r, 6, 6).
+
+    The equations are those of degree two.
+    """
 
     def matrix(r: Array) -> Array:
         rho, g = profile.density(i, r), profile.gravity(i, r)
@@ -103,7 +109,10 @@ def solid(profile: Profile, i: int, strain: Array) -> Callable[[Array], Array]:
 
 
 def liquid(profile: Profile, i: int) -> Callable[[Array], Array]:
-    """Matrix M of the pair (y5, y7) in liquid layer i (Saito 1974, eq. 17), shape (r, 2, 2)."""
+    """Function of radii that gives M of dy/dr = M y in liquid layer i, shape (r, 2, 2).
+
+    The unknowns are y5 and y7 (Saito 1974, eq. 17).
+    """
 
     def matrix(r: Array) -> Array:
         s = FOUR_PI_G * profile.density(i, r) / profile.gravity(i, r)

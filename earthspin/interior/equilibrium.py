@@ -61,7 +61,10 @@ class Equilibrium:
 
 @lru_cache(maxsize=32)
 def equilibrium(body: LayeredBody) -> Equilibrium:
-    """Solve Clairaut's equation for the hydrostatic response, from the equations of a liquid."""
+    """Response of a liquid body to a potential of degree two, by integration along the radius.
+
+    The equations are those of a static liquid, equivalent to Clairaut's equation.
+    """
     profile = Profile(body)
     solutions = [
         liquid_centre(profile, i, top) for i, top in enumerate(profile.tops[: profile.first])

@@ -110,6 +110,9 @@ def _primitive(density: tuple[float, ...], power: int, x: float) -> float:
 
 
 def tidal_inertia(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
-    """Ratio Omega2 R5/(3 G A): product of inertia over A for k2 = 1 and a wobble of 1 rad."""
+    """Ratio Omega2 R5/(3 G A), which converts a Love number to a product of inertia over A.
+
+    It is the product of inertia divided by A for k2 = 1 and a wobble of 1 rad.
+    """
     moment = layers.moment_of_inertia()
     return spin_rate**2 * layers.radius**5 / (3 * G.value * moment)

@@ -41,7 +41,10 @@ class Carry(Protocol):
         *,
         together: bool = False,
     ) -> Array:
-        """Integrate; `together` if only linear combinations of the columns are needed."""
+        """Integrate solution columns y from `start` to `stop`.
+
+        `together` means that only linear combinations of the columns are needed.
+        """
         ...
 
 
@@ -54,7 +57,9 @@ _LOAD = 3
 
 @dataclass(frozen=True)
 class Yielding:
-    """Deformation of a layered body in degree two; arrays have the shape of the given `strain`.
+    """Love numbers and responses of a layered body in degree two.
+
+    Arrays have the shape of the given `strain`.
 
     Attributes
     ----------
@@ -82,17 +87,20 @@ class Yielding:
 
     @property
     def core_k(self) -> Array:
-        """Contribution of the masses of the whole core to k."""
+        """Part of the tidal Love number k that comes from displaced masses of the whole core."""
         return np.asarray(self.answers[..., 1:, 0].sum(axis=-1))
 
     @property
     def k_pressure(self) -> Array:
-        """Love number for a potential in the core only, due to a tilt of its rotation axis."""
+        """Love number of the whole body for a potential that acts in the core only.
+
+        Such a potential is due to a tilt of the rotation axis of the core.
+        """
         return np.asarray(self.answers[..., 0, 1:].sum(axis=-1))
 
     @property
     def core_k_pressure(self) -> Array:
-        """Contribution of the masses of the core to `k_pressure`."""
+        """Part of `k_pressure` that comes from displaced masses of the whole core."""
         return np.asarray(self.answers[..., 1:, 1:].sum(axis=(-1, -2)))
 
 
@@ -139,7 +147,7 @@ def yielding(body: LayeredBody, strain: Any = 0.0, carry: Carry = by_collocation
 
 @lru_cache(maxsize=32)
 def elastic(layers: LayeredBody) -> Yielding:
-    """Love numbers of the elastic body."""
+    """Love numbers and responses of a layered body with elastic moduli."""
     return yielding(layers)
 
 
@@ -150,7 +158,7 @@ _STRAIN_NODES = 10
 
 @lru_cache(maxsize=8)
 def softening(layers: LayeredBody) -> tuple[np.polynomial.Chebyshev, ...]:
-    """Love numbers relative to their elastic values, as polynomials in the strain.
+    """Chebyshev polynomials in the strain for four Love numbers, divided by their elastic values.
 
     They are `k`, `core_k`, `k_pressure` and `core_k_pressure`.
 
@@ -241,7 +249,10 @@ def _across(profile: Profile, first: int, y: Array, strain: Array, carry: Carry)
 def _through_inner_core(
     profile: Profile, body: LayeredBody, strain: Array, carry: Carry
 ) -> tuple[Array, Array | None, list[Array]]:
-    """Integrate the inner core; return (y5, y7) above it, its state at the top, and conditions."""
+    """Integrate from the centre through the inner core to the bottom of the liquid core.
+
+    Return (y5, y7) in the liquid, the state at the top of the inner core, and conditions there.
+    """
     if not body.inner_core_radius:
         pair = np.zeros((strain.size, 2, 3 + 4), dtype=strain.dtype)
         pair[:, :, 0] = liquid_centre(profile, profile.first)
@@ -259,7 +270,7 @@ def _through_inner_core(
 
 
 def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
-    """Return y5 and y6 after the jump at a boundary where the applied potential changes."""
+    """Return y5 and y6 above a boundary at which the applied potential jumps by `step`."""
     y5, y6 = y[:, 4].copy(), y[:, 5].copy()
     y5[:, -4:] += step * r**2
     y6[:, -4:] += 5 * step * r
@@ -269,7 +280,7 @@ def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
 def _through_liquid(
     profile: Profile, body: LayeredBody, pair: Array, carry: Carry
 ) -> tuple[Array, int]:
-    """Integrate (y5, y7) to the top of the liquid; return also the index of the next layer."""
+    """Integrate (y5, y7) to the top of the liquid core, and return the index of the next layer."""
     r = body.inner_core_radius / body.radius or START
     liquids = (n for n, layer in enumerate(profile.layers) if not layer.vs)
     i = max(next(liquids), profile.first)
@@ -280,7 +291,7 @@ def _through_liquid(
 
 
 def _onto_mantle(profile: Profile, body: LayeredBody, pair: Array) -> Array:
-    """State at the bottom of the mantle, with its two displacements as the last two unknowns.
+    """Solution columns at the bottom of the mantle; two columns are its free displacements.
 
     The displacements are undetermined because the liquid may slip.
     """

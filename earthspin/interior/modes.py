@@ -88,7 +88,10 @@ class Parts:
 
     @property
     def compliances(self) -> dict[str, Numeric]:
-        """Compliances named as in Mathews et al. (1991), each divided by its region's moment A."""
+        """Compliances, by their names in Mathews et al. (1991), each divided by a moment.
+
+        It is the moment A of the compliance's region.
+        """
         rows = (("kappa", "xi", "zeta"), ("gamma", "beta", "delta"), ("theta", "chi", "nu"))
         over = (1.0, self.fluid, self.inner)
         size = 1 + bool(np.any(self.fluid)) + bool(np.any(self.inner))
@@ -118,7 +121,9 @@ def all_fluid(parts: Parts, e_core: Numeric) -> Parts:
 
 
 def system(parts: Parts) -> tuple[Array, Array, Array, Array]:
-    """Matrices of (sigma P + Q) x = (sigma p + q) phi, x = (m, m_f, m_s, n).
+    """Matrices P, Q and vectors p, q of the linear system for the rotation of all regions.
+
+    It is (sigma P + Q) x = (sigma p + q) phi with x = (m, m_f, m_s, n).
 
     Returns
     -------
@@ -169,7 +174,7 @@ def held_by_mantle(parts: Parts) -> Parts:
 
 
 def wobble_response(parts: Parts, sigma: Array) -> Array:
-    """Wobble per unit tidal potential, m/phi, at body-fixed frequencies in cycles per rotation."""
+    """Wobble m per unit tidal potential phi, at body-fixed frequencies in cycles per rotation."""
     p, q, right, left = system(parts)
     at = np.asarray(sigma)[..., None]
     solution = np.linalg.solve(at[..., None] * p + q, (at * right + left)[..., None])
@@ -260,7 +265,9 @@ def chandler_by_core(layers: LayeredBody, e: float, spin_rate: float) -> dict[st
 
 
 def numbers_of(layers: LayeredBody, spin_rate: float) -> dict[str, float]:
-    """Compliances, ellipticities, coupling numbers and relative moments of the existing regions.
+    """Compliances, ellipticities, coupling numbers and moments of the regions, by name.
+
+    The moments are relative; regions that the body lacks are omitted.
 
     Parameters
     ----------

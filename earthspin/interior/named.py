@@ -50,7 +50,7 @@ ANELASTIC_EXPONENT = Constant(
 
 @dataclass(frozen=True)
 class Interior:
-    """Interior structure of a body.
+    """Interior of a body: layers or published numbers, with the core's ellipticity and an ocean.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ class Interior:
     neglected: Mapping[str, Constant] = field(default_factory=dict, hash=False)
 
     def values(self) -> tuple[float, float, float | None]:
-        """Love number k2, core fraction, and hydrostatic or published ellipticity of the core.
+        """Love number k2, core fraction, and ellipticity of the core, computed or published.
 
         The ellipticity is None if it follows from layers and the spin; see
         `equilibrium.hydrostatic_core`.

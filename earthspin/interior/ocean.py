@@ -26,7 +26,9 @@ SEA_WATER = Constant(1025.0, "kg m-3", None, "IERS Conventions (2010), sect. 6.5
 
 
 def ocean_matrix() -> tuple[tuple[float, float], tuple[float, float]]:
-    """Products of inertia (c13, c23)/(M a2) of the real ocean, per radian of wobble.
+    """Change (c13, c23) of the products of inertia by the real ocean, per radian of wobble.
+
+    The products are divided by M a2.
 
     Only the symmetric part of the published response is used; the antisymmetric part is due to the
     delay of the mantle's response.

@@ -35,12 +35,12 @@ def vectors(name: str, value: ArrayLike) -> FloatArray:
 
 
 def degree(name: str, value: Any) -> int:
-    """Return a non-negative integer; raise an error otherwise."""
+    """Return a degree or order as an integer; refuse anything but a non-negative integer."""
     if not isinstance(value, int | np.integer) or value < 0:
         raise UndefinedError(f"{name} = {value!r} is not possible; give an integer of 0 or more")
     return int(value)
 
 
 def first(values: FloatArray, wrong: NDArray[np.bool_]) -> float:
-    """Return the first of the values for which `wrong` is true."""
+    """Return the first invalid value, for which `wrong` is true."""
     return float(values[wrong].flat[0])

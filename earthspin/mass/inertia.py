@@ -17,7 +17,7 @@ Numeric = Any
 
 
 def moment_difference(j2: Numeric, mass: Numeric, radius: Numeric) -> Numeric:
-    """Difference C - A from J2 (I.9.30), kg m2.
+    """Difference C - A of the moments of inertia from J2 (I.9.30), kg m2.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def moment_difference(j2: Numeric, mass: Numeric, radius: Numeric) -> Numeric:
 
 
 def j2_from_moment_difference(difference: Numeric, mass: Numeric, radius: Numeric) -> Numeric:
-    """J2 from C - A: inverse of `moment_difference` (I.9.30)."""
+    """J2 from the difference C - A of the moments of inertia (I.9.30)."""
     return difference / (mass * radius**2)
 
 

@@ -137,7 +137,9 @@ def legendre_coefficients(
 
 
 def legendre_sum(coefficients: ArrayLike, z: ArrayLike, m: int = 0) -> FloatArray:
-    """Partial sum of g_nm P_nm(z) over n = m, m + 1, ... (I.9.3, I.9.4).
+    """Sum of a Legendre series from its coefficients g_nm: g_nm P_nm(z) over n (I.9.3, I.9.4).
+
+    The degree n runs from m on.
 
     Parameters
     ----------
@@ -182,7 +184,7 @@ def _roots_of_norms(n_max: int, m: int) -> FloatArray:
 
 
 def _argument(z: ArrayLike) -> FloatArray:
-    """Return cosines as an array; refuse values outside [-1, 1]."""
+    """Return the argument z of Legendre functions as an array; refuse values outside [-1, 1]."""
     values = np.asarray(z, dtype=float)
     wrong = ~(np.abs(values) <= 1)
     if np.any(wrong):

@@ -84,7 +84,10 @@ def maccullagh_torque(gm: ArrayLike, tensor: ArrayLike, position: ArrayLike) -> 
 
 
 def _less_sphere(tensor: ArrayLike) -> FloatArray:
-    """Tensor minus its first diagonal element times the unit matrix, to avoid cancellation."""
+    """Inertia tensor minus its first diagonal element times the unit matrix.
+
+    The torque is unchanged, but has no cancellation.
+    """
     values = np.asarray(tensor, dtype=float)
     return np.asarray(values - values[..., :1, :1] * np.eye(3))
 

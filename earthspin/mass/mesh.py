@@ -100,10 +100,10 @@ def _refuse_coincident(places: FloatArray, faces: NDArray[np.integer]) -> None:
 
 @cache
 def _cone(degree: int) -> tuple[FloatArray, FloatArray]:
-    """Barycentric coordinates of quadrature points, shape (k, 3), and their weights, shape (k,)."""
+    """Quadrature points in a tetrahedron (barycentric, shape (k, 3)), and their weights (k,)."""
 
     def rule(power: int) -> tuple[FloatArray, FloatArray]:
-        """Nodes and weights of Gauss quadrature on 0 to 1 with weight x^power."""
+        """Nodes and weights of Gauss quadrature on [0, 1] with the weight function x^power."""
         nodes, weights = roots_jacobi(degree // 2 + 1, 0.0, float(power))
         return (nodes + 1) / 2, weights / 2.0 ** (power + 1)
 
@@ -116,7 +116,7 @@ def _cone(degree: int) -> tuple[FloatArray, FloatArray]:
 def solid_points(
     vertices: FloatArray, faces: NDArray[np.int64], degree: int
 ) -> Iterator[tuple[FloatArray, FloatArray]]:
-    """Yield signed volumes (m3) and positions (m) of quadrature points of a solid, in blocks.
+    """Yield quadrature points of a solid in blocks: signed volumes (m3) and positions (m).
 
     Parameters
     ----------

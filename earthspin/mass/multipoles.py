@@ -90,7 +90,10 @@ def inverse_distance(position: ArrayLike, source: ArrayLike, n_max: int) -> Floa
 
 
 def inverse_distance_bound(position: ArrayLike, source: ArrayLike, n_max: int) -> FloatArray:
-    """Bound on the truncation error of `inverse_distance`: (r</r>)^(n_max + 1)/(r> - r<), m-1."""
+    """Bound on the truncation error of `inverse_distance`, m-1.
+
+    It is (r</r>)^(n_max + 1)/(r> - r<) for the smaller distance r< and the larger r>.
+    """
     near, _, r_far, gap = _near_and_far(position, source)
     ratio = np.sqrt(np.sum(near**2, axis=-1)) / r_far
     return np.asarray(ratio ** (degree("n_max", n_max) + 1) / gap)
@@ -125,7 +128,7 @@ class Multipoles:
 
     @property
     def zonal(self) -> FloatArray:
-        """Zonal moments (m = 0), shape (n_max + 1,), kg: Z_n of `earthspin.mass.zonal`."""
+        """Zonal moments Z_n (order m = 0), as in `earthspin.mass.zonal`, shape (n_max + 1,), kg."""
         return np.real(self.moments[:, 0])
 
     def moment(self, n: int, m: int) -> complex:
@@ -181,7 +184,7 @@ class Multipoles:
         return np.asarray(scale * ratio ** (self.n_max + 1) / (1 - ratio))
 
     def _converging(self, position: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Position in units of the radius, and the convergence ratio below 1."""
+        """Position divided by the reference radius, and convergence ratio of the series."""
         scaled = vectors("position", position) / self.radius
         r = np.sqrt(np.sum(scaled**2, axis=-1))
         wrong = r <= 1 if self.side == "exterior" else r >= 1
@@ -249,7 +252,7 @@ def interior_multipoles(
 
 
 def _moments(masses: FloatArray, scaled: FloatArray, n_max: int) -> ComplexArray:
-    """Sum of m r^n C*_nm by n and m."""
+    """Multipole moments by degree n and order m: sum of mass times conjugate solid harmonic."""
     moments = np.zeros((degree("n_max", n_max) + 1, n_max + 1), dtype=complex)
     for n, m, harmonic in solid_harmonics(scaled, n_max):
         moments[n, m] = np.dot(masses, np.conj(harmonic))
@@ -267,7 +270,10 @@ def _sources(masses: ArrayLike, positions: ArrayLike) -> tuple[FloatArray, Float
 def _near_and_far(
     position: ArrayLike, source: ArrayLike
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Sort two points by distance; return also the larger distance and the difference."""
+    """Sort two points by distance from the origin: nearer point, farther point.
+
+    Return also the larger distance and the difference of the distances.
+    """
     point, other = np.broadcast_arrays(vectors("position", position), vectors("source", source))
     r_one, r_other = (np.sqrt(np.sum(p * p, axis=-1)) for p in (point, other))
     if np.any(r_one == r_other):

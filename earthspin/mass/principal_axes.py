@@ -102,7 +102,10 @@ def principal_axes(tensor: ArrayLike, equal: float = EQUAL) -> PrincipalAxes:
 def _choose(
     axes: FloatArray, same_ab: bool, same_bc: bool
 ) -> tuple[FloatArray, str, tuple[bool, bool, bool]]:
-    """Choose signs, and the axes that the moments leave arbitrary."""
+    """Choose the signs of principal axes, and the axes that equal moments leave arbitrary.
+
+    Return also the kind of body, and which axes are arbitrary.
+    """
     if same_ab and same_bc:
         return np.eye(3), "sphere", (True, True, True)
     if same_ab:
@@ -127,7 +130,7 @@ def _signed(axis: FloatArray) -> FloatArray:
 
 
 def _across(pole: FloatArray) -> FloatArray:
-    """Unit vector perpendicular to the pole, from a coordinate axis at a large angle to it."""
+    """Unit vector perpendicular to the pole: projection of a coordinate axis far from the pole."""
     coordinate = np.eye(3)[np.argmax(np.abs(pole) < 0.6)]
     across = coordinate - pole * np.dot(coordinate, pole)
     return np.asarray(across / np.linalg.norm(across))

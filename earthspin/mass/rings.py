@@ -203,13 +203,13 @@ def ellipse_torque(
 
 
 def _pull(gm: ArrayLike, mass: ArrayLike) -> FloatArray:
-    """Product GM m of the distant mass (GM) and one of the point masses (m), N m2."""
+    """Product of the distant mass's GM and one point mass m, N m2."""
     mu = positive("point mass", "gm", gm)
     return np.asarray(mu * positive("point masses", "mass", mass))
 
 
 def _far(distance: ArrayLike, radius: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Distance b of the distant mass, and the ratio of the ring's radius to b."""
+    """Distance b of the distant mass from the ring, and ratio of the ring's radius to b."""
     b = positive("point mass", "distance", distance)
     return b, np.asarray(positive("point masses", "radius", radius) / b)
 

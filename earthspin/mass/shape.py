@@ -166,7 +166,7 @@ class Shape:
 
     @classmethod
     def _of(cls, pieces: Pieces, outline: FloatArray, radius: float | None) -> Self:
-        """Shape of weighted points; `outline` has the candidates for the farthest point."""
+        """Shape from weighted points; `outline` has points that may be farthest from the centre."""
         try:
             with np.errstate(over="raise", divide="raise", invalid="raise"):
                 return cls._summed(pieces, outline, radius)

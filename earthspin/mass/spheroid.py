@@ -65,7 +65,9 @@ class AttractionIntegrals(NamedTuple):
 
 
 def confocal_squares(flattening: ArrayLike, position: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Squared semi-axes of the confocal spheroid through a point, or of the body if inside.
+    """Squared semi-axes of the confocal spheroid through a point outside the body.
+
+    For a point inside, they are those of the body.
 
     Parameters
     ----------
@@ -93,7 +95,9 @@ def confocal_squares(flattening: ArrayLike, position: ArrayLike) -> tuple[FloatA
 
 
 def _quadratic(f: FloatArray, square: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Squared focal distance, and coefficients p and w of s2 - p s - w = 0.
+    """Squared focal distance, and coefficients p, w of the equation of confocal spheroids.
+
+    The equation is s2 - p s - w = 0, where s is the smaller squared semi-axis.
 
     s is the smaller squared semi-axis.
     """

@@ -212,7 +212,7 @@ def check_inertia_tensor(tensor: ArrayLike) -> FloatArray:
 
 
 def _refuse(wrong: FloatArray, field: str, value: FloatArray, allowed: str) -> None:
-    """Raise an error for the first invalid body."""
+    """Raise an error that shows the first body marked in `wrong`, if there is one."""
     if np.any(wrong):
         raise BodyError(_BODY, field, value[wrong][0].tolist(), allowed)
 

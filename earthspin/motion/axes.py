@@ -83,7 +83,7 @@ class AxisPath:
 
     @property
     def evaluations(self) -> int:
-        """Number of epochs at which positions were evaluated."""
+        """Number of epochs at which positions of the perturbers were evaluated."""
         return int(self.windows.times.size)
 
     @property
@@ -92,12 +92,15 @@ class AxisPath:
         return float(self.windows.edges[0]), float(self.windows.edges[-1])
 
     def at_starts(self) -> FloatArray:
-        """Unit vectors of the angular momentum at the start of each window, shape (w, 3)."""
+        """Unit vectors of the angular momentum at the start of each window, shape (w, 3).
+
+        The windows are those of the integration.
+        """
         momentum = (self.momentum @ signs(self.momentum.shape[-1])).T
         return np.asarray(momentum / np.linalg.norm(momentum, axis=1, keepdims=True))
 
     def at(self, times: FloatArray, *, semidiurnal: bool = True) -> dict[str, FloatArray]:
-        """Unit vectors of the three axes.
+        """Unit vectors of angular momentum, rotation axis and figure axis at given times.
 
         Parameters
         ----------
@@ -227,7 +230,7 @@ def error_of_input(path: AxisPath, figure: FloatArray, u_h: float) -> FloatArray
 def error_of_sky(
     path: AxisPath, figure: FloatArray, drift: float, speed: float, begin: float
 ) -> FloatArray:
-    """95 % half-width of a direction due to errors of positions, rad, shape (t,).
+    """95 % half-width of an axis direction due to errors of perturber positions, rad, shape (t,).
 
     It is proportional to the displacement of the axis, plus a constant for short periods.
 
@@ -255,7 +258,10 @@ def _displacement(path: AxisPath, figure: FloatArray) -> FloatArray:
 def _directions(
     epoch: float, span: tuple[float, float], limits: tuple[float, float], window: float
 ) -> list[tuple[FloatArray, bool]]:
-    """Window edges from the epoch forward and backward in time; True marks the forward ones."""
+    """Edges of the integration windows from the epoch forward, and from the epoch backward.
+
+    True marks the forward ones.
+    """
     directions: list[tuple[FloatArray, bool]] = []
     for end, limit, sign in ((span[1], limits[1], 1.0), (span[0], limits[0], -1.0)):
         count = int(np.ceil(sign * (end - epoch) / window))
@@ -279,7 +285,7 @@ def _one_window(
 
 
 def _segment_length(segments: list[Segment], left: int, window: float) -> int:
-    """Number of windows in the next segment: few at first, later limited by the axis speed."""
+    """Number of windows in the next segment of the integration, limited by the axis speed."""
     if not segments:
         return min(left, 32)
     last = segments[-1]

@@ -68,7 +68,7 @@ class Divergence:
         return bool(late > CHAOTIC and rate > spread)
 
     def at(self, times: FloatArray) -> FloatArray:
-        """Interpolate the growth at times in s from the start."""
+        """Interpolate the growth of the distance at times in s from the start."""
         return np.asarray(np.interp(times, self.times, self.growth))
 
 
@@ -123,7 +123,10 @@ def _duplicated(body: Rigid) -> Rigid:
 
 
 def _neighbour_pair(state: FloatArray, rotation: FloatArray, momentum: FloatArray) -> FloatArray:
-    """State and neighbour with a small rotation and relative change of L, shape (7, 2)."""
+    """State of a rotation, and a neighbouring state, as columns of an array, shape (7, 2).
+
+    The neighbour has a small rotation and a relative change of the angular momentum.
+    """
     size = np.sqrt(np.sum(state[:3] ** 2))
     quaternion = rotations.rotation_about(rotation, np.ones(1))
     other = np.concatenate(

@@ -45,7 +45,7 @@ FLATTENING, TRIAXIALITY, PULL, ROUNDING = "flattening", "triaxiality", "pull", "
 
 @dataclass(frozen=True, kw_only=True)
 class Rigid:
-    """Parameters of rigid bodies that share their perturbers; one body per lane (column).
+    """Parameters of rigid bodies with common perturbers; arrays have one column (lane) per body.
 
     Attributes
     ----------
@@ -79,17 +79,17 @@ class Rigid:
 
     @property
     def moments(self) -> FloatArray:
-        """Principal moments divided by C, shape (3, lanes)."""
+        """Principal moments of inertia of each body, divided by C, shape (3, lanes)."""
         return np.stack([1 - self.c_minus_a, 1 - self.c_minus_b, np.ones_like(self.c_minus_a)])
 
     @property
     def levers(self) -> FloatArray:
-        """Moment differences C - B, A - C and B - A divided by C, shape (3, lanes)."""
+        """Moment differences C - B, A - C, B - A of each body, divided by C, shape (3, lanes)."""
         return np.stack([self.c_minus_b, -self.c_minus_a, self.c_minus_a - self.c_minus_b])
 
     @property
     def lanes(self) -> int:
-        """Number of bodies."""
+        """Number of rigid bodies, each of which has one column (lane) in arrays."""
         return int(self.tide.size)
 
     def first(self) -> Rigid:
@@ -103,7 +103,7 @@ class Rigid:
         )
 
     def spin(self, state: FloatArray) -> FloatArray:
-        """Angular velocity of one lane along the body's axes, rad/s, shape (3, t).
+        """Angular velocity of the only body, along its principal axes, rad/s, shape (3, t).
 
         Parameters
         ----------
@@ -117,7 +117,7 @@ class Rigid:
 
 @dataclass(frozen=True)
 class Pull:
-    """Perturbing masses and their positions at the nodes of one window.
+    """GM of the perturbing masses, and their positions at the nodes of one window.
 
     Attributes
     ----------
@@ -141,7 +141,7 @@ class Pull:
 
 
 class Equations:
-    """Time derivatives of the unknowns in one window: angular momentum and quaternion p.
+    """Equations of motion in one window; the unknowns are angular momentum and a quaternion p.
 
     Arrays of unknowns and of rates have the shape (7, lanes * n).
 
@@ -182,7 +182,7 @@ class Equations:
         self._matrix_ahead = rotations.matrices(ahead)
 
     def _rows(self, values: FloatArray) -> FloatArray:
-        """Repeat the value of each lane for all nodes."""
+        """Repeat the value of each body (lane) for all nodes of the window."""
         return np.repeat(values, self._nodes, axis=-1)
 
     def attitude(self, unknowns: FloatArray) -> FloatArray:
@@ -201,7 +201,7 @@ class Equations:
         return np.concatenate([np.tile(state[:3], self._lanes), p])
 
     def rates(self, unknowns: FloatArray) -> FloatArray:
-        """Rates of the unknowns, s-1, shape (7, lanes * n)."""
+        """Time derivatives of all unknowns of the equations, s-1, shape (7, lanes * n)."""
         momentum, q = unknowns[:3], self.attitude(unknowns)
         matrix = rotations.matrices(q)
         in_body = _into(matrix, momentum) if self._in_space else momentum
@@ -223,7 +223,10 @@ class Equations:
         return np.concatenate([rate, 0.5 * drift])
 
     def _torque(self, q: FloatArray, matrix: FloatArray, spin: FloatArray) -> FloatArray:
-        """Tidal torque on the three moments plus the custom torque, along the body's axes, s-1."""
+        """Tidal torque on the bulge plus custom torque, in body axes, divided by C u, s-1.
+
+        C is the polar moment of inertia, and u the unit of spin.
+        """
         position = np.einsum("jim,jpm->ipm", matrix, self._places)
         products = position.take((1, 0, 0), 0) * position.take((2, 2, 1), 0)
         torque = self._levers * np.einsum("pm,ipm->im", self._strength, products)
@@ -232,7 +235,10 @@ class Equations:
         return np.asarray(torque)
 
     def _further_torque(self, matrix: FloatArray, momentum: FloatArray) -> FloatArray:
-        """Torque on the zonal harmonics J_n, and torques of effects, along the sky's axes, s-1."""
+        """Torque on the zonal harmonics J_n plus torques of effects, in sky axes, divided by C u.
+
+        The unit is s-1; C is the polar moment of inertia, and u the unit of spin.
+        """
         body, pull = self._body, self._pull
         lanes = (3, self._lanes, self._nodes)
         axis, along = matrix[:, 2].reshape(lanes), momentum.reshape(lanes)

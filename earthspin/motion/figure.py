@@ -31,7 +31,9 @@ _ROUNDING = 1e-17
 def tilt_of_figure(
     windows: Windows, figure: FloatArray, rate: FloatArray, tau: float, rounds: int
 ) -> tuple[FloatArray, list[float]]:
-    """Unit angular momentum minus figure axis without free wobble, tau F x F'.
+    """Unit angular momentum minus figure axis F, for motion without free wobble, rad.
+
+    The result is tau F x F', where F' is the rate of F.
 
     Parameters
     ----------
@@ -68,7 +70,7 @@ def tilt_of_figure(
 
 
 def fastest_sweep(h: float, spin_rate: float, pulls: Iterable[tuple[float, float]]) -> float:
-    """Speed of the axis at an obliquity of 45 degrees, at which it is largest, rad/s.
+    """Largest precession speed of an axis at any obliquity, reached at 45 degrees, rad/s.
 
     (3/4) H/Omega times the sum of GM/r3: the rate of precession in longitude, (3/2) H/Omega GM/r3
     cos(eps), times sin(eps) (I.8.23).

@@ -63,7 +63,7 @@ class Figure:
 
     @property
     def tau(self) -> float:
-        """Time A/(C Omega), s, in the relation of figure axis and angular momentum."""
+        """Time constant A/(C Omega) in the relation of figure axis and angular momentum, s."""
         return (1 - self.h) / self.spin_rate
 
 
@@ -98,7 +98,9 @@ class Forces:
     mean_pole: Callable[[FloatArray], FloatArray] | None = None
 
     def over(self, windows: Windows) -> tuple[RateLaw, FloatArray]:
-        """Evaluate positions at the nodes of windows.
+        """Return the law for the rate of angular momentum at the nodes, and the tidal tensor.
+
+        Positions of the perturbers are evaluated at the nodes of the windows.
 
         Returns
         -------

@@ -69,7 +69,7 @@ class Masses:
     laws: Callable[[Windows, Mapping[str, FloatArray]], Sequence[SkyLaw]] | None = None
 
     def over(self, windows: Windows) -> list[Pull]:
-        """Evaluate the masses at the nodes of each window."""
+        """Make a `Pull` for each window, with positions of the masses at the window's nodes."""
         times, gm = windows.times, np.array(list(self.gm.values()))
         if not self.gm:
             nothing = np.zeros((3, 0, windows.order))
@@ -97,7 +97,7 @@ class Masses:
 
 @dataclass(frozen=True)
 class Piece:
-    """Solution over consecutive windows.
+    """Numerical solution of a rotation over consecutive windows.
 
     Attributes
     ----------
@@ -136,7 +136,7 @@ class Piece:
         return np.concatenate([unknowns[:3], q]).reshape(7, lanes, times.size)
 
     def along_sky(self, times: FloatArray) -> FloatArray:
-        """Angular momentum along the sky's axes and attitude of the first lane, shape (7, t)."""
+        """Angular momentum in sky axes and attitude quaternion of the first body, shape (7, t)."""
         state = self.at(times)[:, 0]
         if not self.in_space:
             state[:3] = rotations.rotated(state[3:], state[:3])
@@ -183,7 +183,7 @@ class Solver:
         self.window, self.shortest = FIRST_TURN / fastest, SHORTEST_TURN / fastest
 
     def next_edges(self, reached: float, end: float, count: int = BATCH) -> FloatArray:
-        """Edges of the next windows, which do not extend beyond the end, s.
+        """Edges of the next integration windows, s; no window extends beyond `end`.
 
         Raises
         ------
@@ -201,7 +201,7 @@ class Solver:
         return np.asarray(edges)
 
     def through(self, edges: FloatArray, start: FloatArray, near: Piece | None = None) -> Piece:
-        """Solve windows in sequence, and stop before the first one that is too long to be accurate.
+        """Solve consecutive windows, and stop before the first one that is too long to be accurate.
 
         Parameters
         ----------
@@ -291,7 +291,7 @@ class Solver:
     def _end(
         self, rates: FloatArray, equations: Equations, start: FloatArray, half: float
     ) -> FloatArray:
-        """Angular momentum and quaternion at the end of a window."""
+        """Angular momentum and attitude quaternion at the end of one window, shape (7, lanes)."""
         lanes = start.shape[1]
         whole = rates.reshape(7, lanes, self.order) @ rule(self.order).weights * half
         end = start + whole
@@ -312,5 +312,5 @@ class Solver:
 
 
 def half_windows(edges: FloatArray) -> FloatArray:
-    """Edges of the windows after each window is divided into two halves."""
+    """Edges of the windows that result if each window is divided into two halves."""
     return np.sort(np.concatenate([edges, (edges[1:] + edges[:-1]) / 2]))

@@ -37,7 +37,7 @@ def rigid_bodies(
     epoch: float = 0.0,
     own: CustomTorque | None = None,
 ) -> tuple[Rigid, tuple[str, ...]]:
-    """Make a body and its neighbours, which each have one uncertain input changed.
+    """Make a rigid body and its neighbours: copies in each of which one uncertain input is changed.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def rigid_bodies(
 
 
 def masses(forces: Forces, epoch: float = 0.0) -> Masses:
-    """Perturbing masses and effects, as functions of time in s from the epoch."""
+    """Make the `Masses` of some forces, as functions of time in s from an epoch."""
 
     def laws(window: Windows, places: Mapping[str, FloatArray]) -> Sequence[SkyLaw]:
         dated = Windows(window.edges + epoch, window.order)

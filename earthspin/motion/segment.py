@@ -37,7 +37,7 @@ _ROUGH, _FEW, _ALL = 2, 2, 9
 
 @dataclass(frozen=True)
 class Start:
-    """Initial figure axis or angular momentum of a segment, and an estimate of its rate.
+    """Initial condition of a segment: figure axis or angular momentum, and an estimate of its rate.
 
     The mean rate of the last segment gives a first estimate that is ten times better than without.
     """
@@ -47,18 +47,18 @@ class Start:
     is_figure: bool
 
     def momentum_with(self, tilt: FloatArray) -> FloatArray:
-        """Initial angular momentum; `tilt` is added if the start is a figure axis."""
+        """Angular momentum at the start: the start axis, plus `tilt` if it is a figure axis."""
         return self.axis + tilt if self.is_figure else self.axis
 
     def guess(self, windows: Windows, forward: bool) -> FloatArray:
-        """First estimate of the axis at the nodes of a segment, shape (3, w, n)."""
+        """First estimate of the axis at the nodes, from its rate at the start, shape (3, w, n)."""
         since = windows.times - windows.edges[0 if forward else -1]
         return np.asarray(self.axis[:, None, None] + np.multiply.outer(self.rate, since))
 
 
 @dataclass(frozen=True)
 class Segment:
-    """Solution over one segment.
+    """Numerical solution for the axes over one segment of consecutive windows.
 
     Attributes
     ----------
@@ -95,13 +95,13 @@ class Segment:
         return np.asarray(self.momentum[:, 0] @ signs(self.momentum.shape[-1]))
 
     def mean_rate(self) -> FloatArray:
-        """Mean rate of the angular momentum, s-1."""
+        """Mean rate of change of the angular momentum over the segment, s-1."""
         change = self.momentum_at_end(True) - self.momentum_at_end(False)
         return np.asarray(change / (self.windows.edges[-1] - self.windows.edges[0]))
 
 
 def signs(terms: int) -> FloatArray:
-    """Values of the Legendre polynomials at -1, the start of a window."""
+    """Values (1 and -1) of the Legendre polynomials at -1, the start of a window, by degree."""
     return np.asarray((-1.0) ** np.arange(terms))
 
 
@@ -162,7 +162,10 @@ def solve(forces: Forces, windows: Windows, start: Start, forward: bool) -> Segm
 
 
 def _remaining_change(change: float, previous: float) -> float:
-    """Total change of the axis in all later Picard rounds, estimated as a geometric series, rad."""
+    """Estimated change of the axis by all later Picard rounds together, rad.
+
+    The changes are assumed to form a geometric series.
+    """
     if not change < previous < np.inf:
         return change
     return change * min(1.0, change / (previous - change))
@@ -181,7 +184,7 @@ def _chain(
 
 
 def _at_edge(windows: Windows, values: FloatArray, forward: bool) -> FloatArray:
-    """Value at the start of the segment, shape (3,)."""
+    """Value of a function at the start of the segment, from its values at the nodes, shape (3,)."""
     series = windows.coefficients(values[:, :1] if forward else values[:, -1:])[:, 0]
     return np.asarray(series @ signs(series.shape[-1]) if forward else series.sum(axis=-1))
 
@@ -210,7 +213,7 @@ def _fast(
 
 
 def _fast_tail(fast: ComplexArray | None) -> float:
-    """Sum of the last quarter of the Legendre terms of the semidiurnal amplitudes, rad.
+    """Truncation error of semidiurnal amplitudes: sum of the last quarter of their series, rad.
 
     Two of fourteen terms are too few: at a spin of 1.9 d their sum was half the measured error.
     """
@@ -221,7 +224,7 @@ def _fast_tail(fast: ComplexArray | None) -> float:
 
 
 def _tail(series: FloatArray, windows: Windows) -> float:
-    """Displacement of the axis in a window by the last two Legendre terms of the rate, rad.
+    """Truncation error of the axis in a window, from the last two Legendre terms of its rate, rad.
 
     The error at the ends of windows is much smaller, since Gauss's rule is exact to twice the
     degree.

@@ -48,7 +48,7 @@ KINDS = ("attitude", "omega", "angular_momentum")
 
 @dataclass(frozen=True)
 class State:
-    """Angular momentum, attitude and angular velocity at a time, in one column for each lane.
+    """State of rotation of several bodies at one time, with one column (lane) for each body.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class State:
 
 @dataclass(frozen=True)
 class RotationSeries:
-    """Rotation at some times, with its error.
+    """Angular momentum, attitude and angular velocity of a body at some times, with errors.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class RotationSeries:
 
 
 def start_of(body: Rigid, attitude: FloatArray, omega: FloatArray) -> State:
-    """Initial state of a body and its neighbours from attitude and angular velocity.
+    """Make the initial state of a body and its neighbours from attitude and angular velocity.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def tolerance_for(accuracy: float | None) -> float:
 
 
 class Motion:
-    """Numerical solution of a rotation; past windows are discarded, so any span is possible.
+    """Numerical solution of a rotation over a span of any length; past windows are discarded.
 
     Parameters
     ----------
@@ -178,7 +178,7 @@ class Motion:
         return self._order * (self._fine.evaluations + self._coarse.evaluations)
 
     def _march(self, fine: FloatArray, coarse: FloatArray) -> Iterator[tuple[Piece, Piece]]:
-        """Yield batches of long windows and of half windows, from the start to the end."""
+        """Yield solutions with long windows and with half windows, in batches from start to end."""
         reached = 0.0
         while True:
             rough = self._coarse.through(self._coarse.next_edges(reached, self._end), coarse)
@@ -194,7 +194,7 @@ class Motion:
                 return
 
     def at(self, times: FloatArray, tell: Callable[[float], None] | None = None) -> RotationSeries:
-        """Rotation at some times, with its error.
+        """Angular momentum, attitude and angular velocity at some times, with errors.
 
         Parameters
         ----------
@@ -261,7 +261,7 @@ class Motion:
 def shares_of(
     series: RotationSeries, changed: Sequence[str], doubt: float
 ) -> dict[str, FloatArray]:
-    """Errors of a rotation by cause, each of shape (3, t).
+    """Errors of a rotation by cause (method, input, kernel) and in total, each of shape (3, t).
 
     Parameters
     ----------

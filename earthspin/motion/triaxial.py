@@ -59,7 +59,7 @@ def semidiurnal_amplitudes(
     spin_rate: float,
     tau: float,
 ) -> ComplexArray:
-    """Amplitudes of the motion of angular momentum, rotation and figure axis at the nodes.
+    """Complex amplitudes of the semidiurnal motion of the three axes at the nodes of windows.
 
     Parameters
     ----------
@@ -109,7 +109,10 @@ def semidiurnal_amplitudes(
 
 
 def _series(windows: Windows, first: ComplexArray, factor: complex) -> ComplexArray:
-    """Solve x = first + factor x' by a series whose terms are derivatives of the previous terms."""
+    """Solve x = first + factor dx/dt for x by a series.
+
+    Each term is `factor` times the derivative of the previous term.
+    """
     total = term = first
     for _ in range(_ROUNDS):
         term = factor * windows.derivative(term)
@@ -120,5 +123,5 @@ def _series(windows: Windows, first: ComplexArray, factor: complex) -> ComplexAr
 
 
 def _on_equator(vector: FloatArray, first: FloatArray, second: FloatArray) -> ComplexArray:
-    """Component of a vector in the plane of the equator as a complex number."""
+    """Projections of vectors on the plane of the equator, as complex numbers in a given basis."""
     return np.asarray(np.sum(vector * first, axis=0) + 1j * np.sum(vector * second, axis=0))

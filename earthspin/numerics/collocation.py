@@ -33,7 +33,7 @@ MOST_HALVINGS = 6
 
 
 def _rule(order: int) -> tuple[Array, Array, Array]:
-    """Nodes and weights on [0, 1], and the integrals from 0 to each node."""
+    """Gauss nodes and weights on [0, 1], and the matrix of integrals from 0 to each node."""
     x, weights = legendre.leggauss(order)
     project = (legendre.legvander(x, order - 1) * weights[:, None]) * (np.arange(order) + 0.5)
     integrals = legendre.legval(x, legendre.legint(np.eye(order), lbnd=-1))
@@ -95,7 +95,7 @@ def carry(
 
 
 def _largest(change: Array, space: Array | None) -> float:
-    """Largest element of a change of solutions, without its component in `space`."""
+    """Largest element of a change of solutions, after its projection on `space` is removed."""
     if space is not None:
         change = change - space @ (np.linalg.pinv(space) @ change)
     return float(np.max(abs(change)))
@@ -104,7 +104,10 @@ def _largest(change: Array, space: Array | None) -> float:
 def _through(
     matrix: Callable[[Array], Array], start: float, stop: float, y: Array, count: int
 ) -> Array:
-    """Integrate solutions from `start` to `stop` in `count` panels in geometric progression."""
+    """Integrate solution columns from `start` to `stop` in `count` panels.
+
+    The edges of the panels are in geometric progression.
+    """
     edges = np.geomspace(start, stop, count + 1)
     width = np.diff(edges)
     radii = edges[:-1, None] + width[:, None] * _NODES

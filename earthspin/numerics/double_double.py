@@ -22,7 +22,7 @@ _SPLITTER = 2.0**27 + 1.0  # Veltkamp: cuts 53 bits into 26 and 26
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DoubleDouble:
-    """Sum hi + lo, where hi is the sum rounded to a float.
+    """Number hi + lo with about 32 digits, where hi is the number rounded to a float.
 
     Attributes
     ----------
@@ -76,7 +76,7 @@ class DoubleDouble:
         return DoubleDouble(*_fast_two_sum(root, rest / (2 * np.where(root > 0, root, 1.0))))
 
     def scaled(self, power_of_two: Numeric) -> DoubleDouble:
-        """Product with a power of two, which is exact."""
+        """Return this number times a power of two, which is exact."""
         return DoubleDouble(self.hi * power_of_two, self.lo * power_of_two)
 
 
@@ -113,7 +113,7 @@ def two_product(a: Numeric, b: Numeric) -> tuple[Numeric, Numeric]:
 
 
 def _fast_two_sum(a: Numeric, b: Numeric) -> tuple[Numeric, Numeric]:
-    """Same as `two_sum`, for |a| >= |b| or a = 0."""
+    """Rounded sum of two floats and its exact rounding error, for |a| >= |b| or a = 0."""
     total = a + b
     return total, b - (total - a)
 

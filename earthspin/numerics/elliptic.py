@@ -34,7 +34,7 @@ _CIRCULAR = 1e-8
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LandenDescent:
-    """Steps of the arithmetic-geometric mean of 1 and k'.
+    """Steps of the arithmetic-geometric mean of 1 and the complementary modulus k'.
 
     Attributes
     ----------
@@ -51,7 +51,7 @@ class LandenDescent:
 
     @property
     def quarter_period(self) -> DoubleDouble:
-        """Quarter period K(k) = pi/2 divided by the mean; 0 on the separatrix."""
+        """Quarter period K(k) from the arithmetic-geometric mean; 0 on the separatrix."""
         return where(self.separatrix, 0.0, _HALF_PI / self.arithmetic[-1])
 
 
@@ -172,7 +172,9 @@ def third_kind_mean(n: DoubleDouble, descent: LandenDescent) -> DoubleDouble:
 def third_kind_periodic(
     u: FloatArray, lower: Jacobi, n: FloatArray, mean: FloatArray, descent: LandenDescent
 ) -> FloatArray:
-    """Periodic part of the integral of sn^2/(1 + n sn^2) dv at the modulus k1 (DLMF 19.25.14).
+    """Periodic part of the integral of sn^2/(1 + n sn^2) over the argument v (DLMF 19.25.14).
+
+    The modulus is k1.
 
     Parameters
     ----------
@@ -261,7 +263,7 @@ def jacobi_sncndn(
 
 
 def complete_third_kind(complement: FloatArray, shape: FloatArray) -> FloatArray:
-    """Complete integral of sn^2/(cn^2 + shape sn^2) from 0 to K.
+    """Complete elliptic integral of sn^2/(cn^2 + shape sn^2) from 0 to the quarter period K.
 
     It equals RJ(0, 1 - m, 1, shape)/3 and is computed by Landen steps with positive terms (Bulirsch
     1969, Numer. Math. 13, 305: cel with a = 0, b = 1).

@@ -1,4 +1,4 @@
-"""Gauss-Legendre windows: a span is divided into windows with the same number of nodes.
+"""Gauss-Legendre windows: consecutive time intervals with the same number of nodes in each.
 
 Inside a window a function is the polynomial through its values at the nodes. Integrals,
 derivatives and interpolated values of all windows are products with small constant matrices.
@@ -46,7 +46,7 @@ class Windows:
         self.times = self.middle + self.half * rule(order).nodes
 
     def coefficients(self, values: _AnyArray) -> _AnyArray:
-        """Legendre coefficients of the polynomial through values at the nodes, (..., w, n)."""
+        """Legendre coefficients of the polynomial through nodal values, shape (..., w, n)."""
         result: _AnyArray = _apply(values, rule(self.order).project)
         return result
 
@@ -96,7 +96,10 @@ class Windows:
 
 
 def _apply(values: Any, matrix: FloatArray) -> Any:
-    """Multiply values by a real matrix; real and imaginary parts separately, at half the cost."""
+    """Multiply real or complex values by a real matrix from the right.
+
+    For complex values, separate products of the real and imaginary parts halve the cost.
+    """
     if np.iscomplexobj(values):
         product = np.empty((*values.shape[:-1], matrix.shape[1]), dtype=complex)
         product.real = np.ascontiguousarray(values.real) @ matrix
@@ -123,7 +126,7 @@ class Rule:
 
     @cached_property
     def antiderivative(self) -> FloatArray:
-        """Matrix from a Legendre series to the series of its integral from -1."""
+        """Matrix from the Legendre coefficients of a function to those of its integral from -1."""
         return np.asarray(legendre.legint(self._basis, lbnd=-1, axis=-1))
 
     @cached_property
@@ -141,7 +144,7 @@ def rule(order: int) -> Rule:
 
 
 def integrated(coefficients: FloatArray, half: FloatArray, start: FloatArray) -> FloatArray:
-    """Legendre series of the integral of a function from the start of each window.
+    """Legendre coefficients, in each window, of a start value plus the integral of a rate.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Unit quaternions (w, x, y, z) with the component on the first axis, for short arrays.
+"""Unit quaternions (w, x, y, z) stored with the component on the first axis, for short arrays.
 
 `earthspin.numerics.quaternion` has the component on the last axis. A step-by-step solver uses
 arrays of sixteen quaternions, for which the number of numpy calls determines the run time.
@@ -13,7 +13,10 @@ FloatArray = NDArray[np.float64]
 
 
 def _structure() -> FloatArray:
-    """Table of Hamilton's product: component c of p q is the sum of table[c, a, b] p_a q_b."""
+    """Coefficients of Hamilton's product of two quaternions, shape (4, 4, 4).
+
+    Component c of p q is the sum of table[c, a, b] p_a q_b.
+    """
     table = np.zeros((4, 4, 4))
     table[0] = np.diag([1.0, -1.0, -1.0, -1.0])
     for i in range(3):

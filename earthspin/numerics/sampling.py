@@ -39,7 +39,7 @@ def quantiles(samples: FloatArray, shares: FloatArray) -> FloatArray:
 
 
 class Shares(NamedTuple):
-    """How outputs depend on inputs.
+    """Slope of each output and share of its variance, for each input of a linear fit.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class Shares(NamedTuple):
 
 
 def columns_of(labels: NDArray[Any]) -> FloatArray:
-    """Indicator columns (0 or 1) of a categorical input, one for each label except the last.
+    """Columns of 0 and 1 that indicate the label of each sample; the last label has no column.
 
     The shape is (n, labels - 1).
 

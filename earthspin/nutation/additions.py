@@ -1,4 +1,4 @@
-r"""Terms that IAU 2000A adds to the resonance form of the transfer function.
+r"""Nutation terms of IAU 2000A that are added to rigid nutation times the resonance form.
 
 Mathews, Herring & Buffett (2002) multiply a rigid series by a resonance form (`response`) and add a
 few terms: the Sun-synchronous atmospheric tide in the prograde annual term, second-order effects at
@@ -25,7 +25,7 @@ SOURCE = (
 
 
 class Addition(NamedTuple):
-    """Amplitude added to one circular term.
+    """Amplitude that IAU 2000A adds to one circular term of nutation, uas.
 
     Attributes
     ----------

@@ -22,7 +22,9 @@ CENTURY = 100 * JULIAN_YEAR
 
 @dataclass(frozen=True)
 class Secular:
-    """Secular motion on the fixed ecliptic, as polynomials in Julian centuries from J2000.0.
+    """Secular longitude psi and inclination omega of a pole on the fixed ecliptic.
+
+    They are polynomials in Julian centuries from J2000.0.
 
     Attributes
     ----------
@@ -72,7 +74,7 @@ class PoleAnalysis:
         self._sine = float(np.sin(EPSILON_0.value * ARCSEC))
 
     def secular(self, pole: FloatArray) -> Secular:
-        """Secular part of psi and omega of a pole, shape (t, 3)."""
+        """Fit the secular part of longitude psi and inclination omega of a pole, shape (t, 3)."""
         psi, omega = on_fixed_ecliptic(pole, self.ecliptic).T
         slow = self._least_squares(psi * self._sine + 1j * omega).slow
         return Secular(slow.real / self._sine, slow.imag.copy())
@@ -85,7 +87,7 @@ class PoleAnalysis:
 def shifted_start(
     start: FloatArray, ours: Secular, wanted: Secular, ecliptic: FloatArray, epoch: float
 ) -> FloatArray:
-    """Correct the initial axis so that the mean pole agrees with another one at the start.
+    """Correct the initial axis of an integration so that its mean pole starts at a given one.
 
     Parameters
     ----------

@@ -34,12 +34,15 @@ def on_fixed_ecliptic(pole: FloatArray, ecliptic: FloatArray) -> FloatArray:
 
 
 def followed(psi: FloatArray, guide: FloatArray) -> FloatArray:
-    """Longitudes unwrapped to the turn nearest to a guide, rad, same shape."""
+    """Add whole turns to longitudes so that each is nearest to its guide value, rad, same shape."""
     return np.asarray(psi + 2 * np.pi * np.rint((guide - psi) / (2 * np.pi)))
 
 
 def pole_from(psi: FloatArray, omega: FloatArray) -> FloatArray:
-    """Unit vector of the pole in the frame of the fixed ecliptic, shape (n, 3)."""
+    """Unit vector of a pole from longitude psi and inclination omega, shape (n, 3).
+
+    The axes are those of the fixed ecliptic.
+    """
     return np.stack(
         [np.sin(omega) * np.sin(psi), np.sin(omega) * np.cos(psi), np.cos(omega)], axis=-1
     )
@@ -76,7 +79,10 @@ def general_precession(pole: FloatArray, ecliptic_pole: FloatArray) -> FloatArra
 
 
 def _along_the_moving_ecliptic(equinox: FloatArray, e: FloatArray) -> FloatArray:
-    """Angle from the equinox of date to the origin, which moves without rotation (Lieske 1977)."""
+    """Angle along the moving ecliptic from the equinox of date to a non-rotating origin, rad.
+
+    See Lieske 1977.
+    """
     x, z = np.eye(3)[[0, 2]]
     origin = x - (e[..., :1] / (1 + e[..., 2:])) * (e + z)
     return _angle_about(e, equinox, origin)

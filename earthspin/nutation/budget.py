@@ -38,7 +38,7 @@ def published_effects() -> dict[str, float]:
 
 
 def closure(rate: Numeric, iau_rate: float) -> Numeric:
-    """Closure: computed rate plus all published effects, minus the IAU rate, rad/s.
+    """Misclosure of the rate of psi_A: computed rate plus published effects minus IAU rate, rad/s.
 
     Parameters
     ----------
@@ -55,7 +55,9 @@ FIRST_ORDER = "first-order"
 
 
 def contributions(total: float, without: Mapping[str, float]) -> dict[str, float]:
-    """Contribution of each effect to a rate, by switching it off, and the first-order remainder.
+    """Contribution of each effect to a rate: rate with all effects minus rate without this effect.
+
+    The remainder is the first-order rate.
 
     Parameters
     ----------
@@ -80,7 +82,10 @@ def published_contributions(effects: Sequence[str]) -> dict[str, float]:
 
 
 def full_closure(rate: float, iau_rate: float) -> float:
-    """Computed rate with all effects, plus the published non-linear term, minus IAU 2006, rad/s."""
+    """Misclosure of the rate of psi_A computed with all effects, compared with IAU 2006, rad/s.
+
+    The published non-linear term is added to the computed rate.
+    """
     return rate + published_effects()["nonrigid"] - iau_rate
 
 

@@ -94,7 +94,7 @@ def term_names(multiples: NDArray[np.int64]) -> list[str]:
 def responses(
     circles: Circles, arguments: FloatArray, factors: Mapping[str, ComplexArray]
 ) -> dict[str, ComplexArray]:
-    """Sum the circular terms once for each set of factors that multiply their amplitudes.
+    """Nutations at given times, one for each set of factors that multiply the circular amplitudes.
 
     Parameters
     ----------

@@ -83,7 +83,7 @@ class CoreNutation:
 
 
 def circle(time: FloatArray, period: float = PERIOD) -> ComplexArray:
-    """Unit circular term exp(2 pi i t/T) with the period T."""
+    """Circular term of unit amplitude at times t: exp(2 pi i t/T) with the period T."""
     return np.asarray(np.exp(2j * np.pi * time / period))
 
 
@@ -94,7 +94,7 @@ def fit(
     step: float = STEP,
     period: float = PERIOD,
 ) -> CoreNutation:
-    """Fit the free core nutation, a constant and a line in sliding windows.
+    """Fit free core nutation, constant and linear trend to pole offsets in sliding windows.
 
     The noise is not white, so its power is measured where it matters: at the same frequency in
     the other sense, and at neighbours of it, in what the fit leaves of the window. The ratio of

@@ -85,7 +85,7 @@ class Flattening(NamedTuple):
 
 
 def inferred_from(budget: Budget, h: float) -> tuple[float, float]:
-    """Value of H for which a budget closes, and its standard uncertainty.
+    """Value of H for which a computed budget equals the IAU rate, and standard uncertainty.
 
     Parameters
     ----------

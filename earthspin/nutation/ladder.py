@@ -1,4 +1,4 @@
-"""Nutation of a body predicted from its layers, by models of increasing completeness (rungs).
+"""Nutation predicted from the layers of a body, by interior models of increasing detail (rungs).
 
 Each rung adds one effect to the previous rung. The observed H is used in all, and only the last two
 rungs use numbers inferred from nutation.
@@ -112,7 +112,7 @@ class Rung:
         return {name: refined_modes[name] for name in MODES if name in refined_modes}
 
     def uncertain(self, relative: Mapping[str, float]) -> list[tuple[Rung, Rung]]:
-        """Pairs of models with each uncertain input raised and lowered by its 95 % half-width.
+        """Two models for each uncertain input, raised and lowered by its 95 % half-width.
 
         Parameters
         ----------
@@ -165,7 +165,7 @@ _INPUTS = {"k2": "answers", "core_fraction": "fluid", "core_ellipticity": "e_f"}
 
 @dataclass(frozen=True)
 class Setting:
-    """Inputs shared by all models.
+    """Inputs that all interior models of a body share.
 
     Attributes
     ----------
@@ -225,7 +225,7 @@ def parts_of(setting: Setting, love: Yielding, e: float | None = None) -> Parts:
 
 
 def with_ocean(parts: Parts, setting: Setting, love: Yielding, sigma: Array) -> Parts:
-    """Parameters including an ocean that follows the equipotential, and its loading of the ground.
+    """Add an ocean, which follows the equipotential and loads the ground, to a body's parameters.
 
     A wobble of the body, its core or its inner core changes the height of the equipotential above
     the ground, and thereby the sea level; by reciprocity the same coefficients give the effect of
@@ -244,7 +244,7 @@ def without_core(parts: Parts) -> Parts:
 
 
 def climb(setting: Setting, coupling: bool = False) -> dict[str, Rung]:
-    """Models of increasing completeness (rungs), and additional models for comparison.
+    """Build the interior models of increasing detail (rungs), and further models for comparison.
 
     Parameters
     ----------
@@ -280,7 +280,7 @@ def climb(setting: Setting, coupling: bool = False) -> dict[str, Rung]:
 
 
 def at_observed_period(rung: Rung, spin_rate: float) -> Rung:
-    """Rung with the core flattening for which the free core nutation has its observed period.
+    """Interior model whose core flattening gives the observed period of the free core nutation.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ SOURCE = "IAU 2000A, IERS Conventions (2003), IERS Technical Note 32, tables 5.3
 
 
 class Term(NamedTuple):
-    """One term of the series at J2000.0, in the tabulated units of 0.1 uas.
+    """One term of the tabulated nutation series at J2000.0, with coefficients in units of 0.1 uas.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ LEFT_OUT = (
 
 
 class Neighbours(NamedTuple):
-    """Contributions of the omitted terms to the fitted amplitudes.
+    """Contributions of omitted nutation terms to the fitted amplitudes of their neighbours.
 
     Attributes
     ----------
@@ -67,7 +67,9 @@ class Neighbours(NamedTuple):
 def neighbours_of(
     multiples: NDArray[np.int64], frequency: FloatArray, rates: FloatArray, arguments: FloatArray
 ) -> Neighbours:
-    """Contributions of the omitted terms to amplitudes fitted over an interval centred on J2000.0.
+    """Contributions of omitted nutation terms to the fitted amplitudes of their neighbours.
+
+    The fitted interval is centred on J2000.0.
 
     Parameters
     ----------

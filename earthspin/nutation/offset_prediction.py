@@ -55,7 +55,7 @@ class Fits:
     fast: ComplexArray
 
     def ahead(self, horizon: float, days: slice | int) -> ComplexArray:
-        """Predict the offsets `horizon` days after each of the selected days."""
+        """Predict celestial pole offsets `horizon` days after each of the selected days."""
         then = circle(np.atleast_1d(self.time[days]) + horizon)
         slow, fast = np.exp(-horizon / SLOW_FADE), np.exp(-horizon / FAST_FADE)
         return np.asarray(
@@ -112,7 +112,9 @@ def predict(
 
 
 def fit_each_day(time: FloatArray, eta: ComplexArray, weight: FloatArray) -> Fits:
-    """Fit the constant and the free core nutation up to each day, with exponential weights.
+    """Fit constant and free core nutation to the pole offsets up to each day of a series.
+
+    Weights decrease exponentially with the age of the data.
 
     Parameters
     ----------

@@ -46,7 +46,7 @@ PERIOD_ERROR, QUALITY_ERROR = 0.1 * DAY, 0.02
 
 @dataclass(frozen=True)
 class Response:
-    """A fitted resonance form.
+    """Fitted resonance formula for the transfer function from rigid to non-rigid nutation.
 
     Attributes
     ----------
@@ -92,7 +92,7 @@ class Response:
 
 
 def added_half_width(response: Response, frequency: FloatArray, rigid: ComplexArray) -> FloatArray:
-    """Uncertainty (95 % half-width) of a term due to that of the free core nutation period, rad.
+    """95 % half-width of nutation terms due to the uncertain period of free core nutation, rad.
 
     Parameters
     ----------
@@ -111,7 +111,10 @@ def added_half_width(response: Response, frequency: FloatArray, rigid: ComplexAr
 def _form(
     frequency: FloatArray, h: float, spin_rate: float, core_nutation: complex
 ) -> tuple[FloatArray, ComplexArray]:
-    """Non-resonant part of the transfer function T, and the factor of each resonance strength."""
+    """Non-resonant part of the transfer function, and the factor that multiplies each strength.
+
+    The strengths are those of the resonances.
+    """
     in_space = frequency / spin_rate
     sigma = in_space - 1
     e = h / (1 - h)

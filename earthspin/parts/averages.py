@@ -38,7 +38,7 @@ SAMPLING = DAY  # s
 
 @dataclass(frozen=True)
 class Samples:
-    """Torques per unit of C - A at equally spaced times about the reference epoch.
+    """Sampled torques per unit of C - A at equally spaced times, and the window to average them.
 
     Attributes
     ----------
@@ -81,7 +81,7 @@ def torque_samples(
     perturbers: tuple[Body, ...],
     chosen_average: Choice[Averaging] | None = None,
 ) -> Samples:
-    """Torque of each perturber from its declination, over the window that converges fastest."""
+    """Sample the torque of each perturber, from its declination, over an averaging window."""
     pole, orbit = body.needed("pole"), body.orbit_pole
     cycle = max(map(slowest_cycle, perturbers))
     window, step = best_window(stretch.first * DAY, stretch.last * DAY, cycle), SAMPLING
@@ -117,7 +117,7 @@ def torque_samples(
 
 
 def _labels(perturbers: tuple[Body, ...]) -> list[str]:
-    """Names of the perturbers, and of their total."""
+    """Labels along `perturber`: the names of the perturbers, followed by "total"."""
     return [*(p.name for p in perturbers), "total"]
 
 
@@ -213,7 +213,10 @@ def window_means(
     perturbers: tuple[Body, ...],
     chosen_average: Choice[Averaging] | None = None,
 ) -> MeanTorques:
-    """Weighted means over the window, with errors estimated from neighbouring windows."""
+    """Mean torques by weighted means of samples over the time window, with errors.
+
+    Errors are measured ones, or estimates from neighbouring windows.
+    """
     samples = torque_samples
     window, times = samples.window, samples.times
     swing = np.array([np.nan if p.name in samples.unmeasured else p.slow_swing for p in perturbers])
@@ -254,7 +257,7 @@ def window_means(
 
 @part(unless=no_exact_means)
 def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
-    """Exact means over each orbit and over its precessing node, if any, with the J2000.0 axis."""
+    """Exact mean torques over each orbit and its precessing node, for the axis at J2000.0."""
     pole, now = body.needed("pole"), np.zeros(1)
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
     axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
@@ -344,7 +347,7 @@ def total_of(by_perturber: Numeric) -> Numeric:
 
 
 def item_of(by_perturber: Numeric, index: int) -> Numeric:
-    """Value for one perturber, selected by its index."""
+    """Value for one perturber, selected by index from an array along `perturber`."""
     if hasattr(by_perturber, "dims"):
         return by_perturber.isel(perturber=index, drop=True)
     return by_perturber[index]
@@ -352,7 +355,7 @@ def item_of(by_perturber: Numeric, index: int) -> Numeric:
 
 @part
 def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ...]) -> MeanRates:
-    """Precession rate and mean torque from averages over orbits, with errors."""
+    """Precession rates and mean torques from averages over orbits, by perturber, with errors."""
     means = mean_torques
     along = _labeller(means) if body.labelled or means.cases else np.asarray
     uncertainties = [p.relative_uncertainty.get("gm", 0.0) for p in perturbers]
@@ -386,7 +389,7 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
 def _rates_over_motions(
     rate: Numeric, means: MeanTorques, body: Body, perturbers: tuple[Body, ...]
 ) -> tuple[Numeric, Numeric]:
-    """Ratios of the precession rate to the mean motions of the perturbers, and to the spin rate."""
+    """Ratio of precession rate to mean motion, summed over perturbers, and to the spin rate."""
     by_orbit = sum(
         abs(item_of(rate, index)) / ((body.gm + p.gm) * near) ** 0.5
         for index, (p, near) in enumerate(zip(perturbers, means.nearness, strict=True))
@@ -408,14 +411,17 @@ MEANS = (torque_samples, window_means, orbit_means, mean_torques, mean_rates)
 
 
 def window_words(window: Window) -> str:
-    """Describe a window."""
+    """Describe the time window of an average: its taper, number of cycles and cycle length."""
     return f"{window.taper} taper over {window.cycles:g} cycles of {window.cycle / DAY:.2f} d"
 
 
 def _measured_errors(
     perturbers: tuple[Body, ...], choice: Choice[Averaging] | None
 ) -> tuple[FloatArray, FloatArray] | tuple[None, None]:
-    """Measured errors of the precessing torque and of the torque for a choice of settings, s-2."""
+    """Measured errors of the chosen settings of an average, by perturber, s-2.
+
+    They are those of the precessing torque and of the torque vector.
+    """
     if choice is None:
         return None, None
     precessing, torque = choice.settings.precessing_errors, choice.settings.torque_errors

@@ -28,7 +28,7 @@ def available_windows(
     pulls: Pulls,
     epochs: Epochs,
 ) -> list[Choice[PoleWindows]]:
-    """Windows of the axis solver with their errors; empty if the errors were not measured."""
+    """Possible windows of the axis solver with their errors; empty if no errors were measured."""
     measured = set(effects) <= set(MEASURED_WITH)
     if not measured or not all(member.naif for member in (body, *perturbers)):
         return []
@@ -58,7 +58,9 @@ def chosen_windows(
     epochs: Epochs,
     accuracy: float | None,
 ) -> list[Choice[PoleWindows]]:
-    """Choose the cheapest windows within the requested accuracy, then the most accurate ones.
+    """Choose the cheapest windows of the axis solver within the requested accuracy.
+
+    The most accurate windows follow in the list.
 
     The list is empty if no errors were measured for this sky.
     """
@@ -75,7 +77,7 @@ def chosen_windows(
 def chosen_average(
     body: Body, perturbers: tuple[Body, ...], stretch: Stretch, accuracy: float | None
 ) -> Choice[Averaging] | None:
-    """Choose the cheapest window and step of the averages within the requested accuracy.
+    """Choose the cheapest averaging window and sampling step within the requested accuracy.
 
     The result is None if no errors were measured for this sky.
     """
@@ -104,7 +106,7 @@ def source_has_equator(source: SourceName) -> str | None:
 def chosen_nutation(
     sky: Sky, epochs: Epochs, accuracy: float | None
 ) -> Choice[NutationNodes | None] | None:
-    """Choose the cheapest nutation whose error plus that of the kernel is within the request."""
+    """Choose the cheapest nutation settings within the accuracy that the ephemeris error leaves."""
     kernel = max(sky.error(place, epochs.span())[0] for place in sky.targets.values())
     allowed = (accuracy or math.inf) - kernel
     first, last = epochs.span()

@@ -17,7 +17,7 @@ THIRD_LAW = 0.01
 
 
 class EllipseChain(NamedTuple):
-    """Ellipses that lead from one body to another.
+    """Sequence of ellipses whose position vectors lead from one body to another.
 
     Attributes
     ----------
@@ -33,7 +33,7 @@ class EllipseChain(NamedTuple):
 
 
 def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, EllipseChain]:
-    """Sequence of ellipses (chain) to each perturber that is placed by elements, by name.
+    """Sequences of ellipses (chains) that lead to the perturbers with orbital elements, by name.
 
     A chain starts from the spinning body if possible, else from a body without elements.
 
@@ -69,7 +69,7 @@ def _add_chain(
     links: Mapping[str, Mapping[str, tuple[Ellipse, int]]],
     reached: dict[str, EllipseChain],
 ) -> None:
-    """Add the chain to one body, and recursively the chains to the bodies linked to this body."""
+    """Store the chain of ellipses to one body, and then those to all bodies linked to it."""
     reached[end] = chain
     for name, link in links[end].items():
         if name not in reached:
@@ -77,7 +77,7 @@ def _add_chain(
 
 
 def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
-    """Name of the body that `member` orbits; empty if it orbits no perturber."""
+    """Name of the central body of the orbit of `member`; empty if it is not among the bodies."""
     assert member.orbit is not None
     about = member.orbit.about
     if about:

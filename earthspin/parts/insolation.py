@@ -123,7 +123,7 @@ def daily_insolation(
 
 
 def _quantile(moved: Callable[[float], xr.DataArray], value: xr.DataArray) -> xr.DataArray:
-    """95 % quantile of the absolute change of a value for random errors of a longitude."""
+    """95 % quantile of the absolute change of a value due to random errors of a longitude."""
     quantiles = Quantiles()
     for (by,) in draws(1):
         quantiles.add({_CALL: (moved(float(by)) - value).values})
@@ -140,7 +140,7 @@ def _insolation(
     true: bool,
     share: float | None,
 ) -> xr.DataArray:
-    """Insolation relative to the solar constant."""
+    """Insolation divided by the solar constant, averaged over a day or over a share of the year."""
     arrays = xr.broadcast(obliquity, eccentricity, perihelion, latitude, longitude)
     eps, e, w, phi, sun = (array.values for array in arrays)
     season = Season(eps, e, w)
@@ -165,7 +165,7 @@ def _angle(value: Any, name: str, most: float) -> xr.DataArray:
 
 
 def _share(days: Any, body: str) -> float | None:
-    """Convert a window of days to a fraction of the year."""
+    """Convert the length of an averaging window from days to a fraction of the year."""
     if days is None:
         return None
     where = Where("days", _CALL)

@@ -23,7 +23,7 @@ LayeredInterior = Annotated[LayeredBody, Layers()]
 
 
 def interior_of(body: Body) -> Interior | None:
-    """Interior of a body; None if it is rigid.
+    """Interior model of a body, from its layers or its name; None if the body is rigid.
 
     If an unmodified body has custom layers, the other known numbers of its interior still apply.
     """

@@ -29,7 +29,7 @@ IAU = "iau"
 
 @cache
 def observed_series() -> PoleSeries:
-    """Celestial pole offsets of C04."""
+    """Observed celestial pole offsets of the IERS series C04."""
     return read_pole_offsets()
 
 
@@ -68,7 +68,7 @@ class ObservedSky:
     provenance: dict[str, str]
 
     def sizes(self, models: Mapping[str, FloatArray], error: float) -> ObservedSizes:
-        """Compare models with the observed pole.
+        """Sizes (rms) of the differences between models and the observed celestial pole.
 
         Parameters
         ----------

@@ -9,7 +9,7 @@ from earthspin.engine.variables import Pair, Variables, measured
 
 
 class ObservedWobble(Variables):
-    """Variables of the observed period of the free wobble."""
+    """Declaration of the variable for the observed period of the free wobble."""
 
     observed_period: Pair = measured("d", "observed period of the free wobble")
 

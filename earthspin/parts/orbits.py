@@ -22,7 +22,7 @@ _ARRAYS = ("edges", "coefficients", "axes", "errors")
 
 
 class OrbitChoice(FileName):
-    """Kind of an orbit table: that of the body, a file, or an `OrbitTable`."""
+    """Converter of the choice of an orbit table: the body's own, a file, or an `OrbitTable`."""
 
     words = '"own", the path of a table, or the result of read_orbit'
     hint = "str | PathLike[str] | OrbitTable"
@@ -30,7 +30,7 @@ class OrbitChoice(FileName):
     content = "the table of an orbit"
 
     def read(self, value: object, where: Where) -> Any:
-        """Read "own", a path, a table, or the result of `write`."""
+        """Read the choice: "own", the path of a file, an `OrbitTable`, or the result of `write`."""
         if isinstance(value, OrbitTable):
             return value
         if isinstance(value, Mapping):
@@ -50,7 +50,7 @@ class OrbitChoice(FileName):
 
 
 def _table_of(table: Mapping[str, Any], where: Where) -> OrbitTable:
-    """Make a table from its representation in a scene."""
+    """Make an `OrbitTable` from the form in which a scene file stores it."""
     wanted = {"name", "source", "sha256", *_ARRAYS}
     if set(table) != wanted:
         raise where.error(sorted(table), f"an orbit table needs {', '.join(sorted(wanted))}")

@@ -85,7 +85,7 @@ def axis_path(
 
 @dataclass(frozen=True)
 class Errors:
-    """95 % half-widths of directions by cause, rad.
+    """95 % half-widths of the directions of the axes at some times, by cause, rad.
 
     Attributes
     ----------
@@ -109,7 +109,7 @@ class Errors:
 
 @dataclass(frozen=True)
 class PathErrors:
-    """Errors of the directions of a path.
+    """Errors of the directions of the axes along an integrated path.
 
     Attributes
     ----------
@@ -129,7 +129,10 @@ class PathErrors:
     shift: Shift | None = None
 
     def at(self, days: FloatArray, figure: FloatArray) -> Errors:
-        """Errors at days from J2000.0, shape (t,), from the figure axes, shape (t, 3)."""
+        """Errors of axis directions at days from J2000.0, shape (t,), by cause.
+
+        `figure` holds the figure axes at these days, shape (t, 3).
+        """
         u_h = self.body.relative_uncertainty.get("dynamical_flattening", 0.0)
         method = np.nan if self.pulls.sky.unmeasured else self.path.error
         return Errors(
@@ -140,7 +143,7 @@ class PathErrors:
         )
 
     def _of_sky(self, figure: FloatArray) -> FloatArray:
-        """95 % half-width of directions due to errors of the positions, rad, shape (t,)."""
+        """95 % half-width of axis directions due to position errors, rad, shape (t,)."""
         sky, body = self.pulls.sky, self.body
         _, epoch = start_of(body, self.pulls)
         positions = sky.positions(np.array([epoch / DAY]))
@@ -155,7 +158,7 @@ class PathErrors:
         return grown * axes.error_of_sky(self.path, figure, drift, speed, DRIFT_FROM)
 
     def largest(self) -> dict[str, float]:
-        """Largest error over the series, in total and by cause, rad."""
+        """Largest error of the axis directions over the series, in total and by cause, rad."""
         largest: dict[str, float] = {}
         for first in range(0, self.epochs.size, _CHUNK):
             days = self.epochs.days(first, min(first + _CHUNK, self.epochs.size))
@@ -207,7 +210,7 @@ def largest_error(
 
 @dataclass(frozen=True)
 class LongitudeCycles:
-    """Continuous longitude along a path, used to add whole revolutions to principal values.
+    """Continuous longitude of an axis along a path, by which whole turns are added to longitudes.
 
     Attributes
     ----------
@@ -221,12 +224,18 @@ class LongitudeCycles:
     psi: FloatArray
 
     def unwrapped(self, psi: FloatArray, times: FloatArray) -> FloatArray:
-        """Add whole revolutions to longitudes, shape (t, k), at times in s, shape (t,)."""
+        """Add whole turns to longitudes, shape (t, k), to make them continuous along the path.
+
+        `times` are in s, shape (t,).
+        """
         return followed(psi, np.interp(times, self.times, self.psi)[:, np.newaxis])
 
 
 def longitude_cycles(path: AxisPath, first: float, ecliptic: FloatArray) -> LongitudeCycles:
-    """Compute the continuous longitude that equals the principal value at the time `first`, s."""
+    """Compute the continuous longitude of the angular momentum along a path.
+
+    It equals the principal value at the time `first`, s.
+    """
     psi = np.unwrap(on_fixed_ecliptic(path.at_starts(), ecliptic)[:, 0])
     times = path.windows.edges[:-1]
     principal = on_fixed_ecliptic(path.at(np.array([first]))["angular_momentum"], ecliptic)[0, 0]
@@ -327,7 +336,10 @@ def path_over(
     start: FloatArray,
     days: FloatArray,
 ) -> AxisPath:
-    """Axes of the rigid body over a range of days; positions are stored for the next run."""
+    """Integrate the axes of the rigid body over a range of days.
+
+    Positions of the perturbers are stored for the next run.
+    """
     _, epoch = start_of(body, pulls)
     forces = forces_of(body, pulls, rigid(effects), keep=True)
     span = days[0] * DAY, days[-1] * DAY
@@ -365,7 +377,10 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
 def residual_error(
     analysed: PoleComparison, body: Body, eta: ComplexArray, days: FloatArray
 ) -> float:
-    """95 % half-width of a residual in either angle, from integration, H and interpolation."""
+    """95 % half-width of a nutation residual in either angle.
+
+    It is due to integration, H and interpolation.
+    """
     from earthspin.sky.iau import node_error
 
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
@@ -375,13 +390,16 @@ def residual_error(
 
 
 def rigid(effects: Sequence[str]) -> list[str]:
-    """Select the effects that apply to a rigid body."""
+    """Select the effects that apply to a rigid body, which excludes the non-rigid response."""
     return [effect for effect in effects if effect != NONRIGID.name]
 
 
 @part(unless=no_iau_model)
 def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> PoleComparison:
-    """Analyse the computed pole and that of the IAU over 150 years, with equal mean poles."""
+    """Analyse the computed pole and the pole of the IAU over 150 years in the same way.
+
+    The initial axis is corrected so that the mean poles agree at the start.
+    """
     from earthspin.nutation.analysis import CENTURY, PoleAnalysis, shifted_start
     from earthspin.nutation.circles import complex_nutation
     from earthspin.sky import iau
@@ -441,7 +459,7 @@ def core_response(pole_analysis: PoleComparison, body: Body) -> Response:
 def _response_between(
     circles: Circles, rigid: ComplexArray, other: ComplexArray, body: Body
 ) -> Response:
-    """Fit the transfer function from rigid amplitudes of circles to non-rigid ones."""
+    """Fit the transfer function from rigid to non-rigid amplitudes of circular nutation terms."""
     from earthspin.nutation.response import fit_response
 
     used = _circles_for_fit(circles)
@@ -455,7 +473,10 @@ def _response_between(
 
 
 def _circles_for_fit(circles: Circles) -> NDArray[np.bool_]:
-    """Circles for the fit of a response: all except the prograde annual term."""
+    """Mask of the circular terms that the fit of a response uses.
+
+    These are all except the prograde annual term.
+    """
     from earthspin.nutation.response import SUN_SYNCHRONOUS
 
     return np.asarray(np.any(circles.multiples != SUN_SYNCHRONOUS, axis=1))
@@ -491,7 +512,7 @@ class ResponseFit:
 def response_apart(
     pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
 ) -> ResponseFit:
-    """Fit the resonance formula after removing geodesic nutation and additive terms."""
+    """Fit the resonance formula after removing geodesic nutation and terms that IAU 2000A adds."""
     from earthspin.nutation.additions import added_to
     from earthspin.nutation.circles import complex_nutation
     from earthspin.sky import iau
@@ -514,7 +535,7 @@ def response_apart(
 
 @dataclass(frozen=True)
 class Shift:
-    """Displacement of the axes of a rigid body that represents the non-rigid response.
+    """Displacement of the axes by the non-rigid response, which is added to a rigid path.
 
     Attributes
     ----------
@@ -541,7 +562,10 @@ class Shift:
     residual: float
 
     def apply(self, directions: dict[str, FloatArray], days: FloatArray) -> None:
-        """Shift the axes in place: precession for all axes, nutation for those of the mantle."""
+        """Move the axes in place by the non-rigid precession and nutation.
+
+        Nutation does not move the angular momentum.
+        """
         from earthspin.sky import iau
 
         precession = self.rate * (days * DAY - self.epoch)
@@ -552,12 +576,12 @@ class Shift:
             directions[name] = iau.moved_by_nutation(axis, shift, days)
 
     def half_width(self, days: FloatArray) -> FloatArray:
-        """95 % half-width of directions due to the response and the closure of the rates, rad."""
+        """95 % half-width of axis directions due to errors of response and rates, rad."""
         return np.hypot(self.residual, self.closure * (days * DAY - self.epoch))
 
 
 def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[str]) -> Shift:
-    """Make a `Shift` from amplitudes of circles, with its residuals from IAU 2006/2000A."""
+    """Make a `Shift` from circular amplitudes, with errors from differences from the IAU pole."""
     from earthspin.sky import iau
 
     circles = replace(analysed.our_circles, amplitude=amplitude)

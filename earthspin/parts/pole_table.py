@@ -44,7 +44,7 @@ class TableFile(FileName):
 
 
 class Daily(Variables, along=("time",)):
-    """Variables at the days of a table."""
+    """Declaration of variables at the days of a table of the observed pole."""
 
     time: Labels = labels("time", standard_name="time", comment="0h UTC in daily tables")
 
@@ -55,7 +55,7 @@ def not_observed(body: Body) -> str | None:
 
 
 def within(series: PoleSeries, span: Span | None) -> PoleSeries:
-    """Rows of a table within a span, or all rows without a span.
+    """Rows of a table of the observed pole within a span, or all rows if no span is given.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
 def labelled_series(
     series: Any, names: tuple[str, str], units: tuple[str, ...]
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Days from J2000.0 of a Dataset, and two of its variables in SI units.
+    """Days from J2000.0, and values in SI units, of two variables of a Dataset along `time`.
 
     Raises
     ------

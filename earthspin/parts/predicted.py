@@ -28,7 +28,7 @@ SOURCES = "; ".join(
 
 @dataclass(frozen=True)
 class Prediction:
-    """Sequence of interior models of increasing detail (rungs of a ladder).
+    """Predicted response of a body's interior, by models of increasing detail (rungs of a ladder).
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class Prediction:
 
     @property
     def ladder(self) -> list[str]:
-        """Names of the rungs without the additional models."""
+        """Names of the models of increasing detail (rungs), without the models for comparison."""
         return [name for name in self.rungs if name not in ladder.BESIDE]
 
     def transfer(self, name: str, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
@@ -63,7 +63,7 @@ class Prediction:
 
 
 def layered(body: Body) -> Interior | None:
-    """Interior of a body if its layers include an inner core, else None."""
+    """Interior of a body whose layers include an inner core; None for any other body."""
     interior = interior_of(body)
     if interior is None or interior.layers is None or not interior.layers.inner_core_radius:
         return None
@@ -82,7 +82,7 @@ def no_layers(body: Body) -> str | None:
 
 
 def predict(body: Body, coupling: bool, anelastic_exponent: float) -> Prediction:
-    """Compute all rungs for a body with layers."""
+    """Build all interior models (rungs) of a body with layers."""
     interior = layered(body)
     assert interior is not None
     assert interior.layers is not None

@@ -47,7 +47,7 @@ class AxisMotion(Series):
 
 @dataclass(frozen=True)
 class Pulls:
-    """Masses and positions of all perturbers, and the time limits of the source.
+    """Masses and positions of all perturbers, and first and last time of the positions.
 
     Attributes
     ----------
@@ -71,7 +71,7 @@ class Pulls:
     def positions(
         self, names: Sequence[str], times: FloatArray, keep: bool
     ) -> dict[str, FloatArray]:
-        """Positions of some perturbers at times in s, m; stored for later calls if `keep`."""
+        """Positions of perturbers from the body, m, at times in s; stored for reuse if `keep`."""
         at = (float(times[0]), float(times[-1]), times.size)
         known = self._stored.setdefault(at, {}) if keep else {}
         missing = {name: self.targets[name] for name in names if name not in known}
@@ -95,7 +95,7 @@ def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str
 
 
 def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = False) -> Forces:
-    """Forces on the axes, with the given effects only."""
+    """Make the forces that move the axes of a body, with only the given effects switched on."""
     near = tuple(pulls.sky.targets)
     forces = Forces(
         figure=figure_of(body, 2 * math.pi / body.number("spin_period")),
@@ -123,7 +123,7 @@ def figure_of(body: Body, spin_rate: float) -> Figure:
 
 
 def switched_on(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:
-    """Switch effects on, and return the new forces."""
+    """Return the forces with the given effects switched on."""
     for name, effect in EFFECTS.items():
         if name in effects:
             forces = effect.switch_on(forces, body)
@@ -131,13 +131,16 @@ def switched_on(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:
 
 
 def start_of(body: Body, pulls: Pulls) -> tuple[FloatArray, float]:
-    """Initial figure axis and its epoch, s: J2000.0, or the nearest time that the kernel covers."""
+    """Figure axis at the start of the integration, and the epoch of the start, s from J2000.0.
+
+    The epoch is J2000.0, or the nearest time that the kernel covers.
+    """
     epoch = min(max(0.0, pulls.limits[0]), pulls.limits[1])
     return body.needed("pole").true(epoch / DAY), epoch
 
 
 def start_note(body: Body) -> dict[str, str]:
-    """Attribute stating that an error does not include the uncertainty of the initial pole.
+    """Attribute that explains that errors exclude the uncertainty of the initial pole.
 
     Empty if the pole follows the models of the IAU.
     """

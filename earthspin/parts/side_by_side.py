@@ -1,4 +1,4 @@
-"""Broadcast numbers and labelled arrays against one another, for functions of plain arrays."""
+"""Broadcast numbers and labelled arrays to common dimensions, for functions of plain arrays."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class SideBySide:
 
     @classmethod
     def of(cls, **values: Any) -> Self:
-        """Broadcast numbers and labelled arrays against one another."""
+        """Broadcast named numbers and labelled arrays to common dimensions."""
         arrays = {name: value for name, value in values.items() if hasattr(value, "dims")}
         if not arrays:
             return cls(values)
@@ -48,12 +48,12 @@ class SideBySide:
         return cls(numbers, tuple(map(str, first.dims)), first.coords)
 
     def columns(self, *names: str) -> tuple[Any, ...]:
-        """Some of the numbers; arrays get an additional last axis of length 1."""
+        """Return some of the numbers by name; arrays get an additional last axis of length 1."""
         index = (..., np.newaxis) if self.dims else ...
         return tuple(np.asarray(self.numbers[name])[index] for name in names)
 
     def lay(self, values: NDArray[Any], *dims: str) -> xr.DataArray:
-        """Label a result along the common dimensions and `dims`; a constant is repeated."""
+        """Label a result's values along the common dimensions and `dims`; repeat a constant."""
         import xarray as xr
 
         if values.ndim < len(self.dims) + len(dims):

@@ -153,7 +153,7 @@ def unmeasured(body: Body) -> bool:
 
 @dataclass(frozen=True)
 class Places:
-    """Origin of the positions of all bodies of a question.
+    """How the position of each body of a question is found: kernel, own trajectory or elements.
 
     Attributes
     ----------
@@ -175,7 +175,7 @@ class Places:
 
 @dataclass(frozen=True)
 class Sky:
-    """An open source of positions, with the places of the bodies of a question in it.
+    """Opened source of positions, and the code or trajectory of each body of a question in it.
 
     Attributes
     ----------
@@ -207,14 +207,14 @@ class Sky:
         return attributes
 
     def error(self, target: Place, days: Iterable[float] = (0.0,)) -> tuple[float, float]:
-        """Largest error of the position of a body on some days, as an angle (rad) and in m."""
+        """Largest position error of a body on some days, as an angle (rad) and in m."""
         angles, distances = zip(
             *(self.source.error(target, self.centre, day) for day in days), strict=True
         )
         return max(angles), max(distances)
 
     def drift(self, name: str, distance: float) -> float:
-        """Relative error of the motion of an axis due to errors of a perturber's positions."""
+        """Relative error of the motion of an axis due to position errors of one perturber."""
         return self.source.drift(self.targets[name], self.centre, distance)
 
     @property
@@ -233,17 +233,23 @@ class Sky:
         )
 
     def place(self, body: Body) -> Place:
-        """Place of another body in the source."""
+        """Code or trajectory by which the source of positions finds another body."""
         return _place(self.source, body.name, EllipseChain(body))
 
     def coverage(self, targets: Mapping[str, Place] | None = None) -> tuple[float, float]:
-        """First and last day with positions of the targets, by default the perturbers."""
+        """First and last day for which the positions of all targets are known.
+
+        The targets are the perturbers by default.
+        """
         return self.source.coverage(self._all(targets))
 
     def check_times(
         self, days: Iterable[float], targets: Mapping[str, Place] | None = None
     ) -> None:
-        """Refuse days without positions of all targets, by default the perturbers."""
+        """Raise an error for a day on which the position of any target is missing.
+
+        The targets are the perturbers by default.
+        """
         self.source.check_times(np.array(list(days)), self._all(targets))
 
     def _all(self, targets: Mapping[str, Place] | None) -> set[Place]:
@@ -333,14 +339,14 @@ class Sky:
 
 @dataclass(frozen=True)
 class Stretch:
-    """First and last day of an average, days from J2000.0 TDB."""
+    """Time span of an average: first and last day, days from J2000.0 TDB."""
 
     first: float
     last: float
 
 
 def _place(source: Source, name: str, chain: EllipseChain) -> Place:
-    """Place of a body in a source, or at the end of a chain of ellipses from another body."""
+    """Code, trajectory or chain of ellipses by which a source of positions finds a body."""
     if chain.ellipses:
         return ByElements(chain.ellipses, source.code(chain.start.naif, name))
     return place_of(source, name, chain.start.naif, chain.start.position)
@@ -348,7 +354,7 @@ def _place(source: Source, name: str, chain: EllipseChain) -> Place:
 
 @part
 def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
-    """Origin of the positions of the bodies: codes, own positions and elements."""
+    """Determine how the position of each body is found: kernel, own trajectory or elements."""
     targets = {p.name: EllipseChain(p) for p in perturbers} | ellipse_chains(body, perturbers)
     for p in perturbers:
         start = targets[p.name].start
@@ -396,7 +402,10 @@ def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
 
 @part
 def stretch(sky: Sky, span: Span | None) -> Stretch:
-    """Requested span, or by default the span that the source covers."""
+    """Time span of an average: the requested span, or by default all days with positions.
+
+    For orbits by elements, which have no limits, a usual length is taken.
+    """
     if span is not None:
         sky.check_times(span.days)
         return Stretch(*span.days)

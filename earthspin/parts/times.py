@@ -37,13 +37,13 @@ class Series(PerturbedBody):
 
 
 class Dated(Variables, along=("time",)):
-    """Variables at the dates of a series."""
+    """Declaration of variables at the dates of a series."""
 
     time: Labels = labels("time (TDB)", standard_name="time", axis="T")
 
 
 class FromStart(Variables, along=("time",)):
-    """Variables at times from the start of a motion, along the axes of a body."""
+    """Declaration of variables at times from the start of a motion, in axes of the body."""
 
     time: Labels = labels("time from the start", "s")
     component: Labels = labels(default=["x", "y", "z"])
@@ -66,7 +66,7 @@ BYTES_PER_TIME = 128
 
 
 def by_region(store: str) -> str:
-    """Advice to write a series block by block, because it is too long for memory."""
+    """Advice for error messages: write a series block by block if it is too long for memory."""
     return f"write them by region with write_series(scene, '{store}') or run --out"
 
 

@@ -1,1 +1,1 @@
-"""Ladders of error against run time, one module per quantity: methods, settings, reference."""
+"""Ladders: for each quantity, the methods to compare, their settings and a reference solution."""

@@ -38,7 +38,7 @@ NORMAL = np.array([0.0, 0.0, 1.0])
 
 
 def arguments(times: FloatArray) -> FloatArray:
-    """D, l', l, F at times in s from J2000.0, rad, shape (4, n)."""
+    """Delaunay arguments D, l', l and F at times in s from J2000.0, rad, shape (4, n)."""
     centuries = times / (DAYS_PER_CENTURY * DAY)
     return np.asarray(np.radians(ARGUMENTS[:, np.newaxis] + RATES[:, np.newaxis] * centuries))
 
@@ -88,19 +88,22 @@ def positions(angles: FloatArray) -> dict[str, FloatArray]:
 
 
 def precessing(angles: FloatArray) -> FloatArray:
-    """Precessing torque of Sun and Moon per unit of C - A, s-2, shape (n,)."""
+    """Component of the torque of Sun and Moon that causes precession, shape (n,), s-2.
+
+    It is the torque per unit of C - A.
+    """
     position = positions(angles)
     torque = sum(torque_from_position(GM[name], 1.0, position[name], AXIS) for name in GM)
     return precessing_torque(np.asarray(torque), AXIS, NORMAL)
 
 
 def precessing_at(times: FloatArray) -> FloatArray:
-    """`precessing` at times in s from J2000.0."""
+    """Torque component that causes precession, s-2, at times in s; see `precessing`."""
     return precessing(arguments(times))
 
 
 def torus_mean(counts: tuple[int, int, int, int]) -> float:
-    """Mean precessing torque over the torus of D, l', l, F, by the trapezoid rule.
+    """Mean of `precessing` over all values of the Delaunay arguments, by the trapezoid rule, s-2.
 
     Parameters
     ----------

@@ -30,7 +30,7 @@ QUICK_EXCESS = 2.0  # a few records determine a scatter to one third
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return the methods, their settings and the reference."""
+    """Return methods for the period of the free wobble, their settings and the reference."""
     years, records = (QUICK_YEARS, FEW_RECORDS) if quick else (YEARS, RECORDS)
     excess, scatter = QUICK_EXCESS if quick else 1.0, best_scatter(years[-1])
     bounds = {name: EXCESS[name] * excess * scatter * DAY for name in METHODS}
@@ -58,7 +58,10 @@ def ladder(quick: bool) -> Ladder:
 
 
 def best_scatter(years: float) -> float:
-    """Smallest possible scatter of any method: T sqrt(T/(4 pi Q L)), d."""
+    """Smallest possible scatter of a wobble period estimated from a record of given length, d.
+
+    It is T sqrt(T/(4 pi Q L)) for the period T, the quality factor Q and the length L.
+    """
     return float(PERIOD * np.sqrt(PERIOD / (4 * np.pi * QUALITY * years * 365.25)))
 
 
@@ -85,7 +88,7 @@ def _period_by_fit(name: str, record: Record) -> float:
 
 
 def _peak(record: Record) -> Any:
-    """Period of the highest spectral line of the detrended record in the wobble's band."""
+    """Period of the highest line, within the wobble's band, in the spectrum of a record, d."""
     time, p = record
     p = p - np.polyval(np.polyfit(time, p, 1), time)
     frequency = np.fft.fftfreq(time.size, time[1] - time[0])

@@ -43,7 +43,7 @@ BOUND = 1e-11
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return the methods, their settings and the reference."""
+    """Return methods for the compliances of PREM, their settings and the reference."""
     true = load("compliances", INPUTS)["answers"]
     fine = (1e-4, 1e-7) if quick else (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-12)
     coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
@@ -83,13 +83,13 @@ def ladder(quick: bool) -> Ladder:
 
 
 def scaled_error(true: DoubleDouble, result: Array) -> float:
-    """Largest error of a compliance ij, relative to the geometric mean of compliances ii and jj."""
+    """Largest error of any compliance, relative to the geometric mean of its two diagonal ones."""
     own = np.sqrt(abs(np.diagonal(true.hi)))
     return float(np.max(abs((result - true).hi) / np.outer(own, own)))
 
 
 def _run(carry: Callable[..., Array], setting: float) -> Result:
-    """Compliances of PREM, and the number of radii at which the matrix was evaluated."""
+    """Compliances of PREM, and number of radii at which the equations were evaluated."""
     radii = 0
 
     def counted(
@@ -108,7 +108,7 @@ def _run(carry: Callable[..., Array], setting: float) -> Result:
 
 
 def _by_scipy(name: str, matrix: Matrix, start: float, stop: float, y: Array, rtol: float) -> Array:
-    """Integrate all columns as one system with SciPy."""
+    """Integrate all columns of the solution together, as one system of equations, with SciPy."""
 
     def slope(r: float, flat: Array) -> Array:
         return np.asarray(_at(matrix, r) @ flat.reshape(y.shape)).ravel()
@@ -133,7 +133,10 @@ def _runge_kutta(matrix: Matrix, start: float, stop: float, y: Array, step: floa
 
 
 def _even_layers(matrix: Matrix, start: float, stop: float, y: Array, step: float) -> Array:
-    """Multiply propagators of thin layers, exponentials of r M at their middles in ln r."""
+    """Integrate by thin homogeneous layers: multiply by the matrix exponential of each layer.
+
+    The exponents are r M in the middle of each layer in ln r, times its thickness in ln r.
+    """
     edges = _edges(start, stop, step)
     for r, after in pairwise(edges):
         middle = np.sqrt(r * after)
@@ -146,5 +149,5 @@ def _edges(start: float, stop: float, step: float) -> Array:
 
 
 def _at(matrix: Matrix, r: float) -> Array:
-    """Matrix of the equations at one radius."""
+    """Matrix M of the equations dy/dr = M y at one radius."""
     return np.asarray(matrix(np.array([r]))[..., 0, :, :])

@@ -58,13 +58,16 @@ ROUNDING = 1e-28
 
 
 def days() -> FloatArray:
-    """Times of the positions, rounded to 1/16 d so that they are the same on every machine, d."""
+    """Times at which positions are compared, d, rounded to 1/16 d.
+
+    Rounding makes them the same on every machine.
+    """
     period = 2 * math.pi / ORBIT.motion / DAY
     return np.asarray(np.rint(16 * np.linspace(0, TURNS * period, TIMES)) / 16)
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return the methods, their settings and the reference."""
+    """Return methods for positions on orbits by elements, their settings and the reference."""
     true = load("elements", INPUTS)["places"]
     wanted = np.arange(TIMES)[1::2] if quick else np.arange(TIMES)
     t = days()[wanted]
@@ -109,7 +112,10 @@ def _by_elements(t: FloatArray) -> Result:
 
 
 def _on_all_orbits(run: InPlane, t: FloatArray, setting: float) -> Result:
-    """Positions on all orbits by a method that computes them in the plane of the orbit."""
+    """Positions on all test orbits by one method, with the number of its calls.
+
+    The method computes positions in the plane of an orbit.
+    """
     positions, calls = [], 0
     for orbit in ORBITS:
         x, y, more = run(orbit, orbit.mean_anomaly + orbit.motion * DAY * t, setting)
@@ -129,7 +135,7 @@ def _in_space(orbit: Ellipse, t: FloatArray, x: FloatArray, y: FloatArray) -> Fl
 
 
 def _on_ellipse(orbit: Ellipse, cosine: FloatArray, sine: FloatArray, calls: float) -> Planar:
-    """Position in the plane from the cosine and sine of the eccentric anomaly."""
+    """Coordinates in the orbital plane from the eccentric anomaly, with the number of calls."""
     return orbit.a * (cosine - orbit.e), orbit.a * math.sqrt(1 - orbit.e**2) * sine, int(calls)
 
 
@@ -161,7 +167,7 @@ def _series(orbit: Ellipse, mean: FloatArray, terms: float) -> Planar:
 
 
 def _start(orbit: Ellipse) -> tuple[FloatArray, FloatArray, float]:
-    """Position (m) and velocity (m/s) at the pericentre, and GM (m3 s-2)."""
+    """Position (m) and velocity (m/s) at the pericentre in the orbital plane, and GM (m3 s-2)."""
     speed = orbit.motion * orbit.a * math.sqrt((1 + orbit.e) / (1 - orbit.e))
     position = np.array([orbit.a * (1 - orbit.e), 0.0, 0.0])
     velocity = np.array([0.0, speed, 0.0])

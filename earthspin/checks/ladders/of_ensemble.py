@@ -36,7 +36,7 @@ EXCESS, QUICK_EXCESS = 1.5, 2.0
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return the methods, their settings and the reference."""
+    """Return methods for a half-width by ensembles, their settings and the reference."""
     seeds = FEW_SEEDS if quick else SEEDS
     members = QUICK_MEMBERS if quick else MEMBERS
     scatter = (QUICK_EXCESS if quick else EXCESS) * expected_scatter(members[-1])
@@ -66,7 +66,7 @@ def ladder(quick: bool) -> Ladder:
 
 
 def expected_scatter(members: int) -> float:
-    """Expected relative scatter of a sampled half-width.
+    """Expected relative scatter of a half-width that is estimated from random members.
 
     A quantile of n draws has the standard deviation sqrt(p (1 - p)/n) divided by the density, and
     the two ends have the correlation p/(1 - p).
@@ -93,13 +93,16 @@ def _from_draws(members: int, seed: int) -> Result:
 
 
 def _from_even_members(members: int) -> Result:
-    """Half-width of the period from values of H at evenly spaced probabilities."""
+    """Half-width of the precession period from evenly spaced quantiles of H.
+
+    The number of members is returned with it.
+    """
     grid = H * (1 + UNCERTAINTY * ndtri((np.arange(members) + 0.5) / members))
     return _half_width({NAME: {"grid": grid.tolist()}}), members
 
 
 def _half_width(members: Mapping[str, Any], seed: int = 0) -> FloatArray:
-    """Half-width from quantiles of an ensemble, relative to the period without uncertainty."""
+    """Half-width of the period in an ensemble, divided by the period without uncertainty."""
     answer = ensemble("precession", members, seed=seed)
     low, high = quantiles(answer, ENDS).precession_period.sel(TOTAL).values
     return np.atleast_1d((high - low) / 2 / _period())
@@ -113,7 +116,10 @@ def _linear() -> Result:
 
 
 def _by_numpy(members: int, seed: int) -> Result:
-    """Half-width from random draws of H by NumPy: one computed period divided by each draw."""
+    """Relative half-width of the precession period from random draws of H by NumPy.
+
+    The period is computed once and divided by each draw.
+    """
     period = run(QUESTIONS["precession"]()).precession_period.sel(TOTAL).values
     drawn = np.random.default_rng(seed).normal(1.0, UNCERTAINTY, members)
     low, high = np.quantile(period / drawn, ENDS)

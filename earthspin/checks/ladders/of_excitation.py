@@ -37,7 +37,7 @@ TO, FROM = "excitation from polar motion", "polar motion from excitation"
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return the methods, their settings and the reference."""
+    """Return methods for the excitation of polar motion, their settings and the reference."""
     span = SHORT_SPAN if quick else SPAN
     steps = (10.0, 1.0) if quick else STEPS
     to, back = partial(_excitation_setting, span=span), partial(_polar_motion_setting, span=span)
@@ -63,12 +63,12 @@ def ladder(quick: bool) -> Ladder:
 
 
 def frequency() -> complex:
-    """Complex frequency of the wobble, rad/d."""
+    """Complex frequency of the free wobble in the test problem, rad/d."""
     return chandler_frequency(PERIOD, QUALITY)
 
 
 def true_polar_motion(t: FloatArray) -> Complex:
-    """Closed form of the polar motion, mas."""
+    """Exact polar motion of the test problem at times in d, mas."""
     s = frequency()
     p = START * np.exp(1j * s * t)
     for size, period in WAVES:
@@ -81,7 +81,7 @@ def true_polar_motion(t: FloatArray) -> Complex:
 
 
 def true_mean(begin: FloatArray, length: float) -> Complex:
-    """Mean excitation over intervals, mas."""
+    """Exact mean excitation of the test problem over intervals of equal length, mas."""
     middle = begin + length / 2
     chi = np.zeros(begin.shape, dtype=complex)
     for size, period in WAVES:
@@ -117,14 +117,17 @@ def weighting_error(step: float, *, resonant: bool) -> float:
 def _method(
     name: str, task: str, steps: tuple[float, ...], setting: Callable[[float], Setting]
 ) -> Method:
-    """Make the `Method` of a scheme for all steps; only exact schemes have a finite bound."""
+    """Make the `Method` of one scheme, with a setting for each step.
+
+    Only exact schemes have a finite error bound.
+    """
     claimed = 1.1 * weighting_error(steps[-1], resonant=task == FROM) * MAS
     bound = claimed if name.startswith("exact") else np.inf
     return Method(name, [setting(step) for step in steps], bound, task)
 
 
 def _excitation_setting(scheme: str, step: float, span: float) -> Setting:
-    """Make a setting that derives excitation from polar motion, with the true mean excitation."""
+    """Make a setting that returns excitation computed from polar motion, and the exact mean."""
     t, s = np.asarray(step * np.arange(round(span / step) + 1)), frequency()
     intervals = 2 if scheme == "central difference" else 1
     p, true = true_polar_motion(t), true_mean(t[:-intervals], intervals * step)
@@ -132,7 +135,7 @@ def _excitation_setting(scheme: str, step: float, span: float) -> Setting:
 
 
 def _polar_motion_setting(scheme: str, step: float, span: float) -> Setting:
-    """Make a setting that derives polar motion from mean excitation, with the true polar motion."""
+    """Make a setting that returns polar motion computed from excitation, and the exact one."""
     t, s = np.asarray(step * np.arange(round(span / step) + 1)), frequency()
     chi, true = true_mean(t[:-1], step), true_polar_motion(t)
     return Setting(

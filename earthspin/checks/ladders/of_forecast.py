@@ -32,7 +32,7 @@ USUAL_ORDER = 40
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return the methods, their settings and the reference."""
+    """Return methods that forecast the pole, their settings and the reference."""
     ends = origins()[:: QUICK if quick else 1]
     methods: list[Method] = []
     for days, bound in BOUNDS.items():
@@ -103,19 +103,19 @@ def _last_value(p: Complex, days: int, years: float) -> Complex:
 
 @cache
 def _observed() -> tuple[FloatArray, Complex]:
-    """Modified Julian dates and the pole of C04, mas."""
+    """Modified Julian dates, and observed pole coordinates x - i y of IERS C04 in mas."""
     table = read_polar_motion("c04")
     return table.mjd, np.asarray((table.x - 1j * table.y) / MAS, dtype=complex)
 
 
 def origins() -> NDArray[np.intp]:
-    """Index of the first row after each origin."""
+    """Table row that follows the last known day (the origin) of each forecast."""
     return np.searchsorted(_observed()[0], FIRST + EVERY * np.arange(ORIGINS)) + 1
 
 
 @cache
 def _fitted_once() -> FastExcitation:
-    """Fit the parameters to the data before the first origin; all origins use them."""
+    """Fit the excitation model to the data before the first forecast, for use in all."""
     return fit(_observed()[1][: origins()[0]])
 
 

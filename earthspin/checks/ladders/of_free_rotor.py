@@ -19,7 +19,7 @@ INPUTS = {"moments": MOMENTS, "omega": OMEGA}
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return the methods, their settings and the reference."""
+    """Return methods for a free triaxial rotor, their settings and the reference."""
     coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
     stiff = (1e-3, 1e-4) if quick else (1e-3, 1e-4, 1e-5)
     true = load("free-rotor", INPUTS)

@@ -54,7 +54,7 @@ def orbit() -> OrbitTable:
 
 
 def inputs() -> dict[str, Any]:
-    """Inputs of the stored reference, with the checksum of the orbit."""
+    """Inputs that determine the stored reference, including the checksum of the orbit table."""
     return {
         "orbit": orbit().sha256,
         "strength": asdict(STRENGTH),
@@ -64,12 +64,12 @@ def inputs() -> dict[str, Any]:
 
 
 def times(span: float) -> FloatArray:
-    """Times of the axes, s, ascending; the last is J2000.0."""
+    """Times at which spin axes are compared, s, ascending; the last one is J2000.0."""
     return np.linspace(-span, 0.0, TIMES)
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return the methods, their settings and the reference."""
+    """Return methods for the spin axis over a million years, their settings and the reference."""
     true = load("long-term", inputs())["quick" if quick else "axes"]
     start, t = true.hi[:, -1], times(FEW if quick else SPAN)
     fitted = FittedSlope(t[0])
@@ -125,7 +125,7 @@ Slope = Callable[[float, FloatArray], FloatArray]
 
 
 def orbit_slope(time: float, s: FloatArray) -> FloatArray:
-    """Rate of the axis, with the orbit evaluated at every step."""
+    """Rate of change of the spin axis, s-1, with the orbit table evaluated in every call."""
     times = np.array([time])
     torque = pull(STRENGTH, orbit().at(times), times)
     m = torque.axis[:, 0]
@@ -133,7 +133,10 @@ def orbit_slope(time: float, s: FloatArray) -> FloatArray:
 
 
 class FittedSlope:
-    """Rate of the axis from a polynomial fitted to each window of the orbit, in plain floats."""
+    """Rate of change of the spin axis, from polynomials fitted to the orbit table.
+
+    There is one polynomial for each window of the table.
+    """
 
     def __init__(self, begin: float) -> None:
         edges = orbit().edges
@@ -152,7 +155,7 @@ class FittedSlope:
         self.exponents = np.arange(20)
 
     def __call__(self, time: float, s: FloatArray) -> FloatArray:
-        """Rate of the axis."""
+        """Rate of change of the spin axis at a time in s, s-1."""
         position = (time - self.start) / self.length
         window = min(max(int(position), 0), len(self.series) - 1)
         x = 2 * (position - window) - 1

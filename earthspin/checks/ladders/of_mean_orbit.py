@@ -30,7 +30,7 @@ NORMAL = np.array([0.0, 0.0, 1.0])
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return the methods, their settings and the reference."""
+    """Return methods for the mean torque of an orbit, their settings and the reference."""
     true = load("mean-orbit", INPUTS)["mean"]
     cycle = 2 * math.pi / abs(ORBIT.node_rate)
     counts = (8, 32) if quick else (8, 16, 32, 64, 120)
@@ -79,7 +79,10 @@ def _by_window(turns: float, cycle: float, taper: str = "plain", step: float = 1
 
 
 def _by_sum(count: float) -> Result:
-    """Mean over equally spaced mean anomalies on four orbits with nodes 90 degrees apart."""
+    """Mean precessing torque by a sum over mean anomalies on four orbits.
+
+    The nodes of the four orbits are 90 degrees apart.
+    """
     total, mean = 0.0, 2 * np.pi * np.arange(int(count)) / int(count)
     fixed = {"node_rate": 0.0, "pericentre_rate": 0.0, "mean_anomaly": 0.0, "motion": 1 / DAY}
     for node in np.arange(4) * np.pi / 2:

@@ -48,7 +48,10 @@ REFERENCE_ERROR = 1e-19
 
 
 def days() -> FloatArray:
-    """Times of the reference, multiples of 1/4 d from J2000.0, part of them within `FEW_DAYS`."""
+    """Times of the reference solution, d from J2000.0; some are in the first `FEW_DAYS` days.
+
+    They are multiples of 1/4 d.
+    """
     generator = np.random.default_rng(7)
     early = generator.choice(np.arange(4, 4 * FEW_DAYS), FEW_TIMES, replace=False)
     late = generator.choice(np.arange(4 * FEW_DAYS, 4 * DAYS), TIMES - FEW_TIMES, replace=False)
@@ -57,7 +60,7 @@ def days() -> FloatArray:
 
 @dataclass(frozen=True)
 class Motion:
-    """Initial values and times of the motion.
+    """Initial axis and angular momentum of the test problem, and the times of its solution.
 
     Attributes
     ----------
@@ -76,7 +79,7 @@ class Motion:
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return the methods, their settings and the reference."""
+    """Return methods for the motion of the figure axis, their settings and the reference."""
     true = load("pole", INPUTS)
     wanted = slice(0, FEW_TIMES if quick else TIMES)
     span = FEW_DAYS if quick else DAYS
@@ -128,7 +131,7 @@ def _error(axes: FloatArray, figure: DoubleDouble) -> float:
 
 
 def _picard(length: int, motion: Motion, order: int) -> Result:
-    """Axis solver of the package with windows of `length` days and `order` nodes."""
+    """Figure axis by the package's solver, with windows of `length` days and `order` nodes each."""
     span = (0.0, motion.end)
     path = axis_path(FORCES, motion.start, 0.0, span, window=length * DAY, order=order)
     return path.at(motion.times)["figure"], path.windows.times.size

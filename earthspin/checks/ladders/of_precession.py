@@ -29,7 +29,7 @@ QUICK_BOUND = 1e-3
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return the methods, their settings and the reference."""
+    """Return methods for the mean precession rate, their settings and the reference."""
     epochs = EPOCHS[::4] if quick else EPOCHS
     true, cycle = model_sky.torus_mean(TORUS), model_sky.node_period()
     windows, years = (QUICK_WINDOWS, PLAIN_YEARS[1:3]) if quick else (WINDOWS, PLAIN_YEARS)
@@ -65,7 +65,7 @@ def ladder(quick: bool) -> Ladder:
 
 
 def _setting(words: str, taper: str, length: float, step: int, epochs: FloatArray) -> Setting:
-    """Make a setting that is timed for one epoch, and whose error is measured for all epochs."""
+    """Make a setting whose run time is measured at one epoch, and its error at all epochs."""
 
     def mean_about(
         epoch: float, torque: Callable[[FloatArray], FloatArray] = _daily_torque
@@ -82,14 +82,14 @@ def _setting(words: str, taper: str, length: float, step: int, epochs: FloatArra
 
 
 def _daily_torque(times: FloatArray) -> FloatArray:
-    """Torque at whole days, from a series that is computed once."""
+    """Precessing torque at whole days, taken from a daily series that is computed once."""
     first, series = _series()
     return np.asarray(series[np.rint(times / DAY).astype(int) - first])
 
 
 @cache
 def _series() -> tuple[int, FloatArray]:
-    """First day and daily precessing torques that cover all windows about all epochs."""
+    """First day and values of a daily series of torques that covers all epochs and windows."""
     longest = max(turns for turns, _ in WINDOWS) * model_sky.node_period() / DAY
     reach = int(max(longest, max(PLAIN_YEARS) * 365.25) / 2 + np.max(np.abs(EPOCHS))) + 2
     return -reach, model_sky.precessing_at(np.arange(-reach, reach + 1.0) * DAY)

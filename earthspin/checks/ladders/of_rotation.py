@@ -1,4 +1,4 @@
-"""The full attitude of a tumbling moon: windows with their error against step-by-step solvers."""
+"""Ladder for the attitude of a tumbling moon: Gauss windows and step-by-step integrators."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ REFERENCE_ERROR = 5e-17
 
 
 def times() -> FloatArray:
-    """Times of the reference, in units of 1/n, evenly spaced."""
+    """Times of the reference, evenly spaced, in units of 1/n, where n is the mean motion."""
     return np.linspace(0.0, SPAN, TIMES + 1)[1:]
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return the methods, their settings and the reference."""
+    """Return methods for the attitude of a tumbling moon, their settings and the reference."""
     t = times()[: FEW if quick else TIMES]
     tolerances = (1e-6, 3e-7) if quick else (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
     fine = (1e-6, 1e-9) if quick else (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
@@ -78,7 +78,7 @@ def _places(t: FloatArray) -> FloatArray:
 
 
 def _windows(t: FloatArray, tolerance: float) -> Result:
-    """Attitude solver of the package, on Gauss windows."""
+    """Angular velocity and attitude by the package's solver on Gauss windows."""
     body = Rigid(
         c_minus_a=np.array([H + TRIAXIALITY / 2]),
         c_minus_b=np.array([H - TRIAXIALITY / 2]),

@@ -39,7 +39,7 @@ def points() -> FloatArray:
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return the methods, their settings and the reference."""
+    """Return methods for attraction and torque of a spheroid, their settings and the reference."""
     positions = points()
     true = load("spheroid", {"flattening": FLATTENING, "points": positions.tolist()})
     degrees = (2, 6, 20) if quick else tuple(range(2, 22, 2))
@@ -95,7 +95,7 @@ def _exact(r: FloatArray) -> tuple[Any, Any]:
 
 
 def _torque(push: Any, r: Any) -> Any:
-    """Torque on the body from a unit mass at r, which is `push` times r x z."""
+    """Torque on the spheroid by a unit mass at r: `push` times r x z, with the axis z."""
     return np.stack([push * r[:, 1], -push * r[:, 0], np.zeros_like(push)], axis=-1)
 
 

@@ -28,7 +28,7 @@ TOP = {
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return the methods, their settings and the reference."""
+    """Return methods for the motion of a heavy top, their settings and the reference."""
     coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
     true = load("top", TOP)
     t, count, fine, bound = periods(true, quick)

@@ -1,4 +1,7 @@
-"""Ladder for Sun and Moon at the true equator of date: nutation interpolated, exact, or none."""
+"""Ladder for Sun and Moon at the true equator of date, with different treatments of nutation.
+
+Nutation is interpolated, exact, or neglected.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +43,7 @@ SCALE_2006, J2_RATE_2006 = 0.4697e-6, -2.7774e-6
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return the methods, their settings and the reference."""
+    """Return methods for Sun and Moon at the true equator, their settings and the reference."""
     days = START + np.linspace(0.0, YEAR, FEW_EPOCHS if quick else EPOCHS)
     ends = float(days[0]), float(days[-1])
     true = reference(days)
@@ -81,7 +84,7 @@ def ladder(quick: bool) -> Ladder:
 
 
 def reference(days: FloatArray) -> LongArray:
-    """True directions of Sun and Moon, shape (2, n, 3)."""
+    """Reference unit vectors to Sun and Moon at the true equator of date, shape (2, n, 3)."""
     matrix = long_matrix(days)
     result = positions(days)
     position = np.stack([result[name] for name in CODES]).astype(np.longdouble)
@@ -143,7 +146,7 @@ def _arcsec() -> Any:
 
 
 def _about(axis: int, angle: LongArray) -> LongArray:
-    """Matrices that rotate the frame about a coordinate axis, shape (n, 3, 3)."""
+    """Matrices that rotate the frame by given angles about a coordinate axis, shape (n, 3, 3)."""
     c, s = np.cos(angle), np.sin(angle)
     first, second = (axis + 1) % 3, (axis + 2) % 3
     matrix = np.zeros((angle.size, 3, 3), dtype=np.longdouble)
@@ -154,7 +157,7 @@ def _about(axis: int, angle: LongArray) -> LongArray:
 
 
 def _directions(matrix: FloatArray, days: FloatArray) -> FloatArray:
-    """Directions of Sun and Moon after a rotation, shape (2, n, 3)."""
+    """Unit vectors to Sun and Moon, rotated by one matrix for each day, shape (2, n, 3)."""
     result = positions(days)
     vectors = np.stack([rotate(matrix, result[name]) for name in CODES])
     return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))

@@ -30,7 +30,7 @@ def ladder_of_rotation(
     reference: str,
     reference_error: float = ROUNDING,
 ) -> Ladder:
-    """Make the ladder of a rotation whose angular velocity and attitude are stored.
+    """Make the ladder of a rotating body from its stored reference angular velocity and attitude.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def ladder_of_rotation(
 def periods(
     true: Mapping[str, DoubleDouble], quick: bool
 ) -> tuple[FloatArray, str, tuple[float, ...], float]:
-    """Times, tolerances and error bound for a ladder with a reference over a hundred periods.
+    """Times, number of periods, integrator tolerances and error bound for a ladder of rotation.
 
     Returns
     -------

@@ -37,7 +37,7 @@ def figure_axis(
     spin_rate: float,
     tolerance: float,
 ) -> tuple[FloatArray, int]:
-    """Figure axis at ascending days from J2000.0, shape (n, 3), and the number of steps.
+    """Figure axis at ascending days from J2000.0, shape (n, 3), and number of integration steps.
 
     Parameters
     ----------
@@ -68,7 +68,10 @@ def figure_axis(
 
 
 def _pieces(end: float) -> FloatArray:
-    """Coefficients of powers of x in [-1, 1] for Sun and Moon in each piece, m."""
+    """Polynomial coefficients of the positions of Sun and Moon in each time interval, m.
+
+    The variable is the time, scaled to [-1, 1] in each interval.
+    """
 
     def sun_and_moon(days: FloatArray) -> FloatArray:
         result = positions(days)
@@ -84,7 +87,10 @@ def _pieces(end: float) -> FloatArray:
 
 @cache
 def _compiled(h: float, spin_rate: float, tolerance: float) -> Any:
-    """Compile the equations, with the coefficients and the middle of the piece as parameters."""
+    """Compile the equations of motion into a heyoka integrator.
+
+    Its parameters are the coefficients of the positions and the middle of the time interval.
+    """
     import heyoka as hy
 
     state = *_, fx, fy, fz = hy.make_vars("lx", "ly", "lz", "fx", "fy", "fz")
@@ -105,7 +111,7 @@ def _compiled(h: float, spin_rate: float, tolerance: float) -> Any:
 
 
 def _polynomial(hy: Any, x: Any, first: int) -> Any:
-    """Polynomial by Horner's rule, with coefficients from parameter `first` on."""
+    """Symbolic polynomial in x; its coefficients are the parameters from index `first` on."""
     value = hy.par[first + DEGREE]
     for n in range(DEGREE - 1, -1, -1):
         value = value * x + hy.par[first + n]

@@ -75,7 +75,7 @@ def attitude_motion(
 
 
 def attitude_about(axis: FloatArray, angle: float) -> FloatArray:
-    """Attitude quaternion, scalar first, from the third axis of the body and an angle about it.
+    """Attitude quaternion, scalar first, from the body's third axis and the rotation about it.
 
     Parameters
     ----------

@@ -75,7 +75,9 @@ def state_of_angles(
     theta_rate: FloatArray,
     spin: ArrayLike,
 ) -> tuple[FloatArray, FloatArray]:
-    """Angular velocity in the body (I.7.3) and attitude Rz(phi) Rx(theta) Rz(psi).
+    """Angular velocity in body axes (I.7.3) and attitude of a top, from Euler angles and rates.
+
+    The attitude is Rz(phi) Rx(theta) Rz(psi).
 
     Parameters
     ----------
@@ -102,7 +104,10 @@ def state_of_angles(
 
 
 def _rates(state: FloatArray, top: HeavyTop) -> list[Any]:
-    """Rates of quaternion and angular velocity; the torque is m g r z' x (-z)."""
+    """Rates of change of attitude quaternion and angular velocity of a top under its weight.
+
+    The torque is m g r z' x (-z), where z' is the axis of the top and z the vertical.
+    """
     w, x, y, z, p, q, r = state
     i1, i3 = float(top.transverse_moment), float(top.axial_moment)
     weight = float(top.weight_moment)

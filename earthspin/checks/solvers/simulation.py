@@ -75,7 +75,7 @@ def simulate(
 def red_size(
     period: float, quality_factor: float, share: float, memory: float, amplitude: float = 128.0
 ) -> float:
-    """Root mean square of a red excitation that has a given share of the power, mas.
+    """Root mean square (mas) of the red noise in an excitation, from its share of the power.
 
     Parameters
     ----------

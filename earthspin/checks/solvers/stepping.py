@@ -62,7 +62,7 @@ def integrate(
 
 
 def quaternion_rate(quaternion: Iterable[Any], omega: Iterable[Any]) -> list[Any]:
-    """Rate (1/2) q omega of an attitude quaternion, scalar first.
+    """Rate of change (1/2) q omega of an attitude quaternion q, scalar first.
 
     Parameters
     ----------

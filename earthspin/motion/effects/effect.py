@@ -15,7 +15,7 @@ SOURCE = "measured on DE421 from 1901 to 2050: python -m data_tools neglected"
 
 
 class Growth(NamedTuple):
-    """A bound that grows with the time from J2000.0: mas, mas per year, mas per year squared."""
+    """Bound on an angle that grows with time from J2000.0: mas, mas/year, mas/year squared."""
 
     swing: float
     rate: float = 0.0
@@ -23,7 +23,7 @@ class Growth(NamedTuple):
 
 
 class Numbers(Protocol):
-    """Numbers of the rotating body that an effect may use, in SI units."""
+    """Interface to the fields of the rotating body that an effect may use, in SI units."""
 
     def number(self, name: str) -> float:
         """Return a field of the body as a float."""
@@ -31,7 +31,7 @@ class Numbers(Protocol):
 
 @dataclass(frozen=True)
 class Effect:
-    """An effect on the axes besides the torque on the bulge.
+    """Effect on the axes that can be switched on, in addition to the torque on the bulge.
 
     Attributes
     ----------
