@@ -1,4 +1,4 @@
-"""Text of numbers and durations with two digits."""
+"""Format numbers with two digits, durations with two digits, and units."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import math
 
 
 def shown_unit(unit: str) -> str:
-    """Write a unit after a space; nothing for pure numbers."""
+    """Return a unit with a space before it, or nothing for pure numbers."""
     return "" if unit == "1" else f" {unit.replace('uas', 'µas')}"
 
 
 def plain(value: float) -> str:
-    """Write a number with two digits: 0.05, 920, 1e-6, 2.3e5."""
+    """Format a number with two digits: 0.05, 920, 1e-6, 2.3e5."""
     value = float(f"{value:.1e}")
     if 1e-3 <= abs(value) <= 1e4 or value == 0:
         return f"{value:g}"

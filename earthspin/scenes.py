@@ -126,7 +126,7 @@ def question_named(word: object, source: str = "") -> type[Question]:
 
 
 def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question:
-    """Read a question from a scene file, a shipped scene, or an answer.
+    """Read a question from a scene file, a shipped scene, or an answer, with optional changes.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
 
 
 def typed_scene(scene: str, changes: Mapping[str, Any]) -> Question:
-    """Read a question as `load_scene` does, with changes given as text.
+    """Read a question as `load_scene` does; numbers in the changes must have units.
 
     Parameters
     ----------
@@ -167,7 +167,10 @@ def typed_scene(scene: str, changes: Mapping[str, Any]) -> Question:
 
 
 def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Question:
-    """Read a question; `typed` says where the changes come from."""
+    """Read a question and apply changes.
+
+    If `typed`, numbers in the changes have units, otherwise they are in SI units.
+    """
     stored = True  # written with an answer: its plain numbers are in SI units
     if changes is not None and not isinstance(changes, Mapping):
         raise SceneError("changes", changes, "give a mapping of keys to values")
@@ -206,14 +209,14 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
 
 
 def _names(table: Mapping[str, Any]) -> set[str]:
-    """Keys of a scene and of its tables of settings."""
+    """Keys of a scene, together with the keys inside its tables."""
     return {*table}.union(*(inner for inner in table.values() if isinstance(inner, Mapping)))
 
 
 def _changed(
     table: dict[str, Any], changes: Mapping[str, Any], source: str, title: str, typed: set[str]
 ) -> Question:
-    """Build the question of a scene with some keys changed."""
+    """Build a question from the table of a scene after setting the changed keys."""
     for key, value in changes.items():
         _set_key(table, str(key), value, source)
     if "compute" not in table:
@@ -333,7 +336,7 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
 
 
 def _say_what_differs(scene: Any, answer: Any) -> None:
-    """Warn if an answer that is run again was made with other versions."""
+    """Warn if a stored answer was made with other versions than the new answer."""
     if isinstance(scene, (str, Path)) and Path(str(scene)).suffix in (".nc", ".zarr"):
         scene = open_file(scene)
     old = getattr(scene, "attrs", {})
@@ -350,7 +353,7 @@ def _say_what_differs(scene: Any, answer: Any) -> None:
 
 
 def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path:
-    """Write a series of torques, pole or rotation of any length to Zarr, in bounded memory.
+    """Compute a series of torques, pole or rotation of any length, and write it to Zarr by blocks.
 
     Parameters
     ----------
@@ -385,7 +388,7 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
 
 
 def _series(question: Question) -> Series:
-    """Divide a long series into blocks of work."""
+    """Describe how the time series of a question is divided into blocks; refuse other questions."""
     size = series_length(question)
     if size == 0:
         problem = "only a series of torques, pole or rotation is written by region"
@@ -394,7 +397,10 @@ def _series(question: Question) -> Series:
 
 
 def series_length(question: Question) -> int:
-    """Number of times of a question; 0 if it is not a series that can be written in blocks."""
+    """Number of times in the time series of a question.
+
+    It is 0 if the answer cannot be written in blocks.
+    """
     if not any(BY_BLOCK in part.uses for part in question.graph.parts.values()):
         return 0
 
@@ -403,7 +409,7 @@ def series_length(question: Question) -> int:
 
 
 def members_of(question: Question) -> int:
-    """Number of bodies of a question, counting each body of labelled arrays."""
+    """Number of members of a question: one, or the number of bodies in its labelled arrays."""
     groups = [value if isinstance(value, tuple) else (value,) for value in question.keys().values()]
     return members(value for group in groups for value in group if isinstance(value, Body))
 
@@ -427,7 +433,7 @@ def run_blocks(scene: Any) -> Iterator[xr.Dataset]:
 
 
 def chosen(question: Question) -> list[str]:
-    """Describe the settings that are chosen for the accuracy of a question.
+    """Describe the settings that are chosen to reach the accuracy that a question requests.
 
     Whether the numbers of the body and the kernel allow it shows when it runs.
     """
@@ -440,7 +446,7 @@ def chosen(question: Question) -> list[str]:
 
 
 def _scene_of(answer: Any) -> str:
-    """Text of the scene that an answer carries."""
+    """Text of the scene that is stored in an answer; refuse an answer without one."""
     text = planning.scene_of(answer)
     if not text:
         raise SceneError("scene", type(answer).__name__, "it does not carry the scene that made it")
@@ -448,7 +454,7 @@ def _scene_of(answer: Any) -> str:
 
 
 def _read(scene: str | Path) -> tuple[str, str, str]:
-    """Return the text of a scene, its origin for messages, and a title."""
+    """Return the text of a scene file, the name of the file for messages, and a title."""
     text = str(scene)
     if "/" not in text and not text.endswith(".toml"):
         names = shipped_scenes()
@@ -512,7 +518,7 @@ _HEAD = 1 << 16
 
 
 def _check_kind(key: str, path: Path, kind: FileName, source: str) -> None:
-    """Refuse a file of a stored scene if its kind does not fit the key.
+    """Refuse a file that a stored scene names if its content does not fit the key.
 
     Raises
     ------
@@ -531,7 +537,7 @@ def _check_kind(key: str, path: Path, kind: FileName, source: str) -> None:
 
 
 def _set_key(table: dict[str, Any], key: str, value: Any, source: str) -> None:
-    """Set a key, which may be dotted, in the table of a scene before it is checked."""
+    """Set the value of a key in the table of a scene; dots lead to inner tables."""
     if key.count(".") >= MOST_PARTS:
         raise SceneError(key, value, f"give a key of at most {MOST_PARTS} parts", source=source)
     *path, last = key.split(".")

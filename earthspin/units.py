@@ -1,4 +1,4 @@
-"""Kinds of inputs: read values with units, words and lists, and write them back exactly.
+"""Kinds of inputs, such as numbers with units, words and lists: how to read and write them.
 
 A kind knows how one sort of value is read (`read`, which checks dimension, shape, length and
 finiteness) and written (`write`, whose text or numbers `read` turns into the same bits). Inside
@@ -52,15 +52,15 @@ _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s
 
 
 class Kind(Protocol[T]):
-    """Kind of an input: how it is read, described and written."""
+    """Protocol of a kind of input: how an input is read, described in words, and written."""
 
     @property
     def words(self) -> str:
-        """Allowed input, in words."""
+        """Description of the allowed input, for messages."""
 
     @property
     def hint(self) -> str:
-        """Allowed input, as a type for editors and type checkers."""
+        """Type of the allowed input, for editors and type checkers."""
 
     def read(self, given: object, where: Where) -> T:
         """Check an input and convert it."""
@@ -70,7 +70,7 @@ class Kind(Protocol[T]):
 
 
 def by_name(kind: object) -> bool:
-    """Return True if a kind of input can be a word, a name or a path.
+    """Return True if inputs of a kind can be a word, a name or a path instead of a number.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
 
 @dataclass(frozen=True)
 class _Target:
-    """Unit and meaning that a value must have, for messages."""
+    """Required unit of an input, with its key and an example, for error messages."""
 
     unit: str
     where: Where
@@ -203,7 +203,7 @@ def is_masked(value: object) -> bool:
 
 
 def _has_unit(value: object) -> bool:
-    """Return True if an element of a list has a unit."""
+    """Return True if a value, or an element of nested lists, has a unit."""
     nested = isinstance(value, (list, tuple)) and any(map(_has_unit, value))
     return nested or isinstance(value, (str, dt.timedelta)) or hasattr(value, "to_value")
 
@@ -238,7 +238,7 @@ def _length_of_time(value: dt.timedelta | np.timedelta64, target: _Target) -> fl
 
 
 def _plain(value: Any, target: _Target) -> Any:
-    """Convert numbers without units to floats."""
+    """Convert numbers without units to floats; refuse anything else."""
     try:
         array = np.asarray(value)
         if array.dtype.kind == "m" and target.unit == "s" and not np.isnat(array).any():
@@ -312,11 +312,11 @@ class Number:
 
     @property
     def words(self) -> str:
-        """Allowed input, in words."""
+        """Description of the allowed number, for messages."""
         return f'like "{self.example}"' if self.unit else f"like {self.example}"
 
     def read(self, value: object, where: Where) -> float:
-        """Check a value and convert it."""
+        """Check a number, with or without a unit, and convert it to a float in `unit`."""
         real = isinstance(value, (int, float)) and not hasattr(value, "to_value")
         if (isinstance(value, str) and not self.text) or (real and not self.plain):
             form = f"it with its unit, like '{self.example}'"
@@ -367,7 +367,7 @@ class Numbers:
 
     @property
     def words(self) -> str:
-        """Allowed input, in words."""
+        """Description of the allowed array, for messages."""
         size = " x ".join("n" if n is None else str(n) for n in self.shape)
         return f'{size} values like "{self.example}"' if self.unit else f"{size} numbers"
 
@@ -404,7 +404,7 @@ def _with_unit(values: Any, unit: str) -> Any:
 
 
 def _in_order(value: Any, where: Where) -> Any:
-    """Move the components of a labelled array to the last axis, in order; refuse other labels."""
+    """Order the components x, y, z of a labelled array along its last axis; refuse other labels."""
     if hasattr(value, "iloc"):
         labels = getattr(value, "columns", value.index)
         if labels.dtype.kind not in "iu":
@@ -444,7 +444,7 @@ def unpack(table: Mapping[str, Any], where: Where) -> FloatArray:
 
 
 class _AsItIs:
-    """Kind whose values a scene stores unchanged."""
+    """Base class of kinds whose values are stored in a scene unchanged."""
 
     def write(self, value: Any) -> Plain:
         """Return the value."""
@@ -462,7 +462,7 @@ class Whole(_AsItIs):
 
     @property
     def words(self) -> str:
-        """Allowed input, in words."""
+        """Description of the allowed whole number, for messages."""
         return f"a whole number, {self.low} or more"
 
     def read(self, value: object, where: Where) -> int:
@@ -495,7 +495,7 @@ class Word(_AsItIs):
 
     @property
     def words(self) -> str:
-        """Allowed input, in words."""
+        """List of the allowed words, for messages."""
         return " or ".join(f'"{word}"' for word in self.allowed)
 
     def read(self, value: object, where: Where) -> str:
@@ -574,7 +574,7 @@ class Several:
 
     @property
     def words(self) -> str:
-        """Allowed input, in words."""
+        """Description of the allowed list, for messages."""
         return f"{self.of.words}; one or a list"
 
     def read(self, value: object, where: Where) -> tuple[Any, ...]:

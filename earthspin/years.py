@@ -69,7 +69,7 @@ def seconds(value: Any, where: Where) -> float:
 
 
 def _days_of_date(year: int, month: int, day: int, where: Where) -> float:
-    """Days from J2000.0 to midnight of a proleptic Gregorian date."""
+    """Days from J2000.0 to midnight at the start of a proleptic Gregorian date."""
     try:
         date = np.datetime64(f"{'-' * (year < 0)}{abs(year):04}-{month:02}-{day:02}", "D")
     except ValueError:
@@ -94,7 +94,7 @@ class YearSpan:
 
     @classmethod
     def read(cls, value: Any, where: Where) -> YearSpan:
-        """Read two times and sort them."""
+        """Read the first and the last time of a span; refuse a reversed order."""
         if isinstance(value, YearSpan):
             return value
         allowed = "two times, like ['-1 Myr', '0 kyr']"
@@ -106,13 +106,13 @@ class YearSpan:
 
 
 class YearList(Listed):
-    """Seconds from J2000.0 TDB of a list of times over millennia."""
+    """List of times over millennia, in seconds from J2000.0 TDB."""
 
     words, hint = "a list of times from J2000.0, or of dates", "Epochs"
 
     @classmethod
     def times(cls, value: Any, where: Where) -> FloatArray:
-        """Read durations in one Quantity or a list, or dates in any form that `dates` reads."""
+        """Read durations from J2000.0, or dates in any form that `dates` reads, as seconds."""
         if isinstance(value, str):
             value = [value]
         if hasattr(value, "to_value") and not hasattr(value, "jd1"):

@@ -1,1 +1,1 @@
-"""Questions: one module each, with its class, parts and sections."""
+"""Questions that a user can ask, one module each: class, parts of the computation, sections."""

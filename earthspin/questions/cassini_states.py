@@ -80,7 +80,7 @@ class CassiniStates(
 
 @dataclass(frozen=True)
 class Locking:
-    """Spin of a body compared with its motion on its orbit.
+    """Mean motion of a body on its orbit, and its rotations per orbit.
 
     Attributes
     ----------
@@ -98,7 +98,7 @@ class Locking:
 
 
 def orbit_of(body: Body, orbit: Orbit | None) -> Orbit | None:
-    """Return the orbit as for the part `own_orbit`; None if it is unknown."""
+    """Return the given orbit, else that of the body, else its known mean orbit, else None."""
     return orbit or body.orbit or PRECESSING_ORBITS.get(body.name)
 
 
@@ -112,7 +112,7 @@ def own_orbit(body: Body, orbit: Orbit | None) -> Orbit:
 
 @part
 def locking(body: Body, own_orbit: Orbit) -> Locking:
-    """Mean motion, and rotations of the body per orbit."""
+    """Compute the mean motion of a body on its orbit, and its number of rotations per orbit."""
     about = own_orbit.about or SUN.name
     if about not in BODIES or about == body.name:
         others = [name for name in BODIES if name != body.name]
@@ -141,7 +141,7 @@ def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
 
 
 class States(Variables, along=("state",), no_error="it is so or not"):
-    """Cassini states."""
+    """Obliquity, tilt and stability of each Cassini state of a body."""
 
     obliquity: Pair = measured("deg", "angle from the normal of the orbit to the axis")
     tilt: Pair = measured("deg", "angle from the pole of the orbit's plane to the axis")
@@ -152,7 +152,7 @@ class States(Variables, along=("state",), no_error="it is so or not"):
 
 @part
 def states(body: Body, own_orbit: Orbit, locking: Locking) -> States:
-    """Obliquity, error and stability of every state."""
+    """Compute obliquity, error of the obliquity and stability of every Cassini state."""
     axis = precessing(body, own_orbit, locking)
     # a locked body turns with its orbit: there the torque of each orbit is the same at any rate
     own = 0.0 if locking.locked else 1.5 * abs(axis.axial)
@@ -193,7 +193,7 @@ def _error(body: Body, orbit: Orbit, locking: Locking, obliquity: FloatArray) ->
 
 @part
 def neglected(body: Body, own_orbit: Orbit) -> Neglected:
-    """Known sizes of effects that the average over spin, orbit and pericentre neglects."""
+    """Published sizes of effects that the Cassini states neglect, for a body with known sizes."""
     sizes = LEFT_OUT_OF_STATES.get(body.name, {})
     if sizes and body.is_as_named and own_orbit == PRECESSING_ORBITS.get(body.name):
         return Neglected.cited(sizes, "change of the obliquity in the upright state")

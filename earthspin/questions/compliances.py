@@ -58,7 +58,7 @@ class Compliances(Question, word="compliances", call="compliances", positional=(
 
 
 class Numbers(Variables, along=("number",), no_error=FROM_LAYERS):
-    """Compliances, ellipticities and coupling numbers of a body."""
+    """Values of the compliances, ellipticities and coupling numbers of a body, with their names."""
 
     number_value: Value = number("1", "number of the body, in units of its moments", short="value")
     number: Labels = labels()
@@ -66,7 +66,7 @@ class Numbers(Variables, along=("number",), no_error=FROM_LAYERS):
 
 @part
 def numbers(layers: LayeredBody, body: Body) -> Numbers:
-    """Compliances of the elastic body, and its figure of hydrostatic equilibrium."""
+    """Compute the compliances, ellipticities and coupling numbers of a layered body."""
     by_name = numbers_of(layers, abs(float(body.spin_rate)))
     return Numbers(number_value=list(by_name.values()), number=list(by_name)).with_attributes(
         number_value={"references": layers.reference}
@@ -92,7 +92,7 @@ def published() -> Published:
 
 
 class Modes(Variables, along=("free_mode",), no_error=FROM_LAYERS):
-    """Periods of the free modes."""
+    """Periods of the free modes of a layered elastic body."""
 
     compliance_mode_period: Value = number(
         "d",
@@ -105,7 +105,10 @@ class Modes(Variables, along=("free_mode",), no_error=FROM_LAYERS):
 
 @part
 def modes(layers: LayeredBody, body: Body) -> Modes:
-    """Free modes of the elastic body without an ocean and with the observed H."""
+    """Compute the periods of the free modes of the elastic body without ocean.
+
+    The dynamical flattening H is the observed one.
+    """
     e = float(ellipticity_from_h(body.number("dynamical_flattening")))
     spin_rate = abs(float(body.spin_rate))
     frequencies = free_modes(parts_of(layers, spin_rate, elastic(layers).answers, e))

@@ -138,7 +138,7 @@ class Forecast(
     )
 
     def check(self) -> None:
-        """Require whole days, and a horizon for which skill was measured."""
+        """Require a step of whole days, and a horizon not beyond that of the measured skill."""
         if self.days > LONGEST:
             problem = f"a forecast reaches {LONGEST} d at most; take fewer days"
             raise SceneError("days", f"{self.days:g} d", problem)
@@ -149,7 +149,7 @@ class Forecast(
 
 @dataclass(frozen=True)
 class Record:
-    """Observed pole up to the origin.
+    """Observed polar motion up to the origin, the last day that the forecast uses.
 
     Attributes
     ----------
@@ -170,13 +170,13 @@ class Record:
 
     @property
     def provenance(self) -> dict[str, str]:
-        """Checksum of the file, for the attributes of an answer."""
+        """SHA-256 of the table of polar motion, for the attributes of the forecast."""
         return {"table_sha256": self.sha256} if self.sha256 else {}
 
 
 @part(unless=no_iau_model)
 def record(file: str | Path | GivenPole, origin: float | None) -> Record:
-    """Observed pole, daily and without gaps, up to the origin."""
+    """Read the observed polar motion up to the origin; refuse a series that is not daily."""
     if isinstance(file, GivenPole):
         time, x, y = file.rows
         p: ComplexArray = (x - 1j * y).astype(complex)
@@ -196,7 +196,7 @@ def record(file: str | Path | GivenPole, origin: float | None) -> Record:
 
 
 def _until(whole: Record, origin: float | None) -> Record:
-    """Select the rows up to the origin."""
+    """Select the rows of a record up to the origin, the last day that the forecast uses."""
     if origin is None:
         return whole
     first, last = whole.time[[0, -1]]
@@ -208,13 +208,13 @@ def _until(whole: Record, origin: float | None) -> Record:
 
 
 def _day(time: float) -> str:
-    """Date of a day from J2000.0."""
+    """Calendar date, as text, of a time in days from J2000.0."""
     return str(datetime64(np.array([time]))[0])[:10]
 
 
 @part
 def predicted(record: Record, days: float, parameters: str) -> Predicted:
-    """Predicted pole and its covariance, day by day."""
+    """Predict polar motion and the covariance of its error for each day after the origin."""
     from earthspin.wobble import forecast as model
 
     fast = model.SHIPPED if parameters == "shipped" else model.fit(record.p)
@@ -222,7 +222,7 @@ def predicted(record: Record, days: float, parameters: str) -> Predicted:
 
 
 class AheadOfOrigin(Variables, along=("time",)):
-    """Base class of results along the days of a forecast."""
+    """Base class of results given at the times of a forecast, which lie after its origin."""
 
     time: Labels = labels("time", standard_name="time", comment="0h UTC in daily tables")
 
@@ -244,7 +244,7 @@ def _shown(days: float, step: float) -> Any:
 
 
 def _times(record: Record, days: float, step: float) -> Any:
-    """Dates of the requested days of a forecast."""
+    """Dates that a forecast returns: every `step` up to `days` after the origin."""
     return datetime64(record.time[-1] + np.arange(1, int(days) + 1)[_shown(days, step)])
 
 
@@ -257,7 +257,7 @@ def ahead(
     parameters: str,
     origin: float | None,
 ) -> ForecastPole:
-    """Forecast of the pole, with the covariance of its error."""
+    """Return the forecast x and y of the pole, with half-widths and correlation of errors."""
     newest = float(record.time[-1])
     shown = _shown(days, step)
     p, covariance = predicted.pole[shown] * MAS, predicted.covariance[shown] * MAS**2
@@ -278,12 +278,12 @@ def ahead(
 
 
 def _words(fast: FastExcitation) -> str:
-    """Parameters of the fast excitation in one line."""
+    """Write the parameters of the fast part of the excitation as one line of text."""
     return ", ".join(f"{name} = {value:.4g}" for name, value in fast.as_mapping().items())
 
 
 class Components(AheadOfOrigin):
-    """Components of the forecast pole: wobbles and slow pole."""
+    """Parts of the forecast polar motion: Chandler, annual and semiannual wobble, and slow pole."""
 
     component_x: Pair = measured("mas", "part of x", along=("component", "time"))
     component_y: Pair = measured("mas", "part of y", along=("component", "time"))
@@ -292,7 +292,7 @@ class Components(AheadOfOrigin):
 
 @part
 def components(record: Record, predicted: Predicted, days: float, step: float) -> Components:
-    """Chandler, annual and semiannual wobble and slow pole."""
+    """Compute the forecast Chandler, annual and semiannual wobbles and slow pole, with errors."""
     shown = _shown(days, step)
     p = np.array([values[shown] for values in predicted.components.values()]) * MAS
     variance = np.array([values[shown] for values in predicted.component_variance.values()])
@@ -308,7 +308,7 @@ _COUNTED = "counted over the origins of the table"
 
 
 class Skill(Variables, along=("case", "coordinate"), no_error=_COUNTED):
-    """Measured skill by horizon."""
+    """Measured errors of past forecasts of polar motion, by number of days after the origin."""
 
     mean_absolute_error: Value = number("mas", "mean absolute error of the forecast", short="MAE")
     root_mean_square: Value = number("mas", "root mean square error of the forecast", short="RMS")
@@ -328,7 +328,7 @@ class Skill(Variables, along=("case", "coordinate"), no_error=_COUNTED):
 
 @part
 def skill() -> Skill:
-    """Skill measured with hindcasts and with releases of the IERS tables."""
+    """Return measured errors of forecasts, from hindcasts and from releases of IERS tables."""
     table = json.loads(SKILL.read_text(encoding="utf-8"))
 
     def of(name: str) -> FloatArray:
@@ -366,7 +366,7 @@ def not_in_file(file: str | Path | GivenPole, origin: float | None, days: float)
 
 @part(unless=not_in_file)
 def bulletin_a(file: str | Path | GivenPole, record: Record, days: float, step: float) -> BulletinA:
-    """Prediction of Bulletin A in the same table, with 1.96 times its standard deviations."""
+    """Read the polar motion predicted by Bulletin A, with 95 % half-widths, from the table."""
     table = None if isinstance(file, GivenPole) else read_bulletin_a(file)
     assert table is not None
     rows = _shown(days, step)
@@ -385,7 +385,7 @@ class AheadOffsets(AheadOfOrigin):
 
 
 def offsets_until(file: str | Path, last: float | None) -> PoleSeries:
-    """Observed celestial pole offsets of a table, up to a day from J2000.0 if a day is given."""
+    """Read the observed celestial pole offsets of a table, up to a last day if one is given."""
     table = read_pole_offsets(file)
     return table if last is None else table.between(table.mjd[0], last + MJD)
 
@@ -421,7 +421,7 @@ def no_offsets(file: str | Path | GivenPole, origin: float | None, days: float) 
 def pole_offsets(
     file: str | Path | GivenPole, record: Record, days: float, step: float
 ) -> AheadOffsets:
-    """Forecast of the celestial pole offsets, from observed ones up to the origin."""
+    """Forecast the celestial pole offsets from those observed up to the origin of the forecast."""
     assert not isinstance(file, GivenPole)
     table = offsets_until(file, float(record.time[-1]))
     mjd = record.time[-1] + np.arange(1, int(days) + 1)[_shown(days, step)] + MJD
@@ -488,5 +488,5 @@ def iers_table(question: Forecast) -> PoleTable:
 
 
 def _continued(mjd: FloatArray, last: float) -> FloatArray:
-    """Return the dates, continued day by day up to a given last date."""
+    """Return modified Julian dates with daily dates added up to a last date."""
     return np.concatenate([mjd, np.arange(mjd[-1] + 1, last + 0.5)])

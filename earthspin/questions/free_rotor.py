@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Moments:
-    """Principal moments in the form of the input, so that no digits are lost.
+    """Principal moments as typed: three moments, or one moment and two differences of moments.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Moments:
 
     @classmethod
     def read(cls, given: object, where: Where) -> Moments:
-        """Read the three principal moments, or one moment and two differences of moments."""
+        """Read principal moments, typed as three moments or as a table of "A", "B-A" and "C-A"."""
         if isinstance(given, Moments):
             return given
         table = isinstance(given, Mapping)
@@ -65,12 +65,12 @@ class Moments:
 
     @property
     def values(self) -> list[float] | dict[str, float]:
-        """Moments as a list, or as a mapping if differences of moments were given."""
+        """List of the three moments, or mapping of "A", "B-A" and "C-A" if these were typed."""
         numbers = list(self.numbers)
         return dict(zip(KEYS, numbers, strict=True)) if self.differences else numbers
 
     def of_many(self, starts: int) -> FloatArray | dict[str, FloatArray]:
-        """Moments of many bodies as arrays, with `starts` trailing axes of length 1."""
+        """Arrays of the moments of one or more bodies, with `starts` trailing axes of length 1."""
         many = np.broadcast_arrays(*(np.asarray(number) for number in self.numbers))
         columns = [moment.reshape(moment.shape + (1,) * starts) for moment in many]
         if self.differences:
@@ -129,7 +129,7 @@ _SERIES = ("time", "component")
 
 
 class Rotation(FromStart, along=_SERIES, error="relative_error"):
-    """Rotation of a free body in time."""
+    """Angular velocity, angular momentum, attitude and energy of a free body in time."""
 
     omega_body: Value = number("rad/s", "angular velocity along the principal axes")
     angular_momentum_body: Value = number("kg m2 / s", "angular momentum along the principal axes")
@@ -175,7 +175,7 @@ def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> 
 
 
 def several_starts(omega: FloatArray) -> str | None:
-    """Return the reason to leave out Poinsot's construction if there are several starts."""
+    """Return the reason to leave out Poinsot's construction if several initial states are given."""
     return None if omega.ndim == 1 else "there are several starts"
 
 
@@ -184,7 +184,7 @@ class Poinsot(
     along=("component",),
     no_error="same closed form as the rotation, so its relative_error holds",
 ):
-    """Poinsot's ellipsoids, polhode and herpolhode."""
+    """Ellipsoids, polhode and herpolhode of Poinsot's construction, for one free body."""
 
     inertia_ellipsoid: Value = number("rad/s", "semi-axes of the inertia ellipsoid")
     momentum_ellipsoid: Value = number(

@@ -60,7 +60,7 @@ LARGEST = 30
 
 
 class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop", "step")):
-    """Computed pole compared with IAU 2006/2000A: rates, residuals in time, nutations.
+    """Computed pole compared with IAU 2006/2000A: rates, residuals in time, nutation terms.
 
     Returns
     -------
@@ -90,7 +90,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     views, page = "iau", "pole"
 
     def check(self) -> None:
-        """Require positions with a known error, which the errors of the comparison need."""
+        """Require bodies whose position error is known, because the comparison gives error bars."""
         super().check()
         problem = (
             "how far off its positions are was never measured, and the comparison with the IAU "
@@ -108,7 +108,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
 def rates_by_effect(
     pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
 ) -> Budget:
-    """Rates at J2000.0 by effect, each computed by switching the effect off."""
+    """Compute each effect's contribution to the rates at J2000.0, by switching that effect off."""
     from earthspin.sky.iau import precession_rates
 
     done, on = pole_analysis, rigid(effects)
@@ -130,7 +130,7 @@ _ADOPTED = "a model that was adopted, exact by definition"
 
 
 class EffectRates(Variables):
-    """Rates at J2000.0 by effect, and the remainder."""
+    """Contributions of effects to the rates of psi_A and omega_A at J2000.0, and the remainder."""
 
     psi_rate: Pair = measured(
         "arcsec/yr",
@@ -188,7 +188,7 @@ class EffectRates(Variables):
 
 @part
 def budget(rates_by_effect: Budget) -> EffectRates:
-    """Rates by effect, published rates, and the remainder."""
+    """Table the contributions to the precession rates: computed, published, and the remainder."""
     rates = rates_by_effect
     both = math.hypot(rates.psi_from_h, rates.psi_analysis_error)
     return EffectRates(
@@ -211,7 +211,7 @@ def budget(rates_by_effect: Budget) -> EffectRates:
 
 
 def _over(closure: float, uncertainty: float) -> float:
-    """Ratio of the remainder to its uncertainty; infinite if the uncertainty is unknown."""
+    """Ratio of an unexplained rate to its uncertainty; infinite if that uncertainty is zero."""
     return closure / uncertainty if uncertainty else math.copysign(math.inf, closure)
 
 
@@ -220,7 +220,7 @@ def _over(closure: float, uncertainty: float) -> float:
 
 @dataclass(frozen=True)
 class Differences:
-    """Computed pole minus that of the IAU, by model, as dpsi sin(eps0) and deps, rad.
+    """Computed pole minus IAU pole over time for each model, as dpsi sin(eps0) and deps, rad.
 
     Attributes
     ----------
@@ -255,7 +255,7 @@ def differences(
     effects: tuple[str, ...],
     predicted_shift: Shift | None = None,
 ) -> Differences:
-    """Computed pole minus that of the IAU in time, for each model."""
+    """Compute the difference between computed pole and IAU pole over time, for each model."""
     from earthspin.nutation.circles import complex_nutation, without_line
     from earthspin.sky import iau
 
@@ -304,7 +304,7 @@ _HALF_WIDTH = "95 % half-width of a residual, from H and integration"
 
 
 class Residuals(Dated, error="residual_error"):
-    """Computed pole minus that of the IAU in time."""
+    """Computed pole minus IAU pole over time, after a constant and a rate are removed."""
 
     dpsi_sineps: Value = number("mas", _LONGITUDE)
     deps: Value = number("mas", _OBLIQUITY)
@@ -313,7 +313,7 @@ class Residuals(Dated, error="residual_error"):
 
 @part
 def residuals(differences: Differences) -> Residuals:
-    """Computed pole minus that of the IAU in time, with the effects that are switched on."""
+    """Return computed pole minus IAU pole over time, for the effects that are switched on."""
     chosen = differences.fitted[:, differences.chosen]
     return Residuals(
         time=datetime64(differences.days),
@@ -324,7 +324,7 @@ def residuals(differences: Differences) -> Residuals:
 
 
 class ResidualsByModel(Dated, along=("time", "model"), error="error_by_model"):
-    """Computed pole minus that of the IAU in time, model by model."""
+    """Computed pole minus IAU pole over time, for each model of the effects."""
 
     dpsi_sineps_by_model: Value = number("mas", _LONGITUDE)
     deps_by_model: Value = number("mas", _OBLIQUITY)
@@ -334,7 +334,7 @@ class ResidualsByModel(Dated, along=("time", "model"), error="error_by_model"):
 
 @part
 def residuals_by_model(differences: Differences) -> ResidualsByModel:
-    """Computed pole minus that of the IAU in time, model by model."""
+    """Return the computed pole minus the IAU pole over time, for each model of the effects."""
     return ResidualsByModel(
         time=datetime64(differences.days),
         dpsi_sineps_by_model=differences.fitted[..., 0],
@@ -345,7 +345,7 @@ def residuals_by_model(differences: Differences) -> ResidualsByModel:
 
 
 class ResidualSizes(Variables, along=("model", "direction")):
-    """Root mean square and largest value of the residuals, model by model."""
+    """Root mean square and largest value of computed pole minus IAU pole, for each model."""
 
     residual_rms: Value = number(
         "mas",
@@ -388,7 +388,7 @@ def residual_sizes(differences: Differences) -> ResidualSizes:
 
 @part
 def observed(differences: Differences, observed_sky: ObservedSky) -> ObservedSizes:
-    """Root mean square difference of each model from the observed celestial pole."""
+    """Compute the root mean square of each model minus the observed celestial pole."""
     plain = dict(zip(differences.models, differences.plain.swapaxes(0, 1), strict=True))
     return observed_sky.sizes(plain, differences.error)
 
@@ -430,7 +430,7 @@ class Nutation(Variables, along=("term",)):
 
 @part
 def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation:
-    """The thirty largest circular nutation terms of both poles, with their ratios and residuals."""
+    """Compare the thirty largest circular nutation terms of the computed pole and the IAU pole."""
     from earthspin.nutation.circles import phases, term_names
     from earthspin.nutation.neighbours import amplitude_error, neighbours_of
     from earthspin.sky import iau
@@ -465,7 +465,7 @@ _ABSORBING = "the response that absorbs what it can"
 
 
 class Core(Variables):
-    """The free core nutation as recovered from IAU 2000A."""
+    """Free core nutation fitted to IAU 2000A: period, quality factor, strengths and residuals."""
 
     core_nutation_period: Pair = measured("d", "period of the free core nutation in space")
     core_nutation_quality: Pair = measured("1", "quality factor of the free core nutation")
@@ -542,7 +542,7 @@ def core(
 
 
 class Angles(Variables, along=("angle", "degree")):
-    """Polynomials of the precession angles."""
+    """Polynomial coefficients of the precession angles, computed and of IAU 2006."""
 
     angle_coefficient: Value = number(
         "arcsec", "coefficient of (t/century)^degree, computed pole, ecliptic of IAU 2006"
@@ -585,7 +585,7 @@ def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
 
 
 class Inferred(Variables, along=("origin",)):
-    """H and C/(M a2) by source."""
+    """Dynamical flattening H and C/(M a2) of the Earth from each of three sources."""
 
     flattening: Pair = measured("1", "dynamical flattening H", short="H = (C-A)/C")
     polar_moment: Pair = measured("1", "C/(M a2)", short="C/(M a2)")

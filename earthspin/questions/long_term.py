@@ -131,7 +131,7 @@ class LongTerm(
 
 
 def _unknown_start(body: Body) -> str:
-    """Note for a body whose pole has no published uncertainty."""
+    """Reason why errors are missing for a body whose pole has no published uncertainty."""
     return (
         f"how far off the pole of {in_a_sentence(body.name)} is at J2000.0 is not known; give the "
         "body a pole_uncertainty"
@@ -139,18 +139,18 @@ def _unknown_start(body: Body) -> str:
 
 
 class FromStart(Variables):
-    """Base class of results for an axis that starts from the pole of a body at J2000.0."""
+    """Base class of results that depend on the direction of a body's pole at J2000.0."""
 
     _unknown_start = ""
 
     def started_from(self, body: Body) -> Self:
-        """Mark errors that depend on the start as unknown if the pole's uncertainty is unknown."""
+        """Mark errors of the result as unknown if the body's pole has no uncertainty."""
         if body.pole_uncertainty is None:
             self._unknown_start = f"NaN, not given: {_unknown_start(body)}"
         return self
 
     def dataset(self) -> xr.Dataset:
-        """Build the dataset, with NaN for errors that depend on an unknown start."""
+        """Build the dataset; errors are NaN if they depend on a pole of unknown uncertainty."""
         result = super().dataset()
         for name, error in result.data_vars.items():
             of_orbit = str(name).startswith(("eccentricity_", "ecliptic_pole_"))
@@ -162,13 +162,13 @@ class FromStart(Variables):
 
 @part
 def wanted(span: YearSpan, step: float, times: YearList | None) -> FloatArray:
-    """The epochs, s from J2000.0 TDB."""
+    """Return the epochs at which results are requested, s from J2000.0 TDB."""
     return grid(span, step, Where("step")) if times is None else times.listed
 
 
 @part
 def stretch(sky: Sky) -> Stretch:
-    """Span of the averages: all that the source of positions covers, with mean epoch J2000.0."""
+    """Return the time span over which torques are averaged: all that the kernel covers."""
     return Stretch(*sky.coverage())
 
 
@@ -183,7 +183,7 @@ def numbers(
     obliquity_shift: float,
     longitude_shift: float,
 ) -> SideBySide:
-    """Inputs of the axis that may differ among ensemble members, broadcast to one shape."""
+    """Collect the inputs of the spin axis that may differ among members, in arrays of one shape."""
     rate, error = mean_rates.total()
     as_published = 0.0 if not_sun_and_moon(body, perturbers) else body.are_as_named
     return SideBySide.of(
@@ -209,7 +209,7 @@ def strength(
     body: Body,
     orbit_table: OrbitTable,
 ) -> Strength:
-    """Precession constant at J2000.0 and its variation in time.
+    """Compute the constant of precession at J2000.0 and the data of its change in time.
 
     It follows from the rates of `precession` divided by the cosine of the obliquity. The published
     effects of second order, planets, J4 and the interior are added to the Moon's part, which is
@@ -244,7 +244,7 @@ def strength(
 
 
 def _published() -> float:
-    """Published rate of effects that the first-order average leaves out for the Earth, rad/s."""
+    """Published rate of precession that the first-order average leaves out for the Earth, rad/s."""
     return sum(
         float(effect.value) * ARCSEC / JULIAN_YEAR
         for name, effect in PUBLISHED_EFFECTS.items()
@@ -297,7 +297,7 @@ def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArr
 
 @part
 def readings(solved: solutions.Solved, wanted: FloatArray, body: Body) -> reading.Readings:
-    """Quantities derived from the nominal axis, and from the axis with each error source varied."""
+    """Compute angles and rates from the nominal axis, and with each error source varied."""
     fixed = body.needed("pole").without_nutation().orbit_axes(body.orbit_pole)
     return reading.readings(solved, wanted, fixed)
 
@@ -372,7 +372,7 @@ def series(
     body: Body,
     accuracy: float | None,
 ) -> LongTermSeries:
-    """Angles, eccentricity, poles and rates at every epoch, each with its error."""
+    """Return obliquity, precession, eccentricity, poles and rates at every epoch, with errors."""
     nominal, lay = readings.mine, numbers.lay
     pole_error = readings.direction_half_width("pole")
     refuse_unkept(
@@ -436,7 +436,7 @@ _ONE_AT_A_TIME = (
 
 
 class Budget(Variables, along=("cause", "epoch"), no_error="a share of an error"):
-    """Errors by cause."""
+    """Contribution of each cause to the errors of obliquity, perihelion and pole."""
 
     obliquity_share: Value = number("arcsec", "share of the error of the obliquity")
     longitude_share: Value = number("deg", "share of the error of the longitude of perihelion")
@@ -445,13 +445,13 @@ class Budget(Variables, along=("cause", "epoch"), no_error="a share of an error"
     epoch: Labels = labels()
 
     def dataset(self) -> xr.Dataset:
-        """Build the dataset of contributions, with a comment that explains them."""
+        """Build the dataset of error contributions, with a comment that explains them."""
         return super().dataset().assign_attrs(comment=_ONE_AT_A_TIME)
 
 
 @part
 def budget(readings: reading.Readings, numbers: SideBySide, series: xr.Dataset) -> Budget:
-    """Error of obliquity, perihelion and pole by cause."""
+    """Compute the contribution of each cause to the errors of obliquity, perihelion and pole."""
 
     def lay(by_cause: dict[str, FloatArray]) -> xr.DataArray:
         shares = np.broadcast_arrays(*by_cause.values())
@@ -468,7 +468,7 @@ def budget(readings: reading.Readings, numbers: SideBySide, series: xr.Dataset) 
 
 
 class Matrices(FromStart, along=("epoch", "axis", "component"), error="matrix_error"):
-    """Precession matrices."""
+    """Precession matrices from the GCRS to mean equator and equinox of date."""
 
     matrix: Value = number(
         "1", "precession matrix from the GCRS to mean equator and equinox of date"
@@ -485,7 +485,7 @@ class Matrices(FromStart, along=("epoch", "axis", "component"), error="matrix_er
 def matrices(
     readings: reading.Readings, numbers: SideBySide, series: xr.Dataset, body: Body
 ) -> Matrices:
-    """Precession matrices to mean equator and equinox of date."""
+    """Compute the precession matrices from the GCRS to mean equator and equinox of date."""
     matrix = equator_and_equinox(readings.mine.pole, readings.mine.normal)
     return Matrices(
         matrix=numbers.lay(matrix, "epoch", "axis", "component"),

@@ -74,7 +74,7 @@ _FIELDS = {
 
 
 def _numbers(response: Yielding) -> NDArray[np.complex128]:
-    """Love numbers of a response as one complex array."""
+    """Array of the complex Love numbers of a body's response to tide and load."""
     return np.array([getattr(response, field) for field in _FIELDS.values()], dtype=complex)
 
 
@@ -92,7 +92,7 @@ class Love(Variables, along=("love",), no_error=FROM_LAYERS):
 
 @part
 def love(layers: LayeredBody, period: float | None, anelastic_exponent: float) -> Love:
-    """Love numbers of tide and load, by integration from the centre to the surface."""
+    """Compute the Love numbers of tide and load, by integration from the centre to the surface."""
     strain = 0.0 if period is None else complex(anelastic_strain(period, anelastic_exponent))
     values = _numbers(yielding(layers, strain))
     sources = [layers.reference]
@@ -126,7 +126,7 @@ PERIODS = np.geomspace(200.0, 30 * JULIAN_YEAR, 25)
 
 
 class ByPeriod(Variables, along=("love", "love_period"), no_error=FROM_LAYERS):
-    """Love numbers by period."""
+    """Complex Love numbers for several periods of the tide, and those of the elastic body."""
 
     elastic_love_number: Value = number("1", "Love number of the elastic body", along=("love",))
     love_number_by_period: Value = number("1", "Love number")
@@ -139,7 +139,7 @@ class ByPeriod(Variables, along=("love", "love_period"), no_error=FROM_LAYERS):
 
 @part
 def by_period(layers: LayeredBody, anelastic_exponent: float) -> ByPeriod:
-    """Real parts and phase lags of the Love numbers for periods from minutes to decades."""
+    """Compute the complex Love numbers for periods from minutes to decades."""
     values = _numbers(yielding(layers, anelastic_strain(PERIODS, anelastic_exponent)))
     return ByPeriod(
         elastic_love_number=_numbers(elastic(layers)).real,

@@ -107,13 +107,13 @@ class NutationLadder(
 
 @part
 def models(body: Body, coupling: str, anelastic_exponent: float) -> Prediction:
-    """Compute the steps of the ladder from compliances, figure and moments."""
+    """Compute the response of the interior to the torques, for each step of the ladder."""
     return predict(body, coupling == "inferred", anelastic_exponent)
 
 
 @dataclass(frozen=True)
 class RungResiduals:
-    """Residuals of each model against IAU 2000A, after removing a constant and a rate.
+    """Predicted pole minus the pole of IAU 2000A for each model, with and without a fitted line.
 
     Attributes
     ----------
@@ -133,7 +133,7 @@ class RungResiduals:
     error: float
 
     def rms(self, names: list[str]) -> NDArray[np.float64]:
-        """Root mean square of each angle by step, rad, shape (2, rung)."""
+        """Root mean square of both angles of the named models, rad, shape (2, model)."""
         return np.array([np.sqrt(np.mean(self.series[name] ** 2, axis=0)) for name in names]).T
 
 
@@ -146,7 +146,7 @@ def left(
     body: Body,
     effects: tuple[str, ...],
 ) -> RungResiduals:
-    """Computed pole, with the response of each step, minus the IAU pole, in time."""
+    """Compute predicted pole minus IAU pole over time, for the response of each model."""
     from earthspin.nutation.circles import complex_nutation, responses, without_line
     from earthspin.sky import iau
 
@@ -179,7 +179,7 @@ _ADDS = "what the model adds, or what it is"
 
 
 class RungSizes(Variables, along=("rung",), error="rms_error"):
-    """Root mean square differences of each step from IAU 2000A."""
+    """Root mean square of predicted pole minus IAU 2000A, for each step of the ladder."""
 
     rms_dpsi_sineps: Value = number(
         "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
@@ -192,7 +192,7 @@ class RungSizes(Variables, along=("rung",), error="rms_error"):
 
 @part
 def rung_sizes(left: RungResiduals, models: Prediction) -> RungSizes:
-    """Table of the residuals against IAU 2000A, step by step."""
+    """Compute the root mean square of predicted pole minus IAU 2000A, step by step."""
     names = models.ladder
     longitude, obliquity = left.rms(names)
     return RungSizes(
@@ -205,7 +205,7 @@ def rung_sizes(left: RungResiduals, models: Prediction) -> RungSizes:
 
 
 class ModelSizes(Variables, along=("model",), error="model_rms_error"):
-    """Root mean square differences from IAU 2000A of the models outside the ladder."""
+    """Root mean square of predicted pole minus IAU 2000A, for the models outside the ladder."""
 
     model_rms_dpsi_sineps: Value = number(
         "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
@@ -218,7 +218,7 @@ class ModelSizes(Variables, along=("model",), error="model_rms_error"):
 
 @part
 def beside(left: RungResiduals) -> ModelSizes:
-    """Root mean square differences from IAU 2000A of two models outside the ladder."""
+    """Compute the root mean square of predicted pole minus IAU 2000A, for two further models."""
     longitude, obliquity = left.rms(list(ladder.BESIDE))
     return ModelSizes(
         model_rms_dpsi_sineps=longitude,
@@ -233,7 +233,7 @@ def beside(left: RungResiduals) -> ModelSizes:
 
 
 class Terms(Variables, along=("term",)):
-    """The largest circular terms, step by step."""
+    """Amplitudes of the largest circular nutation terms, of each step and of IAU 2000A."""
 
     period: Value = number(
         "d",
@@ -256,7 +256,7 @@ class Terms(Variables, along=("term",)):
 
 @part
 def terms(pole_analysis: PoleComparison, models: Prediction) -> Terms:
-    """The largest circular terms of each step, in phase and out of phase."""
+    """Compute the largest circular nutation terms of each step, in phase and out of phase."""
     from earthspin.nutation.circles import phases, term_names
     from earthspin.nutation.neighbours import amplitude_error
 
@@ -279,7 +279,7 @@ def terms(pole_analysis: PoleComparison, models: Prediction) -> Terms:
 
 
 class Modes(Variables, along=("mode",)):
-    """Free modes of the steps."""
+    """Periods and quality factors of the free modes, for each step of the ladder."""
 
     mode_rung: Value = words("rung that has the mode", short="rung")
     mode_name: Value = words("name of the mode", short="mode")
@@ -299,7 +299,7 @@ class Modes(Variables, along=("mode",)):
 
 @part
 def modes(models: Prediction) -> Modes:
-    """Free modes of each step of the ladder; only the modes that a step has."""
+    """Compute period and quality factor of the free modes that each step of the ladder has."""
     rows = []
     for name in models.ladder:
         rung = models.rungs[name]
@@ -327,7 +327,7 @@ class Transfer(
     along=("rung", "frequency"),
     no_error="the section terms gives errors at the frequencies of nutation",
 ):
-    """The transfer function, step by step."""
+    """Transfer function from rigid to non-rigid nutation, for each step of the ladder."""
 
     transfer_real: Value = number("1", "nutation over that of a rigid body, real part")
     transfer_imaginary: Value = number("1", "nutation over that of a rigid body, imaginary part")
@@ -339,14 +339,14 @@ class Transfer(
 
 @part
 def transfer(models: Prediction) -> Transfer:
-    """The transfer function of each step, through its resonances."""
+    """Compute the transfer function of each step over frequencies through its resonances."""
     names = models.ladder
     response = np.array([models.rungs[name].transfer(_IN_SPACE - 1, models.e) for name in names])
     return Transfer(transfer_real=response.real, transfer_imaginary=response.imag, rung=names)
 
 
 class Residuals(Dated, along=("time", "rung"), error="residual_error"):
-    """Predicted pole minus that of the IAU in time."""
+    """Predicted pole minus IAU pole over time, for each step of the ladder."""
 
     dpsi_sineps: Value = number("mas", f"predicted pole minus the IAU's in {_LONGITUDE}")
     deps: Value = number("mas", f"predicted pole minus the IAU's in {_OBLIQUITY}")
@@ -358,7 +358,7 @@ class Residuals(Dated, along=("time", "rung"), error="residual_error"):
 
 @part
 def residuals(left: RungResiduals, models: Prediction) -> Residuals:
-    """Predicted pole minus that of the IAU in time, step by step."""
+    """Return the predicted pole minus the IAU pole over time, for each step of the ladder."""
     series = np.stack([left.series[name] for name in models.ladder], axis=1)
     return Residuals(
         time=datetime64(left.days),
@@ -371,7 +371,7 @@ def residuals(left: RungResiduals, models: Prediction) -> Residuals:
 
 @part
 def observed(left: RungResiduals, models: Prediction, observed_sky: ObservedSky) -> ObservedSizes:
-    """Root mean square difference of each step from the observed celestial pole."""
+    """Compute the root mean square of each step's pole minus the observed celestial pole."""
     return observed_sky.sizes({name: left.plain[name] for name in models.ladder}, left.error)
 
 

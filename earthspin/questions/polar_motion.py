@@ -103,7 +103,7 @@ class PolarMotion(Question, word="polar-motion", call="polar_motion", table="pol
 
 
 class ObservedPole(Daily):
-    """Observed polar motion."""
+    """Observed coordinates x and y of the pole in time, with errors."""
 
     x: Pair = measured("arcsec", "coordinate of the pole towards the prime meridian")
     y: Pair = measured("arcsec", "coordinate of the pole towards 90 degrees west")
@@ -114,13 +114,13 @@ class ObservedPole(Daily):
 
 @part(unless=not_observed)
 def pole_table(file: str, kind: str | None) -> PoleSeries:
-    """Polar motion from a table of the IERS."""
+    """Read the polar motion of a whole table of the IERS."""
     return read_polar_motion(file, kind)
 
 
 @part(unless=not_observed)
 def observed_pole(pole_table: PoleSeries, body: Body, span: Span | None) -> ObservedPole:
-    """Observed polar motion from a table of the IERS."""
+    """Return the observed polar motion of a table of the IERS within the requested span."""
     from earthspin.mass.figure import polar_radius
 
     series = within(pole_table, span)
@@ -139,7 +139,7 @@ _END = "an end of an interval of 95 %"
 class FreeWobble(
     Variables, along=("middle",), no_error="a mean over one beat, whose scatter was not propagated"
 ):
-    """Free and annual wobble and mean pole of a polar motion."""
+    """Period and amplitude of the free wobble, amplitudes of the annual wobble, and mean pole."""
 
     chandler_period: Pair = measured("d", "period of the free wobble", along=(), short="period")
     chandler_amplitude: Pair = measured(
@@ -189,7 +189,7 @@ def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> Fr
 def _free_wobble(
     time: FloatArray, p: ComplexArray, fit: WobbleFit, window: float | None
 ) -> FreeWobble:
-    """Fitted period and quality factor, and amplitudes of the wobble in sliding windows."""
+    """Return the fitted period and quality factor, and wobble amplitudes in sliding windows."""
     from earthspin.wobble.resonance import coordinates_of
 
     wobbles = envelope(time, p, fit.period, window)
@@ -268,7 +268,7 @@ def fit_chandler(
     window: Any = None,
     excitation: xr.Dataset | None = None,
 ) -> xr.Dataset:
-    """Period, quality factor and amplitude of the free wobble in polar motion.
+    """Fit period, quality factor and amplitude of the free wobble to polar motion.
 
     Parameters
     ----------
@@ -322,7 +322,10 @@ def fit_chandler(
 
 
 def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArray, ComplexArray]:
-    """Dates, pole and mean excitation between dates, mas, over the common span of both series."""
+    """Return dates, pole and mean excitation over their common span.
+
+    The excitation is the mean over each step between dates; pole and excitation are in mas.
+    """
     from earthspin.wobble.resonance import ends_of_steps
 
     time, p = complex_pole(pole)
@@ -346,7 +349,7 @@ def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArr
 
 
 def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
-    """Days from J2000.0 of the middles of the steps, and chi1 + i chi2 in mas."""
+    """Return the times of an excitation series, days from J2000.0, and chi1 + i chi2, mas."""
     from earthspin.wobble.resonance import excitation_of
 
     time, chi1, chi2 = labelled_series(chi, ("chi1", "chi2"), ("mas",))
@@ -361,7 +364,7 @@ class Excitation(Daily, no_error="the table from which it is read gives none"):
 
 
 class DrivenPole(Daily, no_error="excitation and free wobble are given without errors"):
-    """Polar motion that an excitation drives."""
+    """Polar motion that results from a given excitation."""
 
     x: Value = number("arcsec", "pole, towards the prime meridian")
     y: Value = number("arcsec", "pole, towards 90 degrees west")
@@ -493,7 +496,10 @@ def polar_motion_from(
 
 
 def _given_start(chi: xr.Dataset, start: Any, first: float) -> tuple[float, float]:
-    """X and y at the start in mas: from the argument, from the attributes, or zero."""
+    """Return x and y of the pole at the start of a series, mas.
+
+    They are taken from the argument, or else from the attributes of the excitation, or are zero.
+    """
     if start is None:
         noted = chi.attrs.get("start_day")
         if noted is not None and abs(noted - first) > SAME_DAY:

@@ -84,7 +84,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
     accuracy: AngleError | None = key(None, doc=DIRECTION_DOC)
 
     def check(self) -> None:
-        """Require a known interior if its response is switched on."""
+        """Require a known interior if the effect of the non-rigid interior is switched on."""
         super().check()
         if NONRIGID.name not in self.effects:
             return
@@ -113,26 +113,26 @@ def not_predicted(response: str) -> str | None:
 
 @part(unless=(not_nonrigid, not_fitted))
 def as_fitted(nonrigid_shift: Shift) -> Shift:
-    """Fitted response of the interior, if it is switched on."""
+    """Shift of the axes by the fitted response of the interior; runs only if that is chosen."""
     return nonrigid_shift
 
 
 @part(unless=(not_nonrigid, not_predicted))
 def as_predicted(predicted_shift: Shift) -> Shift:
-    """Predicted response of the interior, if it is switched on."""
+    """Shift of the axes by the predicted response of the interior; runs only if that is chosen."""
     return predicted_shift
 
 
 @part(unless=not_nonrigid)
 def interior_shift(as_fitted: Shift | None = None, as_predicted: Shift | None = None) -> Shift:
-    """Change of the path of the rigid axes by the response of the interior."""
+    """Return the shift of the rigid axes by the response of the interior, fitted or predicted."""
     shift = as_fitted or as_predicted
     assert shift is not None
     return shift
 
 
 class Directions(Dated, error="direction_error"):
-    """Directions of the axes."""
+    """Unit vectors of the axes of angular momentum, rotation and figure in time, with errors."""
 
     X: Value = number(
         "1", "first component of the unit vector of the axis", along=("time", "axis"), frame="GCRS"
@@ -165,7 +165,7 @@ def axes(
     interior_shift: Shift | None = None,
     block: Block | None = None,
 ) -> Directions:
-    """Directions of the axes of angular momentum, rotation and figure at every time."""
+    """Compute the directions of the axes of angular momentum, rotation and figure at every time."""
     if largest_error is not None:
         refuse_unkept(accuracy, largest_error.error, "mas", largest_error.remedy)
     now = days_of(epochs, block, by_region("pole.zarr"))
@@ -197,7 +197,7 @@ def axes(
 
 
 class ResponseError(Dated):
-    """Contribution of the interior to the error of the directions."""
+    """Error of the axis directions that is due to the response of the interior."""
 
     direction_error_response: Value = number(
         "uas",
@@ -214,7 +214,7 @@ def response_error(
     response: str,
     block: Block | None = None,
 ) -> ResponseError:
-    """Contribution of the response of the interior to the error of the directions."""
+    """Compute the error of the axis directions that is due to the response of the interior."""
     half_width = interior_shift.half_width(days_of(epochs, block, by_region("pole.zarr")))
     share = ResponseError(time=axes.time, direction_error_response=half_width)
     if response == "predicted":
@@ -223,7 +223,7 @@ def response_error(
 
 
 def no_longitude(body: Body) -> str | None:
-    """Return the reason to leave out the angles if the axis has no inclination to an orbit."""
+    """Return the reason to leave out psi and eps: unknown orbit, or axis normal to the orbit."""
     pole = body.needed("pole")
     if body.orbit_pole is None and not pole.of_the_iau:
         return f"psi is counted along the orbit, and {in_a_sentence(body.name)} has no orbit_pole"
@@ -233,7 +233,7 @@ def no_longitude(body: Body) -> str | None:
 
 
 class Angles(Dated, along=("time", "axis"), error="direction_error"):
-    """Angles of the axes on the fixed orbit of J2000.0."""
+    """Longitude psi and inclination eps of the axes, relative to the fixed orbit of J2000.0."""
 
     psi: Value = number("arcsec", "precession and nutation in longitude along the orbit of J2000.0")
     eps: Value = number("arcsec", "angle of the axis from the normal of that orbit")

@@ -77,7 +77,7 @@ class ObservedOffsets(Daily):
 
 @part(unless=not_observed)
 def offset_table(file: str, kind: str | None, span: Span | None) -> PoleSeries:
-    """Celestial pole offsets in a table of the IERS, over the span."""
+    """Read the celestial pole offsets of a table of the IERS, within the requested span."""
     return within(read_pole_offsets(file, kind), span)
 
 
@@ -119,14 +119,14 @@ class CoreNutation(Variables, along=("middle",)):
 
 
 def shorter_than_a_window(span: Span | None, window: float | None) -> str | None:
-    """Return the reason to leave out the section if the span is shorter than a window."""
+    """Return the reason to leave out the core nutation, if the span is shorter than a window."""
     if span is None or _length(span) >= (core.WINDOW if window is None else window):
         return None
     return "the span is shorter than a window, which is three years if not given"
 
 
 def too_short_for_a_period(span: Span | None) -> str | None:
-    """Return the reason to leave out the period if the span is too short to determine it."""
+    """Return the reason to leave out the period of the core nutation, if the span is too short."""
     needed = 2 * shortest_span()
     if span is None or _length(span) >= needed:
         return None
@@ -134,7 +134,7 @@ def too_short_for_a_period(span: Span | None) -> str | None:
 
 
 def _length(span: Span) -> float:
-    """Length of a span, d."""
+    """Length of a time span, d."""
     first, last = span.days
     return last - first
 

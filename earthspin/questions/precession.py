@@ -87,7 +87,11 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     many_pulls = True
 
     def check(self) -> None:
-        """Require one mass for each perturber if settings are chosen or orbits are given."""
+        """Refuse arrays of perturber masses where one mass is needed.
+
+        That is, if an accuracy is requested, or if orbits are given by elements and have no exact
+        mean torque.
+        """
         super().check()
         many = reasons.many_pulls(self.perturbers)
         if many and self.accuracy is not None:
@@ -160,7 +164,7 @@ def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Bod
 
 
 def _plane(body: Body) -> str:
-    """Name of the plane along which a rate is counted."""
+    """Name of the plane along which the precession rate of a body is counted."""
     if body.needed("pole").of_the_iau:
         return "ecliptic of J2000.0"
     return f"orbit whose normal has {body.orbit_pole} (ICRF)"
@@ -198,7 +202,7 @@ def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> RateAccuracy
 
 
 class Convergence(Variables, no_error="the curve itself shows the error of each window"):
-    """Rate against the length of the averaging window."""
+    """Precession rate as a function of the length of the averaging window."""
 
     rate_by_window: Value = number(
         "arcsec/yr", "rate of precession by all perturbers", along=("window", "window_cycles")
@@ -210,7 +214,7 @@ class Convergence(Variables, no_error="the curve itself shows the error of each 
 
 @part(unless=reasons.many_pulls)
 def convergence(torque_samples: Samples, body: Body) -> Convergence:
-    """Averaged rate over the length of the window, by a plain mean and by weighted means."""
+    """Compute the precession rate over the length of the averaging window, for each taper."""
     import xarray as xr
 
     window = torque_samples.window
@@ -229,7 +233,7 @@ def convergence(torque_samples: Samples, body: Body) -> Convergence:
 
 
 def no_figure(body: Body) -> str | None:
-    """Return the reason to leave out the models of the figure if J2 or flattening is unknown."""
+    """Return the reason to leave out the figure models, if they do not suit the body."""
     missing = [k for k in ("j2", "flattening", "radius") if getattr(body, k) is None]
     if missing:
         return f"{in_a_sentence(body.name)} has no {missing[0]}"
@@ -245,7 +249,7 @@ class FigureModels(
     along=("earth_model",),
     no_error="a model of the figure, for comparison with the others",
 ):
-    """Models of the figure, with precession and free wobble."""
+    """Dynamical flattening, precession period and wobble period for each model of the figure."""
 
     h_by_model: Value = number("1", "dynamical flattening (C - A)/C", short="H = (C-A)/C")
     period_by_model: Value = number(
@@ -281,7 +285,7 @@ def figure_models(mean_torques: MeanTorques, body: Body) -> FigureModels:
 
 
 def is_sphere(body: Body) -> str | None:
-    """Return the reason to leave out the free wobble, for a sphere."""
+    """Return the reason to leave out the free wobble if the body is a sphere, otherwise None."""
     oblate = all_of(body.needed("dynamical_flattening") != 0)
     return None if oblate else "a sphere does not wobble"
 
@@ -308,7 +312,7 @@ def free_wobble(body: Body) -> FreeWobble:
 
 
 class Seasons(Variables, no_error="its relative error is that of general_precession"):
-    """Motion of the equinox, and drift of the calendar."""
+    """Motion of the equinox, tropical year, and drift of the calendar against the seasons."""
 
     general_precession: Pair = measured(
         "arcsec/yr",
@@ -334,7 +338,7 @@ class Seasons(Variables, no_error="its relative error is that of general_precess
 def seasons(
     mean_rates: MeanRates, mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ...]
 ) -> Seasons:
-    """General precession, years per degree, drift of the calendar.
+    """Compute general precession, years per degree, and drift of the calendar.
 
     For the Earth as it is, the published effects that the rate leaves out are included.
     """
@@ -368,7 +372,7 @@ def seasons(
 
 
 class BesideIAU(Variables):
-    """Computed rate compared with the rate of IAU 2006."""
+    """Computed precession rate minus the rate of IAU 2006, and the unexplained remainder."""
 
     iau_rate: Value = number(
         "arcsec/yr",
@@ -383,7 +387,7 @@ class BesideIAU(Variables):
 
 @part(unless=reasons.not_the_iaus_earth)
 def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> BesideIAU:
-    """Computed rate minus the rate of IAU 2006, before and after the published effects."""
+    """Compare the computed precession rate with IAU 2006, before and after published effects."""
     from earthspin.sky.iau import precession_rates
 
     rate, error = mean_rates.total()

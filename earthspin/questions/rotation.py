@@ -117,7 +117,10 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
     may_be_alone = True
 
     def needed(self) -> tuple[str, ...]:
-        """Require pole and spin, unless the start is given."""
+        """Names of the required properties of the body.
+
+        Pole and spin are not required if the initial attitude or angular velocity is given.
+        """
         pole = () if self.start_attitude is not None else ("pole",)
         spin = () if self.start_omega is not None else ("spin_period",)
         return (*self.needs, *pole, *spin)
@@ -145,7 +148,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
 @dataclass(frozen=True)
 class Pulling:
-    """Torques of all perturbers, with their uncertainty.
+    """Torques of all perturbers, with the relative error due to their positions.
 
     Attributes
     ----------
@@ -170,7 +173,7 @@ def nothing_pulls(perturbers: tuple[Body, ...]) -> str | None:
 
 
 def _length(vector: FloatArray) -> float:
-    """Length of a vector; infinite if its square overflows."""
+    """Length of a vector; infinite if the square of the length overflows."""
     with np.errstate(over="ignore"):
         return float(np.linalg.norm(vector))
 
@@ -191,7 +194,7 @@ def pulling(
     effects: tuple[str, ...],
     start_omega: FloatArray | None,
 ) -> Pulling:
-    """Torques of all perturbers, with the effects that are switched on."""
+    """Build the torques of all perturbers for the chosen effects, and estimate their error."""
     from earthspin.motion.neighbours import relative_tide_error
 
     days = epochs.span()
@@ -212,7 +215,7 @@ def pulling(
 
 @dataclass(frozen=True)
 class Rotor:
-    """Body with its initial state and torques, for integration.
+    """Body with its initial state and the torques on it, ready for integration.
 
     Attributes
     ----------
@@ -244,11 +247,11 @@ class Rotor:
         return float(self.since(self.end))
 
     def motion(self, tolerance: float) -> Motion:
-        """Prepare the integration of the motion with a given tolerance per window."""
+        """Prepare the integration of the rotation with a given error tolerance per time window."""
         return Motion(self.body, self.masses, self.start, self.duration, tolerance=tolerance)
 
     def turns(self, seconds: float) -> float:
-        """Rotations of the body in a time (s) at its initial spin."""
+        """Number of rotations of the body in a time in s, at its initial spin."""
         return float(np.linalg.norm(self.start.spin[:, 0])) * seconds / (2 * np.pi)
 
     def refuse_many_turns(self, begin: float, end: float) -> None:
@@ -270,7 +273,7 @@ class Rotor:
             )
 
     def since(self, days: float | FloatArray) -> FloatArray:
-        """Seconds from the start, exact to the microsecond."""
+        """Time in s from the start to given days from J2000.0, rounded to the microsecond."""
         return np.asarray(np.round((days - self.begin) * DAY, 6))
 
 
@@ -284,7 +287,7 @@ def rotor(
     torque: CustomTorque | None,
     pulling: Pulling | None = None,
 ) -> Rotor:
-    """Build the body at the start, its perturbers, and copies with changed uncertain numbers."""
+    """Build the body with its initial state, torques, and copies with changed uncertain inputs."""
     from earthspin.motion import neighbours
 
     begin, end = epochs.span()
@@ -326,7 +329,7 @@ def rotor(
 
 @part
 def motion(rotor: Rotor, accuracy: float | None) -> Motion:
-    """Prepare the integration, with windows that the accuracy requires."""
+    """Prepare the integration of the rotation with the tolerance that the accuracy requires."""
     return rotor.motion(tolerance_for(accuracy))
 
 
@@ -339,17 +342,17 @@ _CAUSES = {
 
 
 def _error(units: str, quantity: str) -> Any:
-    """Declare the error of a quantity."""
+    """Declare the variable that holds the error of a quantity."""
     return number(units, f"95 % half-width of {quantity}, largest so far", along=("time",))
 
 
 def _share(units: str, name: str, cause: str) -> Any:
-    """Declare the contribution of one cause to the error of a variable."""
+    """Declare the variable that holds the contribution of one cause to the error of another."""
     return number(units, f"share of {name}_error from {_CAUSES[cause]}", along=("time",))
 
 
 class Attitudes(Dated, along=("time", "component")):
-    """Attitude, spin and angular momentum, each with its error and the contributions to it."""
+    """Attitude, spin and angular momentum in time, with their errors in total and by cause."""
 
     attitude: Value = number(
         "1",
@@ -382,7 +385,7 @@ class Attitudes(Dated, along=("time", "component")):
 
 
 def _followed(motion: Motion, rotor: Rotor, seconds: FloatArray, begin: float) -> RotationSeries:
-    """Integrate the motion to the given times, with a progress bar if it takes long."""
+    """Integrate the rotation to the given times, in s, and show a progress bar."""
     total, shown = round(rotor.turns(float(seconds[-1]) - begin)), 0
     with progress("turns of the body", total) as advance:
 
@@ -406,7 +409,7 @@ def turning(
     neglected: Neglected,
     block: Block | None = None,
 ) -> Attitudes:
-    """Attitude, spin and angular momentum at every time, with errors."""
+    """Compute attitude, spin and angular momentum with errors at every requested time."""
     now = days_of(epochs, block, by_region("series.zarr"))
     order = np.argsort(now, kind="stable")
     seconds = rotor.since(now[order])
@@ -457,7 +460,7 @@ def rotation_accuracy(turning: xr.Dataset, accuracy: float | None) -> AttitudeAc
 
 
 class Growth(Dated):
-    """Growth of a small deviation of the rotation."""
+    """Growth in time of a small deviation between two neighbouring rotations of the body."""
 
     growth: Value = number(
         "1",
@@ -485,14 +488,14 @@ class Growth(Dated):
 
 
 def one_date(span: Span, times: TimeList | None) -> str | None:
-    """Return the reason to leave out the section for a single date."""
+    """Return the reason to leave out the divergence of rotations, for a single date."""
     first, last = span.days if times is None else times.span()
     return None if last > first else "neighbours part in time, and one date is asked for"
 
 
 @part(unless=one_date)
 def parting(rotor: Rotor) -> Divergence:
-    """Growth of a small deviation that is rescaled repeatedly."""
+    """Integrate the growth of a small deviation of the rotation, which is rescaled repeatedly."""
     from earthspin.motion.divergence import divergence
 
     rotor.refuse_many_turns(0.0, rotor.duration)

@@ -70,7 +70,7 @@ _FRAME = "principal axes of the spheroid, z along its axis"
 
 
 class Field(Variables, along=_VECTOR, error="relative_error"):
-    """Field of a spheroid at points, and its relative error."""
+    """Potential, attraction and torque of a spheroid at points, with their relative error."""
 
     position: Value = number(
         "m", "coordinates of the point from the centre", no_error="as it was given", frame=_FRAME

@@ -104,7 +104,7 @@ def numbers(
     phi: float,
     psi: float,
 ) -> SideBySide:
-    """Build the top and its initial motion, or several tops."""
+    """Broadcast the moments and initial values of one or more tops to one shape."""
     return SideBySide.of(
         transverse_moment=transverse_moment,
         axial_moment=axial_moment,
@@ -126,7 +126,7 @@ def heavy_top_start(numbers: SideBySide) -> HeavyTop:
 
 @part
 def motion(heavy_top_start: HeavyTop, instants: FloatArray) -> HeavyTopMotion:
-    """Euler angles, pattern and turning angles, by elliptic functions."""
+    """Compute Euler angles, pattern and turning angles of the top, by elliptic functions."""
     from earthspin.top.motion import heavy_top_motion
 
     return heavy_top_motion(heavy_top_start, instants)
@@ -137,7 +137,7 @@ ERROR_POINTS = 64
 
 
 class Motion(FromStart, error="relative_error"):
-    """Motion of a top in time."""
+    """Euler angles, attitude, angular velocity and pattern of a top in time."""
 
     theta: Value = number("rad", "angle from the vertical to the axis")
     phi: Value = number("rad", "azimuth of the axis about the vertical")
@@ -169,7 +169,7 @@ class Motion(FromStart, error="relative_error"):
 def euler_angles(
     motion: HeavyTopMotion, heavy_top_start: HeavyTop, numbers: SideBySide, instants: FloatArray
 ) -> Motion:
-    """The motion of the top in time."""
+    """Return Euler angles, attitude, angular velocity and pattern of the top in time."""
     from earthspin.top.rounding import error_bound
 
     lay = numbers.lay
@@ -194,7 +194,7 @@ class Turning(
     along=("turning",),
     no_error="same closed form as the motion, so its relative_error holds",
 ):
-    """Turning angles of the nutation."""
+    """Turning angles of the nutation: smallest and largest theta of a top."""
 
     turning_angle: Value = number("rad", "smallest and largest theta")
     turning: Labels = labels(default=["upper", "lower"])
@@ -202,7 +202,7 @@ class Turning(
 
 @part
 def turning(motion: HeavyTopMotion) -> Turning:
-    """Turning angles theta of the nutation."""
+    """Return the turning angles of the nutation: smallest and largest theta of the top."""
     return Turning(turning_angle=motion.turning_angle)
 
 

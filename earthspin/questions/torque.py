@@ -79,7 +79,7 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
 def nutation(
     epochs: Epochs, chosen_nutation: Choice[NutationNodes | None] | None = None
 ) -> Nutation | None:
-    """IAU nutation interpolated between nodes, for the true equator; None for the mean equator."""
+    """Interpolated IAU nutation for the true equator; None if the mean equator is sufficient."""
     from earthspin.sky.iau import Nutation
 
     start, end = epochs.span()
@@ -126,7 +126,7 @@ def torques(
     chosen_nutation: Choice[NutationNodes | None] | None = None,
     block: Block | None = None,
 ) -> Torques:
-    """Declination, distance and torque of each perturber at every time."""
+    """Compute declination, distance and torque of each perturber at every time."""
     import xarray as xr
 
     now = days_of(epochs, block, by_region("series.zarr"), (body, *perturbers))
@@ -186,7 +186,7 @@ def torques(
 def _equator_words(
     equator: str, nutation: Nutation | None, chosen: Choice[NutationNodes | None] | None
 ) -> str:
-    """Description of the equator model, for the attributes."""
+    """Description of the equator model in words, for the attributes of the answer."""
     if nutation is not None:
         return f"IAU {nutation.model} nutation, a node each {nutation.spacing:g} d"
     if chosen is not None:

@@ -138,7 +138,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
 
 
 def why_rigid(body: Body) -> str | None:
-    """Reason why the ladder stops at the rigid steps; None if it continues."""
+    """Reason why the ladder has no non-rigid steps for this body; None if it has them."""
     interior = layered.interior_of(body)
     if interior is None:
         return f"{layered.no_interior(body)}; set body.interior"
@@ -152,7 +152,7 @@ def why_rigid(body: Body) -> str | None:
 
 @dataclass(frozen=True)
 class Inside:
-    """Inputs of the non-rigid steps of the ladder, as arrays of one shape.
+    """Inputs of the non-rigid steps of the wobble ladder, as arrays of one shape.
 
     Attributes
     ----------
@@ -178,14 +178,14 @@ class Inside:
         return self.spin, self.interior, self.ocean
 
     def label(self, value: Numeric) -> xr.DataArray:
-        """Restore the dimension names of a body's arrays."""
+        """Convert an array over bodies to a DataArray with the dimension names of the inputs."""
         import xarray as xr
 
         array = np.asarray(value)
         return xr.DataArray(array, dims=self.dims[len(self.dims) - array.ndim :])
 
     def stack(self, values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
-        """Stack arrays with dimension names along a new dimension."""
+        """Stack several arrays over bodies along a new dimension, labelled by their names."""
         return _along({name: self.label(value) for name, value in values.items()}, dim)
 
 
@@ -293,7 +293,7 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
 
 
 def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric]:
-    """95 % half-widths of the rigid steps, from the relative errors of f and H."""
+    """95 % half-widths of the rigid wobble periods, from the relative errors of f and H."""
     import xarray as xr
 
     spread: dict[str, Numeric] = {}
@@ -311,7 +311,7 @@ def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric
 
 
 def _along(values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
-    """Stack named arrays along a new dimension."""
+    """Stack the arrays of a mapping along a new dimension, labelled by their names."""
     import xarray as xr
 
     return xr.concat(
@@ -328,7 +328,7 @@ def _along(values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
 class InteriorNumbers(
     Variables, no_error="the section sensitivity gives the effect of its uncertainty on the period"
 ):
-    """Love numbers and moments of the layered interior."""
+    """Love numbers and moments of inertia of the layered interior, with no uncertainty."""
 
     love_number: Value = number("1", "Love number of degree two, elastic, at 1 s", along=("love",))
     moment_factor: Value = number("1", "moment of inertia of the model, divided by M R2")
@@ -358,7 +358,7 @@ def interior_response(body: Body) -> InteriorNumbers:
 
 
 class Sensitivity(Variables, along=("input",), no_error="a share of an error, or an input of it"):
-    """Sensitivity of the last step's period to each input."""
+    """Change of the last step's wobble period with each input, and the input's half-width."""
 
     days_per_unit: Value = number("d", "change of the last rung per unit of the input")
     input_value: Value = number("1", "value of the input")

@@ -78,7 +78,10 @@ class SymmetricRotor:
 
     @property
     def wobble_rate(self) -> Numeric:
-        """Rate of omega about the figure axis, omega cos(alpha) (I3 - I1)/I1, rad/s (I.6.7)."""
+        """Rate of the angular velocity about the figure axis, in the body, rad/s (I.6.7).
+
+        It is omega cos(alpha) (I3 - I1)/I1.
+        """
         return self.speed * np.cos(self.alpha) * self.difference / self.equatorial
 
     @property
@@ -91,7 +94,9 @@ class SymmetricRotor:
 
     @property
     def tilt(self) -> Numeric:
-        """Angle alpha - theta from L to omega, positive away from the figure axis, rad.
+        """Angle from angular momentum to spin, positive away from the figure axis, rad.
+
+        The angle is alpha - theta.
 
         Positive for an oblate body with alpha < pi/2. From (I.6.20), without subtracting angles:
         tan(alpha - theta) = (I3 - I1) sin cos/(I3 cos^2 + I1 sin^2) of alpha.
@@ -236,7 +241,10 @@ class SymmetricRotor:
         )
 
     def _in_node_plane(self, length: Numeric, angle: Numeric, times: Numeric) -> FloatArray:
-        """Vector in the plane of L and figure axis, at an angle from L towards the figure axis."""
+        """Vector in the plane of angular momentum and figure axis, along inertial axes.
+
+        The angle is counted from the angular momentum towards the figure axis.
+        """
         phi = np.multiply.outer(self.precession_rate, times)
         across, along = (np.asarray(length * f(angle))[..., np.newaxis] for f in (np.sin, np.cos))
         return np.stack(
@@ -248,7 +256,7 @@ class SymmetricRotor:
 def speed_and_cone(
     equatorial: Numeric, difference: Numeric, energy: Numeric, angular_momentum: Numeric
 ) -> tuple[FloatArray, FloatArray]:
-    """Speed |omega| and half-angle alpha of the body cone from T and L (I.6.12).
+    """Spin rate and half-angle alpha of the body cone, from energy and angular momentum (I.6.12).
 
         tan^2 alpha = (I3/I1) (2T I3 - L2)/(L2 - 2T I1),   omega^2 = [2T (I1 + I3) - L2]/(I1 I3)
 

@@ -53,7 +53,7 @@ _LEAST_ENERGY, _LARGEST_ENERGY = -960, 1000
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Precession:
-    """Angle psi about the angular momentum: its mean rate and periodic part.
+    """Rotation of the body about its angular momentum: mean rate and size of the periodic part.
 
     Attributes
     ----------
@@ -135,7 +135,7 @@ class JacobiMotion:
 
 
 class _Start(NamedTuple):
-    """Moments and initial state along axes 1, 2, 3, scaled to order one."""
+    """Moments, initial omega and constants along the numbered axes 1, 2, 3, scaled to order one."""
 
     axes: IntArray
     signs: FloatArray
@@ -219,7 +219,9 @@ def _constants(
 def _precession(
     start: _Start, k_complementary: DoubleDouble, descent: LandenDescent, speed: FloatArray
 ) -> Precession:
-    """Integrate psi' = G/I3 + D3 (I3 - I1)/(G I3) / (1 + b dn u), with b = a3 I3/G.
+    """Compute mean rate and periodic part of the angle psi about the angular momentum.
+
+    It integrates psi' = G/I3 + D3 (I3 - I1)/(G I3) / (1 + b dn u), with b = a3 I3/G.
 
     After one Landen step, to k1 = (1 - k')/(1 + k') and v = (1 + k')u/2,
 
@@ -247,7 +249,10 @@ def _precession(
 
 
 def _numbered(unit: PrincipalMoments, spin: FloatArray) -> _Start:
-    """Number the axes: m moves about axis 3, and axis 2 has the intermediate moment."""
+    """Number the principal axes so that the angular momentum circles axis 3.
+
+    Axis 2 has the intermediate moment.
+    """
     c_b, a_c, b_a = np.moveaxis(unit.difference.hi, -1, 0)
     # Rank of each moment, from the differences because nearly equal moments may be equal as floats.
     rank = np.stack(
@@ -264,7 +269,7 @@ def _numbered(unit: PrincipalMoments, spin: FloatArray) -> _Start:
 
 
 def _along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _Start:
-    """Transform moments and initial state to axes 1, 2, 3, in the form of `_Start`."""
+    """Reorder moments and initial omega to axes 1, 2, 3, and compute the constants of `_Start`."""
     parity = np.where((axes[..., 1] - axes[..., 0]) % 3 == 1, 1.0, -1.0)
     moment, spin = _take(unit.moment, axes), np.take_along_axis(spin, axes, -1)
     signs = np.where(spin < 0, -1.0, 1.0)
@@ -297,7 +302,10 @@ def _along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _Start:
 
 
 def _start_angle(amplitudes: FloatArray, spin: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Sine and cosine of the amplitude of u0; 0 and 1 for a rotation about axis 3."""
+    """Sine and cosine of the amplitude of the elliptic functions at the start.
+
+    They are 0 and 1 for a rotation about axis 3.
+    """
     upright = amplitudes[..., 0] == 0
     divisor = np.where(upright[..., np.newaxis], 1.0, amplitudes)
     sine, cosine = spin[..., 1] / divisor[..., 1], spin[..., 0] / divisor[..., 0]

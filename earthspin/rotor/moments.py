@@ -33,7 +33,7 @@ _LAMINA = 4 * np.finfo(float).eps
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PrincipalMoments:
-    """Principal moments and their differences, each as exact as the input.
+    """Principal moments and their differences, each stored in double-double precision.
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ class PrincipalMoments:
 
     @property
     def values(self) -> FloatArray:
-        """A, B, C as floats, shape (..., 3)."""
+        """Principal moments A, B, C as floats, shape (..., 3)."""
         return np.asarray(self.moment.hi)
 
     @property
@@ -158,7 +158,7 @@ def _check(moments: PrincipalMoments) -> None:
 
 
 def finite(given: Any, name: str, unit: str) -> FloatArray:
-    """Read an array of floats; refuse infinite and missing values.
+    """Convert an input to an array of floats; refuse infinite and missing values.
 
     Parameters
     ----------

@@ -52,7 +52,7 @@ class Polhode:
 
 
 class Closure(NamedTuple):
-    """Best approximate closure of a herpolhode.
+    """Numbers of turns and periods after which a herpolhode nearly closes, and the angle left.
 
     Attributes
     ----------
@@ -231,7 +231,7 @@ def herpolhode_advance(moments: Moments, omega: Any) -> FloatArray:
 
 
 def nearest_closure(advance: float, most_periods: int = 100) -> Closure:
-    """Rational fraction of a turn nearest to an advance.
+    """Find the fraction of a turn nearest to the advance of the herpolhode per period.
 
     The herpolhode is closed if its advance is a rational multiple of 2 pi. As floats cannot decide
     this, the gap measures the deviation from closure.
@@ -256,6 +256,6 @@ def _across(motion: JacobiMotion, phase: Phase) -> FloatArray:
 
 
 def _differences(motion: JacobiMotion) -> FloatArray:
-    """Differences I3 - I2, I3 - I1, I2 - I1, which have one sign."""
+    """Differences I3 - I2, I3 - I1, I2 - I1 of the moments, which all have the same sign."""
     sizes = np.abs(np.take_along_axis(motion.moments.difference.hi, motion.axes, -1))
     return np.asarray(motion.sense[..., np.newaxis] * sizes)

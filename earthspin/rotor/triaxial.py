@@ -108,7 +108,7 @@ def free_rotation(moments: Moments, omega: Any, times: Any) -> FreeRotation:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Phase:
-    """Phase of a motion within its period.
+    """Arguments and values of the elliptic functions of a motion at given times.
 
     Attributes
     ----------
@@ -129,13 +129,13 @@ class Phase:
     lower: Jacobi
 
     def along(self, amplitudes: FloatArray) -> FloatArray:
-        """Vector with given amplitudes of cn, sn, dn, shape (..., n, 3)."""
+        """Vector with the components cn, sn, dn times given amplitudes, shape (..., n, 3)."""
         sn, cn, dn = self.upper
         return np.stack([self.turned * cn, self.turned * sn, dn], -1) * amplitudes[..., None, :]
 
 
 def phase_at(motion: JacobiMotion, times: FloatArray) -> Phase:
-    """Reduce lambda t + u0 by half periods and evaluate the elliptic functions.
+    """Evaluate the elliptic functions of a torque-free motion at given times.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def phase_at(motion: JacobiMotion, times: FloatArray) -> Phase:
 
 
 def to_body(motion: JacobiMotion, vectors: FloatArray) -> FloatArray:
-    """Transform components along axes 1, 2, 3 to the body axes.
+    """Transform vector components from the numbered axes 1, 2, 3 to the body axes x, y, z.
 
     Parameters
     ----------
@@ -168,7 +168,7 @@ def to_body(motion: JacobiMotion, vectors: FloatArray) -> FloatArray:
 
 
 def momentum_frame(motion: JacobiMotion, phase: Phase) -> FloatArray:
-    """Quaternion from axes 1, 2, 3 to inertial axes whose third is the angular momentum.
+    """Quaternion from body axes 1, 2, 3 to inertial axes whose third is the angular momentum.
 
     Parameters
     ----------
@@ -197,7 +197,7 @@ def _shortest_turn(cosines: FloatArray) -> FloatArray:
 
 
 def _half_psi(motion: JacobiMotion, phase: Phase) -> FloatArray:
-    """Half the angle about the angular momentum since the first time, rad."""
+    """Half the angle turned about the angular momentum since the first time, rad."""
     precession = motion.precession
     run = precession.rate.scaled(0.5)[..., np.newaxis] * phase.times
     rest = run - TWO_PI * np.rint(run.hi / TWO_PI.hi)

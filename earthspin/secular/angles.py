@@ -1,4 +1,6 @@
-r"""Obliquity and precession parameters of an axis s and an orbit (normal n, eccentricity vector e).
+r"""Obliquity and precession angles from a spin axis s and an orbit.
+
+The orbit has the normal n and the eccentricity vector e.
 
 The equinox of date lies along s x n, where the Sun crosses the equator northward. The obliquity is
 the angle from n to s; the longitude of perihelion is measured along the orbit from the equinox of
@@ -24,7 +26,7 @@ Numeric = float | FloatArray
 
 
 class Seasons(NamedTuple):
-    """Obliquity and quantities that depend on the equinox; shape (n,) each.
+    """Obliquity, eccentricity, climatic precession and coprecession; shape (n,) each.
 
     Attributes
     ----------
@@ -77,7 +79,7 @@ def equator_and_equinox(axis: FloatArray, normal: FloatArray) -> FloatArray:
 def inclined_axis(
     axis: FloatArray, normal: FloatArray, more: Numeric, turned: Numeric
 ) -> FloatArray:
-    """Change the obliquity and longitude of an axis by given increments.
+    """Rotate a spin axis by given increments of its obliquity and longitude.
 
     Parameters
     ----------
@@ -109,5 +111,5 @@ def inclined_axis(
 
 
 def broadcast_over_members(axis: FloatArray, vector: FloatArray) -> FloatArray:
-    """Reshape an orbital vector, shape (3, n), to broadcast with the members of an axis array."""
+    """Reshape an orbital vector from (3, n) so that it broadcasts with the axes of many members."""
     return vector.reshape(3, *(1,) * (axis.ndim - 2), -1)

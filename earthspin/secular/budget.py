@@ -39,7 +39,7 @@ OF_THE_EARTH = ("J2 rate", "tides", "ellipticity")
 
 @dataclass(frozen=True)
 class Setting:
-    """Inputs of a solution.
+    """Inputs of one integration of the spin axis: precession strength, orbit and initial axis.
 
     Attributes
     ----------
@@ -78,14 +78,14 @@ class Uncertainty:
 
     @property
     def causes(self) -> tuple[str, ...]:
-        """Names of the error sources; the name is repeated for each independent direction."""
+        """Names of the error sources; a source with two directions occurs twice."""
         moved = ("constant", *(("start",) * len(self.start)), "orbit", "orbit")
         return moved + OF_THE_EARTH if self.earth else moved
 
 
 @dataclass(frozen=True)
 class Solved:
-    """The axis in time, and the solutions with each error source varied.
+    """Nominal trajectory of the spin axis, and those with each error source varied.
 
     Attributes
     ----------
@@ -103,7 +103,7 @@ class Solved:
 
     @property
     def steps(self) -> int:
-        """Total number of Newton steps."""
+        """Total number of Newton steps of the nominal and all varied trajectories."""
         return self.path.steps + sum(path.steps for _, path, _ in self.others)
 
 
@@ -169,7 +169,7 @@ def moved(orbit: Orbit, error: HalfWidths, ways: Sequence[float]) -> ModifiedOrb
 
 
 def inclined_axis(setting: Setting, angles: Sequence[float]) -> FloatArray:
-    """Initial axis rotated by small angles, same shape.
+    """Initial axis rotated by small angles, in the shape of the nominal axis.
 
     Parameters
     ----------
@@ -186,7 +186,10 @@ def inclined_axis(setting: Setting, angles: Sequence[float]) -> FloatArray:
 
 
 def changes(setting: Setting, uncertainty: Uncertainty) -> tuple[tuple[str, Setting], ...]:
-    """Settings with one error source varied by its half-width; the orbit in two directions."""
+    """Return the inputs with one error source varied by its half-width, for each source.
+
+    The orbit is varied in two directions.
+    """
     causes = uncertainty.causes
     return tuple(
         (cause, changed(setting, uncertainty, amounts))
@@ -195,7 +198,7 @@ def changes(setting: Setting, uncertainty: Uncertainty) -> tuple[tuple[str, Sett
 
 
 def changed(setting: Setting, uncertainty: Uncertainty, amounts: FloatArray) -> Setting:
-    """Setting with all error sources varied by given amounts.
+    """Return the inputs with all error sources varied by given multiples of their half-widths.
 
     Parameters
     ----------

@@ -31,7 +31,7 @@ NODES = 48
 
 
 class Season(NamedTuple):
-    """Orbital inputs of the insolation; arrays that broadcast together.
+    """Obliquity, eccentricity and perihelion for the insolation; arrays that broadcast together.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ def mean_longitude(season: Season, true: FloatArray) -> FloatArray:
 def over_days(
     season: Season, latitude: FloatArray, longitude: FloatArray, days: float
 ) -> FloatArray:
-    """Mean insolation over a time window centred where the Sun has a given longitude.
+    """Mean insolation over a time window centred on a given true longitude of the Sun.
 
     Parameters
     ----------

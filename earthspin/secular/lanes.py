@@ -1,4 +1,4 @@
-r"""Integration of many axes over millions of years: a Runge-Kutta method in a precessing frame.
+r"""Joint integration of many spin axes over millions of years, in a precessing frame.
 
 In a frame that rotates about the mean normal at the precession rate, the axis hardly moves, so
 steps of four thousand years suffice. All members are in one array, and every stage of the method of
@@ -76,12 +76,15 @@ def solve_many(
 
 
 def _mean(values: FloatArray) -> float:
-    """Mean of all members; exact if all are equal."""
+    """Mean of a quantity over all members; exact if all members have the same value."""
     return float(values[0] + np.mean(values - values[0]))
 
 
 def _padded(strength: Strength, width: int, members: int) -> Strength:
-    """Precession strength with every array padded to the width of the batch."""
+    """Precession strength with each array lengthened to the batch size.
+
+    The value of the last member is repeated.
+    """
 
     def long(value: FloatArray | float) -> FloatArray:
         row = np.broadcast_to(np.asarray(value, dtype=float), (members,))
@@ -99,7 +102,7 @@ def _padded(strength: Strength, width: int, members: int) -> Strength:
 
 
 class _Lanes:
-    """Members in a frame that rotates at their mean precession."""
+    """Spin axes of many members in a frame that rotates at their mean precession rate."""
 
     def __init__(
         self, strength: Strength, orbit: Orbit, starts: FloatArray, times: FloatArray
@@ -129,7 +132,10 @@ class _Lanes:
             )
 
     def run(self, times: FloatArray, longest: float) -> Iterator[FloatArray]:
-        """Yield the axes at times sorted by distance from J2000.0, shape (3, lanes) each, GCRS."""
+        """Yield the unit vectors of all axes in the GCRS at each time, shape (3, members).
+
+        The times are sorted by distance from J2000.0.
+        """
         if not times.size or times[-1] == 0.0:
             yield from (self.axes.T @ self.start for _ in times)
             return
@@ -166,12 +172,15 @@ class _Lanes:
             state = state + change
 
     def _still(self, u: FloatArray, time: float) -> FloatArray:
-        """Transform axes from the rotating frame to the GCRS."""
+        """Transform axes at a time from the rotating frame to the GCRS."""
         c, s = math.cos(self.turn * time), math.sin(self.turn * time)
         return np.asarray(self.axes.T @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ u)
 
     def _slopes(self, times: FloatArray) -> Callable[[int, FloatArray], FloatArray]:
-        """Function of a time index and the axes that returns the rates in the rotating frame."""
+        """Return the function that computes the rates of the axes in the rotating frame.
+
+        Its arguments are the index of a time and the axes.
+        """
         normal, eccentricity, turning = self.orbit.at(times)
         e2 = np.sum(eccentricity**2, axis=0)
         constant = self.strength.constant(times[:, np.newaxis], e2[:, np.newaxis])
@@ -201,7 +210,10 @@ def _crossing(vector: FloatArray) -> FloatArray:
 
 
 def _between(x: float, terms: Sequence[FloatArray]) -> FloatArray:
-    """Interpolation of order 7 within a step (Hairer, Norsett & Wanner 1993, II.6)."""
+    """Interpolate the axes within a time step (Hairer, Norsett & Wanner 1993, II.6).
+
+    The argument is the fraction of the step; the order is 7.
+    """
     u = np.zeros_like(terms[0])
     for number, term in enumerate(reversed(terms)):
         u += term

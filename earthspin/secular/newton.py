@@ -1,4 +1,4 @@
-r"""Newton's method in time for the equation of an axis at collocation nodes.
+r"""Newton's method for the spin axis at the collocation nodes of all time windows.
 
 The longitude phi of the spin axis about a fixed axis N and the height Z = s.N are canonical
 variables: with the projection L = m.s on the axis m of the torque, and a rotation g,
@@ -31,7 +31,9 @@ TINY = 1e-300
 
 
 class Turn(NamedTuple):
-    """Axis m, rotation g and constant a of the torque at the nodes of windows, relative to N.
+    """Averaged torque on the spin axis at the nodes of windows, in the frame of the axis N.
+
+    The torque has the axis m, the constant a, and an additional rotation g.
 
     Attributes
     ----------
@@ -63,7 +65,9 @@ class Turn(NamedTuple):
 
 
 class Slope(NamedTuple):
-    """Rates of longitude and height at the nodes, and their derivatives; shape (..., w, n).
+    """Rates of longitude and height of the spin axis at the nodes, and their derivatives.
+
+    The shape is (..., w, n) for w windows of n nodes.
 
     Attributes
     ----------
@@ -82,7 +86,7 @@ class Slope(NamedTuple):
 
 
 def slope(on: Turn, phi: FloatArray, z: FloatArray) -> Slope:
-    """Rates of longitude and height, rad/s and 1/s, and their derivatives."""
+    """Compute the rates of longitude (rad/s) and height (1/s) of the axis, with derivatives."""
     seen = np.empty(phi.shape, dtype=complex)
     np.cos(phi, out=seen.real)
     np.negative(np.sin(phi), out=seen.imag)
@@ -111,11 +115,10 @@ def slope(on: Turn, phi: FloatArray, z: FloatArray) -> Slope:
 def moved(
     windows: Windows, rates: FloatArray, state: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Integrals from window starts to nodes, states at window starts, and the final state.
+    """Integrate rates of longitude and height over the windows.
 
-    The shapes are (2, ..., w, n), (2, ..., w) and (2, ...).
-
-    The shapes are (2, ..., w, n), (2, ..., w) and (2, ...).
+    Return the integrals from window starts to nodes, the states at window starts, and the final
+    state. The shapes are (2, ..., w, n), (2, ..., w) and (2, ...).
     """
     inside, across = windows.integral(rates)
     ends = np.cumsum(np.concatenate([state[..., np.newaxis], across], axis=-1), axis=-1)
@@ -125,7 +128,7 @@ def moved(
 def step(
     windows: Windows, on: Turn, values: FloatArray, state: FloatArray, left: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """One step of Newton's method: new values at the nodes, and the largest change of each axis.
+    """Make one Newton step: new longitudes and heights at the nodes, and the size of the change.
 
     With S the integral from the start of a window to its nodes, the values y of a window that
     starts at b solve y = b + S f(y). Linearised about the current values, the change is d = c + S J
@@ -162,7 +165,9 @@ def step(
 def _linear(
     windows: Windows, at: Slope, sides: FloatArray, left: FloatArray
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
-    """Solve d = c + S J d in every window for several c, shape (2, k, ..., w, n).
+    """Solve the linearised equation d = c + S J d in every window, for several defects c.
+
+    The result has the shape (2, k, ..., w, n).
 
     Each sweep solves for the height and then for the longitude; the coupling of longitude to height
     is small, so the residual decreases fast. Returns also the change over each window, shape (2, k,
@@ -194,7 +199,7 @@ def _linear(
 
 
 def _shifts(ends: FloatArray) -> FloatArray:
-    """Corrections of the initial states of all windows, shape (2, ..., w), from linear changes.
+    """Corrections of longitude and height at the starts of all windows, shape (2, ..., w).
 
     Parameters
     ----------

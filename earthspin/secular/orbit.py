@@ -20,7 +20,7 @@ Shape: TypeAlias = "tuple[FloatArray, FloatArray, FloatArray]"
 
 
 class Orbit(Protocol):
-    """Protocol of an orbit that can be evaluated at any time within its coverage."""
+    """Protocol of an orbit whose normal and eccentricity can be evaluated at any covered time."""
 
     @property
     def coverage(self) -> tuple[float, float]:
@@ -28,7 +28,7 @@ class Orbit(Protocol):
 
     @property
     def edges(self) -> FloatArray:
-        """Times where smooth pieces of the orbit meet, including J2000.0, s, ascending."""
+        """Times at which smooth pieces of the orbit join, with J2000.0; s, ascending."""
 
     def at(self, times: FloatArray) -> Shape:
         """Shape of the orbit at times in s from J2000.0 TDB."""
@@ -55,7 +55,7 @@ class ModifiedOrbit:
 
     @property
     def edges(self) -> FloatArray:
-        """Edges of the original orbit."""
+        """Times at which smooth pieces of the original orbit join, s."""
         return self.orbit.edges
 
     def at(self, times: FloatArray) -> Shape:
@@ -72,7 +72,7 @@ def reference_axes(normal: FloatArray) -> FloatArray:
 
 
 class Pull(NamedTuple):
-    """Averaged torque on an axis s at some times: ds/dt = (g n - a (m.s) m) x s.
+    """Averaged torque on a spin axis s: m, a and g n in ds/dt = (g n - a (m.s) m) x s.
 
     Attributes
     ----------
@@ -90,7 +90,7 @@ class Pull(NamedTuple):
 
 
 def pull(strength: Strength, shape: Shape, times: FloatArray) -> Pull:
-    """Averaged torque of Sun and Moon on an axis.
+    """Compute the averaged torque of Sun and Moon on a spin axis.
 
     The node of the Moon regresses about an orbit that moves; its mean torque acts about n + (n x
     dn/dt)/|node rate|, which differs from n by 1.4 arcsec for the Earth. To first order the total
@@ -107,7 +107,7 @@ def pull(strength: Strength, shape: Shape, times: FloatArray) -> Pull:
 
 
 def moons_height(shape: Shape, axis: FloatArray, node_rate: float) -> FloatArray:
-    """Precession rate in longitude due to the Moon, divided by its constant of precession.
+    """Rate of precession in longitude due to the Moon, divided by the Moon's constant.
 
     The shape is (..., n).
 

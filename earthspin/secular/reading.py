@@ -1,4 +1,4 @@
-"""Angles, precession and rates derived from a solution, and their errors by cause.
+"""Angles and rates derived from a trajectory of the spin axis, and their errors by cause.
 
 Longitudes are unwrapped, although epochs may be far apart: between two epochs precession is
 followed along the nodes of the solution, and the perihelion, which moves fast for a nearly circular
@@ -42,7 +42,7 @@ _TURN = 2 * np.pi
 
 @dataclass(frozen=True)
 class Read:
-    """Quantities derived from one trajectory, or from the trajectories of ensemble members.
+    """Angles, eccentricity, pole and rates derived from one trajectory or that of each member.
 
     Axes of members precede the time axis.
 
@@ -64,7 +64,7 @@ class Read:
 
 @dataclass(frozen=True)
 class Readings:
-    """Quantities derived from the solution, and from the solutions with each cause changed.
+    """Angles and rates from the nominal trajectory, and from those with an error source varied.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ class Readings:
     sampled: Mapping[str, FloatArray] = field(default_factory=dict)
 
     def half_width(self, name: str) -> FloatArray:
-        """95 % half-width of a value."""
+        """95 % half-width of the named quantity."""
         return self._with_sampled(name, together(self.apart(name)))
 
     def direction_half_width(self, which: Literal["pole", "normal"]) -> FloatArray:
@@ -97,13 +97,13 @@ class Readings:
         return linear + self.weight * (self.sampled[name] - linear)
 
     def apart(self, name: str) -> dict[str, FloatArray]:
-        """Change of a value due to each error source."""
+        """Change of the named quantity due to each error source."""
         return _by_cause(
             (cause, moved_by(changed, self.mine, name)) for cause, changed in self.moved
         )
 
     def poles_apart(self, which: Literal["pole", "normal"]) -> dict[str, FloatArray]:
-        """Change in direction of the spin axis or orbit normal due to each error source, rad."""
+        """Angle (rad) by which each error source moves the spin axis or the orbit normal."""
         mine = getattr(self.mine, which)
         return _by_cause(
             (cause, angle(getattr(changed, which), mine)) for cause, changed in self.moved
@@ -111,7 +111,7 @@ class Readings:
 
 
 def moved_by(of: Read, mine: Read, name: str) -> FloatArray:
-    """Difference of a value from the nominal solution."""
+    """Difference of the named quantity between a varied and the nominal solution."""
     moved = of.values[name] - mine.values[name]
     if name != "longitude_of_perihelion":
         return moved
@@ -129,7 +129,7 @@ def angle(of: FloatArray, mine: FloatArray) -> FloatArray:
 
 
 def _by_cause(shares: Iterable[tuple[str, FloatArray]]) -> dict[str, FloatArray]:
-    """Root sum square of the changes, for each error source separately."""
+    """Root sum square of the changes of each error source, which may have several directions."""
     totals: dict[str, FloatArray] = {}
     for cause, share in shares:
         totals[cause] = np.hypot(totals.get(cause, 0.0), share)
@@ -142,7 +142,7 @@ def together(shares: dict[str, FloatArray]) -> FloatArray:
 
 
 def readings(solved: Solved, times: FloatArray, fixed: FloatArray) -> Readings:
-    """Derive the quantities of the solution and of each changed solution.
+    """Derive angles and rates from the nominal solution and from each varied solution.
 
     Parameters
     ----------
@@ -216,7 +216,7 @@ def _sampled(
 def read(
     path: Trajectory, setting: Setting, times: FloatArray, fixed: FloatArray, orbits: FloatArray
 ) -> Read:
-    """Angles, precession and rates of a trajectory at given times.
+    """Compute angles, pole and precession rates from a trajectory at given times.
 
     Parameters
     ----------
@@ -268,7 +268,7 @@ def read(
 def _followed_precession(
     path: Trajectory, setting: Setting, times: FloatArray, fixed: FloatArray, angles: FloatArray
 ) -> FloatArray:
-    """Unwrapped p_A and psi_A at times, rad, zero at J2000.0."""
+    """Accumulated precession angles p_A and psi_A at times, rad, zero at J2000.0."""
     # along the nodes, which are close enough to unwrap precession
     nodes = np.sort(np.append(path.windows.times.ravel(), 0.0))
     axis = path.at(nodes)
@@ -282,7 +282,7 @@ def _followed_precession(
 
 
 def _turns(axis: FloatArray, normal: FloatArray, fixed: FloatArray) -> FloatArray:
-    """Values of p_A and psi_A modulo whole turns, rad, shape (2, ..., n)."""
+    """Precession angles p_A and psi_A up to whole turns, rad, shape (2, ..., n)."""
     pole, ecliptic = (np.stack([dot(row, v) for row in fixed], axis=-1) for v in (axis, normal))
     psi = np.arctan2(pole[..., 0], pole[..., 1])
     return np.stack([general_precession(pole, ecliptic), psi])

@@ -30,7 +30,7 @@ PROBABILITY = 0.95
 
 
 def draws(causes: int) -> FloatArray:
-    """Multiples of the half-widths for each member and error source, shape (MEMBERS, causes)."""
+    """Changes of the error sources for each member, in half-widths, shape (MEMBERS, causes)."""
     from scipy.special import ndtri  # imported here because it takes 0.1 s
 
     member, cause = np.arange(MEMBERS)[:, np.newaxis], np.arange(causes)
@@ -40,7 +40,9 @@ def draws(causes: int) -> FloatArray:
 
 
 class Quantiles:
-    """Quantiles of deviations of members added one at a time; stores only the largest deviations.
+    """Quantiles of deviations of members, which are added one at a time.
+
+    Only the largest deviations are stored.
 
     The k-th smallest of N has the probability (k - 1/2)/N, with linear interpolation in between, as
     in numpy's method "hazen".
@@ -53,7 +55,7 @@ class Quantiles:
         self._largest: dict[str, FloatArray] = {}
 
     def add(self, distances: Mapping[str, FloatArray]) -> None:
-        """Add the deviations of a member, each of any shape, by the name of the quantity."""
+        """Add the deviations of one member from the nominal solution, by name of the quantity."""
         for name, distance in distances.items():
             if name not in self._largest:
                 self._largest[name] = np.zeros((self._count + 1, *distance.shape))
@@ -62,7 +64,7 @@ class Quantiles:
             self._largest[name].sort(axis=0)
 
     def at_probability(self) -> dict[str, FloatArray]:
-        """Quantile at the probability `PROBABILITY`, by name, after all members have been added."""
+        """Quantile of the deviations at the probability `PROBABILITY`, by name of the quantity."""
         return {
             name: largest[1] + self._share * (largest[2] - largest[1])
             for name, largest in self._largest.items()

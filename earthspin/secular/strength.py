@@ -48,7 +48,7 @@ J2_SHARE = 0.2
 
 @dataclass(frozen=True)
 class Tides:
-    """Tidal changes of Moon and spin, linear in time.
+    """Relative rates of the Moon's mean motion and of the Earth's spin due to tides.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class Tides:
 
     @classmethod
     def of_the_earth(cls, factor: Numeric, spin_rate: float, moon_motion: float) -> Tides:
-        """Present tidal rates times a factor.
+        """Present tidal rates of the Moon and of the Earth's spin, times a factor.
 
         Parameters
         ----------
@@ -78,7 +78,7 @@ class Tides:
 
 @dataclass(frozen=True)
 class Strength:
-    """Constant of precession as a function of time.
+    """Constant of precession and the data of its change in time.
 
     Attributes
     ----------
@@ -139,12 +139,12 @@ class Strength:
         return np.asarray(spin * figure * (of_sun + self.moon * moon**2))
 
     def geodesic_rate(self, e2: FloatArray) -> FloatArray:
-        """Rate of geodesic precession about the normal, rad/s, proportional to 1/(1 - e^2)."""
+        """Rate of geodesic precession about the orbit normal, rad/s, for a squared eccentricity."""
         return np.asarray(self.geodesic * (1 - self.eccentricity**2) / (1 - e2))
 
     @property
     def moons_share(self) -> Numeric:
-        """Fraction of the constant of precession due to the Moon at J2000.0."""
+        """Fraction of the constant of precession at J2000.0 that is due to the Moon."""
         return self.moon / (self.sun + self.moon)
 
 
@@ -167,7 +167,7 @@ def geodesic_precession(gm: float, motion: float, eccentricity: float) -> float:
 
 
 def faded(times: FloatArray) -> FloatArray:
-    """Time at the full rate that gives the same change as the decaying rate, s.
+    """Time over which the present rate of J2 would give the actual change of J2, s.
 
     It is t up to `FADES_FROM` and 0 beyond `FADES_TO`.
 
@@ -178,7 +178,7 @@ def faded(times: FloatArray) -> FloatArray:
 
 
 def band(times: FloatArray) -> FloatArray:
-    """Half-width of the effective time of `faded`, s.
+    """Uncertainty of the time that `faded` returns, as a 95 % half-width, s.
 
     It is the fraction `J2_SHARE` of the time up to `FADES_FROM`, the whole time at `FADES_TO`, and
     zero beyond twice `FADES_TO`.
@@ -191,6 +191,6 @@ def band(times: FloatArray) -> FloatArray:
 
 
 def _falling(times: FloatArray, start: float, end: float) -> FloatArray:
-    """Cosine taper in |t|: 1 up to `start`, 0 beyond `end`."""
+    """Cosine taper: weight 1 for |t| up to `start`, falling to 0 at `end`."""
     phase = np.clip((np.abs(times) - start) / (end - start), 0.0, 1.0)
     return np.asarray(0.5 * (1 + np.cos(np.pi * phase)))

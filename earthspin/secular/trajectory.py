@@ -1,4 +1,4 @@
-r"""One axis or several over millions of years, by Newton's method in time.
+r"""Trajectory of one or several spin axes over millions of years, by Newton's method in time.
 
 About a fixed axis N near the mean normal of the orbit, a spin axis s has a longitude phi and a
 height Z = s.N. Both are polynomials in windows of twenty thousand years, through values at
@@ -42,7 +42,7 @@ TOO_NEAR = 0.99
 
 @dataclass(frozen=True)
 class Trajectory:
-    """Spin axis in time, or spin axes of many members, as piecewise polynomials.
+    """Spin axis in time, or axes of many members, as polynomials in successive time windows.
 
     Attributes
     ----------
@@ -62,7 +62,10 @@ class Trajectory:
     steps: int
 
     def about(self, times: FloatArray) -> FloatArray:
-        """Longitude and height about the reference axis, shape (2, ..., n), at times in s."""
+        """Longitude and height of the spin axis about the reference axis, at times in s.
+
+        The height is the component along the reference axis. The shape is (2, ..., n).
+        """
         series = self.coefficients
         rows = series.reshape(-1, *series.shape[-2:])
         series_values = self.windows.evaluate(rows, np.asarray(times, dtype=float))
@@ -125,7 +128,7 @@ def solve(
 
 
 def _edges(edges: FloatArray, span: tuple[float, float], pieces: int) -> list[FloatArray]:
-    """Edges of windows from J2000.0 back to before the span, and on to after it."""
+    """Edges of the integration windows from J2000.0 back over the span, and forward over it."""
     middle = int(np.searchsorted(edges, 0.0))
     first = int(np.searchsorted(edges, min(span[0], 0.0), side="right")) - 1
     last = int(np.searchsorted(edges, max(span[1], 0.0)))
@@ -143,7 +146,10 @@ def _cut(edges: FloatArray, pieces: int) -> FloatArray:
 
 
 def _axes(orbit: Orbit, start: FloatArray, span: tuple[float, float]) -> FloatArray:
-    """Reference axes about the mean normal, or perpendicular to it if the spin axis is near it."""
+    """Choose the reference axes of the integration: the third is along the mean orbit normal.
+
+    If the spin axis is near that normal, the third is perpendicular to it.
+    """
     times = np.linspace(min(span[0], 0.0), max(span[1], 0.0), 101)
     first, second, normal = reference_axes(np.mean(orbit.at(times)[0], axis=1))
     near = np.abs(dot(normal, start)) >= TOO_NEAR
@@ -155,7 +161,7 @@ def _axes(orbit: Orbit, start: FloatArray, span: tuple[float, float]) -> FloatAr
 
 
 class _BlockSolver:
-    """Solver of successive blocks of windows in one direction of time."""
+    """Solver of the spin axis in successive blocks of time windows, away from J2000.0."""
 
     def __init__(
         self,
@@ -170,7 +176,9 @@ class _BlockSolver:
         self.height: FloatArray | None = None
 
     def run(self, edges: FloatArray, state: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Window edges, and Legendre series of longitude and height.
+        """Integrate the spin axis over all windows.
+
+        Return the window edges, and the Legendre series of longitude and height in each window.
 
         The series have the shape (2, ..., w, order + 1).
         """
@@ -195,7 +203,11 @@ class _BlockSolver:
         return edges, np.concatenate(blocks, axis=-2)
 
     def _block(self, windows: Windows, state: FloatArray) -> tuple[FloatArray, FloatArray] | None:
-        """Series of a block and its final state; None if Newton's method does not converge."""
+        """Integrate the spin axis over one block of windows.
+
+        Return the Legendre series and the final longitude and height; None if Newton's method does
+        not converge.
+        """
         on = Turn.of(self._pull(windows.times.ravel(), state[..., np.newaxis]), self.axes, windows)
         values, before = self._guess(windows, on, state), np.ones(state.shape[1:])
         settled = np.zeros(state.shape[1:], dtype=bool)
@@ -218,14 +230,17 @@ class _BlockSolver:
         return None
 
     def _pull(self, times: FloatArray, state: FloatArray) -> Pull:
-        """Torque on the axis, or on the axes of members, whose dimensions precede the times."""
+        """Averaged torque on the axis, or on the axes of all members, at given times."""
         normal, eccentricity, turning = (
             broadcast_over_members(state, vector) for vector in self.orbit.at(times)
         )
         return pull(self.strength, (normal, eccentricity, turning), times)
 
     def _guess(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
-        """Initial values: a neighbouring trajectory shifted to the state, or uniform precession."""
+        """First guess of longitude and height at the nodes of a block.
+
+        It is a neighbouring trajectory shifted to the initial state, or uniform precession.
+        """
         if self.near is None:
             return self._at_one_height(windows, on, state)
         times = np.append(windows.times, windows.edges[0])
@@ -234,7 +249,10 @@ class _BlockSolver:
         return values[..., :-1].reshape(*state.shape, *windows.times.shape)
 
     def _at_one_height(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
-        """Uniform precession at the initial height, or at the mean height of the previous block."""
+        """First guess by uniform precession at constant height.
+
+        The height is that of the start, or the mean of the previous block.
+        """
         phi, z = state[..., np.newaxis, np.newaxis]
         if self.height is not None:
             z = self.height[..., np.newaxis, np.newaxis]

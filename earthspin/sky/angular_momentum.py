@@ -50,11 +50,13 @@ class AngularMomentum:
 
     @property
     def chi(self) -> Complex:
-        """Excitation: sum of the mass term and the motion term, rad."""
+        """Excitation of polar motion chi1 + i chi2, the sum of mass and motion terms, rad."""
         return self.mass + self.motion
 
     def daily(self) -> AngularMomentum:
-        """Means over days from 0h to 0h, dated at noon, with linear interpolation between samples.
+        """Average the functions over days from 0h to 0h; the daily means are dated at noon.
+
+        Samples are connected by straight lines.
 
         Daily values at noon are treated as daily means.
 
@@ -86,7 +88,7 @@ class AngularMomentum:
 
 @dataclass(frozen=True)
 class _Row:
-    """One row of a file."""
+    """Date, mass term and motion term from one row of a file, with file and line number."""
 
     file: Path
     line: int
@@ -141,7 +143,7 @@ def _between(series: AngularMomentum, first: float, last: float) -> AngularMomen
 def _files(
     paths: str | Path | Sequence[str | Path], components: Iterable[str] | None
 ) -> dict[str, list[Path]]:
-    """Files of each component."""
+    """Sort the paths of the files by component, such as atmosphere, ocean or land water."""
     folders = [paths] if isinstance(paths, (str, Path)) else list(paths)
     names = ", ".join(map(str, folders))
     files: dict[str, list[Path]] = {}
@@ -172,7 +174,7 @@ def _files(
 
 
 def _joined(files: list[Path]) -> AngularMomentum:
-    """All rows of one component, sorted; equal rows of the same date are merged."""
+    """Join the rows of all files of one component in order of time; equal rows are merged."""
     rows = sorted((row for file in files for row in _rows(file)), key=lambda row: row.mjd)
     if len(rows) < 2:
         raise SeriesError(files[0], f"it holds {len(rows)} rows of excitation")
@@ -200,7 +202,7 @@ def _joined(files: list[Path]) -> AngularMomentum:
 
 
 def _rows(file: Path) -> Iterable[_Row]:
-    """Rows of one file; header lines that do not start with a number are ignored."""
+    """Yield the rows of one file; header lines, which do not start with a number, are ignored."""
     last, lines = -math.inf, lines_of(file)
     refuse_text_between(file, lines)
     for number, words in rows_of(lines):

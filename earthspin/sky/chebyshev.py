@@ -38,7 +38,7 @@ _UNEVEN = 1.5
 
 
 class Grid(NamedTuple):
-    """Consecutive records of equal length in time.
+    """Time grid of the records of a kernel segment, which have equal lengths.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class Grid(NamedTuple):
     records: int
 
     def places(self, days: FloatArray) -> tuple[IntArray, FloatArray]:
-        """Record of each time, and the position in the record, from -1 to 1."""
+        """Index of the record that contains each time, and the position within it, from -1 to 1."""
         seconds = days * DAY
         record = ((seconds - self.start) / self.length).astype(np.int64)
         np.clip(record, 0, self.records - 1, out=record)
@@ -64,7 +64,7 @@ class Grid(NamedTuple):
 
 
 class Table(NamedTuple):
-    """Records of a segment.
+    """Chebyshev coefficients of the positions in a kernel segment, with the times of its records.
 
     Attributes
     ----------
@@ -80,11 +80,11 @@ class Table(NamedTuple):
 
     @property
     def grid(self) -> Grid:
-        """Time grid of the records."""
+        """Time grid of the records of the segment."""
         return Grid(self.start, self.length, len(self.series))
 
     def positions(self, days: FloatArray) -> FloatArray:
-        """Evaluate the series at given times.
+        """Evaluate the Chebyshev series of the positions at given times.
 
         Parameters
         ----------
@@ -103,12 +103,14 @@ class Table(NamedTuple):
         return sums
 
     def at(self, epochs: Epochs) -> FloatArray:
-        """Evaluate the series at times shared with other tables, shape (3, n)."""
+        """Evaluate the positions at times that other tables share, shape (3, n)."""
         return epochs.on(self.grid).sums(self.series)
 
 
 class Epochs:
-    """Times at which several tables are evaluated; their layout on a grid is cached.
+    """Times at which several tables are evaluated.
+
+    The arrangement of the times on each time grid is computed once.
 
     Parameters
     ----------
@@ -121,14 +123,17 @@ class Epochs:
         self._layouts: dict[Grid, _InOrder | _InAnyOrder] = {}
 
     def on(self, grid: Grid) -> _InOrder | _InAnyOrder:
-        """Layout of the times on a grid."""
+        """Arrangement of the times by the records of a time grid."""
         if grid not in self._layouts:
             self._layouts[grid] = _laid_out(*grid.places(self.days))
         return self._layouts[grid]
 
 
 def _laid_out(record: IntArray, place: FloatArray) -> _InOrder | _InAnyOrder:
-    """Choose the layout of times: rows if sorted times fill them nearly evenly, else any order."""
+    """Arrange times for evaluation: in rows if they fill the records evenly, else one by one.
+
+    Rows also require sorted times.
+    """
     if place.size >= _FEWEST_TO_A_RECORD:
         low, high = int(record[0]), int(record[-1])
         if (high - low) * _FEWEST_TO_A_RECORD < place.size and np.all(np.diff(record) >= 0):
@@ -139,7 +144,7 @@ def _laid_out(record: IntArray, place: FloatArray) -> _InOrder | _InAnyOrder:
 
 
 class _InOrder(NamedTuple):
-    """Sorted times in rows of equal length, so that the coefficients broadcast.
+    """Sorted times arranged in rows, so that each row or column shares its coefficients.
 
     If there are many times per record, the rows are records. Otherwise the rows are the first times
     of all records, the second times, and so on, because numpy is fast on long rows.
@@ -163,7 +168,7 @@ class _InOrder(NamedTuple):
 
     @classmethod
     def of(cls, record: IntArray, counts: IntArray, place: FloatArray) -> _InOrder:
-        """Arrange times by record, given the number of times in each record."""
+        """Arrange sorted times in rows, from the record of each and the number in each record."""
         low, longest = int(record[0]), int(counts.max())
         starts = np.cumsum(counts) - counts
         within = np.arange(place.size) - starts[record - low]
@@ -176,19 +181,19 @@ class _InOrder(NamedTuple):
         return cls(slice(low, low + counts.size), rows, own, side)
 
     def sums(self, series: FloatArray) -> FloatArray:
-        """Evaluate the series of the records, shape (3, n)."""
+        """Evaluate the Chebyshev series at the arranged times, shape (3, n)."""
         coefficients = np.expand_dims(_coefficients(series[self.records]), self.side)
         return np.take(_clenshaw(coefficients, self.rows).reshape(3, -1), self.own, axis=1)
 
 
 class _InAnyOrder(NamedTuple):
-    """Times in any order, with copied coefficients, in blocks that fit in the cache."""
+    """Times in any order, each with its own copy of the coefficients of its record."""
 
     record: IntArray
     place: FloatArray
 
     def sums(self, series: FloatArray) -> FloatArray:
-        """Evaluate the series of the records, shape (3, n)."""
+        """Evaluate the Chebyshev series at the times, shape (3, n)."""
         sums = np.empty((3, self.place.size))
         for first in range(0, self.place.size, _BLOCK_OF_ANY):
             some = slice(first, first + _BLOCK_OF_ANY)
@@ -198,12 +203,12 @@ class _InAnyOrder(NamedTuple):
 
 
 def _coefficients(series: FloatArray) -> FloatArray:
-    """Reorder coefficients from (n, 3 terms) to contiguous (terms, 3, n)."""
+    """Reorder Chebyshev coefficients from shape (n, 3 terms) to (terms, 3, n), contiguous."""
     return np.ascontiguousarray(series.reshape(len(series), 3, -1).transpose(2, 1, 0))
 
 
 def _clenshaw(series: FloatArray, place: FloatArray) -> FloatArray:
-    """Sum of series[k] T_k(place) over the first axis of the series, by Clenshaw's algorithm."""
+    """Evaluate Chebyshev series at positions from -1 to 1, by Clenshaw's algorithm."""
     twice = 2 * place
     last = np.zeros((3, *place.shape))
     current = np.empty_like(last)

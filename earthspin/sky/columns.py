@@ -37,7 +37,7 @@ def lines_of(file: Path) -> list[str]:
 
 
 def is_table(head: bytes) -> bool:
-    """Return True if a file may be a table: it starts with text, and a line starts with a number.
+    """Return True if a file may be a table: text, with a line that starts with a number.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def is_number(word: str) -> bool:
 
 
 def rows_of(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
-    """Lines that begin with a number: line number from 1, and words."""
+    """Yield the number and the words of each line that begins with a number; lines count from 1."""
     for number, line in enumerate(lines, start=1):
         words = line.split()
         if words and is_number(words[0]):
@@ -71,7 +71,7 @@ def rows_of(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
 
 
 def text_between(lines: list[str], is_row: Callable[[str], bool]) -> list[int]:
-    """Line numbers of text below the first row of the table; comments and blank lines do not count.
+    """Line numbers of text that stands below the first row; comments and blank lines do not count.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def starts_with_number(line: str) -> bool:
 
 
 def refuse_text_between(file: Path, lines: list[str]) -> None:
-    """Refuse lines of text after the first row.
+    """Refuse a file with lines of text below the first row of numbers.
 
     Raises
     ------

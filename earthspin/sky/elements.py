@@ -37,7 +37,7 @@ _EPS = float(np.finfo(float).eps)
 
 @dataclass(frozen=True)
 class Plane:
-    """Reference plane of the angles of an orbit.
+    """Reference plane from which inclination and longitudes of an orbit are counted.
 
     Attributes
     ----------
@@ -84,16 +84,16 @@ class Plane:
 
     @property
     def matrix(self) -> FloatArray:
-        """Rotation from the ICRF to the plane, shape (3, 3)."""
+        """Matrix that rotates vectors from the ICRF to the reference plane, shape (3, 3)."""
         return np.array(self.axes).reshape(3, 3)
 
     def normal(self, i: float, node: float) -> FloatArray:
-        """Unit normal of an orbit in the ICRF, shape (3,)."""
+        """Unit normal of an orbit with given inclination and node, in the ICRF, shape (3,)."""
         tilted = [math.sin(i) * math.sin(node), -math.sin(i) * math.cos(node), math.cos(i)]
         return np.asarray(np.array(tilted) @ self.matrix)
 
     def mean_normal(self, i: float, node: float, node_period: float | None) -> Direction:
-        """Mean normal of an orbit: its normal, or for a precessing node the pole of the plane."""
+        """Mean normal of an orbit: its normal, or the plane's pole if the node precesses."""
         x, y, z = self.normal(0.0 if node_period is not None else i, node)
         return Direction(math.atan2(y, x), math.atan2(z, math.hypot(x, y)))
 
@@ -158,7 +158,7 @@ class Ellipse:
         return np.asarray(in_plane @ self.plane.matrix)
 
     def error(self, day: float) -> tuple[float, float]:
-        """Rounding errors of direction (rad) and distance (m) on a day.
+        """Bounds on the rounding errors of direction (rad) and distance (m) on a day.
 
         An error of the mean anomaly is amplified in direction by at most sqrt(1 + e)/(1 - e)^(3/2).
         """
@@ -170,7 +170,7 @@ class Ellipse:
         return angle, self.a * (1 + self.e) * angle
 
     def rounding(self, day: float) -> float:
-        """Relative change of the tidal tensor due to rounding errors on a day.
+        """Relative error of the tidal tensor due to rounding of the mean longitude on a day.
 
         Half a unit in the last place of the mean longitude: measured, see docs/coverage.md.
         """
@@ -196,7 +196,7 @@ class ByElements:
 
     @property
     def coverage(self) -> tuple[float, float]:
-        """First and last day: unlimited."""
+        """First and last day with positions: minus and plus infinity."""
         return -math.inf, math.inf
 
     def positions(self, days: FloatArray) -> FloatArray:
@@ -208,12 +208,12 @@ class ByElements:
         return total
 
     def error(self, day: float) -> tuple[float, float]:
-        """Rounding errors of direction (rad) and distance (m) on a day."""
+        """Sum over the ellipses of rounding errors of direction (rad) and distance (m) on a day."""
         angles, distances = zip(*(ellipse.error(day) for ellipse, _ in self.ellipses), strict=True)
         return sum(angles), sum(distances)
 
     def rounding(self, day: float) -> float:
-        """Relative change of the tidal tensor due to rounding errors on a day."""
+        """Sum over the ellipses of the relative rounding error of the tidal tensor on a day."""
         return sum(ellipse.rounding(day) for ellipse, _ in self.ellipses)
 
     def __str__(self) -> str:
@@ -229,7 +229,7 @@ class Elements:
 
     @property
     def provenance(self) -> dict[str, str]:
-        """Attributes of an answer: none except the note that positions are from elements."""
+        """Note for the attributes of an answer that positions follow from orbital elements."""
         return {"positions": "by the elements of orbits, without a kernel"}
 
     def code(self, codes: Iterable[int], name: str) -> int:
@@ -242,7 +242,7 @@ class Elements:
         raise SceneError("perturbers", name, "it has no orbit by elements; give it one")
 
     def coverage(self, places: Iterable[Place]) -> tuple[float, float]:
-        """First and last day: unlimited."""
+        """First and last day with positions: minus and plus infinity."""
         return -math.inf, math.inf
 
     def check_times(self, days: FloatArray, places: Iterable[Place]) -> None:
@@ -265,7 +265,7 @@ class Elements:
         return _trajectory(target).error(day)
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
-        """Deflection of an axis due to rounding of a perturber's position.
+        """Relative error of an axis's motion due to rounding of a perturber's position.
 
         It is a fraction of the angle by which the axis moves.
         """

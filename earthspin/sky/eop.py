@@ -49,7 +49,9 @@ _ERRORS = ("x_error", "y_error")
 
 @dataclass(frozen=True)
 class _Coordinates:
-    """Two coordinates of the pole in the tables: their columns, and which values are possible.
+    """Layout and limits of one pair of pole coordinates in the tables of the IERS.
+
+    The pair is polar motion or celestial pole offsets.
 
     Attributes
     ----------
@@ -112,7 +114,7 @@ _POLE_OFFSETS = _Coordinates(
 
 @dataclass(frozen=True)
 class PoleSeries:
-    """Observed polar motion, or observed celestial pole offsets.
+    """Series of observed polar motion or of observed celestial pole offsets.
 
     Attributes
     ----------
@@ -142,12 +144,12 @@ class PoleSeries:
 
     @property
     def provenance(self) -> dict[str, str]:
-        """Checksum of the file, for the attributes of an answer."""
+        """SHA-256 of the file of the series, for the attributes of an answer."""
         return {"table_sha256": self.sha256}
 
     @property
     def step(self) -> float:
-        """Spacing of the dates, d."""
+        """Time between two successive dates of the series, d."""
         return float((self.mjd[-1] - self.mjd[0]) / (self.mjd.size - 1))
 
     @property
@@ -175,7 +177,7 @@ class PoleSeries:
 
 @dataclass(frozen=True)
 class _Row:
-    """One row of a file: date, x, y and their errors in arcseconds."""
+    """Date, coordinates x and y, and their errors from one row of a file, arcsec."""
 
     line: int
     mjd: float
@@ -201,7 +203,7 @@ CARRIED = {"c04": c04_path, "finals": finals_path}
 
 
 def file_of(path: str | Path) -> Path:
-    """Return the path of a file, or of the file that astropy includes under the given name."""
+    """Return the path of a file, or that of the file in astropy if its short name is given."""
     return CARRIED[str(path)]() if str(path) in CARRIED else Path(path)
 
 
@@ -243,7 +245,7 @@ def read_pole_offsets(path: str | Path = "c04", kind: str | None = None) -> Pole
 
 
 def _read(path: str | Path, kind: str | None, pair: _Coordinates) -> PoleSeries:
-    """Read two coordinates; a file that has not changed since the last time is not parsed again."""
+    """Read a pair of coordinates from a file; an unchanged file is parsed only once."""
     file = file_of(path)
     lines_of(file)  # refuses what cannot be read
     return _parsed(file, checksum(file), kind, pair.name)
@@ -251,7 +253,7 @@ def _read(path: str | Path, kind: str | None, pair: _Coordinates) -> PoleSeries:
 
 @lru_cache(maxsize=8)
 def _parsed(file: Path, sha256: str, kind: str | None, name: str) -> PoleSeries:
-    """Parse a file, repair small defects and refuse other errors; the arrays are read-only."""
+    """Parse a file into a series; repair small defects and refuse large ones."""
     pair = _POLE_OFFSETS if name == _POLE_OFFSETS.name else _POLAR_MOTION
     lines = lines_of(file)
     kind = kind or _kind(file, lines)
@@ -391,7 +393,7 @@ _IS_ROW: dict[str, Callable[[str], bool]] = {
 
 
 def _kind(file: Path, lines: list[str]) -> str:
-    """Detect the kind of table from the first row of numbers."""
+    """Detect the kind of IERS table from the first line that starts with a number."""
     for line in lines:
         words = line.split()
         if not words or not is_number(words[0]):
@@ -412,7 +414,10 @@ def _kind(file: Path, lines: list[str]) -> str:
 
 
 def _drop_missing(file: Path, rows: list[_Row], text: list[int], repairs: list[str]) -> list[_Row]:
-    """Remove lines of text between rows, and rows without a position; these become gaps."""
+    """Remove rows without a position, and note their number as a repair.
+
+    Lines of text between rows count as such rows.
+    """
     complete = [row for row in rows if all(map(math.isfinite, (row.mjd, *row.values[:2])))]
     lost = sorted([*text, *({row.line for row in rows} - {row.line for row in complete})])
     if lost:
@@ -431,7 +436,7 @@ def _check_dates(file: Path, rows: list[_Row]) -> None:
 
 
 def _drop_zeros(rows: list[_Row], repairs: list[str]) -> list[_Row]:
-    """Leave out the zeros with which tables begin, where nothing was observed."""
+    """Remove the rows of zeros before the first observation."""
     first = next((i for i, row in enumerate(rows) if any(row.values[:2])), len(rows))
     if first:
         repairs.append(f"{first} rows of zeros at the start, before observations, left out")
@@ -470,7 +475,7 @@ def _check_jumps(file: Path, rows: list[_Row], pair: _Coordinates) -> None:
 
 
 def _in_order(file: Path, rows: list[_Row], repairs: list[str]) -> list[_Row]:
-    """Sort rows by date; remove equal rows of a date, and refuse different ones."""
+    """Sort rows by date; merge equal rows of one date and refuse contradictory ones."""
     ordered = sorted(rows, key=lambda row: row.mjd)
     if ordered != rows:
         repairs.append("rows sorted by date")
@@ -489,7 +494,7 @@ def _in_order(file: Path, rows: list[_Row], repairs: list[str]) -> list[_Row]:
 
 
 def _even(file: Path, rows: list[_Row], kind: str, repairs: list[str]) -> PoleSeries:
-    """Interpolate short gaps, refuse long ones, and halve the steps of older, coarser rows."""
+    """Interpolate the rows to an even step, the median step; refuse long gaps."""
     mjd = np.array([row.mjd for row in rows])
     values = np.array([row.values for row in rows]) * ARCSEC
     steps = np.diff(mjd)

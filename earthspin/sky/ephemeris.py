@@ -96,7 +96,7 @@ class Ephemeris:
             self._check_bodies()
 
     def _check_bodies(self) -> None:
-        """Check the positions of Sun, Moon and planets over their common coverage."""
+        """Check that Sun, Moon and planets have plausible positions over their common coverage."""
         bodies = {10, 301, *ORBITS, *(100 * planet + 99 for planet in ORBITS)} & self.targets
         reached = {code for code in bodies if self._reaches_root(code)}
         if not reached:
@@ -125,7 +125,7 @@ class Ephemeris:
 
     @property
     def provenance(self) -> dict[str, str]:
-        """Kernel and reader, for the attributes of an answer."""
+        """Name, hash and reader of the kernel, for the attributes of an answer."""
         return {
             "ephemeris": self.name,
             "ephemeris_sha256": self.sha256,
@@ -139,7 +139,7 @@ class Ephemeris:
         return {target for _, target in self._segments} | {0}
 
     def code(self, codes: Iterable[int], name: str) -> int:
-        """First of a body's NAIF codes that is in the kernel.
+        """First of a body's possible NAIF codes that is in the kernel.
 
         Raises
         ------
@@ -213,7 +213,10 @@ class Ephemeris:
     def _difference(
         self, target: Place, centre: Place, epochs: Epochs, steps: dict[Step, FloatArray]
     ) -> FloatArray:
-        """Position of target minus centre, m, shape (3, n); segments in both paths are skipped."""
+        """Position of the target minus that of the centre, m, shape (3, n).
+
+        Segments on the paths of both bodies cancel and are skipped.
+        """
         outward, homeward = self._path_to_root(target), self._path_to_root(centre)
         total = np.zeros((3, epochs.days.size))
         for path, combine in ((outward, np.add), (homeward, np.subtract)):
@@ -229,7 +232,7 @@ class Ephemeris:
         return total
 
     def _evaluate(self, step: Step, epochs: Epochs) -> FloatArray:
-        """Position of the target of one segment relative to its centre, m, shape (3, n)."""
+        """Evaluate one kernel segment and count the evaluations; position in m, shape (3, n)."""
         self.evaluations[step] += epochs.days.size
         return self._along(step, epochs)
 
@@ -260,7 +263,7 @@ class Ephemeris:
         return path
 
     def error(self, target: Place, centre: Place, day: float = 0.0) -> tuple[float, float]:
-        """Error bounds of a body's position in the kernel: direction (rad), distance (m).
+        """Bounds on the error of a body's position in the kernel: direction (rad), distance (m).
 
         Parameters
         ----------
@@ -277,7 +280,7 @@ class Ephemeris:
         return growth(day) * mas * MAS, growth(day) * metres
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
-        """Deflection of an axis due to errors of a perturber's position.
+        """Relative error of an axis's motion due to the position error of a perturber.
 
         It is a fraction of the angle by which the axis moves.
 
@@ -311,7 +314,7 @@ class Ephemeris:
             )
 
     def check_records(self, days: FloatArray, places: Iterable[Place]) -> None:
-        """Refuse a kernel with damaged records among those used for the given times and bodies.
+        """Refuse a kernel with damaged records among those that given bodies and times need.
 
         For a named kernel, the published hash of the whole file is checked instead.
 
@@ -331,7 +334,7 @@ class Ephemeris:
 
 
 class _NoSegment(KernelError):
-    """No chain of segments leads to the body."""
+    """Error raised if no chain of kernel segments leads to a body."""
 
 
 @lru_cache
@@ -437,7 +440,7 @@ def _open_spk(path: Path) -> Any:
 
 
 def _date(days: float) -> str:
-    """Calendar date of days from J2000.0 TDB, for messages."""
+    """Calendar date, as text, of a time in days from J2000.0 TDB, for messages."""
     if not np.isfinite(days):
         return str(days)
     micro = np.timedelta64(round(float(days) * 86_400_000_000), "us")

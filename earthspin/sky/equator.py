@@ -39,7 +39,7 @@ def fixed_equator(axis: FloatArray, normal: FloatArray) -> FloatArray:
 
 
 def rotate(matrix: FloatArray, vectors: FloatArray) -> FloatArray:
-    """Rotate vectors, shape (n, 3), by a common matrix or each by its own matrix."""
+    """Rotate vectors, shape (n, 3), by one matrix, or each vector by its own matrix."""
     if matrix.ndim == 2:
         return vectors @ matrix.T
     return np.asarray((matrix @ vectors[:, :, np.newaxis])[:, :, 0])

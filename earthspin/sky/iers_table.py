@@ -17,7 +17,7 @@ FloatArray = NDArray[np.float64]
 
 
 class PoleTable(iers.IERS_A):  # type: ignore[misc]
-    """Table of Earth orientation that refuses dates outside it.
+    """Table of Earth orientation for astropy that refuses dates which it does not cover.
 
     In some transformations the tables of astropy only warn, and use the mean pole or zero.
     """
@@ -25,17 +25,17 @@ class PoleTable(iers.IERS_A):  # type: ignore[misc]
     iers_table = None
 
     def ut1_utc(self, jd1: Any, jd2: Any = 0.0, return_status: bool = False) -> Any:
-        """UT1 - UTC, with the arguments of `astropy.utils.iers.IERS.ut1_utc`."""
+        """Return UT1 - UTC as astropy's method does; refuse dates outside the table."""
         self._require(jd1, jd2)
         return super().ut1_utc(jd1, jd2, return_status)
 
     def dcip_xy(self, jd1: Any, jd2: Any = 0.0, return_status: bool = False) -> Any:
-        """Celestial pole offsets, with the arguments of `astropy.utils.iers.IERS.dcip_xy`."""
+        """Return dX and dY of the pole as astropy's method does; refuse dates outside the table."""
         self._require(jd1, jd2)
         return super().dcip_xy(jd1, jd2, return_status)
 
     def pm_xy(self, jd1: Any, jd2: Any = 0.0, return_status: bool = False) -> Any:
-        """Polar motion, with the arguments of `astropy.utils.iers.IERS.pm_xy`."""
+        """Return the polar motion as astropy's method does; refuse dates outside the table."""
         self._require(jd1, jd2)
         return super().pm_xy(jd1, jd2, return_status)
 
@@ -58,7 +58,7 @@ def last_ut1(finals: Path) -> float:
 def with_pole(
     finals: Path, pole: FloatArray, offsets: FloatArray, observed: tuple[float, float]
 ) -> PoleTable:
-    """Table of finals2000A, with polar motion and celestial pole offsets replaced.
+    """Build a table from finals2000A with other polar motion and celestial pole offsets.
 
     Parameters
     ----------

@@ -60,7 +60,7 @@ _BLOCK = 1 << 12  # joints per block
 
 
 def check_summaries(daf: Any, path: Path) -> None:
-    """Check that the linked list of summary records ends.
+    """Check that the linked list of a kernel's summary records is finite and plausible.
 
     Raises
     ------
@@ -80,7 +80,7 @@ def check_summaries(daf: Any, path: Path) -> None:
 
 
 def check_words(segments: Iterable[Any], size: int, path: Path) -> None:
-    """Check that segments are inside the file and do not overlap.
+    """Check that all segments of a kernel lie inside the file and do not overlap.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def check_words(segments: Iterable[Any], size: int, path: Path) -> None:
 
 
 class Records:
-    """Consecutive records of one segment: Chebyshev series of equal length in time.
+    """Consecutive records of a kernel segment, of equal length in time, with checks for damage.
 
     Parameters
     ----------
@@ -148,7 +148,7 @@ class Records:
         return KernelError(self.path, f"its segment {_name(self.segment)} {problem}", AGAIN)
 
     def _check_times(self, records: IntArray) -> None:
-        """Check that the midpoints and half-lengths in records match the directory."""
+        """Check that the start and length stored in each record match the segment's directory."""
         expected = self.start + (records + 0.5) * self.length
         half = np.full_like(expected, self.length / 2)
         differences = self._midpoints[records].T - [expected, half]
@@ -158,7 +158,7 @@ class Records:
             raise self._damaged(f"has records of other times than its directory gives ({place})")
 
     def table(self) -> Table:
-        """Coefficients of the positions, in km."""
+        """Chebyshev coefficients of the segment's positions, km, with the times of the records."""
         series = self._series.reshape(self.count, -1).astype(float, copy=False)
         return Table(series, self.start, self.length)
 
@@ -190,7 +190,10 @@ class Records:
 
     @cached_property
     def _usual_gap(self) -> float:
-        """Median gap between records relative to their sum of terms; NaN for too few records."""
+        """Median jump of position between adjacent records, relative to the size of the series.
+
+        It is NaN for too few records.
+        """
         sample = np.unique(np.linspace(0, self.count - 2, _SAMPLE).astype(np.int64))
         gaps, sizes, _ = self._gaps(sample)
         return float(np.median(gaps / sizes)) if sample.size >= _FEWEST else np.nan
@@ -210,7 +213,7 @@ class Records:
             raise self._damaged(f"{problem} of {self.count}")
 
     def _gaps(self, joints: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Gaps between the ends of records and the starts of the next, in km, shape (n,) each.
+        """Jumps of position between the end of a record and the start of the next, km, shape (n,).
 
         Returns also the sum of the absolute terms, which scales the rounding error, and the smaller
         of the last terms of both series, which scales the truncation error.
@@ -316,7 +319,10 @@ def check_bodies(
 def _distances(
     positions: Mapping[int, FloatArray],
 ) -> Iterator[tuple[str, FloatArray, int, float, float]]:
-    """Vectors between bodies: name, vectors, centre, smallest and largest length in m."""
+    """Yield vectors between pairs of bodies, and the range that their length must have.
+
+    Each item is a name, the vectors, the centre, and the smallest and largest length in m.
+    """
     for code, (near, far, _) in ORBITS.items():
         if {code, _SUN} <= positions.keys():
             vectors = positions[code] - positions[_SUN]
@@ -334,7 +340,7 @@ def _distances(
 
 
 def _pulls(positions: Mapping[int, FloatArray]) -> Iterator[tuple[str, FloatArray, FloatArray]]:
-    """Bodies with their positions and Newtonian accelerations due to the other bodies, m s-2."""
+    """Yield bodies with positions and Newtonian accelerations (m s-2) by the other bodies."""
     if _SUN not in positions:
         return
     places = {code: vectors[:, 2] for code, vectors in positions.items()}

@@ -77,7 +77,7 @@ DIFFERENCES: dict[tuple[int, int], tuple[float, float]] = {
 
 
 def largest_difference(centre: int, target: int) -> tuple[float, float]:
-    """Largest difference of the direction (mas) and distance (m) of one body relative to another.
+    """Largest difference between kernels in direction (mas) and distance (m) of a pair of bodies.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def largest_difference(centre: int, target: int) -> tuple[float, float]:
 
 
 def growth(day: float) -> float:
-    """Growth factor of a difference outside the measured span.
+    """Factor by which kernel differences grow outside the time span of the measurement.
 
     Parameters
     ----------
@@ -107,12 +107,12 @@ def growth(day: float) -> float:
 
 
 def drift_is_measured(centre: int, target: int) -> bool:
-    """Return True if `DRIFT` was measured for the torque of one body on another."""
+    """Return True if `DRIFT` was measured for the motion of one body's axis due to another body."""
     pair = sorted((_barycentre(centre), _barycentre(target)))
     return (pair[0], pair[1]) in DRIFT_MEASURED
 
 
 def _barycentre(code: int) -> int:
-    """Barycentre code of a planet's system; Earth and Moon keep their own codes."""
+    """NAIF code of the barycentre of a planet's system; Earth and Moon keep their own codes."""
     planet = code // 100 if 100 < code < 1000 and code % 100 == 99 else code
     return code if planet == 3 else planet

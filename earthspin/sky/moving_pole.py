@@ -38,7 +38,7 @@ LONGEST_NUTATION = 100 * _CENTURY
 
 
 class Swing(NamedTuple):
-    """A periodic term of an angle of a pole.
+    """Periodic term of the right ascension or declination of a pole.
 
     Attributes
     ----------
@@ -119,7 +119,7 @@ class MovingPole:
         return f"moving; at J2000.0 {Direction(*self.at(0.0))}"
 
     def at(self, day: float) -> FixedPole:
-        """Direction of the pole on a day from J2000.0 TDB, with all terms."""
+        """Direction of the pole on a day from J2000.0 TDB, periodic terms included."""
         time = day * DAY
         ra = self.right_ascension + self.right_ascension_rate * time
         dec = self.declination + self.declination_rate * time
@@ -132,7 +132,10 @@ class MovingPole:
         return self.at(0.0).orbit_normal(orbit)
 
     def is_upright(self, orbit: Direction | None) -> bool:
-        """Return True if the axis at J2000.0 is too near the orbit's normal to have a longitude."""
+        """Return True if the axis at J2000.0 is nearly normal to the orbit.
+
+        Its longitude is then undefined.
+        """
         return self.at(0.0).is_upright(orbit)
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
@@ -140,7 +143,7 @@ class MovingPole:
         return self.at(0.0).orbit_axes(orbit)
 
     def mean(self, days: FloatArray) -> FloatArray:
-        """Unit vectors of the axis, all published terms included, shape (n, 3)."""
+        """Unit vectors of the axis; all its periodic terms count as mean motion, shape (n, 3)."""
         time = np.asarray(days) * DAY
         ra = self.right_ascension + self.right_ascension_rate * time
         dec = self.declination + self.declination_rate * time
@@ -152,7 +155,7 @@ class MovingPole:
         return np.stack([level * np.cos(ra), level * np.sin(ra), np.sin(dec)], axis=-1)
 
     def without_nutation(self) -> Self:
-        """Pole without the periodic terms shorter than `LONGEST_NUTATION`."""
+        """Pole without the periodic terms whose period is shorter than `LONGEST_NUTATION`."""
 
         def slow(swings: tuple[Swing, ...]) -> tuple[Swing, ...]:
             return tuple(s for s in swings if abs(s.rate) * LONGEST_NUTATION < math.tau)
@@ -164,7 +167,7 @@ class MovingPole:
         )
 
     def true(self, day: float) -> FloatArray:
-        """Unit vector of the axis on a day, shape (3,)."""
+        """Unit vector of the spin axis on one day, all periodic terms included, shape (3,)."""
         return np.asarray(self.mean(np.array([day]))[0])
 
     def equator(

@@ -228,7 +228,7 @@ def _load(file: Path) -> OrbitTable:
 
 @dataclass(frozen=True)
 class _Rows:
-    """Columns of the input, in order of time.
+    """Columns of numbers from the user's file or data frame, in order of time.
 
     Attributes
     ----------
@@ -259,7 +259,7 @@ class _Rows:
 
     @classmethod
     def of_text(cls, file: Path) -> _Rows:
-        """Read a text file of numbers between spaces or commas.
+        """Read the rows of a text file whose numbers are separated by spaces or commas.
 
         The last header line has the names of the columns, if any.
         """
@@ -305,7 +305,7 @@ class _Rows:
         return SeriesError(self.source, problem, remedy, int(self.lines[row]))
 
     def in_order(self) -> _Rows:
-        """Rows in ascending time; refuse rows out of order, repeated, or missing."""
+        """Return the rows in ascending time; refuse missing, repeated, too few or unsorted rows."""
         for name, column in self.columns.items():
             if not np.isfinite(column).all():
                 row = int(np.argmin(np.isfinite(column)))
@@ -333,7 +333,7 @@ class _Rows:
 
 
 def _chosen(names: Sequence[str], source: object) -> dict[str, int]:
-    """Indices of the required columns, by the standard names of `NAMES`."""
+    """Find the columns that describe the orbit; return their indices by the names of `NAMES`."""
     places = {}
     for name, words in NAMES.items():
         exact = [at for at, column in enumerate(names) if column in words]
@@ -398,7 +398,7 @@ def _seconds(rows: _Rows, unit: str) -> FloatArray:
 
 
 def _from_sines(rows: _Rows, angles: str | None) -> tuple[FloatArray, FloatArray]:
-    """Normal and eccentricity vector, shape (n, 3), from k, h, q, p."""
+    """Normal and eccentricity vector from the variables k, h, q, p, shape (n, 3) each."""
     k, h, q, p = (rows.columns[name] for name in ("k", "h", "q", "p"))
     half = q * q + p * p  # squared sine of half the inclination
     if np.any(half >= 1):
@@ -414,7 +414,7 @@ def _from_sines(rows: _Rows, angles: str | None) -> tuple[FloatArray, FloatArray
 
 
 def _from_elements(rows: _Rows, angles: str | None) -> tuple[FloatArray, FloatArray]:
-    """Normal and eccentricity vector, shape (n, 3), from orbital elements."""
+    """Normal and eccentricity vector from Keplerian elements, shape (n, 3) each."""
     e = rows.columns["e"]
     _check_eccentricity(rows, e)
     unit = ANGLES[angles or _unit_of(rows)]
@@ -442,14 +442,14 @@ def _check_eccentricity(rows: _Rows, e: FloatArray) -> None:
 
 
 def _turning(rows: _Rows) -> list[FloatArray]:
-    """Columns of circulating angles."""
+    """Columns of the angles that make full turns: node, and perihelion as either angle."""
     return [
         column for name, column in rows.columns.items() if name in ("varpi", "argument", "node")
     ]
 
 
 def _unit_of(rows: _Rows) -> str:
-    """Detect the unit of the angles from their size."""
+    """Detect whether the angles of a file are in degrees or radians, from their size."""
     largest = max(float(np.max(np.abs(column))) for column in _turning(rows))
     if np.max(rows.columns["inc"]) > math.pi or 2 * math.pi * (1 + 1e-6) < largest <= 360.001:
         return "deg"
@@ -460,7 +460,7 @@ def _unit_of(rows: _Rows) -> str:
 
 
 def _check_unit(rows: _Rows, angles: str | None) -> None:
-    """Refuse a unit that is inconsistent with the values."""
+    """Refuse a declared angle unit, degrees or radians, that the values contradict."""
     largest = max(float(np.max(np.abs(column))) for column in _turning(rows))
     jump = max(float(np.max(np.abs(np.diff(column)))) for column in _turning(rows))
     steep = float(np.max(rows.columns["inc"]))
@@ -482,7 +482,7 @@ def _check_moves(rows: _Rows, normal: FloatArray, eccentricity: FloatArray) -> N
 
 
 def _check_ecliptic(rows: _Rows, normal: FloatArray, axes: FloatArray, frame: object) -> None:
-    """Refuse an orbit of the Earth off the ecliptic at J2000.0; suggest the frame that fits."""
+    """Refuse an Earth orbit that is not near the ecliptic at J2000.0; suggest another frame."""
 
     def lean(frame_axes: FloatArray) -> float:
         n = normal @ frame_axes
@@ -500,7 +500,7 @@ def _check_ecliptic(rows: _Rows, normal: FloatArray, axes: FloatArray, frame: ob
 
 
 def _check_body(rows: _Rows, e: FloatArray, body: str) -> None:
-    """Refuse eccentricities above the range of a body with a shipped table."""
+    """Refuse eccentricities far above the largest in the shipped orbit table of a body."""
     largest = _largest_eccentricity(body)
     if largest is not None and np.any(e > MOST_ECCENTRIC * largest):
         row = int(np.argmax(e > MOST_ECCENTRIC * largest))

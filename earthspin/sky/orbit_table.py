@@ -42,7 +42,7 @@ UNIT = 1e-9
 
 
 class Growth(NamedTuple):
-    """95 % half-widths of a shipped orbit, apart from the error of its integration.
+    """Error of a shipped orbit table, apart from that of its integration: constants and rates.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class Growth(NamedTuple):
     eccentricity: float
 
     def at(self, times: FloatArray) -> FloatArray:
-        """Half-widths of normal (rad) and eccentricity vector at times in s, shape (2, n)."""
+        """Half-widths of orbit normal (rad) and eccentricity vector at times in s, shape (2, n)."""
         away = np.abs(times)
         by_shape = np.hypot(self.short_periods, self.eccentricity * away)
         return np.stack([self.normal * away, by_shape])
@@ -114,7 +114,7 @@ class OrbitTable:
 
     @property
     def provenance(self) -> dict[str, str]:
-        """Checksum of the file, for the attributes of an answer."""
+        """SHA-256 of the file of the table, for the attributes of an answer."""
         return {"orbit_sha256": self.sha256} if self.sha256 else {}
 
     @property
@@ -137,7 +137,7 @@ class OrbitTable:
             raise CoverageError(f"orbit of {self.name}", requested, coverage, "table")
 
     def error(self, times: FloatArray) -> FloatArray:
-        """95 % half-widths of normal (rad) and eccentricity vector at times in s, shape (2, n)."""
+        """95 % half-widths of orbit normal (rad) and eccentricity vector at times, shape (2, n)."""
         middle = (self.edges[:-1] + self.edges[1:]) / 2
         return np.stack([np.interp(times, middle, widths) for widths in self.errors])
 
@@ -206,7 +206,7 @@ class OrbitTable:
 
 @lru_cache(maxsize=SETS_REMEMBERED)
 def _remembered(table: OrbitTable, times: bytes) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Cached orbit at given times, as read-only arrays."""
+    """Return the orbit at given times from a cache, as read-only arrays."""
     arrays = table._evaluated(np.frombuffer(times))
     for values in arrays:
         values.flags.writeable = False
@@ -214,7 +214,7 @@ def _remembered(table: OrbitTable, times: bytes) -> tuple[FloatArray, FloatArray
 
 
 def _words(time: float) -> str:
-    """Format a time in thousands of years from J2000.0."""
+    """Format a time as thousands of years from J2000.0."""
     return f"{time / JULIAN_YEAR / 1000:.15g} kyr"
 
 
@@ -226,7 +226,7 @@ def fitted(
     axes: FloatArray,
     source: str,
 ) -> OrbitTable:
-    """Fit a table to samples of an orbit.
+    """Fit an orbit table to samples of the normal and the eccentricity vector.
 
     In a window with many samples the series are fitted by least squares, which smooths faster
     variations; with few samples, quintic splines are used.
@@ -271,7 +271,10 @@ def fitted(
 def _left_out(
     table: OrbitTable, times: FloatArray, normal: FloatArray, eccentricity: FloatArray
 ) -> FloatArray:
-    """Twice the root mean square residual of the samples in each window, shape (2, w)."""
+    """Twice the root mean square difference of table and samples in each window.
+
+    The shape is (2, w), for the normal and the eccentricity vector.
+    """
     n, e, _ = table.at(times)
     windows = len(table.edges) - 1
     window = np.clip(np.searchsorted(table.edges, times) - 1, 0, windows - 1)
@@ -282,7 +285,7 @@ def _left_out(
 
 
 def _to_meet(ends: FloatArray, samples: FloatArray) -> FloatArray:
-    """Corrections of the last two terms of a series that make it pass through its two end samples.
+    """Corrections of the last two coefficients of a series, so that it fits its end samples.
 
     These terms are 1 at the end, plus and minus 1 at the start, and small in between.
     """
@@ -291,7 +294,7 @@ def _to_meet(ends: FloatArray, samples: FloatArray) -> FloatArray:
 
 
 def write(path: Path, table: OrbitTable) -> None:
-    """Write a table to a compressed file, as integer multiples of `UNIT`."""
+    """Write an orbit table to a compressed file, with coefficients as integers."""
     np.savez_compressed(
         path,
         name=table.name,

@@ -12,7 +12,7 @@ from earthspin.units import quantity
 
 
 class Angles:
-    """Converter of a direction: right ascension and declination, a name, or a moving pole."""
+    """Reader and writer of a pole in a scene: two angles, a name, or a moving pole."""
 
     words, hint = "right ascension and declination", "tuple[float | str, float | str]"
     form = '["... deg", "... deg"]'

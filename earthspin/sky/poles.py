@@ -58,7 +58,7 @@ class Direction(NamedTuple):
 
     @classmethod
     def across(cls, i: float, node: float) -> Self:
-        """Normal of an orbit, from its elements on the ecliptic and equinox of J2000.0.
+        """Normal of an orbit from inclination and node on the ecliptic of J2000.0.
 
         The mean equator of that date is used for that of the ICRF; they differ by 0.02 arcsec.
 
@@ -89,13 +89,16 @@ class Direction(NamedTuple):
 
 
 class Pole(Protocol):
-    """Protocol of a spin axis; `orbit` is the normal of the body's own orbit, if known."""
+    """Protocol of a spin axis.
+
+    The argument `orbit` is the normal of the body's own orbit, if known.
+    """
 
     #: Whether the axis follows the IAU models of precession and nutation of the Earth.
     of_the_iau: bool
 
     def orbit_normal(self, orbit: Direction | None) -> FloatArray:
-        """Unit normal of the plane along which precession is measured, shape (3,).
+        """Unit normal of the plane along which precession is counted, shape (3,).
 
         Raises
         ------
@@ -104,24 +107,27 @@ class Pole(Protocol):
         """
 
     def is_upright(self, orbit: Direction | None) -> bool:
-        """Return True if the axis is too near the orbit's normal to have a longitude."""
+        """Return True if the axis is nearly normal to the orbit.
+
+        Its longitude is then undefined.
+        """
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
         """Matrix from the GCRS to the orbital plane and the equinox of J2000.0, shape (3, 3)."""
 
     def mean(self, days: FloatArray) -> FloatArray:
-        """Unit vectors of the axis without nutation, shape (n, 3)."""
+        """Unit vectors of the spin axis on given days, without IAU nutation, shape (n, 3)."""
 
     def without_nutation(self) -> Pole:
-        """Pole whose `mean` has no periodic terms shorter than millennia."""
+        """Return the pole without the periodic terms that count as nutation."""
 
     def true(self, day: float) -> FloatArray:
-        """Unit vector of the axis on a day, nutation included, shape (3,)."""
+        """Unit vector of the spin axis on one day, nutation included, shape (3,)."""
 
     def equator(
         self, orbit: Direction | None, days: FloatArray, nutation: Nutation | None = None
     ) -> FloatArray:
-        """Matrices from the GCRS to the equator and equinox of date.
+        """Matrices from the GCRS to equator and equinox of date on given days.
 
         Parameters
         ----------

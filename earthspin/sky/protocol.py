@@ -75,10 +75,10 @@ class Source(Protocol):
 
     @property
     def provenance(self) -> dict[str, str]:
-        """Names, hashes and versions that identify the source, for the attributes of answers."""
+        """Names, hashes and versions of the files and programs that give the positions."""
 
     def code(self, codes: Iterable[int], name: str, /) -> int:
-        """First of a body's NAIF codes in the source; KernelError if there is none."""
+        """First of a body's possible NAIF codes in the source; KernelError if there is none."""
 
     def coverage(self, places: Iterable[Place], /) -> tuple[float, float]:
         """First and last day (TDB, from J2000.0) for which all given bodies have positions."""
@@ -92,13 +92,13 @@ class Source(Protocol):
         """Geometric positions relative to a body, in the ICRF, m, shape (n, 3) each."""
 
     def error(self, target: Place, centre: Place, day: float, /) -> tuple[float, float]:
-        """Error bounds of a body's position on a day: direction (rad), distance (m).
+        """Bounds on the error of a body's position on a day: direction (rad), distance (m).
 
         The errors grow with the time from J2000.0; NaN if no error was measured.
         """
 
     def drift(self, target: Place, centre: Place, distance: float, /) -> float:
-        """Deflection of an axis due to errors of a perturber's position.
+        """Relative error of an axis's motion due to the position error of a perturber.
 
         It is a fraction of the angle by which the axis moves.
 
@@ -112,7 +112,7 @@ class Source(Protocol):
 
 @runtime_checkable
 class OfDate(Protocol):
-    """Protocol of a source that computes right ascension and declination itself."""
+    """Protocol of a position source that also computes right ascension and declination."""
 
     def equator(self, days: FloatArray, /) -> FloatArray:
         """Matrices from the ICRF to the Earth's mean equator of date, shape (n, 3, 3)."""
@@ -125,7 +125,7 @@ class OfDate(Protocol):
         equator: Callable[[FloatArray], FloatArray] | None,
         /,
     ) -> dict[str, tuple[FloatArray, FloatArray, FloatArray]]:
-        """Right ascension, declination (rad) and distance (m), shape (n,) each.
+        """Right ascension, declination (rad) and distance (m) of each target, shape (n,) each.
 
         The equator is given by its matrices, or is the Earth's mean equator of date.
         """
@@ -143,7 +143,7 @@ def words(place: object) -> str:
 
 
 def checked(positions: FloatArray, place: Place, days: FloatArray) -> FloatArray:
-    """Return positions from a trajectory; require one finite vector for each time.
+    """Check positions that a trajectory returned: one finite vector for each time.
 
     Raises
     ------

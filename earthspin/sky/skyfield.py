@@ -45,7 +45,7 @@ class EquatorOfDate:
     matrices: Callable[[FloatArray], FloatArray]
 
     def rotation_at(self, t: Time) -> FloatArray:
-        """Matrices in the layout of Skyfield, shape (3, 3, n) or (3, 3)."""
+        """Rotation matrices at a Skyfield time, in Skyfield's layout, shape (3, 3, n) or (3, 3)."""
         matrices = self.matrices((t.whole - J2000_JD) + t.tdb_fraction)
         return matrices if matrices.ndim == 2 else np.moveaxis(matrices, 0, -1)
 
@@ -66,14 +66,14 @@ class Skyfield:
 
     @property
     def provenance(self) -> dict[str, str]:
-        """Kernel and reader, for the attributes of an answer."""
+        """Name and hash of the kernel, and version of Skyfield, for the attributes of an answer."""
         return self.file.provenance | {
             "ephemeris_reader": "Skyfield",
             "skyfield_version": version("skyfield"),
         }
 
     def code(self, codes: Iterable[int], name: str) -> int:
-        """First of a body's NAIF codes in the kernel; KernelError if there is none."""
+        """First of a body's possible NAIF codes in the kernel; KernelError if there is none."""
         return self.file.code(codes, name)
 
     def coverage(self, places: Iterable[Place]) -> tuple[float, float]:
@@ -89,7 +89,7 @@ class Skyfield:
         return self.file.error(target, centre, day)
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
-        """Deflection of an axis due to position errors of a perturber, from the kernel.
+        """Relative error of an axis's motion due to the position error of a perturber.
 
         It is a fraction of the angle by which the axis moves.
         """
@@ -148,7 +148,9 @@ class Skyfield:
         days: FloatArray,
         equator: Callable[[FloatArray], FloatArray] | None,
     ) -> dict[str, tuple[FloatArray, FloatArray, FloatArray]]:
-        """``(body - centre).at(t).frame_latlon(equator)``: rad, rad and m, shape (n,) each.
+        """Right ascension and declination (rad) and distance (m) of targets, by Skyfield.
+
+        That is ``(body - centre).at(t).frame_latlon(equator)``, with shape (n,) each.
 
         Parameters
         ----------

@@ -67,7 +67,7 @@ def is_vector_function(value: object) -> bool:
 
 
 def trajectory(position: Any) -> Trajectory:
-    """Trajectory from a position returned by `read_position`."""
+    """Return what `read_position` returned as a trajectory; a vector function is wrapped."""
     if is_vector_function(position):
         from earthspin.sky.vector_functions import VectorTrajectory
 
@@ -77,7 +77,7 @@ def trajectory(position: Any) -> Trajectory:
 
 
 def read_position(value: Any, where: Where) -> VectorFunction | Trajectory:
-    """Read the position source of one body.
+    """Read where the positions of one body come from: vector function, trajectory or table.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def describe_position(position: object) -> str:
 
 
 def write_position(position: Any) -> Any:
-    """Return the table of a position's kernel segments; otherwise a marker with its description."""
+    """Convert a position to what a scene stores: a table of kernel segments, or a description."""
     if is_vector_function(position):
         from earthspin.sky.vector_functions import write_segments
 
@@ -133,12 +133,12 @@ def write_position(position: Any) -> Any:
 
 
 def is_measured(position: Any) -> bool:
-    """Return True if the error of a position is known, because it is based on kernels only."""
+    """Return True if the error of a position is known, as for positions from kernels only."""
     return getattr(trajectory(position), "code", None) is not None
 
 
 def place_of(source: Source, name: str, codes: tuple[int, ...], position: Any = None) -> Place:
-    """Return the custom trajectory of a body, or its NAIF code in the source.
+    """Return what a source needs to find a body: its own trajectory, or else its NAIF code.
 
     Raises
     ------

@@ -88,7 +88,7 @@ class VectorTrajectory:
 
     @cached_property
     def coverage(self) -> tuple[float, float]:
-        """First and last day of the kernel segments; other functions are not limited."""
+        """First and last day that all kernel segments cover; infinite if there are none."""
         stacks = [stack for stack in map(_segments, _leaves(self.function)) if stack]
         first = [min(s.spk_segment.start_jd for s in segments) - J2000_JD for segments in stacks]
         last = [max(s.spk_segment.end_jd for s in segments) - J2000_JD for segments in stacks]
@@ -104,7 +104,7 @@ class VectorTrajectory:
 
 
 class _Along(VectorFunction):  # type: ignore[misc]
-    """A trajectory as a Skyfield vector function, without velocities."""
+    """Skyfield vector function that wraps a trajectory; it has no velocities."""
 
     def __init__(self, trajectory: Trajectory) -> None:
         self.trajectory, self.center, self.target = trajectory, trajectory.centre, self
@@ -119,7 +119,7 @@ class _Along(VectorFunction):  # type: ignore[misc]
 
 
 def function_of(trajectory: Trajectory) -> VectorFunction:
-    """Skyfield vector function of a trajectory: the original function, or a wrapper."""
+    """Return a trajectory as a Skyfield vector function: the original one, or a wrapper."""
     if isinstance(trajectory, VectorTrajectory):
         return trajectory.function
     return _Along(trajectory)
@@ -129,7 +129,7 @@ def function_of(trajectory: Trajectory) -> VectorFunction:
 
 
 def _leaves(function: VectorFunction) -> Iterator[VectorFunction]:
-    """Components of a vector function that are neither sums nor reversals."""
+    """Yield the elementary functions of which a vector function is the sum, signs ignored."""
     if isinstance(function, VectorSum):
         for term in function.vector_functions:
             yield from _leaves(term)
@@ -140,7 +140,7 @@ def _leaves(function: VectorFunction) -> Iterator[VectorFunction]:
 
 
 def _segments(function: VectorFunction) -> Sequence[SPICESegment]:
-    """Kernel segments that make up a vector function; empty if it has any other component."""
+    """Kernel segments of an elementary vector function; empty if it is not from a kernel."""
     if isinstance(function, Stack):
         return list(function.segments)
     return [function] if isinstance(function, SPICESegment) else []

@@ -44,7 +44,7 @@ _SINE = np.array([0.0, 1.0, 0.0, -1.0])
 
 
 class Turned(NamedTuple):
-    """Angles by which phi and psi have advanced; psi is that of a top with I1 = I3.
+    """Angles by which the Euler angles phi and psi have advanced, for a top with I1 = I3.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class Turned(NamedTuple):
 
 
 def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
-    """Advance of phi and psi since the first lower turning point, apart from `shared_rate`.
+    """Advance of phi and psi since the first lower turning point, without `shared_rate` times time.
 
     Returns
     -------
@@ -76,7 +76,7 @@ def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
 
 
 def shared_rate(nutation: Nutation) -> FloatArray:
-    """Rate a/2 at which both phi and psi advance in addition to `turned_at`, in the rate unit.
+    """Part a/2 of the rates of phi and psi that `turned_at` leaves out, in the rate unit.
 
     It is separated if the axis stays so near the upper pole that phi and psi are nearly degenerate;
     their sum then advances almost at the rate of the spin.
@@ -97,7 +97,7 @@ def mean_precession(nutation: Nutation) -> FloatArray:
 
 
 def _windings(nutation: Nutation, halves: FloatArray) -> Turned:
-    """Quarter turns of phi and psi at a turning point, from the arctangents.
+    """Quarter turns of phi and psi at a turning point, counted from the arctangents.
 
     For a passage exactly over a pole the direction of the half turn is arbitrary; it alternates.
     """
@@ -109,27 +109,35 @@ def _windings(nutation: Nutation, halves: FloatArray) -> Turned:
 
 
 def _lower_winding(nutation: Nutation) -> FloatArray:
-    """Quarter turns of sigma in half a period, from the arctangent."""
+    """Quarter turns of sigma = (phi + psi)/2 in half a period, from its arctangent."""
     return np.where(_has_lower_arc(nutation), np.sign(nutation.start.b_plus_a), 0.0)
 
 
 def _upper_winding(nutation: Nutation) -> FloatArray:
-    """Quarter turns of delta in half a period, from the arctangent."""
+    """Quarter turns of delta = (phi - psi)/2 in half a period, from its arctangent."""
     return np.where(_has_upper_arc(nutation), np.sign(nutation.start.b_minus_a), 0.0)
 
 
 def _has_lower_arc(nutation: Nutation) -> BoolArray:
-    """Return True if sigma has an arctangent: u1 is not nearer to u3 than to the lower pole."""
+    """Return True if the half sum of phi and psi is computed with an arctangent.
+
+    That is so if u1 is not nearer to u3 than to the lower pole.
+    """
     return np.asarray(nutation.stiffness >= nutation.start.beta * nutation.gaps.lower_pole)
 
 
 def _has_upper_arc(nutation: Nutation) -> BoolArray:
-    """Return True if delta has an arctangent: u3 is not nearer to the upper pole than u2."""
+    """Return True if the half difference of phi and psi is computed with an arctangent.
+
+    That is so if u3 is not nearer to the upper pole than u2.
+    """
     return np.asarray(nutation.gaps.outer >= nutation.start.beta * nutation.gaps.upper_pole)
 
 
 def _arc_tangents(nutation: Nutation, place: Place) -> Turned:
-    """Sum and difference of the arctangents of sigma and delta, without cancellation.
+    """Arctangent parts of phi and psi, computed without cancellation.
+
+    They are the sum and the difference of the arctangents of sigma and delta.
 
     With tan sigma = (l/h) t and tan delta = (k/g) t, where h and g are the distances of the turning
     point from the two poles, the sum is arctan2(t (l g + k h), g h - k l t^2). The nearer pole has
@@ -174,7 +182,7 @@ def _arc_tangents(nutation: Nutation, place: Place) -> Turned:
 def _sum_or(
     one: FloatArray, two: FloatArray, three: FloatArray, four: FloatArray, root: FloatArray
 ) -> FloatArray:
-    """Return the sum with less cancellation: one + two, or the equal 2 (three + four)/root."""
+    """Return one + two, or the equal 2 (three + four)/root if that loses fewer digits."""
     open_ = root > 0
     factor = 2 / np.where(open_, root, 1.0)
     better = factor * (np.abs(three) + np.abs(four)) < np.abs(one) + np.abs(two)
@@ -196,7 +204,7 @@ def _upper_pole_rate(nutation: Nutation) -> FloatArray:
 
 
 def _side_of_pole(nutation: Nutation, place: Place) -> FloatArray:
-    """Direction of the half turn in a passage exactly over a pole; otherwise 1."""
+    """Direction of the half turn in a passage exactly over a pole; 1 for other tops."""
     quarter = np.mod(place.halves, 4).astype(int)
     lower = np.where(nutation.crosses_lower_pole, _COSINE[quarter], 1.0)
     upper = np.where(nutation.crosses_upper_pole, _SINE[quarter], 1.0)
@@ -204,7 +212,10 @@ def _side_of_pole(nutation: Nutation, place: Place) -> FloatArray:
 
 
 class _Integral(NamedTuple):
-    """The integral first F + third sn^3 RJ(cn^2, dn^2, 1, cn^2 + shape sn^2), F = Omega t."""
+    """Coefficients of the integral F first + third sn^3 RJ(cn^2, dn^2, 1, cn^2 + shape sn^2).
+
+    F is the time since the turning point times Omega.
+    """
 
     first: FloatArray
     third: FloatArray
@@ -212,7 +223,7 @@ class _Integral(NamedTuple):
 
 
 def _integrals(nutation: Nutation, upper: BoolArray) -> tuple[_Integral, _Integral]:
-    """Integrals in sigma and delta without the arctangents, from a lower or upper turning point."""
+    """Regular integrals of sigma and delta from a turning point, without the arctangents."""
     start, gaps, stiffness = nutation.start, nutation.gaps, 4 * nutation.rate**2
     sigma = _integral(
         nutation,
@@ -250,7 +261,9 @@ def _integral(
     arc: BoolArray,
     regular_shape: FloatArray,
 ) -> _Integral:
-    """Integral of total/2/(u - pole); only its regular part if the arctangent is separate.
+    """Coefficients of the integral of total/2/(u - pole) from a turning point.
+
+    If the arctangent is separate, only the regular part is returned.
 
     The ends are the distances of the turning points from the pole.
     """
@@ -269,7 +282,7 @@ def _integral(
 
 
 def _partial_integrals(nutation: Nutation, place: Place) -> Turned:
-    """Integrals of phi and psi since the turning point."""
+    """Regular parts of phi and psi from the nearest turning point to the given times."""
     sn, cn2, dn2 = place.sn, place.cn**2, place.dn**2
     sigma, delta = (
         x.first * place.phase + x.third * sn**3 * elliprj(cn2, dn2, 1.0, cn2 + x.shape * sn**2)
@@ -279,7 +292,7 @@ def _partial_integrals(nutation: Nutation, place: Place) -> Turned:
 
 
 def _complete_integrals(nutation: Nutation) -> Turned:
-    """Integrals of phi and psi from one turning point to the next."""
+    """Regular parts of phi and psi from one turning point to the next."""
     returns = nutation.complement > 0
     complement = np.where(returns, nutation.complement, 1.0)
     first_kind = ellipkm1(complement)

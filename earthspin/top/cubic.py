@@ -32,7 +32,7 @@ _SLOWEST, _NEGLIGIBLE = 1e-100, 1e-60
 
 
 class AxisStart(NamedTuple):
-    """Initial state of the axis, expressed for a weight moment that is not negative.
+    """Initial state of the axis; a top of negative weight moment is described upside down.
 
     A top with a negative weight moment is described by the opposite end of its axis: theta is
     replaced by pi - theta, and spin and weight change sign. Rates are in units of `rate_unit`.
@@ -91,7 +91,7 @@ class AxisStart(NamedTuple):
 
 
 class Gaps(NamedTuple):
-    """Non-negative distances between the poles, the roots and the initial value.
+    """Distances along u = cos(theta) between poles, roots of the cubic, and start; none negative.
 
     Attributes
     ----------
@@ -115,7 +115,7 @@ class Gaps(NamedTuple):
 
 
 def axis_start(top: HeavyTop) -> AxisStart:
-    """Initial state of the axis, with the opposite end if the weight moment is negative."""
+    """Compute the initial state of the axis, upside down if the weight moment is negative."""
     below, above, cosine = axis_heights(top.theta)
     a = top.axial_moment / top.transverse_moment * top.spin
     beta = 2 * top.weight_moment / top.transverse_moment
@@ -168,7 +168,10 @@ def cubic_gaps(start: AxisStart) -> Gaps:
 def _pair_about_start(
     start: AxisStart, c0: FloatArray, c1: FloatArray, c2: FloatArray, wanted: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Gaps between roots if the highest is well separated: u1, u2 straddle the start."""
+    """Distances between roots, start and poles, if the highest root u3 is well separated.
+
+    The start lies between u1 and u2.
+    """
     beta, below = start.beta, start.below
     far = _largest_root(c2, beta * c1, beta**2 * c0, wanted)  # beta (u3 - u(0))
     product = _ratio(c0, far)
@@ -186,7 +189,10 @@ def _pair_about_start(
 def _pair_about_pole(
     start: AxisStart, c0: FloatArray, wanted: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Gaps between roots if the lowest is well separated: u2, u3 straddle the upper pole."""
+    """Distances between roots, start and poles, if the lowest root u1 is well separated.
+
+    The upper pole lies between u2 and u3.
+    """
     beta, below = start.beta, start.below
     # Expanded about the pole, u = 1 - p, and times beta^2 with P = beta p:
     # P^3 - d2 P^2 - 2 beta d1 P + beta^2 (b - a)^2.
@@ -210,7 +216,7 @@ def _pair_about_pole(
 def _largest_root(
     c2: FloatArray, c1: FloatArray, c0: FloatArray, wanted: NDArray[np.bool_]
 ) -> FloatArray:
-    """Largest root of x^3 + c2 x^2 + c1 x + c0, which is real and well separated.
+    """Largest root of x^3 + c2 x^2 + c1 x + c0, by Newton's method; it must be well separated.
 
     Newton's method converges monotonically from above.
     """
@@ -234,6 +240,6 @@ def _straddling(middle: FloatArray, product: FloatArray) -> tuple[FloatArray, Fl
 
 
 def _ratio(numerator: FloatArray, denominator: FloatArray) -> FloatArray:
-    """Quotient; zero if the denominator vanishes, because the gap is then zero."""
+    """Quotient of two arrays; zero if the denominator vanishes, as for a distance of zero."""
     empty = denominator == 0
     return np.where(empty, 0.0, numerator / np.where(empty, 1.0, denominator))

@@ -33,7 +33,7 @@ _MOMENT = 1e-120
 
 
 class Nutation(NamedTuple):
-    """Time-independent quantities of a nutation, with rates in the start's rate unit.
+    """Constants of a nutation between two turning points, with rates in the start's rate unit.
 
     Attributes
     ----------
@@ -92,7 +92,7 @@ class Nutation(NamedTuple):
 
 
 class Place(NamedTuple):
-    """Phase of the axis within its nutation at given times.
+    """Position of the axis in its nutation cycle at given times, from the nearest turning point.
 
     Attributes
     ----------
@@ -116,7 +116,7 @@ class Place(NamedTuple):
 
 
 class AxisHeight(NamedTuple):
-    """Height of the axis and its rate of change.
+    """Distances of u = cos(theta) from the poles and from the start, and its rate of change.
 
     Attributes
     ----------
@@ -135,7 +135,7 @@ class AxisHeight(NamedTuple):
 
 
 def nutation_of(top: HeavyTop) -> Nutation:
-    """Compute the nutation of a batch of tops from their initial states."""
+    """Compute the constants of the nutation of one or more tops from their initial states."""
     start = axis_start(top)
     gaps = cubic_gaps(start)
     gaps = gaps._replace(
@@ -166,7 +166,7 @@ def nutation_of(top: HeavyTop) -> Nutation:
 
 
 def _phase_of_start(nutation: Nutation) -> FloatArray:
-    """Time from the nearest turning point to the start, by an elliptic integral."""
+    """Signed time from the nearest turning point to the start, by an elliptic integral."""
     start, gaps = nutation.start, nutation.gaps
     third = start.beta * start.below + gaps.outer  # beta (u3 - u(0))
     moves = (nutation.swing > 0) & (third > 0)
@@ -185,7 +185,7 @@ def _phase_of_start(nutation: Nutation) -> FloatArray:
 
 
 def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
-    """Phase of the axis within its nutation.
+    """Find the position of the axis in its nutation cycle at given times.
 
     Parameters
     ----------
@@ -208,7 +208,7 @@ def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
 
 
 def height_at(nutation: Nutation, place: Place) -> AxisHeight:
-    """Height of the axis relative to both poles and to the start, and its rate of change.
+    """Compute u = cos(theta) of the axis, as distances from poles and start, and its rate.
 
     The distances from the poles are sums of positive terms.
     """

@@ -61,7 +61,7 @@ class HeavyTopMotion:
 
 
 class Angle(NamedTuple):
-    """An angle that may include many turns.
+    """An angle as whole quarter turns and a remainder, exact after many turns.
 
     Attributes
     ----------
@@ -81,17 +81,17 @@ class Angle(NamedTuple):
 
     @property
     def half(self) -> NDArray[np.complex128]:
-        """Phase factor of half the angle, e^(i angle/2)."""
+        """Complex factor e^(i angle/2)."""
         eighths = np.mod(self.quarters, 8).astype(int)
         phase: NDArray[np.complex128] = np.exp(0.5j * self.rest) * _EIGHTHS[eighths]
         return phase
 
     def plus(self, other: FloatArray) -> Angle:
-        """Sum with another angle in rad."""
+        """Return the angle plus another angle in rad."""
         return Angle(self.quarters, self.rest + other)
 
     def replaced(self, where: NDArray[np.bool_], other: FloatArray) -> Angle:
-        """Angle with the elements in `where` replaced by another angle in rad."""
+        """Return the angle with the elements selected by `where` set to another angle in rad."""
         return Angle(np.where(where, 0.0, self.quarters), np.where(where, other, self.rest))
 
 
@@ -139,7 +139,7 @@ def heavy_top_motion(top: HeavyTop, times: ArrayLike) -> HeavyTopMotion:
 
 
 def _with_axes(top: HeavyTop, count: int) -> HeavyTop:
-    """Tops with additional trailing axes of length 1, for the times."""
+    """Tops with `count` trailing array axes of length 1, to broadcast with times."""
     shape = top.shape + (1,) * count
     return HeavyTop(**{f.name: np.reshape(getattr(top, f.name), shape) for f in fields(top)})
 
@@ -207,7 +207,10 @@ def _omega_body(top: HeavyTop, nutation: Nutation, height: AxisHeight, psi: Angl
 
 
 def _vertical_excess(start: AxisStart, height: AxisHeight) -> FloatArray:
-    """The sum b - a u = phi' sin^2(theta), computed from the start or from the poles."""
+    """Compute phi' sin^2(theta) = b - a u, from the start or from the poles.
+
+    The form that loses fewer digits is used.
+    """
     first, second = start.phi_rate * start.sine2, start.a * height.climb
     upper, lower = start.b_plus_a * height.below, start.b_minus_a * height.above
     from_start = np.abs(first) + np.abs(second) < (np.abs(upper) + np.abs(lower)) / 2

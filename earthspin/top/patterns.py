@@ -52,7 +52,7 @@ def nutation_pattern(top: HeavyTop) -> NDArray[np.str_]:
 
 
 class PatternLimits(NamedTuple):
-    """Initial rates phi' at the limits between patterns, rad/s.
+    """Initial rates phi' at which the pattern of the tip changes, rad/s.
 
     Attributes
     ----------
@@ -109,7 +109,7 @@ def pattern_limits(top: HeavyTop) -> PatternLimits:
 
 
 def _is_steady(start: AxisStart) -> NDArray[np.bool_]:
-    """Return True if theta'' = theta' = 0."""
+    """Return True if theta' and theta'' vanish at the start, so that theta is constant."""
     phi_rate = start.phi_rate
     gyroscopic, centrifugal = 2 * phi_rate * start.a, 2 * phi_rate**2 * start.cosine
     size = np.abs(gyroscopic) + np.abs(centrifugal) + start.beta
@@ -118,6 +118,6 @@ def _is_steady(start: AxisStart) -> NDArray[np.bool_]:
 
 
 def _loop_drive(start: AxisStart) -> tuple[FloatArray, FloatArray]:
-    """The difference a alpha - b beta from the start, and the magnitude of its terms."""
+    """Difference a alpha - b beta at the start, and the sum of the magnitudes of its terms."""
     inertia, weight = start.a * start.rate2, start.beta * start.phi_rate * start.sine2
     return inertia - weight, np.abs(inertia) + np.abs(weight)

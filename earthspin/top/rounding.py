@@ -69,7 +69,7 @@ def effect_of_rounding(top: HeavyTop, times: ArrayLike) -> FloatArray:
 
 
 def _difference(one: HeavyTopMotion, other: HeavyTopMotion) -> FloatArray:
-    """Largest difference of two motions, for each top."""
+    """Largest relative difference between two motions over times and quantities, for each top."""
     across, reference = (m.omega_body[..., 0] + 1j * m.omega_body[..., 1] for m in (one, other))
     # a quaternion and its negative are the same attitude
     sign = np.copysign(1.0, np.sum(one.attitude * other.attitude, axis=-1, keepdims=True))
@@ -87,12 +87,12 @@ def _difference(one: HeavyTopMotion, other: HeavyTopMotion) -> FloatArray:
 
 
 def _largest(values: Numbers) -> FloatArray:
-    """Largest absolute value over the times; the time axis is retained with length 1."""
+    """Largest absolute value over the times, the last axis, which is retained with length 1."""
     return np.asarray(np.max(np.abs(values), axis=-1, keepdims=True))
 
 
 def _relative(difference: Numbers, size: FloatArray) -> FloatArray:
-    """Largest ratio |difference|/size over the times; elements of size zero count as zero."""
+    """Largest ratio |difference|/size over the times, the last axis; 0 where the size is 0."""
     ratio = np.zeros(difference.shape)
     np.divide(np.abs(difference), size, out=ratio, where=size > 0)
     return np.asarray(np.max(ratio, axis=-1))

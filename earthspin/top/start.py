@@ -94,7 +94,7 @@ class HeavyTop:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Shape of the batch; empty for one top."""
+        """Shape of the arrays of tops; empty for one top."""
         return np.shape(self.theta)
 
     def _check(self) -> None:
@@ -176,7 +176,7 @@ def axis_heights(theta: FloatArray) -> AxisHeights:
 
 
 def _broadcast(names: list[str], values: list[FloatArray]) -> list[FloatArray]:
-    """Broadcast all fields to one shape."""
+    """Broadcast the arrays of all fields to one shape; refuse shapes that do not fit."""
     try:
         return list(np.broadcast_arrays(*values))
     except ValueError:
@@ -185,7 +185,7 @@ def _broadcast(names: list[str], values: list[FloatArray]) -> list[FloatArray]:
 
 
 def _require(holds: Any, field: str, value: Any, allowed: str) -> None:
-    """Refuse the first value that does not meet the condition."""
+    """Refuse a field if a value in it does not meet the condition; report the first one."""
     holds, value = np.broadcast_arrays(holds, value)
     if not np.all(holds):
         raise BodyError(_NAME, field, float(value[~holds].flat[0]), allowed)

@@ -101,7 +101,7 @@ def steady_precession(top: HeavyTop) -> SteadyPrecession:
 
 
 def _refuse_slow_spin(top: HeavyTop, slow: NDArray[np.bool_]) -> None:
-    """Raise an error that names the first spin below the minimum."""
+    """Refuse a spin too slow for steady precession; the error names the first such top."""
     if np.any(slow):
         spin, theta, least = (
             float(x[slow].flat[0]) for x in (top.spin, top.theta, minimum_spin(top))

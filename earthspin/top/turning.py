@@ -117,7 +117,7 @@ def effective_potential(top: HeavyTop, theta: ArrayLike) -> FloatArray:
 
 
 def _over_root(numerator: FloatArray, radicand: FloatArray) -> FloatArray:
-    """Quotient numerator/sqrt(radicand).
+    """Quotient numerator/sqrt(radicand), with limits for a radicand of zero.
 
     If the radicand is 0, the result is 0 for a zero numerator and otherwise infinite.
     """

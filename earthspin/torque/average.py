@@ -53,7 +53,7 @@ FEWEST_CYCLES = 3
 
 @dataclass(frozen=True)
 class Window:
-    """A time interval and the weights for an average over it.
+    """Time window for an average: centre, length in cycles, and taper that gives the weights.
 
     Attributes
     ----------
@@ -74,7 +74,7 @@ class Window:
 
     @property
     def length(self) -> float:
-        """Length, s."""
+        """Length of the window, s."""
         return self.cycles * self.cycle
 
     def sample_times(self, step: float) -> FloatArray:
@@ -113,7 +113,7 @@ class Window:
 
 
 def best_window(start: float, end: float, cycle: float, epoch: float = 0.0) -> Window:
-    """Choose the window with the fastest convergence in a time span: sin4 on whole cycles.
+    """Choose the window of fastest convergence in a time span: taper sin4 on whole cycles.
 
     Parameters
     ----------
@@ -161,7 +161,7 @@ def window_mean_and_error(
     measured_error: FloatArray | None = None,
     strength: FloatArray | None = None,
 ) -> tuple[FloatArray, FloatArray]:
-    """Means of several torques and of their total, with errors relative to the long-term mean.
+    """Mean of each torque and of their total over a window, with errors as long-term means.
 
     Parameters
     ----------
@@ -209,7 +209,7 @@ def _means_of_many(
     slow_swing: FloatArray,
     strength: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
-    """Means and errors as in `window_mean_and_error`, for several strengths of each torque."""
+    """Mean torques and errors as in `window_mean_and_error`, for several factors on each torque."""
     means = [window.mean(times, values), *(w.mean(times, values) for w in neighbours(window))]
     means.append(window.mean(times[::2], values[::2]))
     factor = strength.reshape(len(strength), *(1,) * (values.ndim - 2), -1)
@@ -222,14 +222,14 @@ def _means_of_many(
 
 
 def with_total(values: FloatArray) -> FloatArray:
-    """Append the sum over perturbers (axis 1)."""
+    """Append the sum over perturbers as one more element of axis 1."""
     return np.concatenate([values, values.sum(axis=1, keepdims=True)], axis=1)
 
 
 def convergence_curve(
     window: Window, times: FloatArray, values: FloatArray, cycles: FloatArray
 ) -> dict[str, FloatArray]:
-    """Means with every taper as functions of the window length, to show their convergence.
+    """Mean of a series as a function of the window length, for each taper.
 
     Parameters
     ----------
@@ -255,7 +255,7 @@ def convergence_curve(
 
 
 def precessing_torque(torque: FloatArray, axis: FloatArray, normal: FloatArray) -> FloatArray:
-    """Precessing part of a torque on an axis, N . (k x n)/sin2(obliquity).
+    """Component of a torque that causes precession in longitude: N . (k x n)/sin2(obliquity).
 
     Divided by the angular momentum, it is the rate of precession in longitude, positive if the
     longitude of the axis decreases.
@@ -290,7 +290,7 @@ def precessing_torque(torque: FloatArray, axis: FloatArray, normal: FloatArray) 
 
 
 def precessing_of_tensor(in_plane: Numeric, out_of_plane: Numeric, obliquity: float) -> Numeric:
-    """Precessing torque of a mean tidal tensor, or the error bound from bounds on the tensor, s-2.
+    """Size of the precessing torque from a mean tidal tensor, or its bound from error bounds, s-2.
 
     With z along the orbit's normal and x below the spin axis,
 

@@ -62,13 +62,13 @@ class Precessing:
     node_rate: float
 
     def slope(self, obliquity: FloatArray) -> FloatArray:
-        """Negative derivative of the Hamiltonian by obliquity, rad/s."""
+        """Negative derivative of the axis's Hamiltonian with respect to obliquity, rad/s."""
         cosine, sine = np.cos(obliquity), np.sin(obliquity)
         torque = 1.5 * (self.axial * cosine + self.locked * (1 + cosine)) * sine
         return np.asarray(self.node_rate * np.sin(obliquity - self.inclination) - torque)
 
     def curvature(self, obliquity: FloatArray) -> FloatArray:
-        """Derivative of the slope, rad/s."""
+        """Derivative of `slope` with respect to obliquity, rad/s."""
         cosine, double = np.cos(obliquity), np.cos(2 * obliquity)
         torque = 1.5 * (self.axial * double + self.locked * (cosine + double))
         return np.asarray(self.node_rate * np.cos(obliquity - self.inclination) - torque)
@@ -101,7 +101,7 @@ def is_locked(spin_rate: float, motion: float) -> bool:
 def strengths(
     motion: float, spin_rate: float, j2: float, c22: float, polar: float, eccentricity: float
 ) -> tuple[float, float]:
-    """Strengths K0 and Kr, rad/s; Kr for a spin locked at the nearest ratio.
+    """Strengths of the averaged torque: K0, and Kr for a spin locked to the orbit, rad/s.
 
     Parameters
     ----------
@@ -169,7 +169,7 @@ def cassini_states(of: Precessing) -> States:
 
 
 def _numbers(angles: FloatArray, stable: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """Conventional numbers 1 to 4 of the states, from their angles and stability."""
+    """Conventional numbers 1 to 4 of the Cassini states, from their obliquities and stability."""
     number = np.where(angles < 0, 1, 2)
     number[~stable] = 4
     number[np.argmax(np.where(stable, np.abs(angles), -1.0))] = 3

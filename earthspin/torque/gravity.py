@@ -122,7 +122,7 @@ def torque_error(
 
 
 def _direction(position: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Unit vectors and lengths, without r5, which overflows at 10^61 m."""
+    """Unit vectors and lengths of position vectors, without forming powers that overflow."""
     distance = np.sqrt(np.sum(position * position, axis=-1))
     _refuse_centre(distance)
     return position / distance[..., np.newaxis], distance

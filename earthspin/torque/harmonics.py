@@ -30,7 +30,7 @@ def zonal_torque(
     position: FloatArray,
     axis: FloatArray,
 ) -> FloatArray:
-    """Torque of a mass on one zonal harmonic, per unit of M a2, s-2.
+    """Torque of a mass on one zonal harmonic of a body, divided by the body's M a2, s-2.
 
     Parameters
     ----------

@@ -23,7 +23,9 @@ SLOW = 5 * 86400.0
 def locked_ratio(
     times: FloatArray, position: FloatArray, axis: FloatArray, spin_rate: float
 ) -> float | None:
-    """Rotations per orbit if the spin is in resonance with the orbit, otherwise None.
+    """Rotations per orbit if the spin is in resonance with the orbit, found from positions.
+
+    Return None if there is no resonance.
 
     Parameters
     ----------
@@ -46,7 +48,7 @@ def locked_ratio(
 
 
 def locked_turns(spin_rate: float, mean_motion: float) -> float | None:
-    """Rotations per orbit if the spin is in resonance with a mean motion, otherwise None.
+    """Rotations per orbit if the spin rate is in resonance with a mean motion, otherwise None.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-r"""Exact mean tidal tensor and torque over a Keplerian orbit.
+r"""Mean tidal tensor and torque over a Keplerian orbit, in closed form.
 
 The mean over the mean anomaly of an ellipse with semi-major axis a, eccentricity e and normal n is
 
@@ -29,12 +29,12 @@ ROUNDINGS = 2
 
 
 def square_of_normal(normal: FloatArray) -> FloatArray:
-    """Tensor n n^T of a fixed orbit, shape (3, 3)."""
+    """Tensor n n^T from the unit normal n of a fixed orbit, shape (3, 3)."""
     return np.outer(normal, normal)
 
 
 def mean_square_of_normal(pole: FloatArray, inclination: float) -> FloatArray:
-    """Mean of n n^T over the node of a precessing orbit, shape (3, 3).
+    """Mean of the tensor n n^T of the orbit normal n over a period of the node, shape (3, 3).
 
     Parameters
     ----------
@@ -75,5 +75,5 @@ def rounding(tide: FloatArray) -> float:
 
 
 def rounding_of_precessing(of_torque: FloatArray, obliquity: float) -> FloatArray:
-    """Rounding error of the precessing torque, which is divided by the sine of the obliquity."""
+    """Rounding error of the precessing torque, from that of the mean torque and the obliquity."""
     return np.asarray(of_torque / math.sin(obliquity))

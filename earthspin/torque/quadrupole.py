@@ -1,4 +1,4 @@
-"""Tidal tensor of all perturbers, and its torque on a bulge (I.9.34).
+"""Tidal tensor of all perturbers, and its torque on an equatorial bulge (I.9.34).
 
 With Q = sum of GM r r^T / r^5 over all perturbers, the torque per unit of C on a body with the
 figure axis F is exactly
@@ -50,7 +50,7 @@ def tidal_tensor(pulls: Iterable[tuple[float, FloatArray]]) -> FloatArray:
 
 
 def apply(tensor: FloatArray, vector: FloatArray) -> FloatArray:
-    """Symmetric tensor, shape (6, ...), times a vector, shape (3, ...)."""
+    """Product of a symmetric tensor of six components, shape (6, ...), and a vector, (3, ...)."""
     xx, yy, zz, xy, xz, yz = tensor
     x, y, z = vector
     result = np.empty(np.broadcast_shapes((3, *np.shape(xx)), np.shape(vector)))

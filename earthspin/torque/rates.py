@@ -81,13 +81,16 @@ def precession_rate(precessing: Numeric, h: Numeric, spin_rate: Numeric) -> Nume
 
 
 def period(rate: Numeric) -> Numeric:
-    """Period in the time unit of the rate (rad per unit); infinite for rate zero."""
+    """Period of one turn at a given rate (rad per unit of time); infinite for rate zero."""
     with np.errstate(divide="ignore"):
         return 2 * math.pi / np.abs(rate)
 
 
 def period_error(rate: Numeric, rate_error: Numeric) -> Numeric:
-    """Half-width of the period, to first order; infinite for rate zero, else NaN if unknown."""
+    """Half-width of the period of one turn, to first order, from that of the rate.
+
+    It is infinite for rate zero, and NaN if the error of any other rate is unknown.
+    """
     with np.errstate(divide="ignore", invalid="ignore"):
         # fmax ignores the NaN of 0/0, so that an infinite period has an infinite half-width
         relative = np.fmax(rate_error / np.abs(rate), np.finfo(float).tiny)
@@ -95,14 +98,14 @@ def period_error(rate: Numeric, rate_error: Numeric) -> Numeric:
 
 
 def rate_ratio(precessing: Numeric) -> Numeric:
-    """Ratio of each rate to the first; 1 if they are equal, including zero."""
+    """Ratio of each precessing torque to the first one; 1 if the two are equal, even if zero."""
     first = precessing[0]
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(precessing == first, 1.0, precessing / first)
 
 
 def total_uncertainty(precessing: Numeric, u_gm: Numeric) -> Numeric:
-    """Relative standard uncertainties of torques due to GM, and of their total.
+    """Relative standard uncertainties of precessing torques and of their total, from those of GM.
 
     Parameters
     ----------
@@ -145,7 +148,7 @@ def circular_orbit_torque(gm: float, distance: float, obliquity: float) -> float
 
 
 def left_for_method(asked: float, *relative_uncertainties: float) -> float:
-    """Largest relative error of averaging for which the total error stays within a limit.
+    """Relative error left for averaging if the total error must stay within a limit.
 
     Parameters
     ----------

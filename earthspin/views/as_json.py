@@ -1,4 +1,4 @@
-"""Write an answer as JSON in pieces, so that its text is never held in memory."""
+"""Write an answer as JSON in pieces, so that the full text never occupies memory."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def write_json(tree: xr.DataTree, stream: TextIO) -> None:
 def _write_members(
     title: str, members: Mapping[Any, T], write: Callable[[T, TextIO], None], stream: TextIO
 ) -> None:
-    """Write a JSON object of named members, each without its closing brace, which is added here."""
+    """Write named members as one JSON object, and close each of them with a brace."""
     stream.write(f',\n"{title}": {{')
     for number, (name, member) in enumerate(members.items()):
         stream.write(f"{',' if number else ''}\n{json.dumps(str(name))}: ")
@@ -71,7 +71,7 @@ def _text(value: Any) -> str:
 
 
 def _plain(value: Any) -> Any:
-    """Convert numbers, words and dates to types of JSON."""
+    """Convert arrays, dates and infinite numbers to types that JSON can store."""
     if isinstance(value, Mapping):
         return {str(key): _plain(inner) for key, inner in value.items()}
     if isinstance(value, (np.ndarray, np.generic)):

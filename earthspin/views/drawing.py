@@ -89,7 +89,7 @@ def _matplotlib() -> Any:
 
 @dataclass(frozen=True)
 class Drawing:
-    """A figure ready for the page.
+    """A finished figure with title and caption, for an HTML page.
 
     Attributes
     ----------
@@ -114,7 +114,7 @@ class Drawing:
 
     @property
     def narrow(self) -> str:
-        """SVG text of a narrow version for phones; empty if the figure is already narrow."""
+        """SVG text of a narrow version of the figure; empty if the figure is already narrow."""
         if self.phone is not None:
             return _saved(self.phone)
         width, height = self.figure.get_size_inches()
@@ -138,7 +138,7 @@ def _saved(figure: Figure) -> str:
 
 @dataclass(frozen=True)
 class PageFigure:
-    """Figure that a view declares: title, caption, drawing function and sections.
+    """Declaration of a figure on a page: title, caption, drawing function and required sections.
 
     Attributes
     ----------
@@ -170,13 +170,13 @@ class PageFigure:
     phone: float = 0.0
 
     def is_there(self, tree: Result) -> bool:
-        """Return True if the answer has the sections that the figure needs."""
+        """Return True if an answer meets the conditions of the figure and has its main section."""
         there = not self.section or section(tree, self.section) is not None
         return there and (self.applies is None or self.applies(tree))
 
     @style()
     def drawn(self, tree: Result) -> Drawing:
-        """Figure of an answer, ready for the page."""
+        """Draw the figure for an answer, with caption and, if declared, a version for phones."""
         caption = self.caption(tree) if callable(self.caption) else self.caption
         figure, phone = figure_of(self.plot(tree)), None
         if self.phone:
@@ -185,7 +185,7 @@ class PageFigure:
 
 
 def figure_of(shown: Axes | Figure) -> Figure:
-    """Figure to which axes belong."""
+    """Figure that contains the given axes; a figure is returned as it is."""
     figure = shown.get_figure(root=True)
     assert figure is not None
     return figure
@@ -194,7 +194,7 @@ def figure_of(shown: Axes | Figure) -> Figure:
 def stacked(
     count: int, height: float, figure: Figure | None = None, *, width: float = 8.0, **how: Any
 ) -> tuple[Figure, list[Axes]]:
-    """Axes one above the other with one horizontal axis, on a new figure by default."""
+    """Axes one above the other with a common horizontal axis, on a new figure by default."""
     figure = empty(width, height) if figure is None else figure
     return figure, list(figure.subplots(count, 1, sharex=True, squeeze=False, **how)[:, 0])
 
@@ -226,7 +226,7 @@ def lines(ax: Axes, x: Any, values: xr.DataArray, **how: Any) -> None:
 def plot_both_angles(
     ax: Axes, time: Any, dpsi_sineps: Any, deps: Any, title: str, label: str
 ) -> None:
-    """Draw offsets of the celestial pole in longitude and obliquity in one panel."""
+    """Draw celestial pole offsets in longitude and in obliquity over time, in the same axes."""
     ax.plot(time, dpsi_sineps, color=BLUE, lw=0.6, label="dpsi sin(eps)")
     ax.plot(time, deps, color=RED, lw=0.6, label="deps")
     ax.set_title(title, loc="left", fontsize=9)
@@ -234,7 +234,7 @@ def plot_both_angles(
 
 
 def rungs(ax: Axes, labels: Sequence[object]) -> None:
-    """Label a horizontal axis with the steps of a ladder."""
+    """Put the names of the steps of a ladder on the horizontal axis."""
     ax.set_xticks(range(len(labels)), [str(label) for label in labels])
     ax.margins(x=0.08)
     ax.grid(axis="x", visible=False)
@@ -249,7 +249,7 @@ def empty(width: float, height: float) -> Figure:
 
 
 def axes(ax: Axes | None, width: float = 8.0, height: float = 3.8) -> Axes:
-    """Return the axes of the argument, or new axes in a new figure."""
+    """Return the given axes, or axes in a new figure if None is given."""
     if ax is not None:
         return ax
     with style():
@@ -267,7 +267,7 @@ def few_dates(ax: Axes) -> None:
 
 
 def legend_above(ax: Axes) -> None:
-    """Legend outside the data, above the right corner."""
+    """Place the legend above the axes, at the right end."""
     legend = ax.legend(
         loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=4, borderaxespad=0.1, fontsize=8
     )

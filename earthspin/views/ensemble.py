@@ -1,4 +1,4 @@
-"""Spread of an ensemble, and the share of each input in it."""
+"""Tables and figures of the spread of an ensemble, and the contribution of each input to it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ SMALL = 5e-4
 
 
 class Number(NamedTuple):
-    """A number that differs among the members."""
+    """Identification of one quantity that differs among the members: name, coordinates and unit."""
 
     name: str
     labels: dict[str, Any]
@@ -32,7 +32,7 @@ class Number(NamedTuple):
 
     @property
     def words(self) -> str:
-        """Label of the number, with the labels of its coordinates."""
+        """Name of the quantity and its coordinates, in words."""
         labels = (
             str(label.astype("M8[m]") if isinstance(label, np.datetime64) else label)
             for label in self.labels.values()
@@ -41,7 +41,7 @@ class Number(NamedTuple):
 
 
 def spread(tree: Result) -> Table:
-    """Spread of each number."""
+    """Table of the spread of each quantity over the members of an ensemble."""
     answer = _whole(tree)
     numbers, count = _numbers(answer), answer.sizes[MEMBER]
     if not numbers:
@@ -63,7 +63,10 @@ def spread(tree: Result) -> Table:
 
 
 def shares(tree: Result) -> Table:
-    """Table of the shares of the inputs in the variance; empty if the members are too few."""
+    """Table of each input's share of the variance of each quantity.
+
+    The table is empty if the members are too few.
+    """
     answer = _whole(tree)
     rows, headers = [], ["number"]
     note = "By straight lines in all inputs together; the last column is what they leave."
@@ -85,7 +88,7 @@ TABLES = [("", spread), ("", shares)]
 
 
 def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray, list[float]]:
-    """Main quantities of an ensemble, with the variance share of each input and the remainders."""
+    """Main quantities of an ensemble, the share of each input in their variance, and the rest."""
     result, chiefs = sensitivity(answer), _chiefs(answer)
     rows = [number for number in _numbers(answer) if number.name in chiefs]
     share = [result[f"{name}_share"].sel(labels).values for name, labels, _ in rows]
@@ -94,7 +97,7 @@ def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray, list[float]]:
 
 
 def lead(tree: Result) -> str:
-    """Sentence with the main number and the largest cause of its spread."""
+    """Sentence that gives the main quantity of an ensemble and the input that spreads it most."""
     answer = _whole(tree)
     if not _numbers(answer):
         return _alike(answer)
@@ -120,7 +123,7 @@ def _caption_of_shares(tree: Result) -> str:
 
 
 def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Axes:
-    """Draw the histogram of a number over the members, and its central 95 % as a band.
+    """Draw the histogram of one quantity over the members, and its central 95 % as a band.
 
     Parameters
     ----------
@@ -151,7 +154,7 @@ def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Ax
 
 
 def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the shares of the inputs in the variance of the main numbers, as bars.
+    """Draw each input's share of the variance of the main quantities, as bars.
 
     Parameters
     ----------
@@ -208,12 +211,12 @@ def _whole(result: Result) -> xr.Dataset:
 
 
 def _enough(answer: xr.Dataset) -> bool:
-    """Return True if there are enough members for a linear fit."""
+    """Return True if an ensemble has enough members for a linear fit in all inputs."""
     return bool(answer.sizes[MEMBER] >= members_needed(answer))
 
 
 def _numbers(answer: xr.Dataset) -> list[Number]:
-    """All numbers that differ among the members."""
+    """All finite quantities that differ among the members of an ensemble."""
     numbers = []
     for name, variable in answer.data_vars.items():
         if MEMBER not in variable.dims or variable.dtype.kind != "f" or "_error" in str(name):
@@ -229,13 +232,13 @@ def _numbers(answer: xr.Dataset) -> list[Number]:
 
 
 def _alike(answer: xr.Dataset) -> str:
-    """Sentence that is printed if all members of an ensemble agree."""
+    """Sentence to print if no quantity differs among the members of an ensemble."""
     count, inputs = answer.sizes[MEMBER], ", ".join(inputs_of(answer))
     return f"No finite number differs among the members: {count} members, inputs {inputs}."
 
 
 def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
-    """Names of the main quantities of a question that differ among the members.
+    """Names of the main quantities of an answer, among those that differ between members.
 
     If the view of the question names none that differs, this is the first number that does; empty
     if no number differs.
@@ -246,7 +249,7 @@ def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
 
 
 def _chief(answer: xr.Dataset, name: str = "") -> Number:
-    """Last element of the main quantity: its total, last step or last time."""
+    """Main quantity of an ensemble: the last element, such as the total or the last time."""
     chiefs = (name,) if name else _chiefs(answer)[:1]
     numbers = [number for number in _numbers(answer) if number.name in chiefs]
     if not numbers:
@@ -256,7 +259,7 @@ def _chief(answer: xr.Dataset, name: str = "") -> Number:
 
 
 def _digits(value: float, other: float) -> str:
-    """Write a number with enough digits to show its difference from another number."""
+    """Format a number with enough digits to distinguish it from another number."""
     apart = abs(other - value) / max(abs(value), abs(other), 1e-300)
     digits = int(np.clip(2 - np.floor(np.log10(max(apart, 1e-15))), 3, 16))
     return short_exponents(f"{value:.{digits}g}")

@@ -26,7 +26,7 @@ DRAWN = {
 
 
 def at_horizons(tree: Result) -> Table:
-    """Table of the pole at some horizons."""
+    """Table of the forecast x and y of the pole at some numbers of days after the origin."""
     answer = answer_of(tree)
     days = _days(answer)
     rows = [
@@ -64,7 +64,7 @@ def skill(tree: Result) -> Table:
 
 
 def offsets(tree: Result) -> Table:
-    """Celestial pole offsets at a few horizons."""
+    """Table of the forecast celestial pole offsets at some numbers of days after the origin."""
     data = needed(tree, "pole_offsets")
     rows = [
         (f"{day:.0f}", date(row.time), measured(row, "dX"), measured(row, "dY"))
@@ -87,14 +87,16 @@ TABLES = [("", at_horizons), ("pole_offsets", offsets), ("skill", skill)]
 
 
 def _days(answer: xr.Dataset) -> FloatArray:
-    """Days after the origin."""
+    """Times of a forecast in days after its origin."""
     origin = np.datetime64(answer.x.attrs["origin"])
     days: FloatArray = (answer.time.values - origin) / np.timedelta64(1, "D")
     return days
 
 
 def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Draw the forecast of x and y with 95 % bands, and the one of Bulletin A if the answer has it.
+    """Draw the forecast x and y with 95 % bands.
+
+    The prediction of Bulletin A is added if the answer has it.
 
     Parameters
     ----------

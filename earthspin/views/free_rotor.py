@@ -15,7 +15,7 @@ from earthspin.views.table import Table, listed, quantities
 
 
 def constants(tree: Result) -> Table:
-    """Constants of a free rotor's motion."""
+    """Table of the constants of a free rotor's motion: energy, angular momentum, periods."""
     answer, poinsot = answer_of(tree).isel(time=0), section(tree, "poinsot")
     momentum = float(np.linalg.norm(answer.angular_momentum_body))
     rows = [
@@ -60,7 +60,7 @@ def _caption_of_herpolhode(tree: Result) -> str:
 
 
 def plot_components(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Angular velocity along the principal axes in time.
+    """Draw the angular velocity along the principal axes in time.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def plot_components(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_herpolhode(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Path of the angular velocity in the invariable plane, and its two bounds.
+    """Draw the herpolhode: path of the angular velocity in the invariable plane, with its bounds.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ FIGURES = [
 
 
 def ellipsoids_with_polhodes(tree: Result) -> Solid:
-    """Inertia and momentum ellipsoid, which intersect in the polhode (I.5.1 to I.5.5)."""
+    """Solid of the inertia and momentum ellipsoids, which meet in the polhode (I.5.1 to I.5.5)."""
     answer, poinsot = answer_of(tree), needed(tree, "poinsot")
     inertia, momentum = poinsot.inertia_ellipsoid.values, poinsot.momentum_ellipsoid.values
     polhode = poinsot.polhode.values
@@ -137,7 +137,7 @@ def ellipsoids_with_polhodes(tree: Result) -> Solid:
 
 
 def polhode_with_sphere(tree: Result) -> Solid:
-    """Polhode on the inertia ellipsoid, and a sphere of mean spin (I.5.4)."""
+    """Solid of the polhode on the inertia ellipsoid, with a sphere of mean spin (I.5.4)."""
     answer, poinsot = answer_of(tree), needed(tree, "poinsot")
     inertia, polhode = poinsot.inertia_ellipsoid.values, poinsot.polhode.values
     speed = np.linalg.norm(polhode, axis=1)
@@ -161,7 +161,7 @@ def polhode_with_sphere(tree: Result) -> Solid:
 
 
 def rolling_ellipsoid(tree: Result) -> Solid:
-    """Inertia ellipsoid that rolls on the invariable plane (Poinsot; I.5.8, I.5.9)."""
+    """Solid of the inertia ellipsoid that rolls on the invariable plane (Poinsot; I.5.8, I.5.9)."""
     answer, poinsot = answer_of(tree), needed(tree, "poinsot")
     to_plane = _turn_to_z(answer.angular_momentum_body.values[0])
     attitude = np.array([multiply(to_plane, q) for q in answer.attitude.values])
@@ -192,7 +192,7 @@ def rolling_ellipsoid(tree: Result) -> Solid:
 
 
 def rolling_cones(rotor: SymmetricRotor, title: str, points: int = 241) -> Solid:
-    """Body cone that rolls on the space cone (I.6.30, I.6.31)."""
+    """Solid of the body cone that rolls on the space cone (I.6.30, I.6.31)."""
     period = 2 * np.pi / float(rotor.precession_rate)
     times = np.linspace(0, 2 * period, points)
     omega = rotor.omega_inertial(times)

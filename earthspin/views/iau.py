@@ -142,7 +142,7 @@ def nutation(tree: Result) -> Table:
 
 
 def core(tree: Result) -> Table:
-    """The free core nutation."""
+    """Table of the free core nutation that is fitted to IAU 2000A."""
     fit = needed(tree, "core")
     quality = float(fit.core_nutation_quality), CORE_NUTATION_QUALITY.value
     rows = [
@@ -173,7 +173,7 @@ def _both_phases(row: xr.Dataset, name: str) -> str:
 
 
 def angles(tree: Result) -> Table:
-    """Polynomials of the precession angles."""
+    """Table of the polynomial coefficients of the precession angles."""
     rows = [
         (f"{angle}, {whose}", *(f"{coefficient:.6f}" for coefficient in row[name].values[:4]))
         for angle, row in table.along(needed(tree, "angles"), "angle")
@@ -189,7 +189,7 @@ def angles(tree: Result) -> Table:
 
 
 def flattening(tree: Result) -> Table:
-    """Table of H and C from three sources."""
+    """Table of the dynamical flattening H and of C/(M a2) from three sources."""
 
     def value(row: xr.Dataset) -> str:
         error = float(row.flattening_error)

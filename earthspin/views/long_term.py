@@ -19,7 +19,7 @@ ROWS = 11
 
 
 def epochs(tree: Result) -> Table:
-    """Table of obliquity, eccentricity, climatic precession and period at a dozen epochs."""
+    """Table of obliquity, eccentricity, climatic precession and precession period by epoch."""
     answer = in_order(answer_of(tree))
     shown = answer.isel(epoch=np.unique(np.linspace(0, answer.epoch.size - 1, ROWS).astype(int)))
     columns = (
@@ -49,7 +49,7 @@ def _caption_of_climate(tree: Result) -> str:
 
 
 def in_order(of: xr.Dataset) -> xr.Dataset:
-    """Sort an answer by epoch, and keep each epoch once."""
+    """Sort a dataset by epoch and remove repeated epochs."""
     return of.isel(epoch=np.unique(of.epoch.values, return_index=True)[1])
 
 
@@ -95,7 +95,7 @@ def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
 def _plot_curves(
     ax: Axes | None, curves: list[tuple[str, xr.DataArray, xr.DataArray]], height: float
 ) -> Axes:
-    """Draw curves with their half-widths in panels, or only the first curve on given axes."""
+    """Draw curves with bands of their half-widths in panels, or the first curve on given axes."""
     if ax is None:
         figure, rows = drawing.stacked(len(curves), height)
         figure.align_ylabels(rows)

@@ -31,7 +31,7 @@ def _sizes(title: str, data: xr.Dataset, dim: str, note: str, prefix: str = "") 
 
 
 def ladder(tree: Result) -> Table:
-    """Table of the residuals against IAU 2000A, step by step."""
+    """Table of predicted pole minus IAU 2000A, root mean square, for each step of the ladder."""
     return _sizes(
         "Nutation predicted from the layers",
         answer_of(tree),
@@ -44,7 +44,7 @@ def ladder(tree: Result) -> Table:
 
 
 def beside(tree: Result) -> Table:
-    """Table of the residuals of two models outside the ladder."""
+    """Table of predicted pole minus IAU 2000A, root mean square, for two further models."""
     return _sizes(
         "Beside the ladder",
         needed(tree, "beside"),
@@ -71,7 +71,7 @@ def modes(tree: Result) -> Table:
 
 
 def terms(tree: Result) -> Table:
-    """Table of the largest circular terms, of the last step and of the IAU."""
+    """Table of the largest circular nutation terms, of the ladder's last step and of the IAU."""
     data = needed(tree, "terms")
 
     def predicted(phase: str, head: str) -> Column:
@@ -148,7 +148,7 @@ def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the transfer function through the resonance of the core, with the main terms.
+    """Draw the transfer function of nutation near the resonance of the core, with the main terms.
 
     Parameters
     ----------

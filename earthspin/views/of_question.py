@@ -61,18 +61,18 @@ def drawings_for(tree: Result) -> list[Drawing]:
 
 
 def _figures(tree: Result) -> Sequence[PageFigure]:
-    """Figures that the view of a question declares."""
+    """Declarations of the figures in the view module of an answer's question."""
     figures: Sequence[PageFigure] = getattr(_view(tree), "FIGURES", ())
     return figures
 
 
 def solids_for(tree: Result) -> list[Solid]:
-    """Three-dimensional pictures of an answer that can be rotated and played."""
+    """Three-dimensional pictures of an answer, some of which are animated."""
     return _made(tree, getattr(_view(tree), "SOLIDS", ()))
 
 
 def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> list[T]:
-    """Make the views for which the answer has all required sections."""
+    """Make those views for which the answer has all required sections."""
     return [
         make(tree)
         for sections, make in makers
@@ -187,7 +187,9 @@ def page_of(
 
 
 def what_ran(*trees: Result) -> list[Table]:
-    """Table of the parts that ran and, for a single answer, of the parts left out.
+    """Table of the parts of the computation that ran, with run times.
+
+    For a single answer it includes the parts that were left out, with reasons.
 
     Returns
     -------
@@ -209,12 +211,12 @@ def what_ran(*trees: Result) -> list[Table]:
 
 
 def _view(tree: Result) -> ModuleType:
-    """View module of the question of an answer; the plain table if it has none."""
+    """View module of an answer: that of its question, of ensembles, or the plain table."""
     return ensemble if is_ensemble(tree) else views_of(tree)
 
 
 def _explained(tree: Result) -> str:
-    """Sentence that names the page of the documentation for an answer."""
+    """Sentence that names the pages of the documentation on the method and errors of an answer."""
     page = question.page if (question := question_of(tree)) else ""
     method = f'the method under "{PAGES[page]}" (docs/{page}.md), ' if page else ""
     return f'In the documentation: {method}the errors under "{ERRORS[1]}" (docs/{ERRORS[0]}.md).'
@@ -235,7 +237,7 @@ def _accuracy(answer: xr.Dataset) -> Table:
 
 
 def _footer(answer: xr.Dataset) -> str:
-    """Sentence with the versions and files that made an answer."""
+    """Sentence with the program version, kernel and sources of an answer."""
     attrs = answer.attrs
     words = f"{attrs['source']}."
     if "ephemeris" in attrs:

@@ -28,7 +28,7 @@ def page(
     last: Sequence[Table] = (),
     footer: str = "",
 ) -> str:
-    """Page of figures, solids and tables, in this order.
+    """HTML text of a page of figures, three-dimensional pictures and tables, in this order.
 
     Parameters
     ----------
@@ -70,12 +70,12 @@ def page(
 
 
 def rendered(template: str, **content: object) -> str:
-    """Render a template with the common style sheet."""
+    """Fill a template with content and the common style sheet; return the HTML text."""
     return environment().get_template(template).render(sheet=source("page.css"), **content)
 
 
 def write_texts(texts: Mapping[Path, str]) -> list[Path]:
-    """Write pages and figures, all files or none of them."""
+    """Write several text files, either all of them or, after an error, none."""
     with ExitStack() as together:
         for path, text in texts.items():
             draft = together.enter_context(drafts.replacing(path))

@@ -1,4 +1,4 @@
-"""Interactive pages: an animated picture, its settings and numbers, in a single file.
+"""Interactive pages, each a single file: an animated picture with sliders and numbers.
 
 Their words stand in ``templates/play_NAME.html.j2``; their formulas stand in
 ``templates/formulas.js`` and are compared with this library's; what they start from, the bodies'
@@ -31,7 +31,7 @@ EARTH_TURNS = float(np.asarray(EARTH.spin_period))
 
 
 def _sky() -> dict[str, object]:
-    """Earth, Sun and Moon for the page: elliptic orbits with the mean torques of the report."""
+    """Data of Earth, Sun and Moon for the page, with distances that give the computed torques."""
     answer = run("precession")
     flattening, spin = EARTH.number("dynamical_flattening"), 2 * math.pi / EARTH_TURNS
     obliquity = math.radians(float(answer.obliquity))

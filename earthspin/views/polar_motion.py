@@ -24,7 +24,7 @@ JULIAN = 365.25  # d, the year of the axes
 
 
 def series(tree: Result) -> Table:
-    """Range of the observed coordinates of the pole."""
+    """Table of the smallest, largest and last observed coordinates of the pole."""
     answer = answer_of(tree)
     first, last, end = date(answer.time[0]), date(answer.time[-1]), answer.isel(time=-1)
     rows = [
@@ -43,7 +43,7 @@ def series(tree: Result) -> Table:
 
 
 def observed(tree: Result) -> Table:
-    """Period, quality factor and present amplitude of the observed wobble."""
+    """Table of period, quality factor and present amplitude of the observed free wobble."""
     fit = needed(tree, "chandler")
     rows = quantities(fit, "chandler_period")
     if "chandler_quality_factor" in fit:
@@ -66,7 +66,7 @@ def observed(tree: Result) -> Table:
 
 
 def statements(tree: Result) -> Table:
-    """Table of statements of the source text on the wobble, compared with observation."""
+    """Table that compares statements of Appendix I on the wobble with observation."""
     fit, metres = needed(tree, "chandler"), _metres(answer_of(tree))
     period, error = float(fit.chandler_period), float(fit.chandler_period_error)
     size = fit.chandler_amplitude
@@ -92,12 +92,15 @@ TABLES = [("", series), ("chandler", observed), ("chandler", statements)]
 
 
 def _metres(answer: xr.Dataset) -> float:
-    """Metres on the ground per milliarcsecond; 0 if the radius is not known."""
+    """Distance on the ground, in m, per milliarcsecond; 0 if the polar radius is not known."""
     return float(answer.polar_radius) * MAS if "polar_radius" in answer else 0.0
 
 
 def _years_near(amplitude: xr.DataArray, size: float) -> str:
-    """First and last year in which an amplitude is within a quarter of a value."""
+    """First and last year in which an amplitude differs from a value by at most a quarter.
+
+    The share of the time is added; the text is "never" if there is no such year.
+    """
     near = abs(amplitude.values / size - 1) <= 0.25
     if not near.any():
         return "never"
@@ -223,7 +226,7 @@ def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_modelled(observed: xr.Dataset, modelled: xr.Dataset, *, ax: Axes | None = None) -> Axes:
-    """Draw the amplitude of the free wobble, observed and driven by an excitation.
+    """Draw the amplitudes of the observed free wobble and of one driven by an excitation.
 
     Parameters
     ----------
@@ -263,7 +266,7 @@ def plot_phase(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def _fit(result: Result) -> tuple[xr.Dataset, FloatArray]:
-    """Return the fitted free wobble, and the centres of its windows."""
+    """Return the dataset of the fitted free wobble, and the mid-times of its sliding windows."""
     fit = result if "chandler_amplitude" in result else needed(result, "chandler")
     assert isinstance(fit, xr.Dataset)
     return fit, fit[fit.chandler_amplitude.dims[0]].values
@@ -280,7 +283,7 @@ def _plot_free_wobble(
 
 
 def _times(factor: float) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
-    """Scaling by a factor and its inverse, for a second axis."""
+    """Functions that multiply and divide by a factor, for a second axis in other units."""
     return lambda v: v * factor, lambda v: v / factor
 
 

@@ -13,7 +13,7 @@ from earthspin.views.table import Column, Table, date, table_along
 
 
 def ends(tree: Result) -> Table:
-    """Table of the directions of the axes at both ends of the path."""
+    """Table of the directions of the axes at the first and the last epoch of the path."""
     answer = answer_of(tree)
     ends = answer.isel(time=[0, -1]).stack(place=("time", "axis"), create_index=False)
 

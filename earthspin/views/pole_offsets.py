@@ -20,7 +20,7 @@ ONE_IN = 24
 
 
 def series(tree: Result) -> Table:
-    """Root mean square and range of the observed offsets."""
+    """Table of root mean square, range and last value of the observed celestial pole offsets."""
     answer = answer_of(tree)
     end = answer.isel(time=-1)
     rows = [
@@ -65,7 +65,7 @@ def core_nutation(tree: Result) -> Table:
 
 
 def period(tree: Result) -> Table:
-    """Period of the free core nutation."""
+    """Table of the period of the free core nutation, fitted and published."""
     names = "core_nutation_period", "core_nutation_period_published"
     rows = quantities(needed(tree, "period"), *names)
     words = (
@@ -83,7 +83,7 @@ TABLES = [("", series), ("core_nutation", core_nutation), ("period", period)]
 
 
 def plot_offsets(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Observed dX and dY in time, with the 95 % half-widths of the table as grey bands.
+    """Draw the observed dX and dY in time, with 95 % half-widths as grey bands.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ def plot_offsets(result: Result, *, figure: Figure | None = None) -> Figure:
 
 
 def plot_core_nutation(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Amplitude of the free core nutation in time, with its 95 % band and the detection limit.
+    """Draw the amplitude of the free core nutation in time, with 95 % band and detection limit.
 
     The line is faint where nothing is detected.
 

@@ -27,7 +27,7 @@ PASSED = 2.0
 
 
 def lead(tree: Result) -> str:
-    """First sentence of the page."""
+    """First sentence of the page on precession."""
     answer, known = answer_of(tree), section(tree, "iau_2006")
     alone = measured(answer.isel(perturber=-1), "precession_period", "years")
     pull = f"the pull of {reading.perturbers_of(answer)} on the equatorial bulge"
@@ -44,7 +44,7 @@ def lead(tree: Result) -> str:
 
 
 def _with_known_effects(known: xr.Dataset) -> tuple[float, float]:
-    """Period with all published effects, and its half-width, yr."""
+    """Precession period with all published effects, and its half-width, yr."""
     rate = float(known.iau_rate + known.closure)
     return FULL_TURN / rate, float(known.closure_error) * FULL_TURN / rate**2
 
@@ -53,7 +53,7 @@ def _with_known_effects(known: xr.Dataset) -> tuple[float, float]:
 
 
 def periods(tree: Result) -> Table:
-    """Table of the three periods of precession, which recommends one of them."""
+    """Table of the precession period in three definitions, with a recommendation."""
     answer, known, seasons = answer_of(tree), needed(tree, "iau_2006"), needed(tree, "seasons")
     total, iau = answer.isel(perturber=-1), FULL_TURN / float(known.iau_rate)
     period, error = _with_known_effects(known)
@@ -89,12 +89,12 @@ def periods(tree: Result) -> Table:
 
 
 def _millionths(known: xr.Dataset) -> str:
-    """Difference from IAU 2006 that no known effect explains, in millionths of the rate."""
+    """Unexplained difference from the rate of IAU 2006, in millionths of that rate, as text."""
     return f"{abs(float(known.closure / known.iau_rate)) * 1e6:.1f}"
 
 
 def rates(tree: Result) -> Table:
-    """Rates, periods and torques by perturber."""
+    """Table of precession rate, period and mean torque of each perturber."""
     answer = answer_of(tree)
     if answer.sizes["perturber"] == 2:  # the total of one perturber says nothing more
         answer = answer.isel(perturber=[0])
@@ -125,7 +125,7 @@ def rates(tree: Result) -> Table:
 
 
 def _largest_left_out(answer: xr.Dataset) -> str:
-    """Largest effect on the rate that is not modelled."""
+    """Size and name of the largest effect on the precession rate that is not modelled."""
     name, _, rest = answer.attrs["neglected"].partition(": ")
     size, unit, more = rest.partition(" arcsec/yr")
     return f"{size} ({name})" if unit and "unknown size" not in more else "size unknown"
@@ -335,7 +335,7 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def _caption_of_circle(tree: Result) -> str:
-    """Caption of the circle of the celestial pole: stars near its path, with years."""
+    """Caption of the figure of the pole's circle, with the bright stars that the pole passes."""
     total = answer_of(tree).isel(perturber=-1)
     years = np.arange(-9900, 14001, 100)
     path = _circle(total, years)
@@ -355,7 +355,7 @@ def _caption_of_circle(tree: Result) -> str:
 
 
 def _circle(total: xr.Dataset, years: ArrayLike) -> FloatArray:
-    """Positions of the celestial pole on the chart by year, at the present rate and obliquity."""
+    """Positions of the celestial pole on the chart in given years, for uniform precession."""
     radius, rate = float(total.obliquity), float(si(total.precession_rate))
     back = rate * (np.asarray(years) - 2000) * JULIAN_YEAR  # its longitude falls: to the left
     return np.stack([-radius * np.sin(back), radius * np.cos(back)], axis=-1)

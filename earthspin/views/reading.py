@@ -1,4 +1,4 @@
-"""Functions with which views read a result: answer, sections, body and perturbers."""
+"""Functions that extract answer, sections, body and perturbers from a result, for views."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Result = xr.Dataset | xr.DataTree
 
 
 def answer_of(result: Result) -> xr.Dataset:
-    """Dataset of the answer; if it has many bodies or starts, only the first."""
+    """Dataset of the answer in a result; if it has many bodies or starts, that of the first."""
     whole = result.to_dataset() if isinstance(result, xr.DataTree) else result
     return _first(whole, whole.attrs)
 
@@ -34,14 +34,14 @@ def views_of(result: Result) -> ModuleType:
 
 
 def section(result: Result, name: str) -> xr.Dataset | None:
-    """Section of an answer; None if it is not there."""
+    """Section of a result by name; None if the result does not have it."""
     if not isinstance(result, xr.DataTree) or name not in result.children:
         return None
     return _first(result[name].to_dataset(), result.attrs)
 
 
 def needed(result: Result, name: str) -> xr.Dataset:
-    """Section of a result; computed now if the result lacks it.
+    """Section of a result by name; it is computed if the result does not have it.
 
     Raises
     ------
@@ -56,7 +56,7 @@ def needed(result: Result, name: str) -> xr.Dataset:
 
 
 def body_of(answer: xr.Dataset) -> str:
-    """Name of the body in a sentence, with the numbers that were changed.
+    """Name of the body of an answer, followed by the properties that the user changed.
 
     ``"Mars"``, ``"the Earth with spin_period = 43200.0 s"``.
     """
@@ -71,7 +71,7 @@ def perturbers_of(answer: xr.Dataset) -> str:
 
 
 def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:
-    """Sentences, one for each key, that list changed bodies.
+    """Sentences that list the changed properties of bodies, one for each key of the question.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:
 
 
 def _first(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
-    """Select the first of many bodies or starts.
+    """Select the first of many bodies or initial states.
 
     That is, the first along dimensions that no part of the question declares.
     """

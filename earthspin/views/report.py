@@ -102,7 +102,7 @@ def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]
 
 
 def gallery() -> list[Solid]:
-    """Solids of the page of rotors and tops."""
+    """Three-dimensional pictures for the page of rotors and tops."""
     prolate = SymmetricRotor(equatorial=1.0, difference=-0.6, speed=1.0, alpha=0.35)
     oblate = SymmetricRotor(equatorial=1.0, difference=0.8, speed=1.0, alpha=0.6)
     tops = ("top-wave", "top-cusp", "top-loop")
@@ -174,7 +174,7 @@ def write_wobble_report(
 
 
 def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
-    """First sentence of the wobble report."""
+    """Sentence that compares computed and observed period of the free wobble, for the report."""
     answer = answer_of(ladder)
     rigid, top = measured(answer.sel(rung="rigid"), "period_solar", "days"), answer.isel(rung=-1)
     last = beside_observed(
@@ -189,7 +189,7 @@ def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
 
 
 def _write_data(place: Path, data: Mapping[str, xr.DataTree]) -> list[Path]:
-    """Write the data, all files or none of them."""
+    """Write several results to NetCDF files, either all of them or, after an error, none."""
     with ExitStack() as together:
         for name, tree in data.items():
             store.write_netcdf(tree, together.enter_context(drafts.replacing(place / name)))

@@ -21,7 +21,7 @@ POSES = 481
 
 
 def known_until(answer: xr.Dataset) -> np.datetime64 | None:
-    """First date at which the error from the method and the given numbers reaches one radian."""
+    """First date at which the attitude error, without that of positions, reaches one radian."""
     error = np.hypot(answer.attitude_error_method, answer.attitude_error_input).values
     lost = np.flatnonzero(error >= LOST)
     return answer.time.values[lost[0]] if lost.size else None
@@ -190,7 +190,7 @@ def turning_body(tree: Result) -> Solid:
 
 
 def _largest(vectors: FloatArray) -> float:
-    """Largest length, 1 if all vectors vanish."""
+    """Largest length of several vectors; 1 if all vectors are zero."""
     return float(np.max(np.linalg.norm(vectors, axis=1))) or 1.0
 
 

@@ -1,4 +1,4 @@
-"""The stiff and extreme cases as tables for the terminal."""
+"""Tables of the numerical stability tests, in stiff and extreme cases, for the terminal."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def verdict_tables(result: xr.Dataset) -> list[Table]:
 
 
 def rows_by_part(result: xr.Dataset) -> Iterator[tuple[str, list[dict[str, Any]]]]:
-    """Yield each part of the package and its cases, with numbers and units as they are shown.
+    """Yield each tested part of the package with its cases, numbers formatted as text.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def rows_by_part(result: xr.Dataset) -> Iterator[tuple[str, list[dict[str, Any]]
 
 
 def tally(result: xr.Dataset) -> dict[str, int]:
-    """Numbers of cases with the verdicts "holds", "refused" and "fails"."""
+    """Count the cases with each verdict: "holds", "refused" and "fails"."""
     return {word: int((result.verdict == word).sum()) for word in ("holds", "refused", "fails")}
 
 

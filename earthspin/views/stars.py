@@ -40,7 +40,7 @@ def year_words(year: int) -> str:
 
 
 def year_labels(years: Iterable[int], places: FloatArray) -> list[Label]:
-    """Labels of a path at some years."""
+    """Labels with the year for points of the pole's path."""
     pairs = zip(years, places.tolist(), strict=True)
     return [Label(year_words(year), (x, y), RED) for year, (x, y) in pairs]
 
@@ -51,7 +51,7 @@ def star_vectors() -> FloatArray:
 
 
 def on_the_chart(vectors: FloatArray, obliquity: float) -> FloatArray:
-    """Positions on the chart by azimuthal equidistant projection, degrees, shape (n, 2).
+    """Positions of unit vectors on the chart, in degrees, by azimuthal equidistant projection.
 
     The sky is seen from inside, with the pole of J2000.0 on top.
 
@@ -74,7 +74,7 @@ def on_the_chart(vectors: FloatArray, obliquity: float) -> FloatArray:
 def plot_path(
     path: FloatArray, dates: list[Label], obliquity: float, ax: Axes | None = None
 ) -> Axes:
-    """Draw a path of the pole among the stars, with labels that cover neither it nor one another.
+    """Draw a path of the celestial pole among the stars, with labels that hardly overlap.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def plot_path(
 
 
 def _put(ax: Axes, labels: list[Label], path: FloatArray) -> None:
-    """Place labels one after another, each where it overlaps least."""
+    """Place the labels on the chart one after another, each where its overlap is smallest."""
     window = ax.get_window_extent()
     points = min(window.width, window.height) * 72 / ax.figure.dpi / (2 * REACH)
     line, dots = _even(path * points), np.array([label.at for label in labels]) * points
@@ -134,7 +134,7 @@ def _cost(
     line: FloatArray,
     edge: float,
 ) -> float:
-    """Overlap of a label: area on other boxes and outside the chart, and length of path."""
+    """Measure of the overlap of a label with other labels, the edge of the chart, and the path."""
     low, high = np.array(boxes).transpose(1, 0, 2)
     shared = np.clip(np.minimum(middle + half, high) - np.maximum(middle - half, low), 0, None)
     beyond = np.clip(np.abs(middle) + half - edge, 0, None)

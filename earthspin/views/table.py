@@ -27,7 +27,7 @@ NUMBERS_ONLY = "numbers only"
 
 @dataclass(frozen=True)
 class Table:
-    """Table with title, note and run time.
+    """Table of text for the terminal or a page, with title, headers, note and run time.
 
     Attributes
     ----------
@@ -55,7 +55,9 @@ class Table:
 
 @dataclass(frozen=True)
 class Column:
-    """Column of a table, or row of a table of quantities.
+    """Column of a table: variable, number format and header.
+
+    In a table of quantities it is a row.
 
     Attributes
     ----------
@@ -88,7 +90,7 @@ class Column:
 
 
 def label(variable: xr.DataArray) -> str:
-    """Label that a variable was declared with, followed by its unit."""
+    """Short label of a variable, or else its name, followed by its unit."""
     words, unit = variable.attrs.get("short", ""), variable.attrs.get("units", "")
     words = words or str(variable.name).replace("_", " ")
     return words if unit in ("", "1") else f"{words}, {unit}"
@@ -105,7 +107,7 @@ def table_along(
     words: Collection[int] = (0,),
     more: Sequence[tuple[str, ...]] = (),
 ) -> Table:
-    """Table with a row for each label of a dimension.
+    """Build a table with a row for each label of a dimension.
 
     Parameters
     ----------
@@ -167,12 +169,12 @@ def quantities(data: xr.Dataset, *rows: Column | str) -> list[tuple[str, str]]:
 
 
 def _column(column: Column | str) -> Column:
-    """Column from the name of a variable and, after a colon, its format."""
+    """Return a column, which may be given as text: variable name, colon, number format."""
     return Column(*column.split(":")) if isinstance(column, str) else column
 
 
 def with_error(value: SupportsFloat, error: SupportsFloat, unit: str = "") -> str:
-    """Write a value and, in brackets, two digits of its half-width.
+    """Format a value with two digits of its half-width in brackets.
 
     The digits in brackets belong to the last ones before them, as journals write it:
     ``50.404315(33)`` is 50.404315 ± 0.000033, and ``430.9(1.4)`` is 430.9 ± 1.4.
@@ -197,29 +199,29 @@ def with_error(value: SupportsFloat, error: SupportsFloat, unit: str = "") -> st
 
 
 def _in_brackets(value: float, error: float) -> str:
-    """Write a value with two digits of its error in parentheses."""
+    """Format a value with two digits of its error in brackets, and rounded to the same place."""
     digits = max(0, 1 - math.floor(math.log10(error)))
     half = f"{error:.{digits}f}"
     return f"{value:.{digits}f}({half.removeprefix('0.').lstrip('0') if error < 1 else half})"
 
 
 def short_exponents(text: str) -> str:
-    """Write exponents without a plus and without zeros before them: 2.6e35, 1.2e-5."""
+    """Shorten exponents in text, without plus sign and leading zeros: 2.6e35, 1.2e-5."""
     return re.sub(r"(?<=\d)e(-?)\+?0*(?=\d)", r"e\1", text)
 
 
 def two_digits(value: SupportsFloat) -> str:
-    """Write a number to two digits, without an exponent from 0.0001 to 999999."""
+    """Format a number to two digits, without an exponent from 0.0001 to 999999."""
     return short_exponents(f"{float(f'{float(value):.2g}'):g}")
 
 
 def quality(row: xr.Dataset, name: str = "quality_factor", shown: str = ".0f") -> str:
-    """Write a quality factor; empty if it is infinite."""
+    """Format a quality factor; empty if it is infinite."""
     return f"{float(row[name]):{shown}}" if math.isfinite(row[name]) else ""
 
 
 def beside(value: SupportsFloat, published: SupportsFloat | None) -> tuple[str, str]:
-    """Write a published number, and the difference of a value from it in per cent."""
+    """Format a published number, and in per cent the difference of a value from it."""
     if published is None:
         return "", ""
     known = float(published)
@@ -230,7 +232,7 @@ def beside(value: SupportsFloat, published: SupportsFloat | None) -> tuple[str, 
 def beside_observed(
     value: SupportsFloat, error: SupportsFloat, left_out: xr.Dataset | None, unit: str = ""
 ) -> str:
-    """Write a computed value for comparison with an observation, with all known errors.
+    """Format a computed value for comparison with an observation, with all known errors.
 
     Parameters
     ----------
@@ -254,21 +256,21 @@ def some_unknown(left_out: xr.Dataset) -> bool:
 
 
 def measured(data: xr.Dataset, name: str, unit: str = "") -> str:
-    """Write a variable and its error."""
+    """Format a variable of a dataset with two digits of its half-width."""
     return with_error(data[name], data[f"{name}_error"], unit)
 
 
 def listed(values: Iterable[SupportsFloat]) -> str:
-    """Write numbers side by side."""
+    """Format numbers as text, separated by commas."""
     return ", ".join(f"{float(value):.6g}" for value in values)
 
 
 def date(time: xr.DataArray | np.datetime64, to: Literal["Y", "D", "m", "s"] = "D") -> str:
-    """Write a date to the year, day, minute or second."""
+    """Format a date to the year, day, minute or second."""
     return str(np.asarray(time).astype(f"datetime64[{to}]"))
 
 
 def along(data: xr.Dataset, dim: str) -> Iterator[tuple[str, xr.Dataset]]:
-    """Yield each label of a dimension as text, with the data at it."""
+    """Yield each label of a dimension as text, with the dataset selected at that label."""
     for number, label in enumerate(data[dim].values):
         yield str(label), data.isel({dim: number})

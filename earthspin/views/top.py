@@ -70,7 +70,7 @@ FIGURES = [
 
 
 def path_of_top(tree: Result) -> solids.Solid:
-    """Tip of the top's axis on a sphere (I.7.19)."""
+    """Solid of the path of the top's axis on a sphere, between its turning angles (I.7.19)."""
     answer = answer_of(tree)
     theta, phi = answer.theta.values, answer.phi.values
     tip = np.stack(

@@ -44,7 +44,7 @@ TABLES = [("", extremes)]
 
 
 def through(tree: Result, title: str, smooth_days: float) -> drawing.Drawing:
-    """Figure of declination and torque over years, with fast oscillations drawn as bands."""
+    """Figure of declination and torque over years; fast oscillations are drawn as bands."""
     plot, caption = partial(_plot_both, smooth_days=smooth_days), _caption(tree, smooth_days)
     return PageFigure(title, caption, plot).drawn(tree)
 
@@ -144,7 +144,7 @@ def _line_or_band(
     colour: str,
     smooth_days: float | None,
 ) -> None:
-    """Draw a line, or a band between its extremes if its oscillations are too fast."""
+    """Draw a time series as a line, or as a band between its extremes if it oscillates fast."""
     swings = int((np.diff(np.sign(np.diff(series.values))) != 0).sum())
     if not smooth_days or swings < MANY_SWINGS:
         ax.plot(series.time, series, color=colour, lw=0.8, zorder=3 - 0.1 * number, label=label)
@@ -156,7 +156,7 @@ def _line_or_band(
 
 
 def _samples(series: xr.Dataset | xr.DataArray, days: float) -> int:
-    """Number of samples of an even series in some days."""
+    """Number of samples of an evenly sampled series in a given number of days."""
     step = float((series.time[1] - series.time[0]) / np.timedelta64(1, "D"))
     return max(1, round(days / step))
 

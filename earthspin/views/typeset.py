@@ -101,5 +101,5 @@ def _mixture(found: re.Match[str]) -> str:
 
 
 def anchor(title: str) -> str:
-    """Name of a section in links: its title in small letters, with hyphens."""
+    """Name of a section for links within a page: its title in small letters, with hyphens."""
     return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")

@@ -25,7 +25,7 @@ _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">")
 
 
 def accuracy_table(result: xr.Dataset) -> Table:
-    """Error and run time of every setting that was measured.
+    """Table of error and run time of every measured setting of every method.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def accuracy_table(result: xr.Dataset) -> Table:
 
 
 def _note(result: xr.Dataset) -> str:
-    """The problem, its reference, and the methods that fail."""
+    """Text of the problem, its reference solution, and the methods whose errors exceed bounds."""
     unit = _unit(result)
     words = [
         f"{_capital(result.attrs['problem'])}.",
@@ -76,7 +76,7 @@ def _capital(words: str) -> str:
 
 
 def _unit(result: xr.Dataset) -> str:
-    """Unit of the error, after a space."""
+    """Unit of the measured error, preceded by a space."""
     return shown_unit(str(result.error.attrs["units"]))
 
 
@@ -92,7 +92,7 @@ def print_accuracy(results: Sequence[xr.Dataset]) -> None:
 
 
 def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
-    """Error against run time on log axes: filled markers are methods of this package.
+    """Draw error against run time on log axes; filled markers are methods of this package.
 
     The broad line is the front, each task with its own. A bar is half the range of the run times.
     The thin line of a method joins those of its settings for which no other setting is both faster
@@ -138,7 +138,7 @@ def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
 
 
 def _front(time: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Pareto front: the results for which no other is both faster and more accurate."""
+    """Select the results for which no other is both faster and more accurate (Pareto front)."""
     order = np.lexsort((error, time))
     time, error = time[order], error[order]
     kept = error < np.concatenate([[np.inf], np.minimum.accumulate(error)[:-1]])
@@ -146,7 +146,7 @@ def _front(time: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArray]
 
 
 def _draw_fronts(result: xr.Dataset, ax: Axes) -> None:
-    """Draw the Pareto front of each task as steps."""
+    """Draw as steps the Pareto front of error and run time, for each task."""
     right, top = float(result.run_time.max()), float(result.error.max())
     label = "front (Pareto)"
     for task in dict.fromkeys(result.task.values.tolist()):
@@ -160,7 +160,7 @@ def _draw_fronts(result: xr.Dataset, ax: Axes) -> None:
 
 
 def svg_of(result: xr.Dataset) -> str:
-    """Figure of a quantity as the text of an SVG."""
+    """SVG text of the figure of error against run time for one quantity."""
     with style():
         ax = plot_accuracy(result)
         ax.set_title(_capital(result.attrs["quantity"].replace("-", " ")), loc="left")
@@ -200,7 +200,7 @@ def write_accuracy(results: Sequence[xr.Dataset], folder: str | Path) -> list[Pa
 
 
 def store_accuracy(result: xr.Dataset, folder: str | Path) -> Path:
-    """Write the data of one quantity, ``accuracy-QUANTITY.nc``, and return its path."""
+    """Write the measurements of one quantity to ``accuracy-QUANTITY.nc``; return its path."""
     path = Path(folder) / f"accuracy-{result.attrs['quantity']}.nc"
     with drafts.replacing(path) as draft:
         store.write_netcdf(result, draft)

@@ -19,7 +19,9 @@ DECAY_EXCESS = (2.1, 0.65)
 
 
 def burg(x: Complex, order: int) -> Complex:
-    """Prediction-error filter 1, a1, ..., by Burg's method for complex series.
+    """Compute the coefficients 1, a1, ... of the prediction-error filter of a complex series.
+
+    The method is Burg's.
 
     Forward and backward errors are shortened by reflection coefficients of least mean
     error (Burg 1967; Marple 1987, Digital Spectral Analysis, sect. 8.5).

@@ -9,7 +9,7 @@ from earthspin.wobble.resonance import polar_motion_from
 
 
 def fitted_start(time: Array, p: Complex, chi: Complex, s: complex) -> complex:
-    """Fit the start of the driven pole to the observed one by least squares.
+    """Fit the initial value of driven polar motion to observed polar motion, by least squares.
 
     Drift and seasonal terms, which models of the excitation hold least well, are fitted beside it
     and stay out of it.

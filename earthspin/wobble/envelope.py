@@ -18,7 +18,7 @@ AMPLITUDE_EXCESS = 1.3
 
 @dataclass(frozen=True)
 class Envelope:
-    """Wobbles in sliding windows.
+    """Amplitudes and phases of the free and annual wobbles in sliding windows.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class Envelope:
 def envelope(
     time: Array, p: Complex, period: float, window: float | None = None, step: float = 30.0
 ) -> Envelope:
-    """Fit both wobbles and a line in sliding windows.
+    """Fit free wobble, annual wobble and a straight line in sliding windows.
 
     Parameters
     ----------
@@ -97,7 +97,10 @@ def envelope(
 
 
 def _shortened(block: float, sample: float, period: float) -> float:
-    """Reduction of a sinusoid by a mean of even samples: sin(pi B/T)/(m sin(pi B/(m T)))."""
+    """Factor by which a mean over a block of even samples reduces a sinusoid.
+
+    It is sin(pi B/T)/(m sin(pi B/(m T))) for m samples in a block B and the period T.
+    """
     return float(np.sinc(block / period) / np.sinc(sample / period))
 
 

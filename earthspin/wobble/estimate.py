@@ -25,7 +25,7 @@ class WobbleFit:
 
     @property
     def quality_factor(self) -> float:
-        """Quality factor."""
+        """Quality factor Q of the free wobble."""
         return self._known()[0]
 
     @property
@@ -36,7 +36,7 @@ class WobbleFit:
 
     @property
     def gives_quality(self) -> bool:
-        """Return True if the method estimates Q."""
+        """Return True if the fit includes an estimate of Q."""
         return self._quality is not None
 
     def _known(self) -> tuple[float, ...]:

@@ -87,25 +87,25 @@ class FastExcitation:
 
     @property
     def density(self) -> Array:
-        """Covariance of the noise added in one day, for real and imaginary parts, shape (2, 2)."""
+        """Covariance of the excitation noise added in a day, for both coordinates, shape (2, 2)."""
         across = -self.correlation * self.x * self.y
         return np.array([[self.x**2, across], [across, self.y**2]])
 
     @property
     def free(self) -> Array:
-        """The seven parameters transformed to unbounded values, for an optimiser."""
+        """Parameters of the fast excitation, transformed to unbounded values for an optimiser."""
         logs = np.log([self.first_decay, self.second_decay, self.x, self.y])
         turns = [self.first_turn, self.second_turn, np.arctanh(self.correlation)]
         return np.array([*logs, *turns])
 
     @classmethod
     def from_free(cls, free: Array) -> FastExcitation:
-        """Inverse of `free`."""
+        """Build the fast excitation from unbounded parameters, the inverse of `free`."""
         first, second, x, y = map(float, np.exp(free[:4]))
         return cls(first, float(free[4]), second, float(free[5]), x, y, float(np.tanh(free[6])))
 
     def as_mapping(self) -> Mapping[str, float]:
-        """The parameters by name, for the attributes of an answer."""
+        """Parameters of the fast excitation by name, for the attributes of an answer."""
         return dict(vars(self))
 
 
@@ -114,7 +114,7 @@ SHIPPED = FastExcitation(0.2755, -0.33, 0.3524, 0.09, 32.0, 47.0, 0.535)
 
 
 def model(fast: FastExcitation = SHIPPED) -> StateSpace:
-    """Daily model of the pole with ten complex states, in the order of `BEFORE`."""
+    """Model of daily polar motion with ten complex states, in the order of `BEFORE`."""
     rate = 1j * chandler_frequency(PERIOD, QUALITY)
     year = 2j * np.pi / YEAR
     diagonal = [
@@ -140,7 +140,7 @@ def model(fast: FastExcitation = SHIPPED) -> StateSpace:
 
 @cache
 def _filter(fast: FastExcitation, count: int) -> Filter:
-    """Kalman filter for a record of a number of days."""
+    """Kalman filter of the model of polar motion, for a number of daily observations."""
     return Filter.of(model(fast), count)
 
 
@@ -170,7 +170,7 @@ class Forecast:
 
 
 def forecast(p: Complex, days: int, fast: FastExcitation = SHIPPED, used: int = RECORD) -> Forecast:
-    """Forecast of the pole from its past.
+    """Forecast polar motion, with its covariance, from a daily record of observed polar motion.
 
     Parameters
     ----------
@@ -228,14 +228,14 @@ def last_of(p: Complex, used: int = RECORD) -> Complex:
 
 
 def _rows(states: list[int]) -> Array:
-    """Matrix that sums some of the states, real and imaginary parts."""
+    """Matrix that selects the sum of some states, for real and imaginary parts."""
     row = np.zeros(len(BEFORE))
     row[states] = 1
     return np.asarray(np.kron(np.eye(2), row), dtype=float)
 
 
 def _extrapolated(innovations: Complex, days: int) -> Array:
-    """Extrapolate the innovations by autoregression, shape (days, 2)."""
+    """Extrapolate the innovations of the Kalman filter by autoregression, shape (days, 2)."""
     filter_ = burg(innovations[-FITTED_OVER:], ORDER)
     series = list(innovations[-ORDER:])
     for _ in range(days):
@@ -245,7 +245,7 @@ def _extrapolated(innovations: Complex, days: int) -> Array:
 
 
 def fit(p: Complex) -> FastExcitation:
-    """Fast excitation of maximum likelihood, from every tenth day of a record.
+    """Fit the fast excitation by maximum likelihood, from every tenth day of a record.
 
     Parameters
     ----------

@@ -43,17 +43,17 @@ FORMULAS = {
 
 
 def turns_from_flattening(flattening: Numeric) -> Numeric:
-    """Rotations per wobble by McCullough's formula with the flattening (I.9.52)."""
+    """Wobble period, in rotations, by McCullough's formula with the flattening (I.9.52)."""
     return over(1.0, flattening)
 
 
 def turns_rigid(h: Numeric) -> Numeric:
-    """Rotations per wobble of a rigid axisymmetric body, A/(C - A) (I.6.7)."""
+    """Wobble period, in rotations, of a rigid axisymmetric body, A/(C - A) (I.6.7)."""
     return np.abs(over(1.0, ellipticity_from_h(h)))
 
 
 def turns_triaxial(h: Numeric, j2: Numeric, triaxiality: Numeric) -> Numeric:
-    """Rotations per wobble of a rigid triaxial body at small amplitude.
+    """Wobble period, in rotations, of a rigid triaxial body at small amplitude.
 
     sqrt(A B/((C - A)(C - B))), linearised Euler equations (I.4.4), from differences only.
 
@@ -91,7 +91,7 @@ def turns_triaxial(h: Numeric, j2: Numeric, triaxiality: Numeric) -> Numeric:
 def rigid_turns(
     flattening: Numeric, h: Numeric, j2: Numeric, triaxiality: Numeric
 ) -> dict[str, Numeric]:
-    """Rotations per wobble for the rigid steps of the ladder, by name."""
+    """Wobble period, in rotations, of the rigid steps of the ladder, by name."""
     return {
         "flattening": turns_from_flattening(flattening),
         "rigid": turns_rigid(h),
@@ -100,7 +100,7 @@ def rigid_turns(
 
 
 def factors(turns: Numeric) -> Numeric:
-    """Ratio of each step to the one before it along the first axis; 1 for the first."""
+    """Ratio of each step's period to that of the step before it; 1 for the first step."""
     values = np.asarray(turns)
     below, above = values[:-1], values[1:]
     with np.errstate(invalid="ignore"):  # a sphere has every rung at infinity
@@ -143,7 +143,7 @@ class Inputs:
 
 @dataclass(frozen=True)
 class Spin:
-    """Mass, size and spin of the body, which scale the inputs, in SI.
+    """Mass, size and rotation period of a body, in SI.
 
     Attributes
     ----------
@@ -160,7 +160,10 @@ class Spin:
     period: Numeric
 
     def centrifugal(self, love_radius: Numeric) -> Numeric:
-        """Products of inertia over M a2 per radian and unit of k2: Omega2 R5/(3 G M a2)."""
+        """Products of inertia over M a2, per radian of wobble and per unit of k2.
+
+        They are Omega2 R5/(3 G M a2).
+        """
         rate = 2 * np.pi / self.period
         return rate**2 * love_radius**5 / (3 * self.gm * self.radius**2)
 
@@ -171,7 +174,7 @@ def roots(
     compliance: tuple[Numeric, Numeric, Numeric, Numeric],
     ocean: Array | None = None,
 ) -> Roots:
-    """Solve the equations of mantle and core for the inputs of the ladder.
+    """Solve the equations of mantle and core for the wobble and the free core nutation.
 
     Parameters
     ----------
@@ -206,7 +209,7 @@ def roots(
 
 @dataclass(frozen=True)
 class Ladder:
-    """Steps of the ladder of a body.
+    """Wobble periods, quality factors and core nutation of the steps of the ladder.
 
     Attributes
     ----------
@@ -268,12 +271,12 @@ def inputs_of(
 
 
 def love_radius(interior: Interior, spin: Spin) -> Numeric:
-    """Radius that k2 refers to: that of the layered sphere, else the equatorial one, m."""
+    """Reference radius of k2: that of the layered sphere, or else the equatorial radius, m."""
     return spin.radius if interior.layers is None else interior.layers.radius
 
 
 def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -> Ladder:
-    """Compute the steps above the rigid ones.
+    """Compute wobble period and quality factor of the non-rigid steps of the ladder.
 
     Parameters
     ----------
@@ -348,7 +351,7 @@ def _soften(
 
 
 def _compliance(interior: Interior, inputs: Inputs) -> tuple[Numeric, ...]:
-    """Compliances of mantle and core, scaled with k2."""
+    """Deformation of body and core by wobble and core pressure, scaled to the given k2."""
     if interior.layers is None:
         return inputs.k2, 0.0, 0.0, 0.0
     love = elastic(interior.layers)
@@ -359,7 +362,7 @@ def _compliance(interior: Interior, inputs: Inputs) -> tuple[Numeric, ...]:
 
 
 def _water(interior: Interior, inputs: Inputs, unit: Numeric, ocean: str) -> Array | None:
-    """Response of the ocean divided by A, shape (..., 2, 2)."""
+    """Products of inertia of the ocean per radian of wobble, divided by A, shape (..., 2, 2)."""
     if interior.ocean is None or ocean == "none":
         return None
     shape = np.eye(2)

@@ -50,7 +50,7 @@ IMPOSSIBLE = 1e12
 
 
 class Likelihood:
-    """Likelihood of a driven wobble, a red background and known terms, in block means.
+    """Likelihood of a record of polar motion: driven wobble, red background and fitted terms.
 
     Series and columns are turned back by the expected wobble before they are averaged, so
     that the wobble stands nearly still in blocks of months. What is known is integrated
@@ -79,20 +79,20 @@ class Likelihood:
 
     @staticmethod
     def _averaged(time: Array, columns: Complex) -> Complex:
-        """Block means of columns after demodulation at a frequency."""
+        """Block means of series after removal of the rotation at the expected wobble frequency."""
         t, means, step = in_blocks(time, columns, SAMPLE)
         return np.asarray(
             block_means(means * turning(t, -NEAR)[:, None], max(1, round(BLOCK / step)))
         )
 
     def data(self, s: complex) -> Complex:
-        """Known columns, and the record as the last column, at a frequency of the wobble."""
+        """Columns of the terms to fit, followed by the record as the last column."""
         return np.column_stack([self.terms, self.record])
 
     def __call__(
         self, rate: float, decay: float, red: float, background: float, white: float, memory: float
     ) -> float:
-        """Minus twice the logarithm of the likelihood.
+        """Minus twice the logarithm of the likelihood for given parameters of wobble and noise.
 
         Parameters
         ----------
@@ -137,7 +137,7 @@ class LikelihoodWithExcitation(Likelihood):
         self.step = float((time[-1] - time[0]) / (time.size - 1))
 
     def data(self, s: complex) -> Complex:
-        """Known columns, and the record minus the pole driven by the excitation."""
+        """Columns of the terms to fit, followed by the record minus the driven pole."""
         start = np.exp(1j * s * (self.time - self.time[0]))
         driven = polar_motion_from(self.chi, self.step, s)
         moving = self._averaged(self.time, np.column_stack([start, driven]))
@@ -145,7 +145,7 @@ class LikelihoodWithExcitation(Likelihood):
 
 
 def _minus_twice_log(data: Complex, factors: Complex, lags: Complex) -> float:
-    """Minus twice the logarithm of the restricted likelihood of the last column.
+    """Minus twice the logarithm of the restricted likelihood of the record, the last column.
 
     A complex number counts as two real ones: the density is that of circular complex noise.
 
@@ -218,7 +218,7 @@ def lowest(
 
 
 def largest(likelihood: Likelihood, method: str) -> WobbleFit:
-    """Maximum of a likelihood, with its 95 % interval."""
+    """Fit the free wobble at the maximum of a likelihood, with 95 % intervals."""
     at, least = lowest(likelihood)
     period = 2 * np.pi / (MIDDLE + at[0])
     if min(abs(period - end) for end in BAND) < EDGE:
@@ -231,11 +231,11 @@ def largest(likelihood: Likelihood, method: str) -> WobbleFit:
     scatter = NORMAL_95 * np.exp(-at[1] / 2) / np.sqrt(likelihood.span)
 
     def ends(of: int, reach: float) -> tuple[float, float]:
-        """Ends of a profile-likelihood interval."""
+        """Ends of the 95 % interval of one parameter, from the profile of the likelihood."""
         nearby = at.copy()
 
         def profile(value: float) -> float:
-            """Square root of the increase of -2 log(likelihood) above its minimum."""
+            """Square root of the increase of -2 log(likelihood) if one parameter is fixed."""
             nonlocal nearby
             nearby[of] = value
             nearby, height = lowest(likelihood, nearby, fixed=of)
@@ -263,7 +263,7 @@ def largest(likelihood: Likelihood, method: str) -> WobbleFit:
 def _risen(
     of: Callable[[float], float], best: float, limit: float, reach: float, target: float
 ) -> float:
-    """Find where a function that is zero at `best` reaches a target, before a limit.
+    """Find where an increasing function reaches a target, starting from `best`, where it is zero.
 
     The limit stands for a place that lies beyond it.
     """

@@ -36,14 +36,14 @@ Array = NDArray[Any]
 
 
 def over(numerator: Numeric, denominator: Numeric) -> Numeric:
-    """Quotient that is infinite for a zero denominator, as for the wobble period of a sphere."""
+    """Quotient of two numbers; infinite if the denominator is zero."""
     with np.errstate(divide="ignore"):
         return np.divide(numerator, denominator)
 
 
 @dataclass(frozen=True)
 class Roots:
-    """Roots of the system of mantle and core.
+    """Complex frequencies of the free wobble and the free core nutation.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class Roots:
 
     @property
     def quality_factor(self) -> Array:
-        """Re s/(2 Im s); infinite without loss."""
+        """Quality factor of the wobble, from its complex frequency; infinite without loss."""
         loss = self.wobble.imag
         return np.asarray(over(self.wobble.real, 2 * loss))
 
@@ -95,7 +95,10 @@ class Mantle:
     ocean: Array | None = None
 
     def traces_and_determinants(self) -> tuple[Numeric, Numeric, Numeric, Numeric]:
-        """Return tr M, |M|, tr D and |D| of the matrices M and D of the mantle (see the module)."""
+        """Return traces and determinants of the mantle's matrices M and D (see the module).
+
+        The order is tr M, |M|, tr D, |D|.
+        """
         water = np.zeros((2, 2)) if self.ocean is None else self.ocean
         first, second, off = water[..., 0, 0], water[..., 1, 1], water[..., 0, 1]
         m1 = 1 - self.half + self.kappa + first

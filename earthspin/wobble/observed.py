@@ -34,7 +34,7 @@ METHODS: dict[str, Callable[[Array, Complex], WobbleFit]] = {
 
 
 def fit(time: Array, p: Complex, method: str = "burg") -> WobbleFit:
-    """Fit the free wobble by one of the methods.
+    """Fit period and quality factor of the free wobble in polar motion by the named method.
 
     Parameters
     ----------

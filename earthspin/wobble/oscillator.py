@@ -21,7 +21,7 @@ Complex = NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class DrivenOscillator:
-    """Model of a free mode and a slow mode, both driven by noise.
+    """Model of polar motion: a damped wobble and a slow mode, both driven by noise.
 
     Attributes
     ----------
@@ -45,12 +45,12 @@ class DrivenOscillator:
 
     @property
     def rates(self) -> Complex:
-        """Rates of the two modes, 1/d."""
+        """Complex rates of the wobble and of the slow mode, 1/d."""
         return np.array([1j * self.s, -1 / self.memory])
 
     @property
     def covariance(self) -> Complex:
-        """Stationary covariance of the two modes, shape (2, 2)."""
+        """Stationary covariance of the amplitudes of wobble and slow mode, shape (2, 2)."""
         rates = self.rates
         # chi' = -chi/tau + n puts c chi into the slow mode and leaves p - c chi to the free one.
         share = rates[0] / (rates[0] - rates[1])
@@ -60,7 +60,9 @@ class DrivenOscillator:
         return np.asarray(-noise / (rates[:, None] + rates.conj()))
 
     def of_means(self, length: float, reference: float) -> tuple[Complex, Complex]:
-        """Covariance of block means of p after demodulation at a reference frequency.
+        """Covariance between block means of polar motion, for three lags.
+
+        The rotation at the reference frequency is removed first.
 
         Parameters
         ----------
@@ -83,7 +85,10 @@ class DrivenOscillator:
         return factors, np.array([same, apart @ factors, apart @ factors**2])
 
     def sampled(self, count: int, step: float, generator: np.random.Generator) -> Complex:
-        """Simulate p at even steps from the stationary distribution, shape (count,)."""
+        """Simulate polar motion at even steps, shape (count,).
+
+        The simulation starts from the stationary distribution.
+        """
         keep, stationary = np.exp(self.rates * step), self.covariance
         kicks = stationary - keep[:, None] * stationary * keep.conj()
         drawn = generator.standard_normal((count, 2, 2)) @ np.array([1, 1j]) / np.sqrt(2)

@@ -59,7 +59,7 @@ def need_wobble(time: Array, p: Complex) -> None:
 
 @dataclass(frozen=True)
 class Periodogram:
-    """Prograde periodogram of a record without the frequencies of the seasons.
+    """Power of prograde polar motion by frequency, without the annual frequency.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class Periodogram:
 
     @classmethod
     def of(cls, time: Array, rest: Complex) -> Periodogram:
-        """Periodogram of evenly spaced polar motion without drift and seasons."""
+        """Compute the power by frequency of polar motion without drift and seasonal terms."""
         length = (time[-1] - time[0]) * time.size / (time.size - 1)
         frequency = np.arange(1, int(length / FASTER[1]) + 1) / length
         frequency = frequency[abs(frequency - 1 / YEAR) > 1 / length]
@@ -85,7 +85,7 @@ class Periodogram:
         return Periodogram(self.frequency[inside], self.power[inside])
 
     def ratio(self) -> tuple[float, float]:
-        """Ratio of the power in the wobble's band to expected noise, and a limit for it.
+        """Ratio of the power in the wobble's band to that of noise, and the limit for noise alone.
 
         Noise alone exceeds the limit with a probability of `FALSE_ALARM`.
         """

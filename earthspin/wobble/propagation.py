@@ -42,7 +42,7 @@ _EXPONENTS = 5
 
 @dataclass(frozen=True)
 class Drawn:
-    """Draws of the inputs.
+    """Random values of the uncertain inputs, relative to their means.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class Drawn:
     exponent: Array
 
     def inputs(self, mean: Inputs, uncertainty: Mapping[str, float]) -> Inputs:
-        """Drawn inputs along a new first axis, of one body or several."""
+        """Sampled inputs of one or more bodies; the samples lie along a new first axis."""
         ndim = max(np.ndim(getattr(mean, one.name)) for one in fields(Inputs))
         changed = {
             name: getattr(mean, name) * (1 + uncertainty[name] * _column(z, ndim))
@@ -128,7 +128,10 @@ def _sampled(
     interior: Interior,
     ocean: str,
 ) -> dict[str, Array]:
-    """Rotations per wobble of each step, shape (bodies, draws), by quadratic interpolation."""
+    """Wobble period of each step, in rotations, for all samples, shape (bodies, draws).
+
+    It is interpolated quadratically.
+    """
     nodes = _exponent_nodes()
     points = _points(inputs, list(drawn.normal), uncertainty, nodes)
     # basis[i] stands on the turns at points[i]: the mean, each input below and above, the nodes.
@@ -151,7 +154,7 @@ def _sampled(
 def _points(
     inputs: Inputs, names: list[str], uncertainty: Mapping[str, float], exponents: Array
 ) -> Inputs:
-    """Inputs at which the ladder is computed, along a new first axis."""
+    """Inputs at the nodes of the interpolation of the ladder, along a new first axis."""
     count = 1 + 2 * len(names) + exponents.size
     exponent = np.concatenate(
         [
@@ -186,7 +189,7 @@ def _lagrange(nodes: Array, at: Array) -> Array:
 
 
 def _column(values: Array, ndim: int) -> Array:
-    """Reshape values so that they lie along the first of several axes."""
+    """Reshape an array to lie along the first of several axes."""
     return values.reshape(-1, *(1,) * ndim)
 
 

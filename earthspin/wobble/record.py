@@ -29,12 +29,12 @@ LONGEST_STEP = 37.0
 
 
 def shortest_span(period: float = NEAR) -> float:
-    """Shortest record that separates the free from the annual wobble: one beat, d."""
+    """Shortest record, d, that separates free and annual wobble: one beat of the two."""
     return 1 / (1 / YEAR - 1 / period)
 
 
 def check(time: Array, p: Complex) -> None:
-    """Refuse a record that no method can use.
+    """Refuse a record of polar motion that no fitting method can use.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def check(time: Array, p: Complex) -> None:
 
 
 def turning(time: Any, period: float) -> Complex:
-    """exp(2 pi i time/period)."""
+    """Complex exponential exp(2 pi i time/period) of a prograde motion."""
     return np.asarray(np.exp(2j * np.pi * time / period))
 
 
@@ -92,7 +92,9 @@ def block_means(values: Any, size: int) -> Any:
 
 
 def in_blocks(time: Array, p: Complex, length: float) -> tuple[Array, Complex, float]:
-    """Times and means of blocks of about a given length in days, and the length of a block.
+    """Block means of polar motion, with mean times and block length, d.
+
+    Blocks have about the given length in days.
 
     A sinusoid stays one and is shortened by sinc(block/T).
     """

@@ -25,17 +25,17 @@ _LEAST_TRACE = 1e-10
 
 
 def pole_of(x: Array | float, y: Array | float) -> Complex:
-    """Polar motion p = x - i y: y is counted towards 90 degrees west."""
+    """Complex polar motion p = x - i y from the coordinates x and y."""
     return np.asarray(x - 1j * y)
 
 
 def coordinates_of(p: Complex) -> tuple[Array, Array]:
-    """Coordinates x, y of polar motion p = x - i y."""
+    """Coordinates x and y from the complex polar motion p = x - i y."""
     return p.real, -p.imag
 
 
 def excitation_of(chi1: Array, chi2: Array) -> Complex:
-    """Excitation chi1 + i chi2: both are counted towards the east."""
+    """Complex excitation chi1 + i chi2 from its two components."""
     return np.asarray(chi1 + 1j * chi2)
 
 
@@ -104,7 +104,7 @@ def excitation(p: Complex, step: float, s: complex) -> Complex:
 
 
 def polar_motion_from(chi: Complex, step: float, s: complex, start: complex = 0j) -> Complex:
-    """Polar motion that a series of mean excitations drives, exactly.
+    """Compute the polar motion that a series of mean excitations produces, exactly.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def polar_motion_from(chi: Complex, step: float, s: complex, start: complex = 0j
 
 
 def _response(step: float, s: complex) -> tuple[complex, complex]:
-    """Return exp(i s D), and 1 - exp(i s D) without cancellation."""
+    """Return the factors exp(i s D) and 1 - exp(i s D) of a step D, without cancellation."""
     if not step > 0:
         raise UndefinedError(f"a step of {step:g} is not possible: time runs forwards")
     return complex(np.exp(1j * s * step)), complex(-np.expm1(1j * s * step))

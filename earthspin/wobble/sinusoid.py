@@ -29,7 +29,7 @@ def fit_least_squares(time: Array, p: Complex) -> WobbleFit:
     rest = means - columns @ (columns.conj().T @ means)
 
     def explained(period: Array) -> Array:
-        """Power that sinusoids explain beyond drift and seasonal terms."""
+        """Power of sinusoids of given periods in the record, beyond drift and seasonal terms."""
         waves = np.exp(2j * np.pi * t[:, None] / period)
         waves = waves - columns @ (columns.conj().T @ waves)
         return np.asarray(abs(waves.conj().T @ rest) ** 2 / np.sum(abs(waves) ** 2, axis=0))

@@ -11,7 +11,7 @@ PADDING = 4
 
 
 def spectrum(time: Array, p: Complex) -> tuple[Array, Array]:
-    """Prograde and retrograde amplitude spectra.
+    """Compute the prograde and retrograde amplitude spectra of polar motion.
 
     Parameters
     ----------

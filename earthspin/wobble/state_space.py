@@ -22,7 +22,7 @@ Complex = NDArray[np.complex128]
 
 
 def side_by_side(matrix: Complex) -> Array:
-    """Real form of a complex matrix, for real parts followed by imaginary parts."""
+    """Real matrix for a complex one, acting on real parts followed by imaginary parts."""
     return np.block([[matrix.real, -matrix.imag], [matrix.imag, matrix.real]])
 
 
@@ -54,7 +54,7 @@ class StateSpace:
     def sampled(
         cls, rates: Complex, density: Array, observed: Complex, error: Array, start: Array
     ) -> StateSpace:
-        """Sample a model in continuous time once a day.
+        """Convert a linear model in continuous time to one with steps of a day.
 
         Parameters
         ----------
@@ -77,7 +77,7 @@ class StateSpace:
         return cls(transition, (noise + noise.T) / 2, side_by_side(observed), error, start)
 
     def every(self, steps: int) -> StateSpace:
-        """Model with observations at every nth step."""
+        """Model whose step is a given number of steps of this model."""
         transition, noise = self.transition, self.noise
         for _ in range(steps - 1):
             transition = self.transition @ transition
@@ -89,7 +89,7 @@ class StateSpace:
         return np.asarray(self.transition @ covariance @ self.transition.T + self.noise)
 
     def of_observation(self, covariance: Array) -> Array:
-        """Covariance of an observation from that of the state."""
+        """Covariance of the predicted observation, from the covariance of the state."""
         return np.asarray(self.observed @ covariance @ self.observed.T + self.error)
 
 
@@ -114,7 +114,7 @@ class Filter:
 
     @classmethod
     def of(cls, model: StateSpace, count: int) -> Filter:
-        """Compute the gains for a number of observations."""
+        """Build the Kalman filter of a model for a number of observations; compute its gains."""
         predicted, after = model.start, model.start
         gains = np.empty((count, len(predicted), len(model.observed)))
         innovation = np.empty((count, len(model.observed), len(model.observed)))
@@ -128,7 +128,7 @@ class Filter:
         return cls(model, gains, innovation, after)
 
     def run(self, data: Array) -> tuple[Array, Array]:
-        """Return the state after the last observation, and the innovations.
+        """Filter observations: return the final state and the prediction errors (innovations).
 
         Parameters
         ----------
