@@ -70,7 +70,7 @@ VERSIONS = (
 
 
 class VersionWarning(UserWarning):
-    """Warning: the versions or files differ from those that made the answer.
+    """Warning that a rerun uses other versions or files than those that made the stored answer.
 
     Examples
     --------

@@ -307,7 +307,7 @@ class Number:
 
     @property
     def hint(self) -> str:
-        """Allowed input, as a type for editors."""
+        """Type of the allowed number, for editors."""
         return "Value" if self.text else "Pure"
 
     @property
@@ -447,7 +447,7 @@ class _AsItIs:
     """Base class of kinds whose values are stored in a scene unchanged."""
 
     def write(self, value: Any) -> Plain:
-        """Return the value."""
+        """Return the value unchanged."""
         return value
 
 
@@ -466,7 +466,7 @@ class Whole(_AsItIs):
         return f"a whole number, {self.low} or more"
 
     def read(self, value: object, where: Where) -> int:
-        """Check a value."""
+        """Check that a value is a whole number within the limits."""
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
             raise where.error(value, f"give {self.words}")
         if not self.low <= value <= self.high:
@@ -490,7 +490,7 @@ class Word(_AsItIs):
 
     @property
     def hint(self) -> str:
-        """Allowed input, as a type for editors."""
+        """Type of the allowed words, for editors."""
         return f"Literal[{', '.join(map(repr, self.allowed))}]"
 
     @property
@@ -499,7 +499,7 @@ class Word(_AsItIs):
         return " or ".join(f'"{word}"' for word in self.allowed)
 
     def read(self, value: object, where: Where) -> str:
-        """Check a value."""
+        """Check that a value is one of the allowed words."""
         if value is True:  # TOML, and a shell that takes the quotes away
             value = "true"
         if not isinstance(value, str) or value not in self.allowed:
@@ -514,7 +514,7 @@ class Text(_AsItIs):
     words, hint = "a line of text", "str"
 
     def read(self, value: object, where: Where) -> str:
-        """Check a value."""
+        """Check that a value is a line of text."""
         if not isinstance(value, str) or not is_one_line(value):
             raise where.error(value, f"it is {self.words}")
         return value
@@ -569,7 +569,7 @@ class Several:
 
     @property
     def hint(self) -> str:
-        """Allowed input, as a type for editors."""
+        """Type of the allowed list, for editors."""
         return f"{self.of.hint} | Sequence[{self.of.hint}]"
 
     @property
@@ -578,7 +578,7 @@ class Several:
         return f"{self.of.words}; one or a list"
 
     def read(self, value: object, where: Where) -> tuple[Any, ...]:
-        """Check each value."""
+        """Check each value of a list, or a single value."""
         if isinstance(value, (set, frozenset)):
             raise where.error(value, "a set has no order; give a list")
         if isinstance(value, np.ndarray) and value.ndim:
@@ -588,12 +588,12 @@ class Several:
         return tuple(self.of.read(element, where) for element in value)
 
     def write(self, value: tuple[Any, ...]) -> Plain:
-        """Return the list."""
+        """Return the list in the form that a scene stores."""
         return [self.of.write(element) for element in value]
 
 
 def kind_of(annotation: Any) -> Kind[Any]:
-    """Choose the kind for a type annotation, ignoring None.
+    """Choose the kind of input for a type annotation, ignoring None.
 
     Parameters
     ----------

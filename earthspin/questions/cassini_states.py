@@ -64,7 +64,7 @@ class CassiniStates(
     )
 
     def check(self) -> None:
-        """Require one body with a figure and a spin, and an orbit."""
+        """Require a single body with known J2, H and spin, and a known orbit."""
         self.body.require(("j2", "dynamical_flattening", "spin_period"))
         if self.body.labelled:
             raise self.error("body", self.body.name, "give single numbers here, no labelled arrays")

@@ -120,7 +120,7 @@ def modes(layers: LayeredBody, body: Body) -> Modes:
 
 @part
 def neglected() -> Neglected:
-    """Effects that the model, a non-rotating sphere, neglects."""
+    """Effects that the compliances neglect, because the model is a non-rotating sphere."""
     return Neglected(what="rotation and ellipticity in the answers, about one per cent")
 
 

@@ -354,7 +354,7 @@ class BulletinA(AheadOfOrigin):
 
 
 def not_in_file(file: str | Path | GivenPole, origin: float | None, days: float) -> str | None:
-    """Return the reason to leave out Bulletin A if the table has no such prediction."""
+    """Return the reason to leave out Bulletin A, if it has no prediction for the same days."""
     if origin is not None:
         return "Bulletin A predicts from the newest observed day; leave origin out"
     if isinstance(file, GivenPole) or (table := read_bulletin_a(file)) is None:
@@ -398,7 +398,7 @@ def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, F
 
 
 def no_offsets(file: str | Path | GivenPole, origin: float | None, days: float) -> str | None:
-    """Return the reason to leave out the offsets if the table has too few of them."""
+    """Return the reason to leave out the celestial pole offsets, if they cannot be forecast."""
     from earthspin.nutation.offset_prediction import LONGEST as FARTHEST
     from earthspin.nutation.offset_prediction import too_short
 
@@ -458,7 +458,7 @@ forecast = public_call(Forecast)
 
 
 def iers_table(question: Forecast) -> PoleTable:
-    """Table of Earth orientation for astropy, with this forecast after the origin.
+    """Table of Earth orientation for astropy, with forecast values after the origin.
 
     Raises
     ------

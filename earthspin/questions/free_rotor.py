@@ -150,7 +150,7 @@ class Rotation(FromStart, along=_SERIES, error="relative_error"):
 
 @part
 def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> Rotation:
-    """Angular velocity, attitude and energy of a free rotor, in closed form."""
+    """Compute angular velocity, angular momentum, attitude and energy of a free rotor in time."""
     import xarray as xr
 
     from earthspin.rotor import triaxial
@@ -225,7 +225,7 @@ class Poinsot(
 
 @part(unless=several_starts)
 def poinsot(moments: Moments, omega: FloatArray, instants: FloatArray) -> Poinsot:
-    """Ellipsoids, polhode and herpolhode of a free rotor."""
+    """Compute ellipsoids, polhode and herpolhode of Poinsot's construction for a free rotor."""
     from earthspin.rotor import poinsot as construction
     from earthspin.rotor.euler import axis_stability
 
@@ -248,12 +248,12 @@ def poinsot(moments: Moments, omega: FloatArray, instants: FloatArray) -> Poinso
 
 
 class RotationAccuracy(Report, units="1", error_of="relative, of angular velocity and attitude"):
-    """Requested and estimated error of the rotation, and the method."""
+    """Requested and estimated error of the rotation, and the method of computation."""
 
 
 @part(unless=no_accuracy)
 def rotation_accuracy(free_rotation: xr.Dataset, accuracy: float | None) -> RotationAccuracy:
-    """Requested and estimated error of the rotation, and the method."""
+    """Requested and estimated error of the rotation, and the method of computation."""
     size, bound = free_rotation.attitude.size // 4, float(free_rotation.relative_error)
     return RotationAccuracy.closed_form(accuracy, bound, "Jacobi's closed form", size)
 

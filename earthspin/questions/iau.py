@@ -374,7 +374,7 @@ class ResidualSizes(Variables, along=("model", "direction")):
 
 @part
 def residual_sizes(differences: Differences) -> ResidualSizes:
-    """Root mean square and largest value of the residuals, model by model."""
+    """Compute root mean square and maximum of computed pole minus IAU pole, for each model."""
     plain, fitted = differences.plain, differences.fitted
     return ResidualSizes(
         residual_rms=np.sqrt(np.mean(fitted**2, axis=0)),
@@ -515,7 +515,7 @@ class Core(Variables):
 def core(
     pole_analysis: PoleComparison, core_response: Response, response_apart: ResponseFit
 ) -> Core:
-    """Period and quality of the free core nutation recovered from IAU 2000A."""
+    """Return period, quality factor and residuals of the core nutation fitted to IAU 2000A."""
     from earthspin.nutation.circles import phases, term_names
     from earthspin.nutation.response import added_half_width
 
@@ -561,7 +561,7 @@ class Angles(Variables, along=("angle", "degree")):
 
 @part
 def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
-    """Polynomials of psi_A, omega_A, eps_A, chi_A and p_A, with the ecliptic of IAU 2006."""
+    """Fit polynomials to the precession angles of the computed pole and the IAU pole."""
     from earthspin.nutation.circles import SLOW_DEGREE
     from earthspin.sky import iau
 
@@ -594,7 +594,7 @@ class Inferred(Variables, along=("origin",)):
 
 @part
 def inferred_flattening(rates_by_effect: Budget, body: Body) -> Inferred:
-    """H and C/(M a2) implied by the precession rate of the IAU, published, and from PREM."""
+    """Collect H and C/(M a2) as implied by the IAU's precession rate, as published, and of PREM."""
     h, j2, radius = (body.number(name) for name in ("dynamical_flattening", "j2", "radius"))
     u_h, u_j2 = (
         body.relative_uncertainty.get(name, 0.0) for name in ("dynamical_flattening", "j2")

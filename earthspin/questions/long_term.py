@@ -266,7 +266,10 @@ def solved(
     wanted: FloatArray,
     body: Body,
 ) -> solutions.Solved:
-    """Solve for the axis, then again with each error source varied and with doubled windows."""
+    """Integrate the nominal spin axis, and again with each error source varied.
+
+    A further integration has windows of twice the length.
+    """
     span = float(wanted.min()), float(wanted.max())
     orbit_table.check_times(np.array(span))
     (relative_error,) = numbers.columns("relative_error")
@@ -284,7 +287,7 @@ def solved(
 
 
 def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArray:
-    """Unit vectors of the axis at J2000.0, shape (3, ...)."""
+    """Unit vectors of the spin axis at J2000.0, of all members, shape (3, ...)."""
     now = np.zeros(1)
     pole = np.asarray(body.needed("pole").without_nutation().mean(now)[0])
     obliquity, longitude = (
@@ -306,7 +309,7 @@ def readings(solved: solutions.Solved, wanted: FloatArray, body: Body) -> readin
 
 
 class LongTermSeries(FromStart, along=("epoch",)):
-    """Angles, eccentricity, poles and rates at every epoch."""
+    """Angles, eccentricity, poles and precession rates at every epoch."""
 
     obliquity: Pair = measured("deg", "angle from the orbit's normal to the spin axis")
     longitude_of_perihelion: Pair = measured(
@@ -417,12 +420,12 @@ def series(
 
 
 class PoleAccuracy(Report, units="arcsec", error_of="in direction"):
-    """Requested and estimated error of the pole, and the method."""
+    """Requested and estimated error of the pole, and the method of computation."""
 
 
 @part(unless=no_accuracy)
 def long_term_accuracy(series: xr.Dataset, accuracy: float | None) -> PoleAccuracy:
-    """Requested and estimated error of the pole, and the method."""
+    """Requested and estimated error of the pole, and the method of computation."""
     return PoleAccuracy.of_series(accuracy, series.pole_error)
 
 

@@ -568,7 +568,7 @@ def read_excitation(
 
 
 def _even_step(time: FloatArray) -> float:
-    """Spacing of evenly spaced times, d."""
+    """Time step of an evenly spaced series, d."""
     steps = np.diff(time)
     if steps.size == 0 or np.any(abs(steps - steps[0]) > SAME_DAY):
         problem = "fill the gaps first: the exact pair needs even ones"

@@ -255,7 +255,7 @@ def pole_angles(
     body: Body,
     block: Block | None = None,
 ) -> Angles:
-    """Longitude psi and inclination eps of the axes on the fixed orbit of J2000.0."""
+    """Compute longitude psi and inclination eps of the axes, relative to the orbit of J2000.0."""
     vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     angles = on_fixed_ecliptic(vectors.reshape(-1, 3), ecliptic).reshape(*vectors.shape[:2], 2)
@@ -264,14 +264,14 @@ def pole_angles(
 
 
 class DirectionAccuracy(Report, units="uas", error_of="in direction"):
-    """Requested and estimated error of the pole, and the method."""
+    """Requested and estimated error of the pole, and the method of computation."""
 
 
 @part(unless=no_accuracy)
 def pole_accuracy(
     axes: xr.Dataset, largest_error: LargestError, accuracy: float | None
 ) -> DirectionAccuracy:
-    """Requested and estimated error of the pole, and the method."""
+    """Requested and estimated error of the pole, and the method of computation."""
     by = axes.direction_error.attrs
     return DirectionAccuracy(
         error_asked=accuracy,
@@ -283,7 +283,7 @@ def pole_accuracy(
 
 @part
 def neglected(body: Body, effects: tuple[str, ...], epochs: Epochs) -> Neglected:
-    """Size of the effects that are switched off, at the time farthest from J2000.0."""
+    """Sizes of effects on the pole that are switched off, at the date farthest from J2000.0."""
     if no_iau_model(body) or not body.is_as_named:
         half, unknown = start_error(body), f"effects not measured for this {proper(body.name)}"
         if half is None or body.needed("pole").of_the_iau:

@@ -83,7 +83,7 @@ def offset_table(file: str, kind: str | None, span: Span | None) -> PoleSeries:
 
 @part(unless=not_observed)
 def observed_offsets(offset_table: PoleSeries) -> ObservedOffsets:
-    """Observed celestial pole offsets from a table of the IERS."""
+    """Return the observed celestial pole offsets of a table of the IERS, with errors."""
     series = offset_table
     source = {"references": f"IERS {series.name}", "repairs": series.repairs or "none"}
     return ObservedOffsets(
@@ -97,7 +97,7 @@ _TEST = "a test, in which noise alone passes in 1 % of the windows"
 
 
 class CoreNutation(Variables, along=("middle",)):
-    """The free core nutation in sliding windows."""
+    """Amplitude and phase of the free core nutation in sliding windows."""
 
     core_nutation_amplitude: Pair = measured(
         "uas",
@@ -141,7 +141,7 @@ def _length(span: Span) -> float:
 
 @part(unless=shorter_than_a_window)
 def core_nutation(offset_table: PoleSeries, window: float | None) -> CoreNutation:
-    """Amplitude and phase of the free core nutation in sliding windows."""
+    """Fit amplitude and phase of the free core nutation in sliding windows."""
     time, eta = offset_table.mjd - MJD, offset_table.offsets
     length = core.WINDOW if window is None else window
     fit = core.fit(time, eta, length)
@@ -156,7 +156,7 @@ def core_nutation(offset_table: PoleSeries, window: float | None) -> CoreNutatio
 
 
 class CorePeriod(Variables):
-    """The period of the free core nutation from the series since 1984."""
+    """Period of the free core nutation, from the observed offsets since 1984."""
 
     core_nutation_period: Pair = measured(
         "d",
@@ -175,7 +175,7 @@ class CorePeriod(Variables):
 
 @part(unless=too_short_for_a_period)
 def period(offset_table: PoleSeries) -> CorePeriod:
-    """Period of the free core nutation since 1984, fitted as a noise-driven oscillator."""
+    """Fit the period of the free core nutation since 1984, as a noise-driven oscillator."""
     from earthspin.wobble.observed import fit
 
     good = offset_table.mjd >= FIRST_MJD

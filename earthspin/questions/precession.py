@@ -107,7 +107,7 @@ _OVER_WINDOW = "time: mean (weighted by the taper)"
 
 
 class Rates(Variables, along=("perturber",)):
-    """Rates, periods and torques by perturber."""
+    """Precession rate, precession period and mean torque of each perturber."""
 
     precession_rate: Pair = measured(
         "arcsec/yr",
@@ -139,7 +139,7 @@ class Rates(Variables, along=("perturber",)):
 
 @part
 def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> Rates:
-    """Rates, periods and torques by perturber, each with its error."""
+    """Compute precession rate, precession period and mean torque of each perturber, with errors."""
     rate = mean_rates.rate
     return Rates(
         precession_rate=rate,
@@ -171,12 +171,12 @@ def _plane(body: Body) -> str:
 
 
 class RateAccuracy(Report, units="1", error_of="relative, of the rate by all perturbers"):
-    """Requested and estimated error of the rate, and the method."""
+    """Requested and estimated error of the precession rate, and the method of computation."""
 
 
 @part(unless=reasons.no_accuracy)
 def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> RateAccuracy:
-    """Requested and estimated error of the rate, and the method."""
+    """Requested and estimated error of the precession rate, and the method of computation."""
     rate = mean_rates.rate
     size = abs(total_of(rate.value))
     if not all_of(size != 0):
@@ -291,7 +291,7 @@ def is_sphere(body: Body) -> str | None:
 
 
 class FreeWobble(Variables, no_error="its relative error is that of free_wobble_period"):
-    """The free wobble of the rigid body."""
+    """Period of the free wobble of the rigid body."""
 
     free_wobble_period: Pair = measured("d", "period of the rigid free wobble, A/(C - A)")
     free_wobble_period_sidereal: Value = number(
@@ -400,7 +400,7 @@ def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> BesideIAU:
 
 
 class Standstills(Variables, along=("standstill",)):
-    """Standstills of the Moon."""
+    """Dates of lunar standstills, with the extreme declinations of the Moon."""
 
     standstill_kind: Value = words("major or minor", short="kind")
     standstill_declination: Pair = measured(
@@ -411,7 +411,7 @@ class Standstills(Variables, along=("standstill",)):
 
 @part(unless=reasons.no_moon)
 def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
-    """Major and minor standstills of the Moon: dates and extreme declinations."""
+    """Find major and minor lunar standstills, with dates and extreme declinations."""
     from earthspin.sky.standstill import find_standstills
 
     moon = {"moon": sky.targets["moon"]}
@@ -433,7 +433,7 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
 
 @part
 def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -> Neglected:
-    """Published sizes of effects that are not modelled."""
+    """Published contributions to the precession rate of effects that are not modelled."""
     unknown = reasons.not_the_iaus_earth(body, perturbers)
     if body.name in LEFT_OUT_OF_RATES and body.is_as_named:
         what = "contribution to the rate that the model leaves out; others were not measured"

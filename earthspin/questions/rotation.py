@@ -179,7 +179,7 @@ def _length(vector: FloatArray) -> float:
 
 
 def _spinning(body: Body, start_omega: FloatArray | None) -> Body:
-    """Take the spin from the initial angular velocity if the body has none."""
+    """Return the body, with a spin from the initial angular velocity if it has none."""
     if body.spin_period is not None or start_omega is None:
         return body
     speed = _length(start_omega)
@@ -223,7 +223,7 @@ class Rotor:
         In further lanes its neighbours.
     changed : tuple of str
         What each of these has changed.
-    above : Above
+    masses : Masses
     start : State
     begin, end : float
         Days from J2000.0 TDB.
@@ -450,12 +450,12 @@ def turning(
 
 
 class AttitudeAccuracy(Report, units="mas", error_of="of the attitude"):
-    """Requested and estimated error of the attitude, and the method."""
+    """Requested and estimated error of the attitude, and the method of computation."""
 
 
 @part(unless=no_accuracy)
 def rotation_accuracy(turning: xr.Dataset, accuracy: float | None) -> AttitudeAccuracy:
-    """Requested and estimated error of the attitude, and the method."""
+    """Requested and estimated error of the attitude, and the method of computation."""
     return AttitudeAccuracy.of_series(accuracy, turning.attitude_error)
 
 
@@ -532,7 +532,7 @@ def neglected(
     effects: tuple[str, ...],
     epochs: Epochs,
 ) -> Neglected:
-    """Sizes of neglected effects at the last date; effects of unknown size are named."""
+    """Sizes of neglected effects on the attitude at the last date, or the effects by name."""
     off = _switched_off(body, perturbers, effects)
     known = BEYOND_RIGID.get(body.name) if body.is_as_named else None
     usual = {perturber.name for perturber in pulled_by(body)}
@@ -556,7 +556,7 @@ def neglected(
 
 
 def _switched_off(body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]) -> list[str]:
-    """Effects that are switched off and would change the motion."""
+    """Names of effects that are switched off although they would change the motion."""
     moves = {
         "planets": not all_by_elements(body, perturbers),
         "j3": body.j3 != 0,

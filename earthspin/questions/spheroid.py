@@ -88,7 +88,7 @@ class Field(Variables, along=_VECTOR, error="relative_error"):
 
 @part
 def field(body: Body, position: FloatArray, point_mass: float) -> Field:
-    """Potential, attraction and torque of a homogeneous spheroid, exact."""
+    """Compute potential, attraction and torque of a homogeneous spheroid at points."""
     from earthspin.mass import spheroid
 
     numbers = SideBySide.of(
@@ -107,12 +107,12 @@ def field(body: Body, position: FloatArray, point_mass: float) -> Field:
 
 
 class FieldAccuracy(Report, units="1", error_of="relative, of potential, attraction and torque"):
-    """Requested and estimated error of the field, and the method."""
+    """Requested and estimated error of the field, and the method of computation."""
 
 
 @part(unless=no_accuracy)
 def field_accuracy(field: xr.Dataset, accuracy: float | None) -> FieldAccuracy:
-    """Requested and estimated error of the field, and the method."""
+    """Requested and estimated error of the field, and the method of computation."""
     points, worst = field.sizes["point"], float(field.relative_error.max())
     return FieldAccuracy.closed_form(accuracy, worst, "exact closed form", points)
 

@@ -120,7 +120,7 @@ def numbers(
 
 @part
 def heavy_top_start(numbers: SideBySide) -> HeavyTop:
-    """Check the top and its initial motion."""
+    """Build one or more tops with initial motion; refuse impossible values."""
     return HeavyTop(**numbers.numbers)
 
 
@@ -211,7 +211,7 @@ class Potential(
     along=("inclination",),
     no_error="two terms of one formula, with rounding errors only",
 ):
-    """Effective potential by inclination."""
+    """Effective potential of a heavy top as a function of the inclination of its axis."""
 
     effective_potential: Value = number(
         "rad2 / s2", "effective potential V, where alpha = theta'^2 + V is constant"
@@ -221,7 +221,7 @@ class Potential(
 
 @part
 def potential(heavy_top_start: HeavyTop) -> Potential:
-    """The effective potential of the inclination."""
+    """Compute the effective potential of a heavy top as a function of inclination."""
     from earthspin.top.turning import effective_potential
 
     inclination = np.linspace(0.0, np.pi, POTENTIAL_POINTS)[1:-1]
@@ -232,14 +232,14 @@ def potential(heavy_top_start: HeavyTop) -> Potential:
 
 
 class TopAccuracy(Report, units="1", error_of="relative, of angles, angular velocity and attitude"):
-    """Requested and estimated error of the top's motion, and the method."""
+    """Requested and estimated error of the top's motion, and the method of computation."""
 
 
 @part(unless=no_accuracy)
 def top_accuracy(
     heavy_top_start: HeavyTop, instants: FloatArray, accuracy: float | None
 ) -> TopAccuracy:
-    """Requested and estimated error of the top's motion, and the method."""
+    """Requested and estimated error of the top's motion, and the method of computation."""
     from earthspin.top.rounding import error_bound
 
     bound = float(error_bound(heavy_top_start, instants))

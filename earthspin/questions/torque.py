@@ -92,7 +92,7 @@ def nutation(
 
 
 class Torques(Dated, along=("time", "perturber")):
-    """Positions of the perturbers, and their torques."""
+    """Positions of the perturbers, and their torques on the body, in time."""
 
     right_ascension: Value = number("deg", "right ascension, geometric", error="direction_error")
     declination: Value = number("deg", "declination, geometric", error="direction_error")
@@ -195,12 +195,12 @@ def _equator_words(
 
 
 class DirectionAccuracy(Report, units="mas", error_of="in direction"):
-    """Requested and estimated error of the directions, and the method."""
+    """Requested and estimated error of the directions, and the method of computation."""
 
 
 @part(unless=no_accuracy)
 def series_accuracy(torques: xr.Dataset, accuracy: float | None) -> DirectionAccuracy:
-    """Requested and estimated error of the directions, and the method."""
+    """Requested and estimated error of the directions, and the method of computation."""
     return DirectionAccuracy.of_series(accuracy, torques.direction_error)
 
 

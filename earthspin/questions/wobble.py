@@ -121,7 +121,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
             raise self.error("ocean_love_number", self.ocean_love_number, "the body has no ocean")
 
     def published_inputs(self) -> Mapping[str, tuple[str, tuple[float, float]]]:
-        """Distributions of the interior parameters and of the anelastic exponent."""
+        """Published distributions of the uncertain interior parameters, for an ensemble."""
         if why_rigid(self.body) or self.body.labelled:
             return {}
         ranges: dict[str, tuple[str, tuple[float, float]]] = {}
@@ -174,7 +174,7 @@ class Inside:
 
     @property
     def setting(self) -> tuple[ladder.Spin, Interior, str]:
-        """Arguments of the non-rigid steps after the inputs: spin, interior and ocean."""
+        """Spin, interior and ocean, as arguments of the functions of the non-rigid steps."""
         return self.spin, self.interior, self.ocean
 
     def label(self, value: Numeric) -> xr.DataArray:
@@ -441,7 +441,7 @@ class InnerCore(
 
 @part(unless=(why_rigid, no_inner_core))
 def inner_core(body: Body) -> InnerCore:
-    """Effect of a solid inner core on the free wobble."""
+    """Compute the free wobble period for different models of the inner core."""
     e = float(ellipticity_from_h(body.number("dynamical_flattening")))
     turns = chandler_by_core(layered.layers_of(body), e, abs(float(body.spin_rate)))
     day = abs(body.number("spin_period"))

@@ -183,7 +183,7 @@ def momentum_frame(motion: JacobiMotion, phase: Phase) -> FloatArray:
 
 
 def _attitude(motion: JacobiMotion, phase: Phase) -> FloatArray:
-    """Attitude quaternion relative to the first time, along the body axes."""
+    """Quaternion of the rotation since the first time, in components along the body axes."""
     frame = momentum_frame(motion, phase)
     turn = quaternion.multiply(quaternion.conjugate(frame[..., :1, :]), frame)
     return np.concatenate([turn[..., :1], to_body(motion, turn[..., 1:])], axis=-1)

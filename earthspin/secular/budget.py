@@ -56,7 +56,7 @@ class Setting:
 
 @dataclass(frozen=True)
 class Uncertainty:
-    """95 % half-widths of the inputs of a solution, by error source.
+    """95 % half-widths of the inputs of the spin axis integration, by error source.
 
     Attributes
     ----------
@@ -108,7 +108,9 @@ class Solved:
 
 
 def solved(setting: Setting, span: tuple[float, float], uncertainty: Uncertainty) -> Solved:
-    """Solve for the axis, then again with each error source varied and with doubled windows.
+    """Integrate the nominal spin axis, and again with each error source varied.
+
+    A further integration has windows of twice the length.
 
     The doubled windows give the error of the method.
 

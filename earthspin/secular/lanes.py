@@ -44,7 +44,7 @@ def solve_many(
     times: FloatArray,
     step: float = STEP,
 ) -> FloatArray:
-    """Integrate the axes of many members from J2000.0.
+    """Integrate the spin axes of many members together, from J2000.0.
 
     Parameters
     ----------

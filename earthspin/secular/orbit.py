@@ -24,19 +24,19 @@ class Orbit(Protocol):
 
     @property
     def coverage(self) -> tuple[float, float]:
-        """First and last time, s from J2000.0 TDB."""
+        """First and last time that the orbit covers, s from J2000.0 TDB."""
 
     @property
     def edges(self) -> FloatArray:
         """Times at which smooth pieces of the orbit join, with J2000.0; s, ascending."""
 
     def at(self, times: FloatArray) -> Shape:
-        """Shape of the orbit at times in s from J2000.0 TDB."""
+        """Normal, eccentricity vector and rate of the normal at times in s from J2000.0 TDB."""
 
 
 @dataclass(frozen=True)
 class ModifiedOrbit:
-    """An orbit derived from another by a change at every time.
+    """Orbit derived from another orbit by changing its normal and eccentricity at every time.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class ModifiedOrbit:
 
     @property
     def coverage(self) -> tuple[float, float]:
-        """Coverage of the original orbit."""
+        """First and last time that the original orbit covers, s from J2000.0 TDB."""
         return self.orbit.coverage
 
     @property
@@ -59,7 +59,7 @@ class ModifiedOrbit:
         return self.orbit.edges
 
     def at(self, times: FloatArray) -> Shape:
-        """Changed shape of the orbit at times in s from J2000.0 TDB."""
+        """Changed normal, eccentricity vector and rate of the normal at times, s from J2000.0."""
         return self.change(times, self.orbit.at(times))
 
 

@@ -123,7 +123,7 @@ def moved_by(of: Read, mine: Read, name: str) -> FloatArray:
 
 
 def angle(of: FloatArray, mine: FloatArray) -> FloatArray:
-    """Angle between unit vectors, rad, shape (...) from (3, ...)."""
+    """Angle between two sets of unit vectors, rad; shape (...) from (3, ...)."""
     half = np.linalg.norm(of - mine, axis=0) / 2
     return np.asarray(2 * np.arcsin(np.minimum(half, 1.0)))
 
@@ -289,7 +289,7 @@ def _turns(axis: FloatArray, normal: FloatArray, fixed: FloatArray) -> FloatArra
 
 
 def followed_perihelion(orbit: Orbit, times: FloatArray, fixed: FloatArray) -> FloatArray:
-    """Unwrapped longitude of perihelion of the orbit in fixed axes, rad."""
+    """Continuous longitude of perihelion of the orbit in fixed axes, without jumps, rad."""
     first, last = np.floor(min(times.min(), 0.0) / LOOK), np.ceil(max(times.max(), 0.0) / LOOK)
     looks = np.clip(LOOK * np.arange(first, last + 1), *orbit.coverage)
     angle, coarse = (np.arctan2(*(fixed[:2] @ orbit.at(at)[1])[::-1]) for at in (times, looks))

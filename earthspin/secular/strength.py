@@ -149,7 +149,9 @@ class Strength:
 
 
 def geodesic_precession(gm: float, motion: float, eccentricity: float) -> float:
-    """Rate of geodesic precession in an orbit, 3/2 G M n/(c^2 a (1 - e^2)), rad/s.
+    """Rate of geodesic precession of a body on an orbit about a central mass, rad/s.
+
+    It is 3/2 G M n/(c^2 a (1 - e^2)).
 
     It rotates an axis about the normal in the sense of the motion (de Sitter 1916, MNRAS 77, 155).
     The contribution of a moon is neglected (2.6e-4 of the rate for the Earth).

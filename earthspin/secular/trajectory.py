@@ -72,7 +72,7 @@ class Trajectory:
         return series_values.reshape(*series.shape[:-2], -1)
 
     def at(self, times: FloatArray) -> FloatArray:
-        """Unit vectors of the axis, shape (3, ..., n), at times in s."""
+        """Unit vectors of the spin axis at times in s, shape (3, ..., n)."""
         phi, z = self.about(times)
         across = np.sqrt(1 - z * z)
         components = np.array([across * np.cos(phi), across * np.sin(phi), z])

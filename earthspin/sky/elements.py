@@ -50,7 +50,7 @@ class Plane:
 
     @classmethod
     def of(cls, word: str, pole: Pole | None, orbit: Direction | None) -> Self:
-        """Reference plane from its name.
+        """Create a reference plane from its name.
 
         Parameters
         ----------
@@ -136,7 +136,7 @@ class Ellipse:
         return self.motion + self.node_rate + self.pericentre_rate
 
     def positions(self, days: FloatArray) -> FloatArray:
-        """Positions relative to the focus, m, in the ICRF, shape (n, 3).
+        """Positions of the body relative to the focus of the ellipse, m, in the ICRF, shape (n, 3).
 
         Parameters
         ----------
@@ -180,7 +180,7 @@ class Ellipse:
 
 @dataclass(frozen=True)
 class ByElements:
-    """Position of a body as a chain of ellipses: a trajectory.
+    """Trajectory of a body as a sum of positions on Keplerian ellipses.
 
     Attributes
     ----------
@@ -200,7 +200,7 @@ class ByElements:
         return -math.inf, math.inf
 
     def positions(self, days: FloatArray) -> FloatArray:
-        """Positions in the ICRF, m, shape (n, 3)."""
+        """Positions of the body relative to the centre, in the ICRF, m, shape (n, 3)."""
         first, sign = self.ellipses[0]
         total = sign * first.positions(days)
         for ellipse, sign in self.ellipses[1:]:
@@ -223,7 +223,7 @@ class ByElements:
 
 
 class Elements:
-    """Source of positions if all bodies of a question have elements."""
+    """Source of positions that follow from orbital elements of all bodies, without a kernel."""
 
     name = BY_ELEMENTS
 
@@ -233,7 +233,7 @@ class Elements:
         return {"positions": "by the elements of orbits, without a kernel"}
 
     def code(self, codes: Iterable[int], name: str) -> int:
-        """Refuse a body without elements, which has no position.
+        """Raise an error for a body without orbital elements, as this source has no NAIF codes.
 
         Raises
         ------
@@ -253,7 +253,7 @@ class Elements:
     def positions(
         self, targets: Mapping[str, Place], centre: Place, days: FloatArray
     ) -> dict[str, FloatArray]:
-        """Positions in the ICRF, m, shape (n, 3) each."""
+        """Positions of the targets relative to the centre, in the ICRF, m, shape (n, 3) each."""
         self.check_times(days, ())
         return {
             name: checked(_trajectory(place).positions(days), place, days)
@@ -261,7 +261,7 @@ class Elements:
         }
 
     def error(self, target: Place, centre: Place, day: float = 0.0) -> tuple[float, float]:
-        """Rounding errors of direction (rad) and distance (m) on a day."""
+        """Bounds on the rounding errors of a body's direction (rad) and distance (m) on a day."""
         return _trajectory(target).error(day)
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:

@@ -158,7 +158,7 @@ class PoleSeries:
         return np.asarray(self.x + 1j * self.y)
 
     def between(self, first: float, last: float) -> PoleSeries:
-        """Part of the series between two dates, both included.
+        """Part of the series from one date to another, both included.
 
         Raises
         ------
@@ -280,7 +280,7 @@ def _parsed(file: Path, sha256: str, kind: str | None, name: str) -> PoleSeries:
 
 
 def _c04(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
-    """Rows of C04: date, with hour (20 C04) or without (14 C04 and earlier), MJD, and values."""
+    """Yield the rows of a C04 table, with the hour in its dates (20 C04) or without (older)."""
     columns = 0
     layouts = {count: layout for count, layout in pair.columns.items() if count != _C01_COLUMNS}
     for number, words in rows_of(lines):
@@ -301,7 +301,7 @@ def _c04(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
 
 
 def _c01(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
-    """Rows of C01, in the present format by MJD or the former format by Besselian years.
+    """Yield the rows of a C01 table, with dates as MJD (present) or Besselian years (former).
 
     By date: MJD, x, y, UT1-TAI, dX, dY, then their errors and 18 more columns. By year: decimal
     year, x, its error, y, its error.
@@ -331,7 +331,7 @@ def _c01(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
 
 
 def read_bulletin_a(path: str | Path = "finals") -> PoleSeries | None:
-    """Read the pole predicted by Bulletin A, from the rows after the observed ones.
+    """Read the pole predicted by Bulletin A, from the rows after the observed ones of finals2000A.
 
     Parameters
     ----------
@@ -356,7 +356,7 @@ def read_bulletin_a(path: str | Path = "finals") -> PoleSeries | None:
 
 
 def _finals(file: Path, lines: list[str], pair: _Coordinates, flag: str = "I") -> Iterator[_Row]:
-    """Rows of finals2000A, with fixed columns: observed ("I") or predicted ("P") ones."""
+    """Yield the observed rows ("I") or the predicted rows ("P") of a finals2000A table."""
     for number, line in enumerate(lines, start=1):
         if not line.strip() or line[pair.flag : pair.flag + 1] != flag:
             continue
@@ -380,7 +380,7 @@ _READERS: dict[str, Callable[[Path, list[str], _Coordinates], Iterator[_Row]]] =
 
 
 def _is_row_of_finals(line: str) -> bool:
-    """Return True if a row has a flag "I" or "P", or a date and nothing after it."""
+    """Return True if a line of finals2000A is a row: flagged "I" or "P", or only a date."""
     return line[16:17] in ("I", "P") or (is_number(line[7:15]) and not line[15:].strip())
 
 

@@ -297,7 +297,7 @@ class _Rows:
         return cls(file, {n: values[:, at] for n, at in chosen.items()}, np.array(lines))
 
     def error(self, problem: str, remedy: str = "", row: int | None = None) -> SeriesError:
-        """Error that gives the file and the line."""
+        """Build an error that names the file and the line of a row."""
         if row is None:
             return SeriesError(self.source, problem, remedy)
         if self.lines is None:

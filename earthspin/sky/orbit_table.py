@@ -81,7 +81,7 @@ GROWTH = {
 
 @dataclass(frozen=True, eq=False)
 class OrbitTable:
-    """An orbit as a function of time.
+    """Orbit over millions of years, as tables of polynomials for normal and eccentricity vector.
 
     Attributes
     ----------
@@ -124,7 +124,7 @@ class OrbitTable:
 
     @cached_property
     def _rates(self) -> FloatArray:
-        """Legendre coefficients of the rates of n_1 and n_2, s-1."""
+        """Legendre coefficients of the rates of the normal's first two components, s-1."""
         half = np.diff(self.edges)[:, np.newaxis] / 2
         return np.asarray(legendre.legder(self.coefficients[:2], axis=-1) / half)
 

@@ -75,7 +75,7 @@ class Direction(NamedTuple):
 
     @classmethod
     def along(cls, vector: FloatArray) -> Self:
-        """Take the direction of a vector, shape (3,)."""
+        """Create a direction from a vector, shape (3,)."""
         x, y, z = vector
         return cls(math.atan2(y, x) % math.tau, math.atan2(z, math.hypot(x, y)))
 
@@ -84,7 +84,7 @@ class Direction(NamedTuple):
         return f"right ascension {ra:.5f} deg, declination {dec:.5f} deg"
 
     def vector(self) -> FloatArray:
-        """Unit vector, shape (3,)."""
+        """Unit vector of the direction, shape (3,)."""
         return direction(*self)
 
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class Trajectory(Protocol):
-    """Positions of one body relative to another: the interface for custom positions.
+    """Protocol of the positions of one body relative to another, for custom positions.
 
     It must be hashable, such as a frozen dataclass, so that a shared trajectory is evaluated once.
 
@@ -45,7 +45,7 @@ class Trajectory(Protocol):
     def coverage(self) -> tuple[float, float]: ...  # noqa: D102
 
     def positions(self, days: FloatArray, /) -> FloatArray:
-        """Geometric positions in the ICRF, m, shape (n, 3).
+        """Geometric positions of the body relative to its centre, in the ICRF, m, shape (n, 3).
 
         Parameters
         ----------
@@ -89,7 +89,7 @@ class Source(Protocol):
     def positions(
         self, targets: Mapping[str, Place], centre: Place, days: FloatArray, /
     ) -> dict[str, FloatArray]:
-        """Geometric positions relative to a body, in the ICRF, m, shape (n, 3) each."""
+        """Geometric positions of targets relative to a centre, in the ICRF, m, (n, 3) each."""
 
     def error(self, target: Place, centre: Place, day: float, /) -> tuple[float, float]:
         """Bounds on the error of a body's position on a day: direction (rad), distance (m).

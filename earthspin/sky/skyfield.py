@@ -85,7 +85,7 @@ class Skyfield:
         self.file.check_times(days, places)
 
     def error(self, target: Place, centre: Place, day: float = 0.0) -> tuple[float, float]:
-        """Error bounds of a body's position, from the kernel: direction (rad), distance (m)."""
+        """Bounds on the error of a body's position in the kernel: direction (rad), distance (m)."""
         return self.file.error(target, centre, day)
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
@@ -98,7 +98,9 @@ class Skyfield:
     def positions(
         self, targets: Mapping[str, Place], centre: Place, days: FloatArray
     ) -> dict[str, FloatArray]:
-        """Positions ``(body - centre).at(t)`` in the ICRF, m, shape (n, 3) each.
+        """Positions of bodies relative to a centre by Skyfield, in the ICRF, m, shape (n, 3) each.
+
+        That is ``(body - centre).at(t)``.
 
         Parameters
         ----------

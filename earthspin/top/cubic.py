@@ -142,7 +142,7 @@ def axis_start(top: HeavyTop) -> AxisStart:
 
 
 def cubic_gaps(start: AxisStart) -> Gaps:
-    """Gaps between the roots of the cubic, the poles and the start (I.7.16)."""
+    """Compute the distances between the roots of the cubic, the poles and the start (I.7.16)."""
     # Expanded about the start, u = u(0) + x, and times beta^2 with X = beta x:
     # X^3 + c2 X^2 + beta c1 X + beta^2 c0.
     beta = start.beta
@@ -233,7 +233,7 @@ def _largest_root(
 
 
 def _straddling(middle: FloatArray, product: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Gaps g, h >= 0 with g - h = middle and g h = product."""
+    """Solve g - h = middle and g h = product for non-negative g and h."""
     larger = (np.hypot(middle, 2 * np.sqrt(product)) + np.abs(middle)) / 2
     smaller = _ratio(product, larger)
     return np.where(middle > 0, larger, smaller), np.where(middle > 0, smaller, larger)

@@ -27,7 +27,7 @@ _ROUNDING = 16 * float(np.finfo(float).eps)
 
 
 def nutation_pattern(top: HeavyTop) -> NDArray[np.str_]:
-    """Pattern of I.7.19 that the tip of the axis traces.
+    """Name of the pattern that the tip of the axis traces: wave, loop, cusp and others (I.7.19).
 
     Returns
     -------

@@ -42,7 +42,7 @@ def error_bound(top: HeavyTop, times: ArrayLike) -> FloatArray:
 
 
 def effect_of_rounding(top: HeavyTop, times: ArrayLike) -> FloatArray:
-    """Sum of the effects of changing each initial value by one unit in its last place.
+    """Effect on the motion of changing each initial value by one unit in its last place, summed.
 
     Parameters
     ----------

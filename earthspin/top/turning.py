@@ -82,7 +82,7 @@ def mean_precession_rate(top: HeavyTop) -> FloatArray:
 
 
 def effective_potential(top: HeavyTop, theta: ArrayLike) -> FloatArray:
-    """Effective potential of theta, alpha = theta'^2 + V(theta) (I.7.18).
+    """Effective potential V(theta) in alpha = theta'^2 + V, rad2/s2 (I.7.18).
 
     V = (b - a cos(theta))^2/sin^2(theta) + beta cos(theta); I1 V/2 is an energy in J.
 

@@ -83,7 +83,7 @@ class Window:
         return np.asarray(self.centre + step * np.arange(-half, half + 1.0))
 
     def weights(self, times: FloatArray) -> FloatArray:
-        """Weights of evenly spaced times, with a sum of 1.
+        """Weights of the taper at evenly spaced times of the window, with a sum of 1.
 
         Parameters
         ----------

@@ -11,7 +11,7 @@ from earthspin.views.table import Column, Table, along, beside_observed, table_a
 
 
 def states(tree: Result) -> Table:
-    """Table of the states with obliquity and stability."""
+    """Table of the Cassini states with obliquity and stability."""
     answer, left_out = answer_of(tree), needed(tree, "neglected")
 
     def with_left_out(name: str) -> Column:
@@ -47,7 +47,7 @@ def _caption(tree: Result) -> str:
 
 
 def plot_states(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Spin axes of the states in the plane that they share.
+    """Draw the spin axes of the Cassini states in the plane that they share.
 
     Parameters
     ----------

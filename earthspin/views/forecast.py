@@ -44,7 +44,7 @@ def at_horizons(tree: Result) -> Table:
 
 
 def skill(tree: Result) -> Table:
-    """Measured skill by horizon."""
+    """Table of measured errors of past forecasts, by number of days ahead."""
     data = needed(tree, "skill")
     rows = []
     for _, row in along(data, "case"):
@@ -120,7 +120,7 @@ def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
 
 
 def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Forecast path of the pole, with ellipses of 95 % after 30, 90 and 365 days.
+    """Draw the forecast path of the pole, with 95 % ellipses after 30, 90 and 365 days.
 
     Parameters
     ----------
@@ -157,7 +157,9 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_skill(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Draw error and coverage by horizon, from origins not used to choose parameters.
+    """Draw measured error and coverage of past forecasts by number of days ahead.
+
+    The origins were not used to choose parameters.
 
     Parameters
     ----------

@@ -30,7 +30,7 @@ MODELS = {
 
 
 def budget(tree: Result) -> Table:
-    """Table of rates by effect, their sum, and the difference from IAU 2006."""
+    """Table of the contributions to the precession rate, their sum, and its difference from IAU."""
     rates = answer_of(tree).map(lambda rate: rate * table.MAS_PER_CENTURY)
 
     def published(row: xr.Dataset) -> str:
@@ -61,7 +61,7 @@ def budget(tree: Result) -> Table:
 
 
 def residuals(tree: Result) -> Table:
-    """Table of the residuals of each model."""
+    """Table of the sizes of computed pole minus IAU pole, for each model."""
     series = section(tree, "residuals_by_model")
     dates = ""
     if series is not None:
@@ -84,7 +84,7 @@ def residuals(tree: Result) -> Table:
 
 
 def observed(tree: Result) -> Table:
-    """Table of the differences of each model from the observed pole."""
+    """Table of the root mean square of each model minus the observed celestial pole."""
 
     def both(name: str) -> Column:
         return Column(name, lambda row: " / ".join(f"{v:.3f}" for v in row[name].values))
@@ -217,7 +217,7 @@ TABLES = [
 
 
 def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the contribution of each effect, computed and published, and the remainder.
+    """Draw the contribution of each effect to the precession rate, computed and published.
 
     The axis is linear about zero and logarithmic beyond a milliarcsecond per century, alike to
     both sides.

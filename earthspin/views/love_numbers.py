@@ -23,7 +23,7 @@ MARKS = {"a day": 1.0, "14 months": 430.0, "the node": 6798.4}
 
 
 def numbers(tree: Result) -> Table:
-    """Table of the Love numbers, with published ones where they exist."""
+    """Table of the Love numbers, with published values where they exist."""
     answer = answer_of(tree)
     published, sources = beside_published(section(tree, "published"), "love", "love_number")
 
@@ -43,7 +43,7 @@ def numbers(tree: Result) -> Table:
 
 
 def by_period(tree: Result) -> Table:
-    """Table of real parts and phase lags by period."""
+    """Table of the real parts and phase lags of the Love numbers by period."""
     data = needed(tree, "by_period").isel(love_period=slice(None, None, EVERY))
 
     def real_part(name: str) -> Column:

@@ -56,7 +56,7 @@ def beside(tree: Result) -> Table:
 
 
 def modes(tree: Result) -> Table:
-    """Table of the free modes of each step."""
+    """Table of the free modes of each step of the ladder."""
     columns = (
         *("mode_rung", "mode_name", "mode_period"),
         Column("mode_quality", lambda row: quality(row, "mode_quality", ".3g")),
@@ -120,7 +120,7 @@ TABLES = [
 
 
 def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the residual of each step against IAU 2000A, on a logarithmic axis.
+    """Draw the root mean square of each step minus IAU 2000A, on a logarithmic axis.
 
     Parameters
     ----------

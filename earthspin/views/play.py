@@ -94,7 +94,7 @@ PLAYS: dict[str, Callable[[], dict[str, object]]] = {
 
 
 def play_page(name: str) -> str:
-    """Interactive page of a topic.
+    """HTML text of an interactive page: precession, rotor, top or wobble.
 
     Parameters
     ----------

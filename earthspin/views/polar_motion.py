@@ -112,7 +112,7 @@ def _years_near(amplitude: xr.DataArray, size: float) -> str:
 
 
 def plot_amplitude_and_phase(tree: Result) -> Figure:
-    """Amplitude of the free and the annual wobble, and phase of the free one, in time.
+    """Draw amplitude and phase of the free wobble, and amplitude of the annual one, in time.
 
     Parameters
     ----------

@@ -279,7 +279,7 @@ def chain(tree: Result, year: Result) -> drawing.Drawing:
 
 
 def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) -> Figure:
-    """Declination and torque in time, the averaged rate, and the period of precession.
+    """Draw declination and torque in time, the averaged rate, and the precession period.
 
     Parameters
     ----------
@@ -310,7 +310,7 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
 
 
 def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Difference between averaged and adopted rate, against the length of the window.
+    """Draw averaged minus adopted precession rate against the length of the window.
 
     Parameters
     ----------

@@ -28,7 +28,7 @@ def known_until(answer: xr.Dataset) -> np.datetime64 | None:
 
 
 def attitude(tree: Result) -> Table:
-    """Table of the rotation at both ends of the span."""
+    """Table of attitude and spin at the first and the last time."""
     answer = answer_of(tree)
     columns = (
         Column("", lambda row: date(row.time, "s"), "TDB"),
@@ -84,7 +84,7 @@ def _label(ax: Axes, words: str) -> Axes:
 
 
 def plot_spin(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Angular velocity along the principal axes in time.
+    """Draw the angular velocity along the principal axes in time.
 
     Parameters
     ----------

@@ -9,7 +9,7 @@ from earthspin.views.table import Column, Table, listed, table_along
 
 
 def field(tree: Result) -> Table:
-    """Field of a spheroid at each point."""
+    """Table of potential, attraction and torque of a spheroid at each point."""
     columns = (
         Column("position", lambda row: listed(row.position.values)),
         "potential:.10e",

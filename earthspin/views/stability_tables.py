@@ -13,7 +13,7 @@ HEADERS = ("case", "measured", "bound", "unit", "verdict")
 
 
 def verdict_tables(result: xr.Dataset) -> list[Table]:
-    """One table for each part of the package that has cases in the result.
+    """Tables of test cases and verdicts, one for each part of the package.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def tally(result: xr.Dataset) -> dict[str, int]:
 
 
 def tally_line(result: xr.Dataset) -> str:
-    """One line with the numbers of cases that hold, are refused, and fail."""
+    """Sentence with the numbers of cases that hold, are refused, and fail."""
     count = tally(result)
     must = int(result.must_hold.sum())
     return (

@@ -121,7 +121,7 @@ def _put(ax: Axes, labels: list[Label], path: FloatArray) -> None:
 
 
 def _even(path: FloatArray) -> FloatArray:
-    """Resample a path at intervals of two points, to measure its length under a label."""
+    """Resample a path at even steps of about two typographic points, to measure its length."""
     along = np.append(0.0, np.cumsum(np.hypot(*np.diff(path, axis=0).T)))
     even = np.arange(0.0, along[-1], 2.0)
     return np.stack([np.interp(even, along, axis) for axis in path.T], axis=-1)

@@ -50,7 +50,7 @@ def through(tree: Result, title: str, smooth_days: float) -> drawing.Drawing:
 
 
 def _plot_both(tree: Result, smooth_days: float | None = None) -> Figure:
-    """Draw declination above and torque below."""
+    """Draw declination of the perturbers in an upper panel and torque in a lower one."""
     figure, (upper, lower) = drawing.stacked(2, 4.6)
     plot_declination(tree, smooth_days=smooth_days, ax=upper)
     plot_torque(tree, smooth_days=smooth_days, ax=lower)
@@ -82,7 +82,7 @@ def _caption(tree: Result, smooth_days: float | None = None) -> str:
 def plot_declination(
     result: Result, *, smooth_days: float | None = None, ax: Axes | None = None
 ) -> Axes:
-    """Declination of each perturber in time.
+    """Draw the declination of each perturber in time.
 
     Parameters
     ----------

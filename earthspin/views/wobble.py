@@ -55,7 +55,7 @@ def ladder(tree: Result) -> Table:
 
 
 def sensitivity(tree: Result) -> Table:
-    """Table of the sensitivity of the last step to each input."""
+    """Table of the change of the last step's period with each input."""
     inputs, roots = needed(tree, "sensitivity"), section(tree, "core_nutation")
     columns = (
         "input",

@@ -105,7 +105,7 @@ def _shortened(block: float, sample: float, period: float) -> float:
 
 
 def _amplitude_error(left: Complex, spacing: float, rate: float) -> Array:
-    """Half-width of an amplitude from the residuals in its window, whose noise is not white.
+    """Half-width of a wobble's amplitude in a window, from residuals with correlated noise.
 
     Neighbouring months err alike: the noise is taken for an autoregressive one of first
     order, and its spectrum read off at the wobble's frequency.

@@ -63,7 +63,7 @@ COMPONENTS = {
 
 @dataclass(frozen=True)
 class FastExcitation:
-    """Fast part of the excitation: white noise after two first-order filters.
+    """Parameters of the fast part of the excitation: white noise after two first-order filters.
 
     Attributes
     ----------
@@ -146,7 +146,7 @@ def _filter(fast: FastExcitation, count: int) -> Filter:
 
 @dataclass(frozen=True)
 class Forecast:
-    """Predicted pole for each day after the last observation.
+    """Predicted polar motion and its covariance, for each day after the last observation.
 
     Attributes
     ----------

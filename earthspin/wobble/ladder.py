@@ -113,7 +113,7 @@ def factors(turns: Numeric) -> Numeric:
 
 @dataclass(frozen=True)
 class Inputs:
-    """Inputs of the non-rigid steps; floats or arrays of one shape.
+    """Parameters of figure and interior for the non-rigid steps; floats or arrays of one shape.
 
     Attributes
     ----------
@@ -236,7 +236,7 @@ def inputs_of(
     ocean: str = "real",
     exponent: Numeric = ANELASTIC_EXPONENT.value,
 ) -> Inputs:
-    """Collect the inputs of the non-rigid steps from an interior.
+    """Collect the parameters of the non-rigid steps from the figure of a body and its interior.
 
     Parameters
     ----------

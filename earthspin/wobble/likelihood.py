@@ -187,7 +187,7 @@ def _minus_twice_log(data: Complex, factors: Complex, lags: Complex) -> float:
 
 
 def fit_likelihood(time: Array, p: Complex) -> WobbleFit:
-    """Fit by maximum likelihood, with 95 % intervals from the profile of the likelihood."""
+    """Fit the free wobble by maximum likelihood, with 95 % intervals from the profile."""
     return largest(Likelihood(time, p), "likelihood")
 
 

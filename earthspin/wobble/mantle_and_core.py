@@ -75,7 +75,7 @@ class Roots:
 
 @dataclass(frozen=True)
 class Mantle:
-    """Coefficients of the mantle's equation; floats or arrays of one shape.
+    """Coefficients of the mantle's equation of motion; floats or arrays of one shape.
 
     Attributes
     ----------
@@ -110,7 +110,7 @@ class Mantle:
 
 @dataclass(frozen=True)
 class Core:
-    """Coefficients of the core's equation; floats or arrays of one shape.
+    """Coefficients of the core's equation of motion; floats or arrays of one shape.
 
     Attributes
     ----------
@@ -132,7 +132,7 @@ class Core:
 
 
 def solve(mantle: Mantle, core: Core) -> Roots:
-    """Solve the system of mantle and core.
+    """Solve the equations of mantle and core for the free wobble and the core nutation.
 
     Raises
     ------

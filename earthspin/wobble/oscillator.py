@@ -98,6 +98,6 @@ class DrivenOscillator:
 
 
 def _root(covariance: Complex) -> Complex:
-    """Matrix R with R R^H a covariance that may be singular."""
+    """Factor R of a covariance matrix R R^H, which may be singular."""
     values, vectors = np.linalg.eigh(covariance)
     return np.asarray(vectors * np.sqrt(np.maximum(values, 0)))

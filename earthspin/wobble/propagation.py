@@ -217,7 +217,7 @@ def half_widths(
 def sensitivities(
     inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real"
 ) -> dict[str, Numeric]:
-    """Sensitivity of the last step's period to each input, d per unit, by central differences.
+    """Change of the ladder's last period with each input, d per unit, by central differences.
 
     Parameters
     ----------

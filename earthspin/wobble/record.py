@@ -104,12 +104,12 @@ def in_blocks(time: Array, p: Complex, length: float) -> tuple[Array, Complex, f
 
 
 def least_squares(columns: Complex, values: Complex) -> Complex:
-    """Least-squares coefficients of the columns."""
+    """Fit columns to a series by least squares; return the coefficients."""
     return np.asarray(np.linalg.lstsq(columns, values, rcond=None)[0])
 
 
 def without_known_terms(time: Array, p: Complex, period: float = NEAR) -> Complex:
-    """Polar motion minus drift and seasons, which are fitted together with the wobble."""
+    """Return polar motion without drift and seasons, which are fitted together with the wobble."""
     columns = known_terms(time)
     found = least_squares(np.column_stack([columns, turning(time, period)]), p)
     return np.asarray(p - columns @ found[:-1])

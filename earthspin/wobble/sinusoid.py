@@ -22,7 +22,7 @@ EXCESS = 2.4
 
 
 def fit_least_squares(time: Array, p: Complex) -> WobbleFit:
-    """Least-squares fit of a sinusoid together with drift and seasons."""
+    """Fit the free wobble as a sinusoid, together with drift and seasons, by least squares."""
     span = time[-1] - time[0]
     t, means, _ = in_blocks(time, p, BLOCK)
     columns = np.linalg.qr(known_terms(t))[0]
