@@ -88,7 +88,7 @@ class VersionWarning(UserWarning):
 
 
 def Scene(*, compute: str, **keys: Any) -> Question:
-    """Build a question from the keys of a scene.
+    """Create the question that a scene with the given keys describes.
 
     Parameters
     ----------

@@ -193,7 +193,7 @@ def _error(body: Body, orbit: Orbit, locking: Locking, obliquity: FloatArray) ->
 
 @part
 def neglected(body: Body, own_orbit: Orbit) -> Neglected:
-    """Published sizes of effects that the Cassini states neglect, for a body with known sizes."""
+    """Sizes of effects on the obliquity that Cassini states neglect, if they were published."""
     sizes = LEFT_OUT_OF_STATES.get(body.name, {})
     if sizes and body.is_as_named and own_orbit == PRECESSING_ORBITS.get(body.name):
         return Neglected.cited(sizes, "change of the obliquity in the upright state")

@@ -209,7 +209,7 @@ def strength(
     body: Body,
     orbit_table: OrbitTable,
 ) -> Strength:
-    """Compute the constant of precession at J2000.0 and the data of its change in time.
+    """Compute the constant of precession at J2000.0 and parameters of its change in time.
 
     It follows from the rates of `precession` divided by the cosine of the obliquity. The published
     effects of second order, planets, J4 and the interior are added to the Moon's part, which is

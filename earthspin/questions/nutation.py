@@ -113,7 +113,7 @@ def models(body: Body, coupling: str, anelastic_exponent: float) -> Prediction:
 
 @dataclass(frozen=True)
 class RungResiduals:
-    """Predicted pole minus the pole of IAU 2000A for each model, with and without a fitted line.
+    """Predicted pole minus IAU 2000A for each model, before and after a line is removed.
 
     Attributes
     ----------

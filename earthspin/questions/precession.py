@@ -89,8 +89,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     def check(self) -> None:
         """Refuse arrays of perturber masses where one mass is needed.
 
-        That is, if an accuracy is requested, or if orbits are given by elements and have no exact
-        mean torque.
+        That is, if an accuracy is requested, or if all orbits are given by elements.
         """
         super().check()
         many = reasons.many_pulls(self.perturbers)

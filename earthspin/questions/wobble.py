@@ -328,7 +328,7 @@ def _along(values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
 class InteriorNumbers(
     Variables, no_error="the section sensitivity gives the effect of its uncertainty on the period"
 ):
-    """Love numbers and moments of inertia of the layered interior, with no uncertainty."""
+    """Love numbers and moments of inertia of the layered interior."""
 
     love_number: Value = number("1", "Love number of degree two, elastic, at 1 s", along=("love",))
     moment_factor: Value = number("1", "moment of inertia of the model, divided by M R2")
@@ -344,7 +344,7 @@ class InteriorNumbers(
 
 @part(unless=layered.not_layered)
 def interior_response(body: Body) -> InteriorNumbers:
-    """Love numbers and moments of the layered interior, by integration."""
+    """Compute Love numbers and moments of inertia of the layered interior, by integration."""
     layers = layered.layers_of(body)
     love = elastic(layers)
     numbers = (love.k, love.h, love.l, love.k_load, love.h_load)
@@ -358,7 +358,7 @@ def interior_response(body: Body) -> InteriorNumbers:
 
 
 class Sensitivity(Variables, along=("input",), no_error="a share of an error, or an input of it"):
-    """Change of the last step's wobble period with each input, and the input's half-width."""
+    """Change of the ladder's last period with each input, and the half-width of that input."""
 
     days_per_unit: Value = number("d", "change of the last rung per unit of the input")
     input_value: Value = number("1", "value of the input")

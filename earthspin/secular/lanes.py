@@ -132,7 +132,7 @@ class _Lanes:
             )
 
     def run(self, times: FloatArray, longest: float) -> Iterator[FloatArray]:
-        """Yield the unit vectors of all axes in the GCRS at each time, shape (3, members).
+        """Yield the unit vectors of all axes in the GCRS at each time, shape (3, batch size).
 
         The times are sorted by distance from J2000.0.
         """

@@ -72,7 +72,9 @@ def reference_axes(normal: FloatArray) -> FloatArray:
 
 
 class Pull(NamedTuple):
-    """Averaged torque on a spin axis s: m, a and g n in ds/dt = (g n - a (m.s) m) x s.
+    """Averaged torque on a spin axis s: axis m, precession constant a, geodesic rotation g n.
+
+    The spin axis moves by ds/dt = (g n - a (m.s) m) x s.
 
     Attributes
     ----------
@@ -107,7 +109,7 @@ def pull(strength: Strength, shape: Shape, times: FloatArray) -> Pull:
 
 
 def moons_height(shape: Shape, axis: FloatArray, node_rate: float) -> FloatArray:
-    """Rate of precession in longitude due to the Moon, divided by the Moon's constant.
+    """Moon's precession rate in longitude, divided by the Moon's constant of precession.
 
     The shape is (..., n).
 

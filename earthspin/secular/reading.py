@@ -282,7 +282,7 @@ def _followed_precession(
 
 
 def _turns(axis: FloatArray, normal: FloatArray, fixed: FloatArray) -> FloatArray:
-    """Precession angles p_A and psi_A up to whole turns, rad, shape (2, ..., n)."""
+    """Precession angles p_A and psi_A modulo whole turns, rad, shape (2, ..., n)."""
     pole, ecliptic = (np.stack([dot(row, v) for row in fixed], axis=-1) for v in (axis, normal))
     psi = np.arctan2(pole[..., 0], pole[..., 1])
     return np.stack([general_precession(pole, ecliptic), psi])

@@ -78,7 +78,7 @@ class Tides:
 
 @dataclass(frozen=True)
 class Strength:
-    """Constant of precession and the data of its change in time.
+    """Constant of precession at J2000.0 and parameters of its change in time.
 
     Attributes
     ----------

@@ -42,7 +42,7 @@ UNIT = 1e-9
 
 
 class Growth(NamedTuple):
-    """Error of a shipped orbit table, apart from that of its integration: constants and rates.
+    """Growth with time of the error of a shipped orbit, apart from that of its integration.
 
     Attributes
     ----------
@@ -287,7 +287,7 @@ def _left_out(
 def _to_meet(ends: FloatArray, samples: FloatArray) -> FloatArray:
     """Corrections of the last two coefficients of a series, so that it fits its end samples.
 
-    These terms are 1 at the end, plus and minus 1 at the start, and small in between.
+    The last two terms are 1 at the end, plus and minus 1 at the start, and small in between.
     """
     before, after = samples - ends
     return np.stack([(after + before) / 2, (after - before) / 2])

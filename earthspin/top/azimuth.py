@@ -76,7 +76,7 @@ def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
 
 
 def shared_rate(nutation: Nutation) -> FloatArray:
-    """Part a/2 of the rates of phi and psi that `turned_at` leaves out, in the rate unit.
+    """Rate of phi and psi, a/2 or zero, that `turned_at` leaves out, in the rate unit.
 
     It is separated if the axis stays so near the upper pole that phi and psi are nearly degenerate;
     their sum then advances almost at the rate of the spin.

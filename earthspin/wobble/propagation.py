@@ -42,7 +42,7 @@ _EXPONENTS = 5
 
 @dataclass(frozen=True)
 class Drawn:
-    """Random values of the uncertain inputs, relative to their means.
+    """Sampled values of the uncertain inputs of the ladder.
 
     Attributes
     ----------
