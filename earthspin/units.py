@@ -63,7 +63,7 @@ class Kind(Protocol[T]):
         """Type of the allowed input, for editors and type checkers."""
 
     def read(self, given: object, where: Where) -> T:
-        """Check an input and convert it."""
+        """Check an input and convert it to the value that the program uses."""
 
     def write(self, value: T) -> Plain:
         """Return the value as a scene file stores it; `read` restores the same bits."""
@@ -280,7 +280,7 @@ def real_numbers(value: Any) -> FloatArray:
 
 @dataclass(frozen=True)
 class Number:
-    """One finite number, stored as a float in `unit`.
+    """Kind of input: one finite number, stored as a float in `unit`.
 
     Attributes
     ----------
@@ -346,7 +346,7 @@ class Number:
 
 @dataclass(frozen=True)
 class Numbers:
-    """An array of finite numbers, stored as floats in `unit`.
+    """Kind of input: an array of finite numbers, stored as floats in `unit`.
 
     Attributes
     ----------
@@ -453,7 +453,7 @@ class _AsItIs:
 
 @dataclass(frozen=True)
 class Whole(_AsItIs):
-    """A whole number between `low` and `high`."""
+    """Kind of input: a whole number between `low` and `high`."""
 
     low: int = 1
     high: int = LONGEST_IN_MEMORY
@@ -476,7 +476,7 @@ class Whole(_AsItIs):
 
 @dataclass(frozen=True)
 class Word(_AsItIs):
-    """Word from a list.
+    """Kind of input: a word from a list.
 
     Attributes
     ----------
@@ -509,7 +509,7 @@ class Word(_AsItIs):
 
 @dataclass(frozen=True)
 class Text(_AsItIs):
-    """A line of text."""
+    """Kind of input: a line of text."""
 
     words, hint = "a line of text", "str"
 
@@ -522,7 +522,7 @@ class Text(_AsItIs):
 
 @dataclass(frozen=True)
 class FileName(_AsItIs):
-    """Path of a file or folder, or a name that stands for a file.
+    """Kind of input: path of a file or folder, or a name that stands for a file.
 
     Attributes
     ----------
@@ -558,7 +558,7 @@ class FileName(_AsItIs):
 
 @dataclass(frozen=True)
 class Several:
-    """List of values of one kind; a single value may be given without a list.
+    """Kind of input: list of values of one kind; a single value may be given without a list.
 
     Attributes
     ----------

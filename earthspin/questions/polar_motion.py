@@ -217,7 +217,7 @@ class Spectrum(
     along=("frequency",),
     no_error="the scatter of an amplitude at one frequency is as large as the amplitude",
 ):
-    """Amplitude spectrum of a polar motion."""
+    """Prograde and retrograde amplitude spectrum of polar motion."""
 
     spectral_amplitude: Value = number(
         "mas", "amplitude of a sinusoid, prograde if the frequency is positive"
@@ -227,7 +227,7 @@ class Spectrum(
 
 @part
 def spectrum(observed_pole: xr.Dataset) -> Spectrum:
-    """Amplitude spectrum of the observed pole, prograde and retrograde, up to `FASTEST`."""
+    """Compute the amplitude spectrum of the observed pole, at frequencies up to `FASTEST`."""
     frequency, size = amplitude_spectrum(*complex_pole(observed_pole))
     slow = abs(frequency) <= FASTEST
     return Spectrum(spectral_amplitude=size[slow] * MAS, frequency=frequency[slow])

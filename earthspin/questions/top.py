@@ -120,7 +120,7 @@ def numbers(
 
 @part
 def heavy_top_start(numbers: SideBySide) -> HeavyTop:
-    """Build one or more tops with initial motion; refuse impossible values."""
+    """Build one or more tops with their initial motions; refuse impossible values."""
     return HeavyTop(**numbers.numbers)
 
 

@@ -127,7 +127,7 @@ class Ellipse:
 
     @property
     def normal(self) -> FloatArray:
-        """Unit normal at the epoch in the ICRF, shape (3,)."""
+        """Unit normal of the ellipse at the epoch in the ICRF, shape (3,)."""
         return self.plane.normal(self.i, self.node)
 
     @property

@@ -186,7 +186,7 @@ class MovingPole:
 
     @classmethod
     def read(cls, table: Mapping[str, Any], where: Where) -> Self:
-        """Read a pole from a table made by `write`.
+        """Create a pole from a table that `write` returned.
 
         Raises
         ------
@@ -212,7 +212,7 @@ class MovingPole:
         return cls(**fields)
 
     def write(self) -> dict[str, Any]:
-        """Return the table of all numbers of the pole."""
+        """Return the table from which `read` restores the pole."""
         table: dict[str, Any] = {name: f"{getattr(self, name)!r} rad" for name in _NAMES}
         table |= {name: f"{getattr(self, name)!r} rad/s" for name in _RATES}
         return table | {

@@ -119,7 +119,7 @@ class OrbitTable:
 
     @property
     def coverage(self) -> tuple[float, float]:
-        """First and last time, s from J2000.0 TDB."""
+        """First and last time that the table covers, s from J2000.0 TDB."""
         return float(self.edges[0]), float(self.edges[-1])
 
     @cached_property
@@ -307,7 +307,7 @@ def write(path: Path, table: OrbitTable) -> None:
 
 
 def load(path: Path) -> OrbitTable:
-    """Read a table written by `write`.
+    """Read an orbit table from a file that `write` made.
 
     Raises
     ------
@@ -365,7 +365,7 @@ def _arrays(path: Path) -> dict[str, NDArray[Any]]:
 
 @cache
 def shipped(name: str) -> OrbitTable | None:
-    """Table of a body shipped with the library; None if there is none.
+    """Shipped orbit table of a body; None if the library has none.
 
     Its errors are those of its integration, stored in the file, plus those of `GROWTH`.
     """

@@ -85,7 +85,7 @@ def shared_rate(nutation: Nutation) -> FloatArray:
 
 
 def mean_precession(nutation: Nutation) -> FloatArray:
-    """Mean of phi' over one nutation period, in the rate unit.
+    """Mean precession rate phi' over one nutation period, in the rate unit.
 
     For a top that passes exactly over a pole, it is the mean of the limits from both sides.
     """

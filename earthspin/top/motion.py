@@ -182,7 +182,7 @@ def _phi_and_psi(
 
 
 def _attitude(theta: FloatArray, phi: Angle, psi: Angle) -> FloatArray:
-    """Quaternion of Rz(phi) Rx(theta) Rz(psi).
+    """Attitude quaternion of the successive rotations Rz(phi) Rx(theta) Rz(psi).
 
     The half rotations by phi and psi are applied separately: adding the angles would lose the slow
     precession of a top after a long time.

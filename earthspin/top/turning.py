@@ -56,7 +56,7 @@ def turning_angles(top: HeavyTop) -> FloatArray:
 
 
 def nutation_period(top: HeavyTop) -> FloatArray:
-    """Period of theta, s.
+    """Period of the nutation, the oscillation of theta, s.
 
     For steady motion it is the period of a small nutation; infinite if theta approaches the upright
     position asymptotically, or never turns.
@@ -68,7 +68,7 @@ def nutation_period(top: HeavyTop) -> FloatArray:
 
 
 def mean_precession_rate(top: HeavyTop) -> FloatArray:
-    """Mean of phi' over one nutation period, rad/s.
+    """Mean precession rate phi' over one nutation period, rad/s.
 
     For a top that passes exactly over a pole it is the mean of the limits from both sides, for a
     sleeping top its initial phi', and for a top that approaches the upright position asymptotically

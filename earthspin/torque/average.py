@@ -161,7 +161,7 @@ def window_mean_and_error(
     measured_error: FloatArray | None = None,
     strength: FloatArray | None = None,
 ) -> tuple[FloatArray, FloatArray]:
-    """Mean of each torque and of their total over a window, with errors as long-term means.
+    """Mean of each torque and of the total over a window, with its error as a long-term mean.
 
     Parameters
     ----------

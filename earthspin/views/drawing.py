@@ -217,7 +217,7 @@ def band(
 
 
 def lines(ax: Axes, x: Any, values: xr.DataArray, **how: Any) -> None:
-    """Draw a line for each label of the last dimension, in the colours of the cycle."""
+    """Draw a line for each label of the last dimension, in successive colours."""
     labels = values[values.dims[-1]].values
     for colour, label, value in zip((*CYCLE, GREY), labels, values.values.T, strict=False):
         ax.plot(x, value, color=colour, label=label, **how)

@@ -15,7 +15,7 @@ CHIEF = ("period_solar",)
 
 
 def ladder(tree: Result) -> Table:
-    """Table of the period of the free wobble, step by step of the ladder."""
+    """Table of the period of the free wobble for each step of the ladder."""
     answer, observed = answer_of(tree), section(tree, "observed")
 
     def period(row: xr.Dataset) -> str:
@@ -55,7 +55,7 @@ def ladder(tree: Result) -> Table:
 
 
 def sensitivity(tree: Result) -> Table:
-    """Table of the change of the last step's period with each input."""
+    """Table of the change of the ladder's last period with each input."""
     inputs, roots = needed(tree, "sensitivity"), section(tree, "core_nutation")
     columns = (
         "input",

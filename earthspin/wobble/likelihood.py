@@ -194,7 +194,7 @@ def fit_likelihood(time: Array, p: Complex) -> WobbleFit:
 def lowest(
     likelihood: Likelihood, start: Array = START, fixed: int | None = None
 ) -> tuple[Array, float]:
-    """Find the parameters of maximum likelihood, and minus twice its logarithm.
+    """Find the parameters of maximum likelihood, and minus twice the logarithm of that maximum.
 
     Parameters
     ----------
