@@ -2,6 +2,7 @@
 
 import inspect
 from pathlib import Path
+from typing import Any
 
 import pytest
 import tomli_w
@@ -132,6 +133,14 @@ def test_a_call_without_what_must_be_given_is_refused() -> None:
         earthspin.spheroid_field()
     with pytest.raises(TypeError, match=r"precession\(\) too many positional"):
         earthspin.precession("earth")
+
+
+@pytest.mark.parametrize("call", [earthspin.pole, earthspin.torque_series, earthspin.long_term])
+def test_one_end_of_a_span_is_refused_by_its_name(call: Any) -> None:
+    with pytest.raises(SceneError, match=r"stop = None: give both start and stop"):
+        call("2000-01-01")
+    with pytest.raises(SceneError, match=r"start = None: give both start and stop"):
+        call(stop="2000-01-01")
 
 
 def test_times_stand_in_place_of_span_and_step() -> None:
