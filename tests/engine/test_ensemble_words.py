@@ -242,6 +242,22 @@ def test_words_of_other_questions(word: str, key: str, words: list[str]) -> None
         assert_is_alone(many, place, earthspin.run(question.replace(**{key: choice})))
 
 
+def test_members_that_are_computed_one_by_one_have_their_own_words() -> None:
+    """The mass of a perturber is no array in a torque, so that each member runs alone."""
+    times, mass = ["2000-01-01", "2001-01-01"], earthspin.MOON.gm
+    changes = {"moon.gm": {"grid": [mass, 1.001 * mass]}, "equator": {"grid": ["mean", "true"]}}
+    many = earthspin.ensemble(QUESTIONS["torque"](times=times), changes)
+    assert many.sizes["member"] == 4
+    for index in range(4):
+        member = many.isel(member=index)
+        alone = earthspin.torque_series(
+            times=times,
+            perturbers=["sun", earthspin.MOON.replace(gm=float(member.moon_gm.item()))],
+            equator=member.equator.item(),
+        )
+        assert np.array_equal(member.torque, alone.torque)
+
+
 def test_every_key_with_a_name_may_be_chosen() -> None:
     named = {"body", "ephemeris", "source", "equator", "response", "coupling", "orbit", "ocean",
              "file", "kind", "method", "interior"}  # fmt: skip

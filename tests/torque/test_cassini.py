@@ -12,6 +12,7 @@ from earthspin.torque.cassini import Precessing, cassini_states, hansen, strengt
 
 FAST = Precessing(axial=3e-9, locked=0.0, inclination=0.15, node_rate=1e-10)
 LOCKED = Precessing(axial=2e-9, locked=4e-10, inclination=0.15, node_rate=1e-10)
+STRONGLY_LOCKED = Precessing(axial=5e-10, locked=1e-9, inclination=0.3, node_rate=1e-9)
 FORWARD = Precessing(axial=3e-9, locked=0.0, inclination=0.15, node_rate=-1e-10)
 
 
@@ -37,7 +38,7 @@ def axis_at(obliquity: float, aside: float = 0.0) -> np.ndarray:
     return found / np.linalg.norm(found)
 
 
-@pytest.mark.parametrize("of", [FAST, LOCKED, FORWARD])
+@pytest.mark.parametrize("of", [FAST, LOCKED, STRONGLY_LOCKED, FORWARD])
 def test_an_axis_in_a_state_stays_and_one_beside_it_stays_near_or_leaves(of: Precessing) -> None:
     found = cassini_states(of)
     assert found.number.tolist() == [1, 2, 3, 4]
