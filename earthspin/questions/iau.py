@@ -83,8 +83,10 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     >>> print((budget.closure * 1e5).round(1).values, "mas per century")
     -3.5 mas per century
     >>> residuals = earthspin.run_tree(budget, sections=["residuals"])["residuals"]
-    >>> print(sorted(residuals.data_vars))
-    ['deps', 'dpsi_sineps', 'residual_error']
+    >>> print(residuals.deps.attrs["long_name"])
+    computed pole minus the IAU's in obliquity, straight line removed
+    >>> print(residuals.deps_unfitted.attrs["long_name"])
+    computed pole minus the IAU's in obliquity, nothing removed
     """
 
     views, page = "iau", "pole"
@@ -232,8 +234,8 @@ class Differences:
         The model that the effects which are switched on stand for.
     error : float
         95 % half-width of either angle after the fit: the integration, and H in the nutation.
-    error_unfitted : float
-        The same without a fit, root mean square over the times: the precession depends on H, too.
+    unfitted_error : ndarray, shape (t,)
+        The same without a fit, at each time: the precession depends on H, too.
     """
 
     days: NDArray[np.float64]
@@ -242,7 +244,7 @@ class Differences:
     fitted: NDArray[np.float64]
     chosen: int
     error: float
-    error_unfitted: float
+    unfitted_error: NDArray[np.float64]
 
 
 @part
@@ -293,7 +295,7 @@ def differences(
         fitted=without_line(centuries, plain.reshape(days.size, -1)).reshape(plain.shape),
         chosen=2 if NONRIGID.name in effects else 1,
         error=error,
-        error_unfitted=math.hypot(error, float(np.sqrt(np.mean(precession**2)))),
+        unfitted_error=np.hypot(error, precession),
     )
 
 
@@ -301,25 +303,39 @@ _LINE_REMOVED = "straight line removed"
 _LONGITUDE = f"computed pole minus the IAU's in longitude times sin(eps), {_LINE_REMOVED}"
 _OBLIQUITY = f"computed pole minus the IAU's in obliquity, {_LINE_REMOVED}"
 _HALF_WIDTH = "95 % half-width of a residual, from H and integration"
+_UNFITTED_HALF_WIDTH = "95 % half-width of a residual without a fit, from H and integration"
 
 
 class Residuals(Dated, error="residual_error"):
-    """Computed pole minus IAU pole over time, after a constant and a rate are removed."""
+    """Computed pole minus IAU pole over time, with a constant and a rate removed, or not."""
 
     dpsi_sineps: Value = number("mas", _LONGITUDE)
     deps: Value = number("mas", _OBLIQUITY)
     residual_error: Value = number("mas", _HALF_WIDTH, along=())
+    dpsi_sineps_unfitted: Value = number(
+        "mas",
+        "computed pole minus the IAU's in longitude times sin(eps), nothing removed",
+        error="unfitted_error",
+    )
+    deps_unfitted: Value = number(
+        "mas", "computed pole minus the IAU's in obliquity, nothing removed", error="unfitted_error"
+    )
+    unfitted_error: Value = number("mas", _UNFITTED_HALF_WIDTH)
 
 
 @part
 def residuals(differences: Differences) -> Residuals:
     """Return computed pole minus IAU pole over time, for the effects that are switched on."""
-    chosen = differences.fitted[:, differences.chosen]
+    fitted = differences.fitted[:, differences.chosen]
+    plain = differences.plain[:, differences.chosen]
     return Residuals(
         time=datetime64(differences.days),
-        dpsi_sineps=chosen[:, 0],
-        deps=chosen[:, 1],
+        dpsi_sineps=fitted[:, 0],
+        deps=fitted[:, 1],
         residual_error=differences.error,
+        dpsi_sineps_unfitted=plain[:, 0],
+        deps_unfitted=plain[:, 1],
+        unfitted_error=differences.unfitted_error,
     )
 
 
@@ -365,9 +381,7 @@ class ResidualSizes(Variables, along=("model", "direction")):
         short="rms without a fit",
     )
     residual_size_error: Value = number("mas", _HALF_WIDTH, along=())
-    residual_rms_unfitted_error: Value = number(
-        "mas", "95 % half-width of a residual without a fit, from H and integration", along=()
-    )
+    residual_rms_unfitted_error: Value = number("mas", _UNFITTED_HALF_WIDTH, along=())
     model: Labels = labels()
     direction: Labels = labels(default=["dpsi_sineps", "deps"])
 
@@ -381,7 +395,7 @@ def residual_sizes(differences: Differences) -> ResidualSizes:
         residual_maximum=np.max(np.abs(fitted), axis=0),
         residual_rms_unfitted=np.sqrt(np.mean(plain**2, axis=0)),
         residual_size_error=differences.error,
-        residual_rms_unfitted_error=differences.error_unfitted,
+        residual_rms_unfitted_error=np.sqrt(np.mean(differences.unfitted_error**2)),
         model=list(differences.models),
     )
 

@@ -271,7 +271,7 @@ def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figu
         # one title of two lines: side by side they would meet on a narrow figure
         words = f"{MODELS[model]}\nrms {' and '.join(f'{size:.2f}' for size in rms)} mas"
         drawing.plot_both_angles(ax, part.time, *offset, words, "residual (mas)")
-    rows[-1].set_xlabel("time (TDB)")
+    rows[-1].set_xlabel("time (TDB); constant and rate removed")
     rows[0].legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)
     return figure
 

@@ -121,8 +121,7 @@ def gallery_page() -> str:
         solids=gallery(),
         lead="How bodies rotate without torque, and how a heavy top moves (sections I.5 to I.7 of "
         'the source text, Appendix I, "Rigid Body Dynamics"). Every picture can be turned with '
-        "the mouse or the arrow keys and played in time; the wheel comes closer once a picture "
-        "has been touched.",
+        "the mouse or the arrow keys and played in time. Click a picture, then scroll to zoom.",
         footer=f"earthspin {__version__}.",
     )
 
