@@ -1,4 +1,4 @@
-"""Format numbers with two digits, durations with two digits, and units."""
+"""Short text for numbers and durations, with two digits, and for units."""
 
 from __future__ import annotations
 

@@ -32,14 +32,14 @@ if TYPE_CHECKING:
 
 
 class _Questions(Mapping[str, type[Question]]):
-    """Classes of questions, by the word after ``compute =``.
+    """Mapping from the word after ``compute =`` in a scene to the class of the question.
 
     A module is named after the word of its question, and imported when the class is needed.
     """
 
     @property
     def calls(self) -> dict[str, str]:
-        """Public calls of the questions, by word."""
+        """Names of the public functions, by the word after ``compute =`` in a scene."""
         modules = vars(earthspin)["_QUESTIONS"].items()
         return {path.rpartition(".")[2].replace("_", "-"): call for call, path in modules}
 
@@ -388,7 +388,10 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
 
 
 def _series(question: Question) -> Series:
-    """Describe how the time series of a question is divided into blocks; refuse other questions."""
+    """Describe the time series of torques, pole or rotation, and its division into blocks.
+
+    Refuse all other questions.
+    """
     size = series_length(question)
     if size == 0:
         problem = "only a series of torques, pole or rotation is written by region"

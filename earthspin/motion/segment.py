@@ -47,7 +47,11 @@ class Start:
     is_figure: bool
 
     def momentum_with(self, tilt: FloatArray) -> FloatArray:
-        """Angular momentum at the start: the start axis, plus `tilt` if it is a figure axis."""
+        """Direction of the angular momentum at the start of a segment.
+
+        If the segment starts from a figure axis, `tilt`, angular momentum minus figure axis, is
+        added.
+        """
         return self.axis + tilt if self.is_figure else self.axis
 
     def guess(self, windows: Windows, forward: bool) -> FloatArray:

@@ -51,7 +51,10 @@ class LandenDescent:
 
     @property
     def quarter_period(self) -> DoubleDouble:
-        """Quarter period K(k) from the arithmetic-geometric mean; 0 on the separatrix."""
+        """Quarter period K(k) from the arithmetic-geometric mean.
+
+        On the separatrix, where K is infinite, the value 0 marks that there is no period.
+        """
         return where(self.separatrix, 0.0, _HALF_PI / self.arithmetic[-1])
 
 

@@ -1,4 +1,4 @@
-"""Cassini states: spin axes that precess at the rate of the orbit."""
+"""Cassini states: orientations of a spin axis that precesses at the same rate as its orbit."""
 
 from __future__ import annotations
 
@@ -98,13 +98,13 @@ class Locking:
 
 
 def orbit_of(body: Body, orbit: Orbit | None) -> Orbit | None:
-    """Return the given orbit, else that of the body, else its known mean orbit, else None."""
+    """Return the orbit of the scene, else the body's own, else its known mean orbit, else None."""
     return orbit or body.orbit or PRECESSING_ORBITS.get(body.name)
 
 
 @part
 def own_orbit(body: Body, orbit: Orbit | None) -> Orbit:
-    """Orbit that was given, or else the orbit of the body, or else its known mean orbit."""
+    """Return the orbit of the scene, else the body's own, else its known mean orbit; never None."""
     usual = orbit_of(body, orbit)
     assert usual is not None  # `check` has seen to it
     return usual

@@ -278,7 +278,7 @@ def ahead(
 
 
 def _words(fast: FastExcitation) -> str:
-    """Write the parameters of the fast part of the excitation as one line of text."""
+    """Write the parameters of the fast excitation of polar motion as one line of text."""
     return ", ".join(f"{name} = {value:.4g}" for name, value in fast.as_mapping().items())
 
 
@@ -354,7 +354,7 @@ class BulletinA(AheadOfOrigin):
 
 
 def not_in_file(file: str | Path | GivenPole, origin: float | None, days: float) -> str | None:
-    """Return the reason to leave out Bulletin A, if it has no prediction for the same days."""
+    """Return the reason to leave out Bulletin A, if it lacks the days of the forecast."""
     if origin is not None:
         return "Bulletin A predicts from the newest observed day; leave origin out"
     if isinstance(file, GivenPole) or (table := read_bulletin_a(file)) is None:

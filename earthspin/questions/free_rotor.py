@@ -70,7 +70,10 @@ class Moments:
         return dict(zip(KEYS, numbers, strict=True)) if self.differences else numbers
 
     def of_many(self, starts: int) -> FloatArray | dict[str, FloatArray]:
-        """Arrays of the moments of one or more bodies, with `starts` trailing axes of length 1."""
+        """Arrays of the moments of one or more bodies, with trailing axes of length 1.
+
+        The argument `starts` is the number of these axes, one for each axis of initial states.
+        """
         many = np.broadcast_arrays(*(np.asarray(number) for number in self.numbers))
         columns = [moment.reshape(moment.shape + (1,) * starts) for moment in many]
         if self.differences:

@@ -190,7 +190,7 @@ class EffectRates(Variables):
 
 @part
 def budget(rates_by_effect: Budget) -> EffectRates:
-    """Table the contributions to the precession rates: computed, published, and the remainder."""
+    """Collect the contribution of each effect to the precession rates, and the unexplained rest."""
     rates = rates_by_effect
     both = math.hypot(rates.psi_from_h, rates.psi_analysis_error)
     return EffectRates(

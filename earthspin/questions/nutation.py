@@ -218,7 +218,10 @@ class ModelSizes(Variables, along=("model",), error="model_rms_error"):
 
 @part
 def beside(left: RungResiduals) -> ModelSizes:
-    """Compute the root mean square of predicted pole minus IAU 2000A, for two further models."""
+    """Compute the size of predicted pole minus IAU 2000A (root mean square) for two other models.
+
+    They are a fluid core in a rigid mantle, and a body with the H of hydrostatic equilibrium.
+    """
     longitude, obliquity = left.rms(list(ladder.BESIDE))
     return ModelSizes(
         model_rms_dpsi_sineps=longitude,

@@ -97,7 +97,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
 
 
 def not_nonrigid(effects: tuple[str, ...]) -> str | None:
-    """Return the reason to leave out the response of the interior, for a rigid body."""
+    """Return the reason to leave out the interior's response, if that effect is switched off."""
     return None if NONRIGID.name in effects else "the non-rigid response is switched off"
 
 

@@ -87,7 +87,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     many_pulls = True
 
     def check(self) -> None:
-        """Refuse arrays of perturber masses where one mass is needed.
+        """Refuse several masses for one perturber if the method can use only one.
 
         That is, if an accuracy is requested, or if all orbits are given by elements.
         """
@@ -232,7 +232,7 @@ def convergence(torque_samples: Samples, body: Body) -> Convergence:
 
 
 def no_figure(body: Body) -> str | None:
-    """Return the reason to leave out the figure models, if they do not suit the body."""
+    """Return the reason to leave out the models of the figure, if the body lacks data for them."""
     missing = [k for k in ("j2", "flattening", "radius") if getattr(body, k) is None]
     if missing:
         return f"{in_a_sentence(body.name)} has no {missing[0]}"
@@ -337,7 +337,7 @@ class Seasons(Variables, no_error="its relative error is that of general_precess
 def seasons(
     mean_rates: MeanRates, mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ...]
 ) -> Seasons:
-    """Compute general precession, years per degree, and drift of the calendar.
+    """Compute general precession, drift of the calendar, and the equinox's time for one degree.
 
     For the Earth as it is, the published effects that the rate leaves out are included.
     """
@@ -386,7 +386,7 @@ class BesideIAU(Variables):
 
 @part(unless=reasons.not_the_iaus_earth)
 def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> BesideIAU:
-    """Compare the computed precession rate with IAU 2006, before and after published effects."""
+    """Compare the computed precession rate with IAU 2006, without and with published effects."""
     from earthspin.sky.iau import precession_rates
 
     rate, error = mean_rates.total()

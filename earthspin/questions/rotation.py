@@ -148,7 +148,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
 @dataclass(frozen=True)
 class Pulling:
-    """Torques of all perturbers, with the relative error due to their positions.
+    """Torques of all perturbers, with their relative error due to the perturbers' position errors.
 
     Attributes
     ----------
@@ -255,7 +255,7 @@ class Rotor:
         return float(np.linalg.norm(self.start.spin[:, 0])) * seconds / (2 * np.pi)
 
     def refuse_many_turns(self, begin: float, end: float) -> None:
-        """Refuse a span that takes hours to integrate; its ends are in s from the start.
+        """Refuse a span that takes hours to integrate; its ends are in s from the initial date.
 
         Raises
         ------
@@ -273,7 +273,7 @@ class Rotor:
             )
 
     def since(self, days: float | FloatArray) -> FloatArray:
-        """Time in s from the start to given days from J2000.0, rounded to the microsecond."""
+        """Convert days from J2000.0 to s from the initial date, rounded to the microsecond."""
         return np.asarray(np.round((days - self.begin) * DAY, 6))
 
 
@@ -342,12 +342,12 @@ _CAUSES = {
 
 
 def _error(units: str, quantity: str) -> Any:
-    """Declare the variable that holds the error of a quantity."""
+    """Declare the output variable that holds the error of a quantity, as a time series."""
     return number(units, f"95 % half-width of {quantity}, largest so far", along=("time",))
 
 
 def _share(units: str, name: str, cause: str) -> Any:
-    """Declare the variable that holds the contribution of one cause to the error of another."""
+    """Declare the output variable that holds the part of a quantity's error due to one cause."""
     return number(units, f"share of {name}_error from {_CAUSES[cause]}", along=("time",))
 
 
@@ -532,7 +532,7 @@ def neglected(
     effects: tuple[str, ...],
     epochs: Epochs,
 ) -> Neglected:
-    """Sizes of neglected effects on the attitude at the last date, or the effects by name."""
+    """Sizes of neglected effects on the attitude at the last date, or names if no size is known."""
     off = _switched_off(body, perturbers, effects)
     known = BEYOND_RIGID.get(body.name) if body.is_as_named else None
     usual = {perturber.name for perturber in pulled_by(body)}

@@ -293,7 +293,7 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
 
 
 def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric]:
-    """95 % half-widths of the rigid wobble periods, from the relative errors of f and H."""
+    """95 % half-widths of the rigid wobble periods, from the errors of flattening and of H."""
     import xarray as xr
 
     spread: dict[str, Numeric] = {}

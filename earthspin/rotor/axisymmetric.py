@@ -108,7 +108,7 @@ class SymmetricRotor:
 
     @property
     def space_cone(self) -> Numeric:
-        """Half-angle |theta - alpha| of the space cone, rad (I.6.28)."""
+        """Half-angle of the space cone, rad: angle from angular momentum to spin axis (I.6.28)."""
         return np.abs(self.tilt)
 
     @property
@@ -126,7 +126,7 @@ class SymmetricRotor:
 
     @property
     def precession_rate(self) -> Numeric:
-        """Rate phi' = L/I1 of figure axis and omega about the angular momentum, rad/s (I.6.24)."""
+        """Precession rate of the figure axis about the angular momentum, L/I1, rad/s (I.6.24)."""
         return self.angular_momentum / self.equatorial
 
     @property
@@ -301,7 +301,9 @@ def speed_and_cone(
 
 
 def wobble_rate_of_cones(speed: Numeric, alpha: Numeric, theta: Numeric) -> Numeric:
-    """Wobble rate from the cones, Omega' = omega sin(alpha - theta)/sin(theta), rad/s (I.6.27).
+    """Wobble rate from the spin rate and the angles of body cone and space cone, rad/s (I.6.27).
+
+    It is omega sin(alpha - theta)/sin(theta), with the spin rate omega, written Omega' below.
 
     The body cone rolls on the space cone without slipping, so equal arc lengths of both rims pass
     the line of contact: Omega' sin(alpha) = phi' sin(alpha - theta).

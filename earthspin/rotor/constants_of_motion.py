@@ -122,7 +122,7 @@ class JacobiMotion:
 
     @property
     def exact_period(self) -> DoubleDouble:
-        """Period of omega in the body, 4K/lambda, s; 0 if it is not periodic."""
+        """Period of omega in the body, s, as double-double; 0 marks a motion without a period."""
         quarter = self.descent.quarter_period
         moves = self.rate.hi > _SLOWEST
         return where(moves, quarter.scaled(4.0) / where(moves, self.rate, 1.0), 0.0)
@@ -135,7 +135,10 @@ class JacobiMotion:
 
 
 class _Start(NamedTuple):
-    """Moments, initial omega and constants along the numbered axes 1, 2, 3, scaled to order one."""
+    """Scaled moments, initial omega and constants of a motion, along the renumbered principal axes.
+
+    The axes 1, 2, 3 are in ascending or in descending order of their moments.
+    """
 
     axes: IntArray
     signs: FloatArray
@@ -269,7 +272,10 @@ def _numbered(unit: PrincipalMoments, spin: FloatArray) -> _Start:
 
 
 def _along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _Start:
-    """Reorder moments and initial omega to axes 1, 2, 3, and compute the constants of `_Start`."""
+    """Renumber the principal axes of moments and initial omega, and compute the scaled constants.
+
+    The argument `axes` lists the axes of the body in the new order.
+    """
     parity = np.where((axes[..., 1] - axes[..., 0]) % 3 == 1, 1.0, -1.0)
     moment, spin = _take(unit.moment, axes), np.take_along_axis(spin, axes, -1)
     signs = np.where(spin < 0, -1.0, 1.0)

@@ -52,7 +52,7 @@ class Polhode:
 
 
 class Closure(NamedTuple):
-    """Numbers of turns and periods after which a herpolhode nearly closes, and the angle left.
+    """Whole turns and polhode periods after which a herpolhode nearly closes, and the angle left.
 
     Attributes
     ----------
@@ -87,7 +87,9 @@ def inertia_ellipsoid(moments: Moments, omega: Any) -> FloatArray:
 
 
 def rescaled_inertia_ellipsoid(moments: Moments) -> FloatArray:
-    """Semi-axes of the inertia ellipsoid of rho = omega/sqrt(2T), 1/sqrt(I), kg-1/2 m-1 (I.5.1).
+    """Semi-axes of the inertia ellipsoid scaled to 2T = 1: 1/sqrt(I), kg-1/2 m-1 (I.5.1).
+
+    Its coordinates are rho = omega/sqrt(2T).
 
     Goldstein's form, rho . I rho = 1, depends only on the body and not on its motion.
 
@@ -149,7 +151,9 @@ def polhode(moments: Moments, omega: Any, n: int = 361) -> Polhode:
 
 
 def herpolhode(moments: Moments, omega: Any, times: Any) -> FloatArray:
-    """Path of the angular velocity in the invariable plane, relative to the foot of L (I.5.9).
+    """Path of the angular velocity in the invariable plane, rad/s (I.5.9).
+
+    The origin is the point where the line of the angular momentum meets the plane.
 
     Parameters
     ----------
@@ -231,7 +235,9 @@ def herpolhode_advance(moments: Moments, omega: Any) -> FloatArray:
 
 
 def nearest_closure(advance: float, most_periods: int = 100) -> Closure:
-    """Find the fraction of a turn nearest to the advance of the herpolhode per period.
+    """Find after how many polhode periods the herpolhode is nearest to whole turns, by a fraction.
+
+    The fraction of turns over periods approximates the advance per period.
 
     The herpolhode is closed if its advance is a rational multiple of 2 pi. As floats cannot decide
     this, the gap measures the deviation from closure.

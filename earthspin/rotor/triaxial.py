@@ -108,7 +108,7 @@ def free_rotation(moments: Moments, omega: Any, times: Any) -> FreeRotation:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Phase:
-    """Arguments and values of the elliptic functions of a motion at given times.
+    """Argument of the elliptic functions of a free rotation at given times, and their values.
 
     Attributes
     ----------
@@ -129,7 +129,7 @@ class Phase:
     lower: Jacobi
 
     def along(self, amplitudes: FloatArray) -> FloatArray:
-        """Vector with the components cn, sn, dn times given amplitudes, shape (..., n, 3)."""
+        """Multiply cn, sn and dn at each time by three amplitudes; shape (..., n, 3)."""
         sn, cn, dn = self.upper
         return np.stack([self.turned * cn, self.turned * sn, dn], -1) * amplitudes[..., None, :]
 

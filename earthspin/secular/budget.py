@@ -78,7 +78,7 @@ class Uncertainty:
 
     @property
     def causes(self) -> tuple[str, ...]:
-        """Names of the error sources; a source with two directions occurs twice."""
+        """Names of the error sources; a source that acts in two directions is listed twice."""
         moved = ("constant", *(("start",) * len(self.start)), "orbit", "orbit")
         return moved + OF_THE_EARTH if self.earth else moved
 
@@ -171,7 +171,7 @@ def moved(orbit: Orbit, error: HalfWidths, ways: Sequence[float]) -> ModifiedOrb
 
 
 def inclined_axis(setting: Setting, angles: Sequence[float]) -> FloatArray:
-    """Initial axis rotated by small angles, in the shape of the nominal axis.
+    """Initial spin axis rotated by small angles, as an array of the shape of the nominal axis.
 
     Parameters
     ----------

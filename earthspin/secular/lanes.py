@@ -81,7 +81,7 @@ def _mean(values: FloatArray) -> float:
 
 
 def _padded(strength: Strength, width: int, members: int) -> Strength:
-    """Precession strength with each array lengthened to the batch size.
+    """Precession strength with its arrays lengthened from the number of members to the batch size.
 
     The value of the last member is repeated.
     """
@@ -172,7 +172,7 @@ class _Lanes:
             state = state + change
 
     def _still(self, u: FloatArray, time: float) -> FloatArray:
-        """Transform axes at a time from the rotating frame to the GCRS."""
+        """Transform spin axes from the frame that rotates at their mean rate to the GCRS."""
         c, s = math.cos(self.turn * time), math.sin(self.turn * time)
         return np.asarray(self.axes.T @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ u)
 

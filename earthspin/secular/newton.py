@@ -31,7 +31,9 @@ TINY = 1e-300
 
 
 class Turn(NamedTuple):
-    """Averaged torque on the spin axis at the nodes of windows, in the frame of the axis N.
+    """Averaged torque on the spin axis at the nodes of time windows, along a reference axis N.
+
+    The components perpendicular to N are complex numbers.
 
     The torque has the axis m, the constant a, and an additional rotation g.
 
@@ -53,7 +55,7 @@ class Turn(NamedTuple):
 
     @classmethod
     def of(cls, on: Pull, axes: FloatArray, windows: Windows) -> Turn:
-        """Transform the averaged torque to a frame whose third axis is the reference axis N."""
+        """Resolve the averaged torque along and perpendicular to the reference axis N."""
         shape = windows.times.shape
 
         def seen(vector: FloatArray) -> tuple[ComplexArray, FloatArray]:
@@ -65,7 +67,9 @@ class Turn(NamedTuple):
 
 
 class Slope(NamedTuple):
-    """Rates of longitude and height of the spin axis at the nodes, and their derivatives.
+    """Rates of the spin axis's longitude and height (component along the reference axis) at nodes.
+
+    Their derivatives by longitude and height are included.
 
     The shape is (..., w, n) for w windows of n nodes.
 
@@ -86,7 +90,10 @@ class Slope(NamedTuple):
 
 
 def slope(on: Turn, phi: FloatArray, z: FloatArray) -> Slope:
-    """Compute the rates of longitude (rad/s) and height (1/s) of the axis, with derivatives."""
+    """Compute the rates of longitude (rad/s) and height (1/s) of the spin axis, with derivatives.
+
+    The height is the component along the reference axis.
+    """
     seen = np.empty(phi.shape, dtype=complex)
     np.cos(phi, out=seen.real)
     np.negative(np.sin(phi), out=seen.imag)
@@ -115,7 +122,7 @@ def slope(on: Turn, phi: FloatArray, z: FloatArray) -> Slope:
 def moved(
     windows: Windows, rates: FloatArray, state: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Integrate rates of longitude and height over the windows.
+    """Integrate the rates of the spin axis's longitude and height over successive time windows.
 
     Return the integrals from window starts to nodes, the states at window starts, and the final
     state. The shapes are (2, ..., w, n), (2, ..., w) and (2, ...).
@@ -128,7 +135,7 @@ def moved(
 def step(
     windows: Windows, on: Turn, values: FloatArray, state: FloatArray, left: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Make one Newton step: new longitudes and heights at the nodes, and the size of the change.
+    """Make one Newton step for longitude and height of the spin axis; also return its size.
 
     With S the integral from the start of a window to its nodes, the values y of a window that
     starts at b solve y = b + S f(y). Linearised about the current values, the change is d = c + S J
@@ -165,7 +172,9 @@ def step(
 def _linear(
     windows: Windows, at: Slope, sides: FloatArray, left: FloatArray
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
-    """Solve the linearised equation d = c + S J d in every window, for several defects c.
+    """Solve the linearised equation of a Newton step in every time window, for several defects.
+
+    The equation is d = c + S J d for the change d, the defect c, the Jacobian J and the integral S.
 
     The result has the shape (2, k, ..., w, n).
 
@@ -199,7 +208,7 @@ def _linear(
 
 
 def _shifts(ends: FloatArray) -> FloatArray:
-    """Corrections of longitude and height at the starts of all windows, shape (2, ..., w).
+    """Newton corrections of longitude and height of the spin axis at window starts, (2, ..., w).
 
     Parameters
     ----------

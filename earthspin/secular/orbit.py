@@ -72,7 +72,7 @@ def reference_axes(normal: FloatArray) -> FloatArray:
 
 
 class Pull(NamedTuple):
-    """Averaged torque on a spin axis s: axis m, precession constant a, geodesic rotation g n.
+    """Averaged torque on a spin axis: its axis, its constant of precession, and geodesic rotation.
 
     The spin axis moves by ds/dt = (g n - a (m.s) m) x s.
 
@@ -109,7 +109,7 @@ def pull(strength: Strength, shape: Shape, times: FloatArray) -> Pull:
 
 
 def moons_height(shape: Shape, axis: FloatArray, node_rate: float) -> FloatArray:
-    """Moon's precession rate in longitude, divided by the Moon's constant of precession.
+    """Precession rate in longitude due to the Moon, divided by the Moon's constant of precession.
 
     The shape is (..., n).
 

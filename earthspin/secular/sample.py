@@ -30,7 +30,10 @@ PROBABILITY = 0.95
 
 
 def draws(causes: int) -> FloatArray:
-    """Changes of the error sources for each member, in half-widths, shape (MEMBERS, causes)."""
+    """Random changes of the error sources in each member, in half-widths, (MEMBERS, causes).
+
+    They are normally distributed, and reproducible.
+    """
     from scipy.special import ndtri  # imported here because it takes 0.1 s
 
     member, cause = np.arange(MEMBERS)[:, np.newaxis], np.arange(causes)

@@ -139,7 +139,7 @@ class Strength:
         return np.asarray(spin * figure * (of_sun + self.moon * moon**2))
 
     def geodesic_rate(self, e2: FloatArray) -> FloatArray:
-        """Rate of geodesic precession about the orbit normal, rad/s, for a squared eccentricity."""
+        """Rate of geodesic precession about the orbit normal, rad/s, at a squared eccentricity."""
         return np.asarray(self.geodesic * (1 - self.eccentricity**2) / (1 - e2))
 
     @property
@@ -169,7 +169,7 @@ def geodesic_precession(gm: float, motion: float, eccentricity: float) -> float:
 
 
 def faded(times: FloatArray) -> FloatArray:
-    """Time over which the present rate of J2 would give the actual change of J2, s.
+    """Effective time for the change of J2, s: present rate times this time is the change of J2.
 
     It is t up to `FADES_FROM` and 0 beyond `FADES_TO`.
 
@@ -180,7 +180,7 @@ def faded(times: FloatArray) -> FloatArray:
 
 
 def band(times: FloatArray) -> FloatArray:
-    """Uncertainty of the time that `faded` returns, as a 95 % half-width, s.
+    """95 % half-width of the effective time for the change of J2 (see `faded`), s.
 
     It is the fraction `J2_SHARE` of the time up to `FADES_FROM`, the whole time at `FADES_TO`, and
     zero beyond twice `FADES_TO`.

@@ -62,7 +62,7 @@ class Trajectory:
     steps: int
 
     def about(self, times: FloatArray) -> FloatArray:
-        """Longitude and height of the spin axis about the reference axis, at times in s.
+        """Longitude and height of the spin axis about the reference axis, at given times in s.
 
         The height is the component along the reference axis. The shape is (2, ..., n).
         """
@@ -128,7 +128,10 @@ def solve(
 
 
 def _edges(edges: FloatArray, span: tuple[float, float], pieces: int) -> list[FloatArray]:
-    """Edges of the integration windows from J2000.0 back over the span, and forward over it."""
+    """Edges of the time windows of the integration: those before J2000.0, then those after it.
+
+    Both arrays start at J2000.0.
+    """
     middle = int(np.searchsorted(edges, 0.0))
     first = int(np.searchsorted(edges, min(span[0], 0.0), side="right")) - 1
     last = int(np.searchsorted(edges, max(span[1], 0.0)))
@@ -176,7 +179,9 @@ class _BlockSolver:
         self.height: FloatArray | None = None
 
     def run(self, edges: FloatArray, state: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Integrate the spin axis over all windows.
+        """Integrate the spin axis over successive time windows from an initial direction.
+
+        The direction is given as longitude and height, the component along the reference axis.
 
         Return the window edges, and the Legendre series of longitude and height in each window.
 
@@ -203,7 +208,7 @@ class _BlockSolver:
         return edges, np.concatenate(blocks, axis=-2)
 
     def _block(self, windows: Windows, state: FloatArray) -> tuple[FloatArray, FloatArray] | None:
-        """Integrate the spin axis over one block of windows.
+        """Integrate the spin axis over one block of time windows, by Newton's method.
 
         Return the Legendre series and the final longitude and height; None if Newton's method does
         not converge.
@@ -237,7 +242,7 @@ class _BlockSolver:
         return pull(self.strength, (normal, eccentricity, turning), times)
 
     def _guess(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
-        """First guess of longitude and height at the nodes of a block.
+        """First guess of longitude and height of the spin axis at the nodes of a block of windows.
 
         It is a neighbouring trajectory shifted to the initial state, or uniform precession.
         """
@@ -249,7 +254,9 @@ class _BlockSolver:
         return values[..., :-1].reshape(*state.shape, *windows.times.shape)
 
     def _at_one_height(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
-        """First guess by uniform precession at constant height.
+        """First guess of the motion of the spin axis: uniform precession about the reference axis.
+
+        The height, the component along that axis, is constant.
 
         The height is that of the start, or the mean of the previous block.
         """

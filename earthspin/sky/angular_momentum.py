@@ -34,7 +34,7 @@ SAME_TIME = 1e-6
 
 @dataclass(frozen=True)
 class AngularMomentum:
-    """Effective angular momentum functions.
+    """Time series of effective angular momentum functions: mass and motion terms.
 
     Attributes
     ----------
@@ -54,7 +54,7 @@ class AngularMomentum:
         return self.mass + self.motion
 
     def daily(self) -> AngularMomentum:
-        """Average the functions over days from 0h to 0h; the daily means are dated at noon.
+        """Average the angular momentum functions over each day from 0h to 0h, dated at noon.
 
         Samples are connected by straight lines.
 

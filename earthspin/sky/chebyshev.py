@@ -103,12 +103,15 @@ class Table(NamedTuple):
         return sums
 
     def at(self, epochs: Epochs) -> FloatArray:
-        """Evaluate the positions at times that other tables share, shape (3, n)."""
+        """Evaluate the positions at given times, in the unit of the coefficients, shape (3, n).
+
+        Tables with equal time grids can share the `Epochs`, which holds the arranged times.
+        """
         return epochs.on(self.grid).sums(self.series)
 
 
 class Epochs:
-    """Times at which several tables are evaluated.
+    """Times at which one or more tables of Chebyshev coefficients are evaluated.
 
     The arrangement of the times on each time grid is computed once.
 
@@ -123,14 +126,16 @@ class Epochs:
         self._layouts: dict[Grid, _InOrder | _InAnyOrder] = {}
 
     def on(self, grid: Grid) -> _InOrder | _InAnyOrder:
-        """Arrangement of the times by the records of a time grid."""
+        """Return the times arranged for evaluation of a table whose records lie on a time grid."""
         if grid not in self._layouts:
             self._layouts[grid] = _laid_out(*grid.places(self.days))
         return self._layouts[grid]
 
 
 def _laid_out(record: IntArray, place: FloatArray) -> _InOrder | _InAnyOrder:
-    """Arrange times for evaluation: in rows if they fill the records evenly, else one by one.
+    """Arrange times to evaluate Chebyshev series: in rows if they fill the records evenly.
+
+    Otherwise each time is evaluated by itself.
 
     Rows also require sorted times.
     """
@@ -144,7 +149,7 @@ def _laid_out(record: IntArray, place: FloatArray) -> _InOrder | _InAnyOrder:
 
 
 class _InOrder(NamedTuple):
-    """Sorted times arranged in rows, so that each row or column shares its coefficients.
+    """Sorted times arranged in a matrix, so that all times in a row or column share coefficients.
 
     If there are many times per record, the rows are records. Otherwise the rows are the first times
     of all records, the second times, and so on, because numpy is fast on long rows.
@@ -168,7 +173,7 @@ class _InOrder(NamedTuple):
 
     @classmethod
     def of(cls, record: IntArray, counts: IntArray, place: FloatArray) -> _InOrder:
-        """Arrange sorted times in rows, from the record of each and the number in each record."""
+        """Arrange sorted times in a matrix, from the index of each time's record and the counts."""
         low, longest = int(record[0]), int(counts.max())
         starts = np.cumsum(counts) - counts
         within = np.arange(place.size) - starts[record - low]

@@ -265,7 +265,7 @@ class Elements:
         return _trajectory(target).error(day)
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
-        """Relative error of an axis's motion due to rounding of a perturber's position.
+        """Relative error of a spin axis's motion due to rounding of a perturber's position.
 
         It is a fraction of the angle by which the axis moves.
         """

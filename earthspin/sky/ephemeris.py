@@ -280,7 +280,7 @@ class Ephemeris:
         return growth(day) * mas * MAS, growth(day) * metres
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
-        """Relative error of an axis's motion due to the position error of a perturber.
+        """Relative error of a spin axis's motion due to the position error of a perturber.
 
         It is a fraction of the angle by which the axis moves.
 

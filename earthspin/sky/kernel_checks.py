@@ -190,7 +190,9 @@ class Records:
 
     @cached_property
     def _usual_gap(self) -> float:
-        """Median jump of position between adjacent records, relative to the size of the series.
+        """Median jump of position between adjacent records of a kernel segment, as a ratio.
+
+        Each jump is divided by the sum of the absolute terms of the Chebyshev series.
 
         It is NaN for too few records.
         """

@@ -95,7 +95,7 @@ def largest_difference(centre: int, target: int) -> tuple[float, float]:
 
 
 def growth(day: float) -> float:
-    """Factor by which kernel differences grow outside the time span of the measurement.
+    """Factor by which differences between kernels grow outside the dates of their measurement.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def growth(day: float) -> float:
 
 
 def drift_is_measured(centre: int, target: int) -> bool:
-    """Return True if `DRIFT` was measured for the motion of one body's axis due to another body."""
+    """Return True if the axis error `DRIFT` was measured for this pair of body and perturber."""
     pair = sorted((_barycentre(centre), _barycentre(target)))
     return (pair[0], pair[1]) in DRIFT_MEASURED
 

@@ -143,7 +143,10 @@ class MovingPole:
         return self.at(0.0).orbit_axes(orbit)
 
     def mean(self, days: FloatArray) -> FloatArray:
-        """Unit vectors of the axis; all its periodic terms count as mean motion, shape (n, 3)."""
+        """Unit vectors of the spin axis on given days, shape (n, 3).
+
+        The periodic terms are included, as they count as mean motion.
+        """
         time = np.asarray(days) * DAY
         ra = self.right_ascension + self.right_ascension_rate * time
         dec = self.declination + self.declination_rate * time

@@ -42,7 +42,7 @@ UNIT = 1e-9
 
 
 class Growth(NamedTuple):
-    """Growth with time of the error of a shipped orbit, apart from that of its integration.
+    """Growth with time of the error of a shipped orbit table, without its integration error.
 
     Attributes
     ----------
@@ -285,7 +285,7 @@ def _left_out(
 
 
 def _to_meet(ends: FloatArray, samples: FloatArray) -> FloatArray:
-    """Corrections of the last two coefficients of a series, so that it fits its end samples.
+    """Corrections of the last two Legendre coefficients that make a series fit its end samples.
 
     The last two terms are 1 at the end, plus and minus 1 at the start, and small in between.
     """

@@ -98,7 +98,7 @@ class Source(Protocol):
         """
 
     def drift(self, target: Place, centre: Place, distance: float, /) -> float:
-        """Relative error of an axis's motion due to the position error of a perturber.
+        """Relative error of a spin axis's motion due to the position error of a perturber.
 
         It is a fraction of the angle by which the axis moves.
 

@@ -77,7 +77,7 @@ def trajectory(position: Any) -> Trajectory:
 
 
 def read_position(value: Any, where: Where) -> VectorFunction | Trajectory:
-    """Read where the positions of one body come from: vector function, trajectory or table.
+    """Read the positions of a body: a vector function, a trajectory, or tables of kernel segments.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def is_measured(position: Any) -> bool:
 
 
 def place_of(source: Source, name: str, codes: tuple[int, ...], position: Any = None) -> Place:
-    """Return what a source needs to find a body: its own trajectory, or else its NAIF code.
+    """Return the key under which a source finds a body: the body's trajectory, or its NAIF code.
 
     Raises
     ------

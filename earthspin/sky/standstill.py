@@ -96,7 +96,7 @@ def find_standstills(
 def _vertices(
     declination: Callable[[FloatArray], FloatArray], days: FloatArray, spacing: float
 ) -> FloatArray:
-    """Days of the vertices of parabolas through three evenly spaced values about given days."""
+    """Days of the extremes of declination near given days, by parabolas through three values."""
     before, middle, after = np.split(
         declination(np.concatenate([days - spacing, days, days + spacing])), 3
     )

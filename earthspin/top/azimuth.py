@@ -1,4 +1,6 @@
-"""Advance of phi and psi, by integrals of the third kind that are regular at the poles (I.7.9).
+"""Advance of the Euler angles phi and psi of a top, also near the poles (I.7.9).
+
+It is computed by integrals of the third kind that are regular at the poles.
 
 Half the sum and half the difference of phi and psi (for I1 = I3),
 
@@ -57,7 +59,9 @@ class Turned(NamedTuple):
 
 
 def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
-    """Advance of phi and psi since the first lower turning point, without `shared_rate` times time.
+    """Advance of the Euler angles phi and psi since the first lower turning point.
+
+    The part that is linear in time, of the rate `shared_rate`, is left out.
 
     Returns
     -------
@@ -76,7 +80,9 @@ def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
 
 
 def shared_rate(nutation: Nutation) -> FloatArray:
-    """Rate of phi and psi, a/2 or zero, that `turned_at` leaves out, in the rate unit.
+    """Constant rate of both phi and psi that is left out by `turned_at`, in the rate unit.
+
+    It is half the axial angular momentum over I1, or zero.
 
     It is separated if the axis stays so near the upper pole that phi and psi are nearly degenerate;
     their sum then advances almost at the rate of the spin.
@@ -97,7 +103,9 @@ def mean_precession(nutation: Nutation) -> FloatArray:
 
 
 def _windings(nutation: Nutation, halves: FloatArray) -> Turned:
-    """Quarter turns of phi and psi at a turning point, counted from the arctangents.
+    """Whole quarter turns of the Euler angles phi and psi, up to a turning point.
+
+    They are counted from the arctangents.
 
     For a passage exactly over a pole the direction of the half turn is arbitrary; it alternates.
     """
@@ -109,17 +117,17 @@ def _windings(nutation: Nutation, halves: FloatArray) -> Turned:
 
 
 def _lower_winding(nutation: Nutation) -> FloatArray:
-    """Quarter turns of sigma = (phi + psi)/2 in half a period, from its arctangent."""
+    """Quarter turns of (phi + psi)/2 in half a nutation period, made by its arctangent."""
     return np.where(_has_lower_arc(nutation), np.sign(nutation.start.b_plus_a), 0.0)
 
 
 def _upper_winding(nutation: Nutation) -> FloatArray:
-    """Quarter turns of delta = (phi - psi)/2 in half a period, from its arctangent."""
+    """Quarter turns of (phi - psi)/2 in half a nutation period, made by its arctangent."""
     return np.where(_has_upper_arc(nutation), np.sign(nutation.start.b_minus_a), 0.0)
 
 
 def _has_lower_arc(nutation: Nutation) -> BoolArray:
-    """Return True if the half sum of phi and psi is computed with an arctangent.
+    """Return True if (phi + psi)/2 is computed with an arctangent, False if by an integral alone.
 
     That is so if u1 is not nearer to u3 than to the lower pole.
     """
@@ -127,7 +135,7 @@ def _has_lower_arc(nutation: Nutation) -> BoolArray:
 
 
 def _has_upper_arc(nutation: Nutation) -> BoolArray:
-    """Return True if the half difference of phi and psi is computed with an arctangent.
+    """Return True if (phi - psi)/2 is computed with an arctangent, False if by an integral alone.
 
     That is so if u3 is not nearer to the upper pole than u2.
     """
@@ -135,7 +143,7 @@ def _has_upper_arc(nutation: Nutation) -> BoolArray:
 
 
 def _arc_tangents(nutation: Nutation, place: Place) -> Turned:
-    """Arctangent parts of phi and psi, computed without cancellation.
+    """Parts of the Euler angles phi and psi that are arctangents, without cancellation, rad.
 
     They are the sum and the difference of the arctangents of sigma and delta.
 
@@ -182,7 +190,7 @@ def _arc_tangents(nutation: Nutation, place: Place) -> Turned:
 def _sum_or(
     one: FloatArray, two: FloatArray, three: FloatArray, four: FloatArray, root: FloatArray
 ) -> FloatArray:
-    """Return one + two, or the equal 2 (three + four)/root if that loses fewer digits."""
+    """Return one + two, or the equal value 2 (three + four)/root if it is more accurate."""
     open_ = root > 0
     factor = 2 / np.where(open_, root, 1.0)
     better = factor * (np.abs(three) + np.abs(four)) < np.abs(one) + np.abs(two)
@@ -190,21 +198,29 @@ def _sum_or(
 
 
 def _lower_pole_rate(nutation: Nutation) -> FloatArray:
-    """Rate (a + b)/sqrt(1 + u1), which is finite as the axis approaches the lower pole."""
+    """Rate of passing the lower pole, in the rate unit: (a + b)/sqrt(1 + cos(theta)) at the turn.
+
+    Here a and b are the axial and vertical angular momentum over I1, and theta is the largest
+    inclination. The rate is finite also if the axis reaches the pole.
+    """
     start, gaps = nutation.start, nutation.gaps
     size = np.sqrt(nutation.height * (2 * start.beta + gaps.outer))
     return size * np.where(nutation.crosses_lower_pole, 1.0, np.sign(start.b_plus_a))
 
 
 def _upper_pole_rate(nutation: Nutation) -> FloatArray:
-    """Rate (b - a)/sqrt(1 - u2), which is finite as the axis approaches the upper pole."""
+    """Rate of passing the upper pole, in the rate unit: (b - a)/sqrt(1 - cos(theta)) at the turn.
+
+    Here a and b are the axial and vertical angular momentum over I1, and theta is the smallest
+    inclination. The rate is finite also if the axis reaches the pole.
+    """
     size = np.sqrt(nutation.depth * nutation.gaps.outer)
     sense = np.sign(nutation.start.b_minus_a)
     return size * np.where(nutation.crosses_upper_pole, 1.0, sense)
 
 
 def _side_of_pole(nutation: Nutation, place: Place) -> FloatArray:
-    """Direction of the half turn in a passage exactly over a pole; 1 for other tops."""
+    """Sense of the half turn, 1 or -1, of an axis that passes exactly over a pole; otherwise 1."""
     quarter = np.mod(place.halves, 4).astype(int)
     lower = np.where(nutation.crosses_lower_pole, _COSINE[quarter], 1.0)
     upper = np.where(nutation.crosses_upper_pole, _SINE[quarter], 1.0)
@@ -212,7 +228,9 @@ def _side_of_pole(nutation: Nutation, place: Place) -> FloatArray:
 
 
 class _Integral(NamedTuple):
-    """Coefficients of the integral F first + third sn^3 RJ(cn^2, dn^2, 1, cn^2 + shape sn^2).
+    """Coefficients of one regular integral in the advance of the Euler angles.
+
+    The integral is F first + third sn^3 RJ(cn^2, dn^2, 1, cn^2 + shape sn^2).
 
     F is the time since the turning point times Omega.
     """
@@ -223,7 +241,10 @@ class _Integral(NamedTuple):
 
 
 def _integrals(nutation: Nutation, upper: BoolArray) -> tuple[_Integral, _Integral]:
-    """Regular integrals of sigma and delta from a turning point, without the arctangents."""
+    """Coefficients of the regular integrals in (phi + psi)/2 and (phi - psi)/2, in this order.
+
+    They start from a turning point; the arctangents are left out.
+    """
     start, gaps, stiffness = nutation.start, nutation.gaps, 4 * nutation.rate**2
     sigma = _integral(
         nutation,
@@ -261,7 +282,7 @@ def _integral(
     arc: BoolArray,
     regular_shape: FloatArray,
 ) -> _Integral:
-    """Coefficients of the integral of total/2/(u - pole) from a turning point.
+    """Coefficients of the time integral of total/2/(u - pole) from a turning point, u = cos(theta).
 
     If the arctangent is separate, only the regular part is returned.
 
@@ -282,7 +303,10 @@ def _integral(
 
 
 def _partial_integrals(nutation: Nutation, place: Place) -> Turned:
-    """Regular parts of phi and psi from the nearest turning point to the given times."""
+    """Advance of phi and psi since the nearest turning point, without arctangents, rad.
+
+    The rate `shared_rate` is left out, too.
+    """
     sn, cn2, dn2 = place.sn, place.cn**2, place.dn**2
     sigma, delta = (
         x.first * place.phase + x.third * sn**3 * elliprj(cn2, dn2, 1.0, cn2 + x.shape * sn**2)
@@ -292,7 +316,10 @@ def _partial_integrals(nutation: Nutation, place: Place) -> Turned:
 
 
 def _complete_integrals(nutation: Nutation) -> Turned:
-    """Regular parts of phi and psi from one turning point to the next."""
+    """Advance of phi and psi from one turning point to the next, without arctangents, rad.
+
+    The rate `shared_rate` is left out, too.
+    """
     returns = nutation.complement > 0
     complement = np.where(returns, nutation.complement, 1.0)
     first_kind = ellipkm1(complement)

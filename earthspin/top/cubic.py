@@ -76,12 +76,12 @@ class AxisStart(NamedTuple):
 
     @property
     def b_minus_a(self) -> FloatArray:
-        """Difference b - a, which vanishes if the axis can pass over the upper pole."""
+        """Vertical minus axial angular momentum, over I1; 0 if the axis can pass the upper pole."""
         return self.below * (self.phi_rate * self.above - self.a)
 
     @property
     def b_plus_a(self) -> FloatArray:
-        """Sum b + a, which vanishes if the axis can pass over the lower pole."""
+        """Vertical plus axial angular momentum, over I1; 0 if the axis can pass the lower pole."""
         return self.above * (self.phi_rate * self.below + self.a)
 
     @property
@@ -168,7 +168,7 @@ def cubic_gaps(start: AxisStart) -> Gaps:
 def _pair_about_start(
     start: AxisStart, c0: FloatArray, c1: FloatArray, c2: FloatArray, wanted: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Distances between roots, start and poles, if the highest root u3 is well separated.
+    """Distances between roots, start and poles, if the highest root is far from the other two.
 
     The start lies between u1 and u2.
     """
@@ -189,7 +189,7 @@ def _pair_about_start(
 def _pair_about_pole(
     start: AxisStart, c0: FloatArray, wanted: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Distances between roots, start and poles, if the lowest root u1 is well separated.
+    """Distances between roots, start and poles, if the lowest root is far from the other two.
 
     The upper pole lies between u2 and u3.
     """

@@ -33,7 +33,9 @@ _MOMENT = 1e-120
 
 
 class Nutation(NamedTuple):
-    """Constants of a nutation between two turning points, with rates in the start's rate unit.
+    """Constants of the nutation of a top between two turning points.
+
+    Rates are in the rate unit of the start.
 
     Attributes
     ----------
@@ -67,7 +69,10 @@ class Nutation(NamedTuple):
 
     @property
     def rate(self) -> FloatArray:
-        """Rate Omega of the elliptic functions; 1 for a steady motion, to allow division."""
+        """Rate Omega at which the argument of the elliptic functions grows.
+
+        It is 1 for a steady motion, to allow division.
+        """
         return np.sqrt(np.where(self.stiffness > 0, self.stiffness, 4.0)) / 2
 
     @property
@@ -116,7 +121,7 @@ class Place(NamedTuple):
 
 
 class AxisHeight(NamedTuple):
-    """Distances of u = cos(theta) from the poles and from the start, and its rate of change.
+    """Vertical component u of a top's axis: distances from poles and start, and the rate of u.
 
     Attributes
     ----------
@@ -208,7 +213,9 @@ def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
 
 
 def height_at(nutation: Nutation, place: Place) -> AxisHeight:
-    """Compute u = cos(theta) of the axis, as distances from poles and start, and its rate.
+    """Compute the vertical component u of a top's axis at given times, and the rate of u.
+
+    It is given as distances from the poles and the start.
 
     The distances from the poles are sums of positive terms.
     """

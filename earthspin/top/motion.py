@@ -81,7 +81,7 @@ class Angle(NamedTuple):
 
     @property
     def half(self) -> NDArray[np.complex128]:
-        """Complex factor e^(i angle/2)."""
+        """Complex number e^(i angle/2), exact also after many turns."""
         eighths = np.mod(self.quarters, 8).astype(int)
         phase: NDArray[np.complex128] = np.exp(0.5j * self.rest) * _EIGHTHS[eighths]
         return phase
@@ -155,7 +155,7 @@ def _inclination(nutation: Nutation, below: FloatArray, above: FloatArray) -> Fl
 def _phi_and_psi(
     top: HeavyTop, nutation: Nutation, times: FloatArray, place: Place
 ) -> tuple[Angle, Angle]:
-    """Angles phi and psi: initial values plus the advance since the start."""
+    """Euler angles phi and psi at given times: initial values plus the advance since the start."""
     quarters, rest = turned_at(nutation, place)
     first_quarters, first_rest = turned_at(
         nutation, place_at(nutation, np.zeros((1,) * times.ndim))
@@ -207,7 +207,7 @@ def _omega_body(top: HeavyTop, nutation: Nutation, height: AxisHeight, psi: Angl
 
 
 def _vertical_excess(start: AxisStart, height: AxisHeight) -> FloatArray:
-    """Compute phi' sin^2(theta) = b - a u, from the start or from the poles.
+    """Compute phi' sin^2(theta), the precession rate times the squared sine of the inclination.
 
     The form that loses fewer digits is used.
     """

@@ -118,6 +118,9 @@ def _is_steady(start: AxisStart) -> NDArray[np.bool_]:
 
 
 def _loop_drive(start: AxisStart) -> tuple[FloatArray, FloatArray]:
-    """Difference a alpha - b beta at the start, and the sum of the magnitudes of its terms."""
+    """Difference whose sign tells waves from loops, and the sum of the magnitudes of its two terms.
+
+    The terms are a alpha and b beta (I.7.7) at the start of the top's motion.
+    """
     inertia, weight = start.a * start.rate2, start.beta * start.phi_rate * start.sine2
     return inertia - weight, np.abs(inertia) + np.abs(weight)

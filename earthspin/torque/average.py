@@ -255,7 +255,9 @@ def convergence_curve(
 
 
 def precessing_torque(torque: FloatArray, axis: FloatArray, normal: FloatArray) -> FloatArray:
-    """Component of a torque that causes precession in longitude: N . (k x n)/sin2(obliquity).
+    """Torque component that causes precession in longitude, divided by the sine of the obliquity.
+
+    It is N . (k x n)/sin2(obliquity) for the torque N.
 
     Divided by the angular momentum, it is the rate of precession in longitude, positive if the
     longitude of the axis decreases.

@@ -37,7 +37,7 @@ def write_json(tree: xr.DataTree, stream: TextIO) -> None:
 def _write_members(
     title: str, members: Mapping[Any, T], write: Callable[[T, TextIO], None], stream: TextIO
 ) -> None:
-    """Write named members as one JSON object, and close each of them with a brace."""
+    """Write named items as one JSON object; close each item, which `write` leaves open."""
     stream.write(f',\n"{title}": {{')
     for number, (name, member) in enumerate(members.items()):
         stream.write(f"{',' if number else ''}\n{json.dumps(str(name))}: ")

@@ -234,7 +234,7 @@ def plot_both_angles(
 
 
 def rungs(ax: Axes, labels: Sequence[object]) -> None:
-    """Put the names of the steps of a ladder on the horizontal axis."""
+    """Label the horizontal axis with the names of the models in a ladder."""
     ax.set_xticks(range(len(labels)), [str(label) for label in labels])
     ax.margins(x=0.08)
     ax.grid(axis="x", visible=False)

@@ -88,7 +88,7 @@ TABLES = [("", spread), ("", shares)]
 
 
 def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray, list[float]]:
-    """Main quantities of an ensemble, the share of each input in their variance, and the rest."""
+    """Main quantities of an ensemble, each input's share of their variance, and the rest."""
     result, chiefs = sensitivity(answer), _chiefs(answer)
     rows = [number for number in _numbers(answer) if number.name in chiefs]
     share = [result[f"{name}_share"].sel(labels).values for name, labels, _ in rows]

@@ -119,7 +119,7 @@ FEWEST, FINE = 4, 50.0
 
 
 def path_is_there(years: FloatArray) -> bool:
-    """Return True if epochs near the present are dense enough to draw the path."""
+    """Return True if epochs near the present are dense enough to draw the path of the pole."""
     near = years[np.abs(years) <= PATH]
     return near.size >= FEWEST and bool(np.max(np.diff(near)) <= WIDEST)
 

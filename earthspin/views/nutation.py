@@ -44,7 +44,7 @@ def ladder(tree: Result) -> Table:
 
 
 def beside(tree: Result) -> Table:
-    """Table of predicted pole minus IAU 2000A, root mean square, for two further models."""
+    """Table of predicted pole minus IAU 2000A, root mean square, for models outside the ladder."""
     return _sizes(
         "Beside the ladder",
         needed(tree, "beside"),

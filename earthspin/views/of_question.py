@@ -72,7 +72,7 @@ def solids_for(tree: Result) -> list[Solid]:
 
 
 def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> list[T]:
-    """Make those views for which the answer has all required sections."""
+    """Make the views (tables or figures) whose required sections the answer has."""
     return [
         make(tree)
         for sections, make in makers

@@ -97,7 +97,7 @@ def _metres(answer: xr.Dataset) -> float:
 
 
 def _years_near(amplitude: xr.DataArray, size: float) -> str:
-    """First and last year in which an amplitude differs from a value by at most a quarter.
+    """First and last year in which a wobble amplitude is within a quarter of a value, as text.
 
     The share of the time is added; the text is "never" if there is no such year.
     """

@@ -21,7 +21,7 @@ POSES = 481
 
 
 def known_until(answer: xr.Dataset) -> np.datetime64 | None:
-    """First date at which the attitude error, without that of positions, reaches 90 degrees."""
+    """First date at which the attitude error, position errors excluded, reaches 90 degrees."""
     error = np.hypot(answer.attitude_error_method, answer.attitude_error_input).values
     lost = np.flatnonzero(error >= LOST)
     return answer.time.values[lost[0]] if lost.size else None

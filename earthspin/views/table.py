@@ -164,7 +164,7 @@ def beside_published(known: xr.Dataset | None, dim: str, value: str) -> tuple[li
 
 
 def quantities(data: xr.Dataset, *rows: Column | str) -> list[tuple[str, str]]:
-    """Rows of a table of quantities, from columns as for `table_along`: header and text of each."""
+    """Rows for a table with one quantity per row: label and value as text, from given columns."""
     return [(row.header(data), row.text(data)) for row in map(_column, rows)]
 
 

@@ -55,7 +55,7 @@ def accuracy_table(result: xr.Dataset) -> Table:
 
 
 def _note(result: xr.Dataset) -> str:
-    """Text of the problem, its reference solution, and the methods whose errors exceed bounds."""
+    """Note below a table: problem, reference solution, methods whose errors exceed bounds."""
     unit = _unit(result)
     words = [
         f"{_capital(result.attrs['problem'])}.",

@@ -47,7 +47,10 @@ def burg(x: Complex, order: int) -> Complex:
 
 
 def fit_burg(time: Array, p: Complex) -> WobbleFit:
-    """Fit an autoregressive model to monthly means without drift and seasons."""
+    """Fit the free wobble by Burg's autoregressive model, to monthly means of polar motion.
+
+    Drift and seasonal terms are removed first.
+    """
     span = time[-1] - time[0]
     time, p, step = in_blocks(time, p, BLOCK)
     poles = np.roots(burg(without_known_terms(time, p), ORDER))

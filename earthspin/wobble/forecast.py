@@ -63,7 +63,7 @@ COMPONENTS = {
 
 @dataclass(frozen=True)
 class FastExcitation:
-    """Parameters of the fast part of the excitation: white noise after two first-order filters.
+    """Parameters of the fast part of the excitation: noise that passes two first-order filters.
 
     Attributes
     ----------
@@ -87,7 +87,7 @@ class FastExcitation:
 
     @property
     def density(self) -> Array:
-        """Covariance of the excitation noise added in a day, for both coordinates, shape (2, 2)."""
+        """Covariance of the x and y noise that enters the fast excitation, mas2/d, shape (2, 2)."""
         across = -self.correlation * self.x * self.y
         return np.array([[self.x**2, across], [across, self.y**2]])
 
@@ -114,7 +114,7 @@ SHIPPED = FastExcitation(0.2755, -0.33, 0.3524, 0.09, 32.0, 47.0, 0.535)
 
 
 def model(fast: FastExcitation = SHIPPED) -> StateSpace:
-    """Model of daily polar motion with ten complex states, in the order of `BEFORE`."""
+    """State-space model of daily polar motion, with ten complex states in the order of `BEFORE`."""
     rate = 1j * chandler_frequency(PERIOD, QUALITY)
     year = 2j * np.pi / YEAR
     diagonal = [
@@ -228,7 +228,7 @@ def last_of(p: Complex, used: int = RECORD) -> Complex:
 
 
 def _rows(states: list[int]) -> Array:
-    """Matrix that selects the sum of some states, for real and imaginary parts."""
+    """Matrix that sums the chosen states of the model into one x and one y coordinate."""
     row = np.zeros(len(BEFORE))
     row[states] = 1
     return np.asarray(np.kron(np.eye(2), row), dtype=float)

@@ -86,7 +86,7 @@ class Likelihood:
         )
 
     def data(self, s: complex) -> Complex:
-        """Columns of the terms to fit, followed by the record as the last column."""
+        """Matrix with a column for each term to fit, with the polar motion record as the last."""
         return np.column_stack([self.terms, self.record])
 
     def __call__(
@@ -137,7 +137,7 @@ class LikelihoodWithExcitation(Likelihood):
         self.step = float((time[-1] - time[0]) / (time.size - 1))
 
     def data(self, s: complex) -> Complex:
-        """Columns of the terms to fit, followed by the record minus the driven pole."""
+        """Matrix with a column for each term to fit, with record minus driven pole as the last."""
         start = np.exp(1j * s * (self.time - self.time[0]))
         driven = polar_motion_from(self.chi, self.step, s)
         moving = self._averaged(self.time, np.column_stack([start, driven]))
@@ -263,7 +263,7 @@ def largest(likelihood: Likelihood, method: str) -> WobbleFit:
 def _risen(
     of: Callable[[float], float], best: float, limit: float, reach: float, target: float
 ) -> float:
-    """Find where an increasing function reaches a target, starting from `best`, where it is zero.
+    """Find where an increasing function, zero at `best`, reaches a target; otherwise the limit.
 
     The limit stands for a place that lies beyond it.
     """

@@ -104,7 +104,7 @@ def in_blocks(time: Array, p: Complex, length: float) -> tuple[Array, Complex, f
 
 
 def least_squares(columns: Complex, values: Complex) -> Complex:
-    """Fit columns to a series by least squares; return the coefficients."""
+    """Fit a linear combination of given columns to a series; return the coefficients."""
     return np.asarray(np.linalg.lstsq(columns, values, rcond=None)[0])
 
 

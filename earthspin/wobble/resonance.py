@@ -128,7 +128,10 @@ def polar_motion_from(chi: Complex, step: float, s: complex, start: complex = 0j
 
 
 def _response(step: float, s: complex) -> tuple[complex, complex]:
-    """Return the factors exp(i s D) and 1 - exp(i s D) of a step D, without cancellation."""
+    """Factors of a free wobble of complex rate s over a step D: exp(i s D) and 1 - exp(i s D).
+
+    They are computed without cancellation.
+    """
     if not step > 0:
         raise UndefinedError(f"a step of {step:g} is not possible: time runs forwards")
     return complex(np.exp(1j * s * step)), complex(-np.expm1(1j * s * step))

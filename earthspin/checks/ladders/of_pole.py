@@ -161,7 +161,9 @@ def _peer(motion: Motion, tolerance: float) -> Result:
 
 
 def _by_scipy(method: str, motion: Motion, rtol: float) -> Result:
-    """Integrate the angular momentum as if the figure axis were parallel to it; correct the axis.
+    """Integrate the angular momentum by a SciPy method, and return the figure axis derived from it.
+
+    The torque is computed as if the figure axis were parallel to the angular momentum.
 
     The tilt between angular momentum and figure axis is computed to first order.
     """
