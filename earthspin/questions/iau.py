@@ -222,7 +222,9 @@ def _over(closure: float, uncertainty: float) -> float:
 
 @dataclass(frozen=True)
 class Differences:
-    """Computed pole minus IAU pole over time for each model, as dpsi sin(eps0) and deps, rad.
+    """Computed pole minus IAU pole over time for each model of the effects, in two angles, rad.
+
+    The angles are dpsi sin(eps0) in longitude and deps in obliquity.
 
     Attributes
     ----------
@@ -257,7 +259,7 @@ def differences(
     effects: tuple[str, ...],
     predicted_shift: Shift | None = None,
 ) -> Differences:
-    """Compute the difference between computed pole and IAU pole over time, for each model."""
+    """Compute computed pole minus IAU pole over time, for each model of the effects."""
     from earthspin.nutation.circles import complex_nutation, without_line
     from earthspin.sky import iau
 
@@ -361,7 +363,7 @@ def residuals_by_model(differences: Differences) -> ResidualsByModel:
 
 
 class ResidualSizes(Variables, along=("model", "direction")):
-    """Root mean square and largest value of computed pole minus IAU pole, for each model."""
+    """Root mean square and maximum of computed pole minus IAU pole, by model of the effects."""
 
     residual_rms: Value = number(
         "mas",
@@ -388,7 +390,7 @@ class ResidualSizes(Variables, along=("model", "direction")):
 
 @part
 def residual_sizes(differences: Differences) -> ResidualSizes:
-    """Compute root mean square and maximum of computed pole minus IAU pole, for each model."""
+    """Compute root mean square and maximum of computed pole minus IAU pole, by model of effects."""
     plain, fitted = differences.plain, differences.fitted
     return ResidualSizes(
         residual_rms=np.sqrt(np.mean(fitted**2, axis=0)),
@@ -402,7 +404,7 @@ def residual_sizes(differences: Differences) -> ResidualSizes:
 
 @part
 def observed(differences: Differences, observed_sky: ObservedSky) -> ObservedSizes:
-    """Compute the root mean square of each model minus the observed celestial pole."""
+    """Compute the root mean square of model pole minus observed celestial pole, for each model."""
     plain = dict(zip(differences.models, differences.plain.swapaxes(0, 1), strict=True))
     return observed_sky.sizes(plain, differences.error)
 

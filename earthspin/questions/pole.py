@@ -125,7 +125,7 @@ def as_predicted(predicted_shift: Shift) -> Shift:
 
 @part(unless=not_nonrigid)
 def interior_shift(as_fitted: Shift | None = None, as_predicted: Shift | None = None) -> Shift:
-    """Return the shift of the rigid axes by the response of the interior, fitted or predicted."""
+    """Return the chosen shift of the rigid body's axes by its interior: fitted or predicted."""
     shift = as_fitted or as_predicted
     assert shift is not None
     return shift

@@ -232,7 +232,7 @@ def convergence(torque_samples: Samples, body: Body) -> Convergence:
 
 
 def no_figure(body: Body) -> str | None:
-    """Return the reason to leave out the models of the figure, if the body lacks data for them."""
+    """Return the reason to leave out the models of the figure, if data of the body forbid them."""
     missing = [k for k in ("j2", "flattening", "radius") if getattr(body, k) is None]
     if missing:
         return f"{in_a_sentence(body.name)} has no {missing[0]}"
@@ -337,7 +337,7 @@ class Seasons(Variables, no_error="its relative error is that of general_precess
 def seasons(
     mean_rates: MeanRates, mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ...]
 ) -> Seasons:
-    """Compute general precession, drift of the calendar, and the equinox's time for one degree.
+    """Compute general precession, drift of the calendar, and years per degree of the equinox.
 
     For the Earth as it is, the published effects that the rate leaves out are included.
     """

@@ -287,7 +287,7 @@ def rotor(
     torque: CustomTorque | None,
     pulling: Pulling | None = None,
 ) -> Rotor:
-    """Build the body with its initial state, torques, and copies with changed uncertain inputs."""
+    """Build the rotating body: initial state, torques, copies with each uncertain input changed."""
     from earthspin.motion import neighbours
 
     begin, end = epochs.span()

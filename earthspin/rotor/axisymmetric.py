@@ -78,7 +78,7 @@ class SymmetricRotor:
 
     @property
     def wobble_rate(self) -> Numeric:
-        """Rate of the angular velocity about the figure axis, in the body, rad/s (I.6.7).
+        """Rate at which omega turns about the figure axis, in the body, rad/s (I.6.7).
 
         It is omega cos(alpha) (I3 - I1)/I1.
         """
@@ -241,7 +241,9 @@ class SymmetricRotor:
         )
 
     def _in_node_plane(self, length: Numeric, angle: Numeric, times: Numeric) -> FloatArray:
-        """Vector in the plane of angular momentum and figure axis, along inertial axes.
+        """Vector of given length and angle in the plane of angular momentum and figure axis.
+
+        Its components are along inertial axes.
 
         The angle is counted from the angular momentum towards the figure axis.
         """
@@ -303,7 +305,7 @@ def speed_and_cone(
 def wobble_rate_of_cones(speed: Numeric, alpha: Numeric, theta: Numeric) -> Numeric:
     """Wobble rate from the spin rate and the angles of body cone and space cone, rad/s (I.6.27).
 
-    It is omega sin(alpha - theta)/sin(theta), with the spin rate omega, written Omega' below.
+    It is Omega' = omega sin(alpha - theta)/sin(theta), with the spin rate omega.
 
     The body cone rolls on the space cone without slipping, so equal arc lengths of both rims pass
     the line of contact: Omega' sin(alpha) = phi' sin(alpha - theta).

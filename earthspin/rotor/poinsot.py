@@ -235,9 +235,9 @@ def herpolhode_advance(moments: Moments, omega: Any) -> FloatArray:
 
 
 def nearest_closure(advance: float, most_periods: int = 100) -> Closure:
-    """Find after how many polhode periods the herpolhode is nearest to whole turns, by a fraction.
+    """Find whole turns and polhode periods whose ratio is nearest to the herpolhode's advance.
 
-    The fraction of turns over periods approximates the advance per period.
+    The advance is then taken in turns per period of the polhode.
 
     The herpolhode is closed if its advance is a rational multiple of 2 pi. As floats cannot decide
     this, the gap measures the deviation from closure.

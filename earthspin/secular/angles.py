@@ -1,6 +1,6 @@
-r"""Obliquity and precession angles from a spin axis s and an orbit.
+r"""Obliquity and precession angles from a spin axis and an orbit.
 
-The orbit has the normal n and the eccentricity vector e.
+The spin axis is s; the orbit has the normal n and the eccentricity vector e.
 
 The equinox of date lies along s x n, where the Sun crosses the equator northward. The obliquity is
 the angle from n to s; the longitude of perihelion is measured along the orbit from the equinox of

@@ -72,7 +72,7 @@ def reference_axes(normal: FloatArray) -> FloatArray:
 
 
 class Pull(NamedTuple):
-    """Averaged torque on a spin axis: its axis, its constant of precession, and geodesic rotation.
+    """Averaged torque on a spin axis: torque axis, constant of precession, and geodesic rotation.
 
     The spin axis moves by ds/dt = (g n - a (m.s) m) x s.
 

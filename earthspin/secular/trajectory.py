@@ -256,9 +256,8 @@ class _BlockSolver:
     def _at_one_height(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
         """First guess of the motion of the spin axis: uniform precession about the reference axis.
 
-        The height, the component along that axis, is constant.
-
-        The height is that of the start, or the mean of the previous block.
+        The height, the component along that axis, is constant: that of the start, or the mean of
+        the previous block.
         """
         phi, z = state[..., np.newaxis, np.newaxis]
         if self.height is not None:

@@ -133,11 +133,9 @@ class Epochs:
 
 
 def _laid_out(record: IntArray, place: FloatArray) -> _InOrder | _InAnyOrder:
-    """Arrange times to evaluate Chebyshev series: in rows if they fill the records evenly.
+    """Arrange times to evaluate Chebyshev series: in a matrix if they fill the records evenly.
 
-    Otherwise each time is evaluated by itself.
-
-    Rows also require sorted times.
+    Otherwise each time is evaluated by itself. A matrix also requires sorted times.
     """
     if place.size >= _FEWEST_TO_A_RECORD:
         low, high = int(record[0]), int(record[-1])
@@ -173,7 +171,7 @@ class _InOrder(NamedTuple):
 
     @classmethod
     def of(cls, record: IntArray, counts: IntArray, place: FloatArray) -> _InOrder:
-        """Arrange sorted times in a matrix, from the index of each time's record and the counts."""
+        """Arrange sorted times in a matrix, from each time's record and the count per record."""
         low, longest = int(record[0]), int(counts.max())
         starts = np.cumsum(counts) - counts
         within = np.arange(place.size) - starts[record - low]

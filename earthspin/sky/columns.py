@@ -63,7 +63,7 @@ def is_number(word: str) -> bool:
 
 
 def rows_of(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
-    """Yield the number and the words of each line that begins with a number; lines count from 1."""
+    """Yield line number and words of each line that begins with a number; lines count from 1."""
     for number, line in enumerate(lines, start=1):
         words = line.split()
         if words and is_number(words[0]):

@@ -145,7 +145,7 @@ class MovingPole:
     def mean(self, days: FloatArray) -> FloatArray:
         """Unit vectors of the spin axis on given days, shape (n, 3).
 
-        The periodic terms are included, as they count as mean motion.
+        All periodic terms are included, as they count as mean motion.
         """
         time = np.asarray(days) * DAY
         ra = self.right_ascension + self.right_ascension_rate * time

@@ -442,7 +442,7 @@ def _check_eccentricity(rows: _Rows, e: FloatArray) -> None:
 
 
 def _turning(rows: _Rows) -> list[FloatArray]:
-    """Columns of the angles that make full turns: node, and perihelion as either angle."""
+    """Columns of the angles that make full turns: node, and longitude or argument of perihelion."""
     return [
         column for name, column in rows.columns.items() if name in ("varpi", "argument", "node")
     ]

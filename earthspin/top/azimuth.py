@@ -117,17 +117,17 @@ def _windings(nutation: Nutation, halves: FloatArray) -> Turned:
 
 
 def _lower_winding(nutation: Nutation) -> FloatArray:
-    """Quarter turns of (phi + psi)/2 in half a nutation period, made by its arctangent."""
+    """Quarter turns of (phi + psi)/2 in half a nutation period, counted from its arctangent."""
     return np.where(_has_lower_arc(nutation), np.sign(nutation.start.b_plus_a), 0.0)
 
 
 def _upper_winding(nutation: Nutation) -> FloatArray:
-    """Quarter turns of (phi - psi)/2 in half a nutation period, made by its arctangent."""
+    """Quarter turns of (phi - psi)/2 in half a nutation period, counted from its arctangent."""
     return np.where(_has_upper_arc(nutation), np.sign(nutation.start.b_minus_a), 0.0)
 
 
 def _has_lower_arc(nutation: Nutation) -> BoolArray:
-    """Return True if (phi + psi)/2 is computed with an arctangent, False if by an integral alone.
+    """Return True if an arctangent is separated from the integral for (phi + psi)/2.
 
     That is so if u1 is not nearer to u3 than to the lower pole.
     """
@@ -135,7 +135,7 @@ def _has_lower_arc(nutation: Nutation) -> BoolArray:
 
 
 def _has_upper_arc(nutation: Nutation) -> BoolArray:
-    """Return True if (phi - psi)/2 is computed with an arctangent, False if by an integral alone.
+    """Return True if an arctangent is separated from the integral for (phi - psi)/2.
 
     That is so if u3 is not nearer to the upper pole than u2.
     """
@@ -228,7 +228,7 @@ def _side_of_pole(nutation: Nutation, place: Place) -> FloatArray:
 
 
 class _Integral(NamedTuple):
-    """Coefficients of one regular integral in the advance of the Euler angles.
+    """Coefficients of one regular integral in the advance of the Euler angles of a top.
 
     The integral is F first + third sn^3 RJ(cn^2, dn^2, 1, cn^2 + shape sn^2).
 

@@ -87,12 +87,12 @@ class Nutation(NamedTuple):
 
     @property
     def depth(self) -> FloatArray:
-        """Distance 1 - u1 from the upper pole to the lower turning point."""
+        """Distance along u = cos(theta) from the upper pole to the lower turning point, 1 - u1."""
         return self.start.below + self.gaps.lower
 
     @property
     def height(self) -> FloatArray:
-        """Distance 1 + u2 from the lower pole to the upper turning point."""
+        """Distance along u = cos(theta) from the lower pole to the upper turning point, 1 + u2."""
         return self.start.above + self.gaps.upper
 
 

@@ -135,7 +135,7 @@ class TopConstants(NamedTuple):
 
 
 def top_constants(top: HeavyTop) -> TopConstants:
-    """Constants a, b, alpha, beta of the motion (I.7.7, I.7.14).
+    """Compute the constants of a top's motion: a, b, alpha and beta of I.7.7 and I.7.14.
 
     The last rows of the source's table I.7.20 have a and b exchanged: the vertical component
     of the angular momentum is b I1, the axial one a I1.

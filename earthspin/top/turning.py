@@ -15,7 +15,7 @@ FloatArray = NDArray[np.float64]
 
 
 def cubic_roots(top: HeavyTop) -> FloatArray:
-    """Roots A, B, C of the cubic in u = cos(theta) (I.7.16).
+    """Roots of the cubic in u = cos(theta) that determines the nutation of a top (I.7.16).
 
     Returns
     -------
@@ -82,7 +82,7 @@ def mean_precession_rate(top: HeavyTop) -> FloatArray:
 
 
 def effective_potential(top: HeavyTop, theta: ArrayLike) -> FloatArray:
-    """Effective potential V(theta) in alpha = theta'^2 + V, rad2/s2 (I.7.18).
+    """Effective potential V(theta) of a top, for which theta'^2 + V is constant, rad2/s2 (I.7.18).
 
     V = (b - a cos(theta))^2/sin^2(theta) + beta cos(theta); I1 V/2 is an energy in J.
 

@@ -99,7 +99,7 @@ class Window:
         return np.asarray(w / np.sum(w))
 
     def mean(self, times: FloatArray, values: FloatArray) -> FloatArray:
-        """Weighted mean of values over time, their first axis.
+        """Weighted mean of an array over time, which is its first axis.
 
         Parameters
         ----------
@@ -292,7 +292,9 @@ def precessing_torque(torque: FloatArray, axis: FloatArray, normal: FloatArray) 
 
 
 def precessing_of_tensor(in_plane: Numeric, out_of_plane: Numeric, obliquity: float) -> Numeric:
-    """Size of the precessing torque from a mean tidal tensor, or its bound from error bounds, s-2.
+    """Size of the precessing torque, s-2, computed from components of the mean tidal tensor.
+
+    From bounds on the errors of the components, it is a bound on the torque's error.
 
     With z along the orbit's normal and x below the spin axis,
 

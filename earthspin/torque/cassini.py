@@ -101,7 +101,7 @@ def is_locked(spin_rate: float, motion: float) -> bool:
 def strengths(
     motion: float, spin_rate: float, j2: float, c22: float, polar: float, eccentricity: float
 ) -> tuple[float, float]:
-    """Strengths of the averaged torque: K0, and Kr for a spin locked to the orbit, rad/s.
+    """Strengths of the averaged torque, rad/s: by J2 (K0), and by C22 if the spin is locked (Kr).
 
     Parameters
     ----------

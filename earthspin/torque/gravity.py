@@ -96,7 +96,7 @@ def torque_error(
     distance_error: float,
     u_product: float,
 ) -> FloatArray:
-    """95 % half-width of a torque, from errors of the body's numbers and of the mass's position.
+    """95 % half-width of a torque, from the errors of GM (C - A) and of the position of the mass.
 
     Parameters
     ----------

@@ -65,7 +65,7 @@ def mean_tide(gm: float, a: float, e: float, square: FloatArray) -> FloatArray:
 
 
 def mean_torque(tide: FloatArray, axis: FloatArray) -> FloatArray:
-    """Mean torque per unit of C - A on an axis, s-2, shape (3,)."""
+    """Mean torque on a spin axis, per unit of C - A, s-2, shape (3,)."""
     return np.asarray(3 * np.cross(tide @ axis, axis))
 
 

@@ -98,7 +98,7 @@ def period_error(rate: Numeric, rate_error: Numeric) -> Numeric:
 
 
 def rate_ratio(precessing: Numeric) -> Numeric:
-    """Ratio of each precessing torque to the first one; 1 if the two are equal, even if zero."""
+    """Ratio of each precessing torque to the first one; 1 for equal torques, also if both are 0."""
     first = precessing[0]
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(precessing == first, 1.0, precessing / first)

@@ -249,7 +249,10 @@ def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
 
 
 def _chief(answer: xr.Dataset, name: str = "") -> Number:
-    """Main quantity of an ensemble: the last element, such as the total or the last time."""
+    """Quantity whose spread stands for that of an ensemble: the last element of a main variable.
+
+    It is for example the total, or the value at the last time.
+    """
     chiefs = (name,) if name else _chiefs(answer)[:1]
     numbers = [number for number in _numbers(answer) if number.name in chiefs]
     if not numbers:

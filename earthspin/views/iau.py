@@ -61,7 +61,7 @@ def budget(tree: Result) -> Table:
 
 
 def residuals(tree: Result) -> Table:
-    """Table of the sizes of computed pole minus IAU pole, for each model."""
+    """Table of the sizes of computed pole minus IAU pole, for each model of the effects."""
     series = section(tree, "residuals_by_model")
     dates = ""
     if series is not None:
@@ -84,7 +84,7 @@ def residuals(tree: Result) -> Table:
 
 
 def observed(tree: Result) -> Table:
-    """Table of the root mean square of each model minus the observed celestial pole."""
+    """Table of the root mean square of model pole minus observed celestial pole, for each model."""
 
     def both(name: str) -> Column:
         return Column(name, lambda row: " / ".join(f"{v:.3f}" for v in row[name].values))

@@ -120,7 +120,7 @@ TABLES = [
 
 
 def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the root mean square of each step minus IAU 2000A, on a logarithmic axis.
+    """Draw the root mean square of predicted pole minus IAU 2000A by model, on a logarithmic axis.
 
     Parameters
     ----------

@@ -66,7 +66,7 @@ def observed(tree: Result) -> Table:
 
 
 def statements(tree: Result) -> Table:
-    """Table that compares statements of Appendix I on the wobble with observation."""
+    """Table that compares statements of the source text on the wobble with observation."""
     fit, metres = needed(tree, "chandler"), _metres(answer_of(tree))
     period, error = float(fit.chandler_period), float(fit.chandler_period_error)
     size = fit.chandler_amplitude

@@ -1,4 +1,4 @@
-"""Forecast of polar motion by a driven oscillator, annual and semiannual circles and a slow pole.
+"""Forecast of polar motion: driven free wobble, annual and semiannual motion, and a slow pole.
 
 With p = x - i y in mas,
 
@@ -212,7 +212,7 @@ def forecast(p: Complex, days: int, fast: FastExcitation = SHIPPED, used: int = 
 
 
 def last_of(p: Complex, used: int = RECORD) -> Complex:
-    """Select the last days of a record.
+    """Return the last days of a record of polar motion, as many as a forecast uses.
 
     Raises
     ------

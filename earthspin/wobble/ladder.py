@@ -160,7 +160,7 @@ class Spin:
     period: Numeric
 
     def centrifugal(self, love_radius: Numeric) -> Numeric:
-        """Products of inertia over M a2, per radian of wobble and per unit of k2.
+        """Products of inertia that the centrifugal potential causes, over M a2, per radian and k2.
 
         They are Omega2 R5/(3 G M a2).
         """

@@ -73,14 +73,14 @@ def turning(time: Any, period: float) -> Complex:
 
 
 def drift_terms(time: Array, degree: int = DRIFT) -> Complex:
-    """Columns of powers of time, scaled to -1 to 1; shape (n, degree + 1)."""
+    """Powers of time, with time scaled to -1 to 1, one column each, shape (n, degree + 1)."""
     centre, half = (time[-1] + time[0]) / 2, (time[-1] - time[0]) / 2
     scaled = (time - centre) / half
     return np.column_stack([scaled**k for k in range(degree + 1)]).astype(complex)
 
 
 def known_terms(time: Array, drift: int = DRIFT) -> Complex:
-    """Columns of drift and seasonal terms, shape (n, drift + 5)."""
+    """Values of drift and seasonal terms at given times, one column each, shape (n, drift + 5)."""
     seasons = [turning(time, period) for period in SEASONS]
     return np.column_stack([drift_terms(time, drift), *seasons])
 

@@ -141,7 +141,7 @@ def _response(step: float, s: complex) -> tuple[complex, complex]:
 
 
 def central_difference(p: Complex, step: float, s: complex) -> Complex:
-    """Excitation of the inner samples, dp/dt by central differences; shape (n - 2,)."""
+    """Excitation at the inner samples of polar motion, by central differences; shape (n - 2,)."""
     return np.asarray(p[1:-1] + 1j / s * (p[2:] - p[:-2]) / (2 * step))
 
 

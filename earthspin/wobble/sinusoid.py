@@ -29,7 +29,10 @@ def fit_least_squares(time: Array, p: Complex) -> WobbleFit:
     rest = means - columns @ (columns.conj().T @ means)
 
     def explained(period: Array) -> Array:
-        """Power of sinusoids of given periods in the record, beyond drift and seasonal terms."""
+        """Power in a record of polar motion that sinusoids of given periods explain.
+
+        Drift and seasonal terms are fitted as well, and not counted.
+        """
         waves = np.exp(2j * np.pi * t[:, None] / period)
         waves = waves - columns @ (columns.conj().T @ waves)
         return np.asarray(abs(waves.conj().T @ rest) ** 2 / np.sum(abs(waves) ** 2, axis=0))
