@@ -332,7 +332,7 @@ def _plan(options: Namespace) -> None:
 
 
 def _accuracy(options: Namespace) -> int:
-    """Measure error against run time."""
+    """Run the command `accuracy`: measure and show the error and run time of all methods."""
     from earthspin.checks.work_precision import QUANTITIES, accuracy
     from earthspin.engine import drafts
     from earthspin.views import work_precision_views as views
@@ -446,7 +446,7 @@ def _note_of_results(data: str | Path | None) -> Iterator[None]:
 
 
 def _sections(options: Namespace) -> str | list[str] | None:
-    """Names that follow --sections; None if the option is absent."""
+    """Section names from the option --sections, or "all"; None if the option is absent."""
     if options.sections is None or options.sections.strip() == "all":
         return options.sections and "all"
     return [name.strip() for name in options.sections.split(",") if name.strip()]

@@ -1,4 +1,6 @@
-"""Physical constants with value, unit, uncertainty, source, and the copy of the source read.
+"""Physical constants with value, unit, uncertainty and source.
+
+Each also names the copy of the source in which the value was checked.
 
 Uncertainties are one standard deviation in the unit of the value; 0 means exact or
 defined, None that the source gives none. Plain conversion factors stand at the end.

@@ -206,7 +206,7 @@ def is_time(value: object) -> bool:
 
 
 def datetime64(days_tdb: FloatArray) -> NDArray[np.datetime64]:
-    """Days from J2000.0 TDB as ``datetime64[us]``, the time coordinate of every dataset."""
+    """Convert days from J2000.0 TDB to ``datetime64[us]``, as in time coordinates of datasets."""
     counts: NDArray[np.int64] = np.rint(days_tdb * MICROSECONDS_PER_DAY).astype(np.int64)
     return J2000 + counts.astype("timedelta64[us]")
 
@@ -214,12 +214,12 @@ def datetime64(days_tdb: FloatArray) -> NDArray[np.datetime64]:
 def first_and_last(
     value: Any, where: Where, read: Callable[[Any, Where], _Time], allowed: str
 ) -> tuple[_Time, _Time]:
-    """Read two times, the earlier first.
+    """Read two times; refuse them if the second is before the first.
 
     Raises
     ------
     SceneError
-        If they are not two, or in the wrong order.
+        If there are not two times, or the second is before the first.
     """
     if is_skyfield_time(value) and value.shape:
         value = list(value)
@@ -254,7 +254,7 @@ class Span:
 
     @classmethod
     def read(cls, value: Any, where: Where) -> Span:
-        """Read two dates and sort them."""
+        """Read two dates; refuse them if the second is before the first."""
         if isinstance(value, Span):
             return value
         allowed = "two dates, like ['2000-01-01', '2001-01-01']"
@@ -266,7 +266,7 @@ class Span:
 
     @property
     def days(self) -> tuple[float, float]:
-        """First and last day from J2000.0 TDB."""
+        """Start and end of the span, days from J2000.0 TDB."""
         return self.first / MICROSECONDS_PER_DAY, self.last / MICROSECONDS_PER_DAY
 
 
@@ -298,7 +298,7 @@ class TimeGrid:
         return cls(span.first, spacing, (span.last - span.first) // spacing + 1)
 
     def span(self) -> tuple[float, float]:
-        """Earliest and latest, days from J2000.0 TDB."""
+        """Earliest and latest of the times, days from J2000.0 TDB."""
         return float(self.days(0, 1)[0]), float(self.days(self.size - 1)[0])
 
     def days(self, first: int = 0, last: int | None = None) -> FloatArray:
@@ -341,7 +341,7 @@ class Listed:
 
 
 class TimeList(Listed):
-    """Days from J2000.0 TDB of a list of times."""
+    """List of times, stored as days from J2000.0 TDB."""
 
     words, hint = "a list of times", "Dates"
 
@@ -351,7 +351,7 @@ class TimeList(Listed):
         return int(self.listed.size)
 
     def span(self) -> tuple[float, float]:
-        """Earliest and latest, days from J2000.0 TDB."""
+        """Earliest and latest of the times, days from J2000.0 TDB."""
         return float(self.listed.min()), float(self.listed.max())
 
     def days(self, first: int = 0, last: int | None = None) -> FloatArray:

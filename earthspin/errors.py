@@ -350,7 +350,7 @@ class OutputError(EarthspinError, OSError):
 
 
 class MissingExtraError(EarthspinError, ImportError):
-    """An optional package that this question needs is not installed.
+    """Raised if a task needs an optional package that is not installed.
 
     Examples
     --------

@@ -44,7 +44,7 @@ __all__ = ["BodyFixed", "EquatorOfDate", "SkyfieldFrame", "rotations"]
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """Question of an answer, without its times, to be solved again at the times of a frame.
+    """Question of an answer without its times; a frame answers it again at its own times.
 
     Attributes
     ----------
@@ -95,7 +95,7 @@ class Model:
         return f"<answer to '{self.question.word}'>"
 
     def at(self, **times: Any) -> Question:
-        """Build the question of the model for other times."""
+        """Build a question that has the inputs of the answer and other times."""
         own = {
             name: getattr(self.question, name)
             for name in self.question.given
@@ -116,7 +116,7 @@ def _solved(model: Model, times: tuple[float, ...]) -> tuple[FloatArray, FloatAr
 
 
 def _long_term(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Mean equator and equinox of date."""
+    """Matrices from the ICRS to the mean equator and equinox of date, and their errors, rad."""
     different, index = np.unique(times, return_inverse=True)
     tree = run_tree(model.at(times=different * u.d), sections=["matrices"])
     section = tree["matrices"].to_dataset()
@@ -155,7 +155,7 @@ def _tdb(times: FloatArray) -> Time:
 
 
 def _at(model: Model | None, obstime: Time) -> tuple[FloatArray, FloatArray]:
-    """Matrices from the ICRS, and errors (rad), in the shape of the times of a frame."""
+    """Rotation matrices from the ICRS and their errors (rad) at the times of a frame."""
     if model is None:
         raise SceneError("model", "nothing", "give an answer, as in model=answer")
     times = days(obstime.reshape(-1), Where("obstime"))

@@ -193,7 +193,7 @@ class Body(FromMass):
             object.__setattr__(self, "pole", self._pole_at(obliquity))
 
     def _pole_at(self, value: object) -> Pole:
-        """Return the fixed pole that has a given obliquity and the equinox of the current pole."""
+        """Return a fixed pole with the given obliquity and with the same equinox as this body."""
         angle = _READ_AS["obliquity"].read(value, Where(f"{self.name}.obliquity"))
         if hasattr(angle, "dims") or not 0 <= angle <= math.pi:
             raise BodyError(self.name, "obliquity", value, "give one angle from 0 to 180 deg")
@@ -255,7 +255,7 @@ class Body(FromMass):
         return card(self.name, rows)
 
     def _source(self, name: str) -> str:
-        """Source of a number of this body; empty if the number differs from the built-in body's."""
+        """Literature source of the value of a field; empty if a user changed the built-in value."""
         value, cited = getattr(self, name), NUMBERS.get(self.name, {}).get(name)
         if isinstance(value, c.Constant):
             return value.source
@@ -411,7 +411,7 @@ class Body(FromMass):
         return getattr(self, name)
 
     def require(self, names: Iterable[str]) -> None:
-        """Raise one error that lists all missing fields, each with an example value.
+        """Raise one error that lists all given fields without a value, each with an example value.
 
         Parameters
         ----------
@@ -441,7 +441,7 @@ class Body(FromMass):
         return float(value)
 
     def magnitudes(self) -> dict[str, Magnitude]:
-        """Converters, by field name, of the mass and of each numerical field that is set."""
+        """Converters between text and SI, by field, for the mass and all numerical fields set."""
         kinds = {name: self.KINDS[name] for name in self.UNITS if getattr(self, name) is not None}
         return kinds | {"mass": _READ_AS["mass"]}
 
@@ -456,7 +456,7 @@ class Body(FromMass):
         return next((name for name in self.UNITS if hasattr(getattr(self, name), "dims")), None)
 
     def replace(self, **changes: Any) -> Body:
-        """Return a body with some fields changed, the rest kept consistent.
+        """Return a body with some fields changed; fields that depend on these are updated, too.
 
         Parameters
         ----------
@@ -525,7 +525,7 @@ class Body(FromMass):
         return _replace(fixed, pole=fixed._pole_at(obliquity), pole_uncertainty=None)
 
     def _figure(self, changes: dict[str, Any]) -> dict[str, Numeric]:
-        """Return new values of J2, H and triaxiality that follow from changes of other fields.
+        """Return values of J2, H and triaxiality that follow from changed moments of inertia or J2.
 
         Remove `moments` from the changes.
         """
@@ -547,7 +547,9 @@ class Body(FromMass):
         return {"dynamical_flattening": self.needed("dynamical_flattening") * j2 / self.j2}
 
     def _is_another(self, changes: Mapping[str, Any]) -> bool:
-        """Return True if a changed field that affects the wobble differs by more than 1 %.
+        """Return True if the changes make the free wobble that of a different body.
+
+        This is so if a field that affects the wobble differs by more than 1 % from this body.
 
         The observed wobble then does not apply to the body.
         """

@@ -98,7 +98,7 @@ def _year(days: float) -> Constant:
 def _numbers(
     gm: float, radius: float, j2: Constant, spin: float, orbit: Constant
 ) -> dict[str, Constant]:
-    """Fields of a giant planet, from J2, orbital period and other numbers.
+    """Numerical fields of a giant planet, by name, with their sources.
 
     GM is in km3 s-2, the radius in km and the spin in deg/d.
     """

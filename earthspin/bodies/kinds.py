@@ -39,7 +39,7 @@ class Magnitude:
 
     @property
     def form(self) -> str:
-        """Pattern of a valid value in a scene file: text with the unit, or a pure number."""
+        """Example of how to write the value in a scene file, as text with a unit or as a ratio."""
         return f'"... {self.text.partition(" ")[2]}"' if self.unit else self.ratio
 
     def read(self, value: object, where: Where) -> Any:
@@ -171,7 +171,7 @@ class CitedPeriod:
 
 
 class OwnPlace:
-    """Converter of a body's own position source: a Skyfield function or kernel segments."""
+    """Converter of the source of a body's position: a Skyfield function or kernel segments."""
 
     words = "a vector function of Skyfield's, or segments like {kernel, centre, target}"
     hint = "VectorFunction | Trajectory | Mapping[str, Any]"

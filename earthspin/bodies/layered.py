@@ -73,7 +73,7 @@ class Layers:
 
 
 def _layer(table: Any, where: Where) -> Layer:
-    """Read one layer of a table; a number is read as a constant polynomial."""
+    """Read one layer of a body from a table; a single number is a profile constant with radius."""
     if not isinstance(table, Mapping) or not {"top", "density", "vp"} <= set(table):
         raise where.error(table, "give top, density, vp, and vs and shear_q if it is solid")
     if unknown := set(table) - {"top", "density", "vp", "vs", "shear_q"}:
@@ -96,7 +96,7 @@ def _layer(table: Any, where: Where) -> Layer:
 
 
 def _sampled(table: Any, name: str, reference: str, where: Where) -> LayeredBody:
-    """Read samples from a table of columns, or any object with columns of these names."""
+    """Read a layered body from samples along its radius: a table with the columns `COLUMNS`."""
     try:
         columns = {
             column: real_numbers(table[column]).tolist()
@@ -121,7 +121,7 @@ class UnderTheSurface:
     hint = Layers.hint
 
     def read(self, value: object, where: Where) -> str | LayeredBody:
-        """Return the name as text, or a `LayeredBody` from a layered body or table."""
+        """Return a name unchanged, or make a `LayeredBody` from a layered body or its table."""
         if isinstance(value, (LayeredBody, Mapping)):
             return Layers().read(value, where)
         if not isinstance(value, str):

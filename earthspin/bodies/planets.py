@@ -48,7 +48,7 @@ def pulled_by(body: Body) -> tuple[Body, ...]:
 
 
 def on_its_orbit(body: Body) -> Body:
-    """Return a body; a giant planet without orbit and position source gets its mean orbit."""
+    """Give a giant planet without orbit and position its mean orbit; return others unchanged."""
     placed = body.orbit is not None or body.position is not None
     if placed or body.name not in ORBITS:
         return body

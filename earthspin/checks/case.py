@@ -95,7 +95,7 @@ class Case:
 def holds(
     *, bound: float, unit: str = "1", slow: bool = False, long: bool = False
 ) -> Callable[[Measure], Case]:
-    """Make a case of a decorated function, whose distances from a reference must be within `bound`.
+    """Make a case of a function that yields distances from a reference, at most `bound`.
 
     The other arguments are those of `Case`.
     """
@@ -121,7 +121,7 @@ def _case(measure: Measure, refusal: str = "", **numbers: Any) -> Case:
 
 @dataclass(frozen=True)
 class Outcome:
-    """Outcome of a case.
+    """Outcome of a test case: distance from the reference, verdict and run time.
 
     Attributes
     ----------

@@ -57,7 +57,7 @@ MOST_STEPS = 4
 
 @dataclass(frozen=True)
 class Setting:
-    """One setting of a method.
+    """One setting of a computing method, such as a tolerance, with the function to run it.
 
     Attributes
     ----------
@@ -132,7 +132,7 @@ def method(
 
 @dataclass(frozen=True)
 class Ladder:
-    """All methods for one quantity.
+    """Comparison of all methods that compute the same quantity (work-precision diagram).
 
     Attributes
     ----------
@@ -208,7 +208,7 @@ class Point:
 
 
 def timed(run: Callable[[], Any]) -> Timing:
-    """Time a call: once to warm up, then repeatedly, depending on its run time.
+    """Measure the run time of a function call: the first call, and the median of repeated calls.
 
     Parameters
     ----------
@@ -273,10 +273,9 @@ def measure(ladder: Ladder, advance: Advance = lambda amount: None) -> list[list
 
 
 def pareto_front(error: Any, run_time: Any) -> BoolArray:
-    """Return True for each point of the Pareto front.
+    """Return True for each point that no other point surpasses (Pareto front).
 
-    A point is not on the front if another point is better in error or run time and not worse in the
-    other.
+    Another point surpasses it if it is better in error or run time and not worse in the other.
 
     Parameters
     ----------
@@ -350,7 +349,7 @@ def ladder_of(quantity: str, *, quick: bool = False) -> Ladder:
 
 
 def dataset(ladder: Ladder, points: Sequence[Sequence[Point]], *, quick: bool) -> xr.Dataset:
-    """Make a labelled dataset of measured points.
+    """Make a dataset of measured errors and run times, labelled by method and setting.
 
     Parameters
     ----------
@@ -466,7 +465,7 @@ class _Row(NamedTuple):
 
 
 def _cheapest(rows: list[_Row]) -> _Row:
-    """Fastest setting; of settings as fast within the spread of run times, the most accurate."""
+    """Most accurate of the settings whose run time equals the shortest within its spread."""
     fastest = min(rows, key=lambda row: row.run_time)
     similar = [r for r in rows if r.run_time - fastest.run_time <= max(r.spread, fastest.spread)]
     return min(similar, key=lambda row: row.error)

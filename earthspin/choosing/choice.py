@@ -1,4 +1,4 @@
-"""A choice of settings, of one type for all methods."""
+"""Choice of the cheapest settings of a method whose measured error is small enough."""
 
 from __future__ import annotations
 

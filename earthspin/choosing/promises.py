@@ -28,7 +28,7 @@ class Report(Variables):
     evaluations: Value = number("1", "evaluations of positions, or of terms of nutation")
 
     def __init_subclass__(cls, units: str, error_of: str) -> None:
-        """Set the unit of the error variables of a report, and the quantity in error."""
+        """Set the unit of the errors in a subclass, and name the quantity that has these errors."""
         super().__init_subclass__()
         cls.schema = {
             name: replace(variable, units=units, long_name=f"{variable.long_name}, {error_of}")
@@ -76,7 +76,7 @@ class Report(Variables):
 
 
 def refuse_unkept(asked: float | None, best: float, unit: str, remedy: str) -> None:
-    """Raise an error if the estimated error exceeds the request by more than unit rounding.
+    """Raise an error if the estimated error of a result exceeds the requested error.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def refuse_unkept(asked: float | None, best: float, unit: str, remedy: str) -> N
     Raises
     ------
     AccuracyError
-        If `best` exceeds `asked`.
+        If `best` exceeds `asked` by more than the rounding error of a change of units.
     """
     if asked is not None and not best <= asked * (1 + 1e-12):
         factor = from_si(unit)

@@ -18,7 +18,7 @@ from earthspin.units import FloatArray
 
 @dataclass(frozen=True)
 class PoleWindows:
-    """Gauss windows of the axis solver.
+    """Length of the time windows of the axis solver, and number of Gauss nodes in each.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ def window_choices(
 
 
 def _in_reach(rows: Any, reaches: list[float], reach: float) -> FloatArray:
-    """Errors of all settings over a time span (s), from tabulated logarithms of measured errors.
+    """Errors of all settings of the axis solver over a time span (s), from tabulated log10 errors.
 
     Beyond the longest tabulated span, errors grow linearly with the span.
     """

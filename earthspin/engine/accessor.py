@@ -58,7 +58,7 @@ class Answer:
 
     @property
     def scene(self) -> Question:
-        """Question of this answer, with every number."""
+        """Question that was answered, with the values of all its keys, read from the answer."""
         question: Question = earthspin.load_scene(self._dataset)
         return question
 
@@ -211,7 +211,7 @@ class Answer:
         return quantiles(self._dataset, shares)
 
     def sensitivity(self) -> xr.Dataset:
-        """Slope and share of variance of each number of an ensemble with respect to each input.
+        """Contribution of each input of an ensemble to the variance of each result.
 
         The numbers are fitted by a linear function of all inputs (`numerics.sampling`). An input
         that is a name, such as an orbit table, divides the members into classes: its share is that
@@ -271,7 +271,10 @@ class Answer:
 
 
 def _spread(dataset: xr.Dataset) -> xr.Dataset:
-    """Split variables along less common dimensions into columns, one column for each label."""
+    """Make all variables of a dataset have the same dimensions, as columns of a table need.
+
+    A variable with further dimensions becomes one variable for each of their labels.
+    """
     columns: dict[str, xr.DataArray] = {}
     common = Counter(
         frozenset(array.dims).difference(("component", "quaternion", "axis"))

@@ -1,4 +1,4 @@
-"""Answer a question for a single case, for an ensemble, or with errors from a sample."""
+"""Answer a question: once, for ensemble members, or with errors from random members."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
 
 
 def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
-    """Add to an answer, next to each linearly propagated error, the error from random members.
+    """Add to an answer errors that are estimated from an ensemble of random members.
 
     Parameters
     ----------

@@ -57,7 +57,7 @@ def _with_span(question: type[Question], values: dict[str, Any]) -> dict[str, An
 
 
 def arguments_of(question: type[Question]) -> dict[str, Key | None]:
-    """Arguments of the public function of a question, in order, each with its key.
+    """Names of the arguments of the public function of a question, in order, with their keys.
 
     The arguments `start` and `stop` are not keys; they map to None.
     """

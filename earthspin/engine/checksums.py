@@ -189,7 +189,7 @@ def of_content(groups: Mapping[str, xr.Dataset]) -> str:
 
 
 def _add(total: Any, *pieces: str | bytes) -> None:
-    """Add texts or bytes to a hash, with number and lengths, so that the encoding is unique."""
+    """Add pieces of text or bytes to a hash, preceded by their number and each by its length."""
     total.update(b"%d;" % len(pieces))
     for piece in pieces:
         coded = piece if isinstance(piece, bytes) else piece.encode("utf-8", "surrogatepass")

@@ -139,7 +139,7 @@ class Ensemble:
 
     @cached_property
     def groups(self) -> dict[Names, IntArray]:
-        """Ascending indices of the members with the same input names, by tuple of names."""
+        """Ascending indices of the members that have equal names as inputs, by tuple of names."""
         if len(self.numbers) == len(self.inputs):
             return {(): np.arange(len(self.which))}
         indices: dict[Names, list[int]] = {}
@@ -204,7 +204,7 @@ class Ensemble:
     # --- the members -----------------------------------------------------------------------------
 
     def _drop_impossible_members(self, drop: bool, n: int) -> None:
-        """Refuse members that cannot exist, or leave them out."""
+        """Leave out members that cannot exist if `drop` is true; otherwise refuse them."""
         impossible = dict(sorted(self._impossible_members(), key=itemgetter(0)))
         if not impossible:
             return
@@ -264,7 +264,7 @@ class Ensemble:
         return block.assign_coords(self._labels(slice(first, last), block))
 
     def _together(self, first: int, last: int) -> Iterator[tuple[IntArray, xr.Dataset]]:
-        """Compute members `first` to `last` - 1, all members with the same names at once.
+        """Compute members `first` to `last` - 1; those with the same names as inputs run together.
 
         Yield their indices and answers.
 
@@ -316,7 +316,7 @@ class Ensemble:
         return {name: self.values[name] for name in self.numbers}
 
     def _labels(self, which: slice, block: xr.Dataset) -> dict[str, Any]:
-        """Make the coordinates along `member`: number of each member, and its value of each input.
+        """Make the coordinates along `member`: member numbers, and the input values of the members.
 
         An input with the name of a result, such as theta, is labelled ``<name>_given``.
         """
@@ -357,7 +357,7 @@ def _along_all_members(answer: xr.Dataset, count: int) -> xr.Dataset:
 
 
 def _concatenated(pieces: list[xr.Dataset]) -> xr.Dataset:
-    """Concatenate pieces along `member`; variables without this dimension are taken once."""
+    """Join datasets of members along `member`; copy other variables from the first dataset."""
     import xarray as xr
 
     variables: dict[Any, Any] = {}

@@ -29,7 +29,7 @@ _SYMBOLS = {"H": "body.dynamical_flattening", "J2": "body.j2", "J3": "body.j3", 
 
 @dataclass(frozen=True)
 class Input:
-    """Input of a question in which ensemble members may differ: one number, or a key with a name.
+    """Input of a question in which ensemble members may differ: one number, or a name.
 
     Attributes
     ----------
@@ -211,7 +211,7 @@ def _with_item(items: tuple[Any, ...], index: int, item: Any) -> tuple[Any, ...]
 
 
 def _with_number(sequence: Any, index: Any, value: Any) -> Any:
-    """Replace one number of a list by another number, or by one number for each member."""
+    """Return a list of numbers with one number replaced, possibly by a value for each member."""
     if hasattr(sequence, "numbers"):
         return replace(sequence, numbers=_with_item(sequence.numbers, index, value))
     labelled = hasattr(value, "dims")

@@ -46,7 +46,7 @@ class Work(Protocol):
 
     @property
     def request(self) -> Mapping[str, str]:
-        """Record of question and versions as texts by name; equal records mean equal results."""
+        """Question and versions of the software, as texts by name, which determine the result."""
 
     def first(self) -> xr.Dataset:
         """Compute the first block (number 0), with the attributes of the whole result."""

@@ -150,7 +150,10 @@ class Question:
     def __init_subclass__(
         cls, word: str = "", call: str = "", table: str = "", positional: tuple[str, ...] = ()
     ) -> None:
-        """Set the names of a question; a class without `word` holds keys for several questions."""
+        """Set the names by which a subclass of `Question` is known in scenes and in Python.
+
+        A subclass without `word` is no question itself: it holds keys for several questions.
+        """
         cls.word, cls.call, cls.table, cls.positional = word, call, table, positional
         dataclass(frozen=True, init=False, eq=False, repr=False)(cls)
 
@@ -231,7 +234,7 @@ class Question:
         title: str = "",
         typed: Collection[str] = (),
     ) -> Self:
-        """Read a question from the keys of a scene, without `compute`.
+        """Read a question from the table of a scene from which the key `compute` was removed.
 
         Parameters
         ----------
@@ -292,7 +295,7 @@ class Question:
         return {name: getattr(self, name) for name in keys_of(type(self))}
 
     def published_inputs(self) -> Mapping[str, tuple[str, tuple[float, float]]]:
-        """Published distributions of the question's own numerical keys: shape and numbers, by key.
+        """Published probability distributions of numerical keys of the question, by key name.
 
         An entry is ``("normal", (mean, standard deviation))`` or ``("uniform", (low, high))``.
         The distributions of numbers of bodies follow from the bodies themselves.
@@ -369,7 +372,7 @@ def unknown_key(question: type[Question], name: str) -> str:
 
 @dataclass(frozen=True)
 class Graph:
-    """The parts of a question, and which of them make up the answer and its sections.
+    """Parts of a question, with the names of those that give the answer and its sections.
 
     Attributes
     ----------

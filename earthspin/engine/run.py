@@ -68,7 +68,7 @@ class Run:
         return xr.DataTree.from_dict({"/": answer, **nodes, "plan": plan_data(self.plan)})
 
     def _merged(self, parts: Iterable[str], effects: Sequence[str] = ()) -> xr.Dataset:
-        """Merge the datasets of parts; neglected effects use the labels `effects`, if any."""
+        """Merge the results of parts into one dataset; `effects` labels the neglected effects."""
         results = [self.results[name] for name in parts if name in self.results]
         first, *others = (
             result.dataset(effects) if isinstance(result, Neglected) else result
@@ -80,7 +80,7 @@ class Run:
 
 
 def _sources(values: Iterable[Any]) -> dict[str, str]:
-    """Merge the sources (versions and checksums, by name) of some results and keys."""
+    """Versions and checksums, by name, of the software and files behind some results or keys."""
     sources: dict[str, str] = {}
     for value in values:
         sources |= getattr(value, "provenance", {})
@@ -257,7 +257,7 @@ _PACKED = "earthspin: packed array {}"
 
 
 def _without_bytes(value: Any, packed: list[str]) -> Any:
-    """Move the packed arrays of a table to `packed`, and put placeholders in the table."""
+    """Copy a table with its packed arrays replaced by placeholders; append them to `packed`."""
     if isinstance(value, list):
         return [_without_bytes(item, packed) for item in value]
     if not isinstance(value, dict):

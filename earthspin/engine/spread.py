@@ -49,7 +49,9 @@ def quantiles(answer: xr.Dataset, shares: Sequence[float] = (0.025, 0.5, 0.975))
 
 
 def sensitivity(answer: xr.Dataset) -> xr.Dataset:
-    """Slope and share of variance by input of each number; ``ds.earthspin.sensitivity()``.
+    """Contribution of each input to the variance of each result of an ensemble.
+
+    Users call it as ``ds.earthspin.sensitivity()``.
 
     An input that is a name, such as an orbit table, has no slope; its share is that of the variance
     between the means of the members with the same name (eta squared).

@@ -140,7 +140,7 @@ def _is_storable(value: object) -> bool:
 
 
 def _raise_system_error(path: Path, size: int) -> None:
-    """Raise the operating system's error for a failed write, by writing zeros of the same size.
+    """Write `size` zeros to a file, to raise the system's own error if they cannot be written.
 
     Raises
     ------
@@ -185,7 +185,7 @@ UNITS, SHOWN = "units", "units_shown"
 
 
 def spelled(node: xr.Dataset) -> xr.Dataset:
-    """Return a dataset with units spelled as files need; `units_shown` keeps the originals."""
+    """Return a dataset with units as written in files; `units_shown` has the spelling on screen."""
     node = node.copy()
     for name, variable in node.variables.items():
         unit = variable.attrs.get(UNITS)
@@ -376,7 +376,7 @@ def _read(path: Path) -> dict[str, xr.Dataset]:
 
 
 def _unreadable(path: Path, error: Exception) -> OutputError:
-    """Make the error for a file that cannot be read; reuse an `OutputError` among its causes."""
+    """Make the error for a file that cannot be read, or return the `OutputError` that caused it."""
     cause: BaseException | None = error
     while cause is not None:
         if isinstance(cause, OutputError):

@@ -235,7 +235,7 @@ def _frame_checksums(store: Path, along: str) -> dict[str, str]:
 
 @contextmanager
 def locked_folder(place: Path, request: Mapping[str, str]) -> Iterator[Path | None]:
-    """Lock and yield the folder of the unfinished store for a path; None if there is none.
+    """Lock and yield the folder of the unfinished store that is to become the store at a path.
 
     Parameters
     ----------

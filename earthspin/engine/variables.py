@@ -71,7 +71,7 @@ class Variable:
     short: str = ""
 
     def attributes(self, name: str, others: Iterable[str]) -> dict[str, Any]:
-        """Attributes with which the variable is stored under `name`, next to variables `others`."""
+        """Attributes of the stored variable: meaning, unit, and names of its errors in `others`."""
         attributes = {"long_name": self.long_name}
         if self.units:
             attributes["units"] = self.units
@@ -242,7 +242,7 @@ class Variables:
         self._no_error = ""
 
     def with_attributes(self, *, no_error: str = "", **attributes: Mapping[str, object]) -> Self:
-        """Add attributes that depend on the values.
+        """Add attributes to the variables that are known only after the values are computed.
 
         Parameters
         ----------

@@ -75,7 +75,7 @@ class Variants:
         return answer
 
     def _attributes(self, groups: Iterable[Names], name: str) -> dict[Names, Mapping[str, Any]]:
-        """Attributes of one variable or of the whole answer, by variant that has them."""
+        """Attributes of one variable or of the whole answer in each variant where it exists."""
         for names in groups:
             if names not in self._descriptions:
                 self.nominal(names)

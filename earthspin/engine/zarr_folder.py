@@ -17,7 +17,7 @@ from earthspin.engine.drafts import check_identity, identity
 
 
 class ZarrFolder(LocalStore):
-    """A folder that is opened for reading only.
+    """A Zarr store that is opened for reading only and checks each file that is read.
 
     Parameters
     ----------

@@ -13,7 +13,9 @@ ABSORPTION_BAND = 200.0
 
 
 def anelastic_strain(period: Numeric, exponent: Numeric) -> Numeric:
-    """Relative change of the shear modulus from 1 s to a long period, for quality factor 1.
+    """Relative change of the shear modulus from a period of 1 s to a longer one.
+
+    The change is for a material of quality factor 1; for others, divide it by the quality factor.
 
     The loss is independent of the period up to 200 s, and grows as a power of the period beyond:
 
@@ -40,6 +42,6 @@ def anelastic_strain(period: Numeric, exponent: Numeric) -> Numeric:
 
 
 def _expm1_over(exponent: Numeric, log: Numeric) -> Numeric:
-    """Compute (x^alpha - 1)/alpha from ln x and the exponent alpha; the result at 0 is invalid."""
+    """Compute (x^alpha - 1)/alpha from ln x and alpha; the result is wrong where alpha is 0."""
     safe = np.where(np.equal(exponent, 0), 1.0, exponent)
     return np.expm1(safe * log) / safe

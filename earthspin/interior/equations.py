@@ -62,9 +62,9 @@ class Profile:
         return (self._mass[i](r) + self._below[i]) / r**2
 
     def moduli(self, i: int, r: Any, strain: Array) -> tuple[Array, Array]:
-        """Lame parameters lambda and mu of layer i at radii r, shape (strain, r) each.
+        """Lame parameters lambda and mu of layer i, normalised, as two arrays of shape (strain, r).
 
-        One row for each strain.
+        There is one row for each value of `strain` and one column for each radius in `r`.
         """
         layer, rho = self.layers[i], _horner(self.layers[i].density, r)
         seismic = rho * _horner(layer.vs, r) ** 2 / self.modulus_unit
@@ -138,6 +138,6 @@ def solid_centre(profile: Profile, strain: Array) -> Array:
 
 
 def liquid_centre(profile: Profile, i: int, r: float = START) -> Array:
-    """Regular solution (y5, y7) near the centre of a liquid, at a radius in layer i."""
+    """Potential y5 and its derivative term y7 of the regular solution near a liquid centre."""
     s = FOUR_PI_G * profile.density(i, r) / profile.gravity(i, r)
     return np.array([r**2, (5 / r - s) * r**2])

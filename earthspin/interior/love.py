@@ -29,7 +29,10 @@ Array = NDArray[Any]
 
 
 class Carry(Protocol):
-    """Integrator of dy/dr = M(r) y from one radius to another, for columns (..., n, columns)."""
+    """Function that integrates the linear equations dy/dr = M(r) y from one radius to another.
+
+    The solutions y are columns of an array of shape (..., n, columns).
+    """
 
     def __call__(
         self,
@@ -105,7 +108,7 @@ class Yielding:
 
 
 def yielding(body: LayeredBody, strain: Any = 0.0, carry: Carry = by_collocation) -> Yielding:
-    """Love numbers of degree two, and responses of the regions to potentials in each region.
+    """Compute the Love numbers of a layered body, and the responses of its regions to potentials.
 
     Parameters
     ----------
@@ -158,9 +161,9 @@ _STRAIN_NODES = 10
 
 @lru_cache(maxsize=8)
 def softening(layers: LayeredBody) -> tuple[np.polynomial.Chebyshev, ...]:
-    """Chebyshev polynomials in the strain for four Love numbers, divided by their elastic values.
+    """Ratios of four anelastic Love numbers to their elastic values, as Chebyshev polynomials.
 
-    They are `k`, `core_k`, `k_pressure` and `core_k_pressure`.
+    The Love numbers are `k`, `core_k`, `k_pressure` and `core_k_pressure`.
 
     The variable is the strain of `yielding`, which may be complex, because Love numbers are
     analytic in the modulus. The error relative to the integration is at most 1e-8.
@@ -229,7 +232,7 @@ def _solved(profile: Profile, body: LayeredBody, strain: Array, carry: Carry) ->
 
 
 def _inside(state: Array, r: float) -> Array:
-    """Contribution of the masses inside r to a Love number k: r3 (y5 - r y6/5)."""
+    """Contribution of displaced masses inside the radius `r` to the Love number k."""
     return np.asarray(r**3 * (state[:, 4] - r * state[:, 5] / 5))
 
 
@@ -270,7 +273,10 @@ def _through_inner_core(
 
 
 def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
-    """Return y5 and y6 above a boundary at which the applied potential jumps by `step`."""
+    """Return the potential variables y5 and y6 just above the boundary of a region.
+
+    There the applied potential changes by `step`, because it acts in one region only.
+    """
     y5, y6 = y[:, 4].copy(), y[:, 5].copy()
     y5[:, -4:] += step * r**2
     y6[:, -4:] += 5 * step * r
@@ -291,9 +297,9 @@ def _through_liquid(
 
 
 def _onto_mantle(profile: Profile, body: LayeredBody, pair: Array) -> Array:
-    """Solution columns at the bottom of the mantle; two columns are its free displacements.
+    """Continue the solution columns from the liquid core to the bottom of the mantle.
 
-    The displacements are undetermined because the liquid may slip.
+    Two columns are unit displacements of the mantle, which are free because the liquid may slip.
     """
     b = body.core_radius / body.radius
     i = profile.tops.index(b)

@@ -88,9 +88,9 @@ class Parts:
 
     @property
     def compliances(self) -> dict[str, Numeric]:
-        """Compliances, by their names in Mathews et al. (1991), each divided by a moment.
+        """Compliances of the regions, by their names in Mathews et al. (1991).
 
-        It is the moment A of the compliance's region.
+        Each is normalised by the equatorial moment A of its region.
         """
         rows = (("kappa", "xi", "zeta"), ("gamma", "beta", "delta"), ("theta", "chi", "nu"))
         over = (1.0, self.fluid, self.inner)
@@ -220,7 +220,7 @@ def _first(pair: tuple[float, complex]) -> float:
 
 
 def parts_of(layers: LayeredBody, spin_rate: float, answers: Array, e: float) -> Parts:
-    """Parameters of a layered body with hydrostatic internal figures and outer ellipticity e.
+    """Parameters of a rotating layered body: hydrostatic inside, with the observed ellipticity e.
 
     Parameters
     ----------

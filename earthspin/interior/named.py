@@ -97,7 +97,7 @@ class Interior:
 
 
 def with_layers(layers: LayeredBody, known: Interior | None = None) -> Interior:
-    """Interior with given layers, and other numbers from a known interior of the body.
+    """Make an interior from layers; take its ocean and uncertainties from a known interior.
 
     Parameters
     ----------

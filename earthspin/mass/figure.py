@@ -1,4 +1,4 @@
-"""Figure of a homogeneous spheroid: perimeter, mean radius, moments (I.9.35 to I.9.52).
+"""Surface, mean radius and moments of a homogeneous spheroid (I.9.35 to I.9.52).
 
 The spheroid has the equatorial radius a, the polar one c = a (1 - f), and
 
@@ -80,7 +80,7 @@ def eccentricity_squared(flattening: ArrayLike) -> FloatArray:
 
 
 def perimeter(radius: ArrayLike, flattening: ArrayLike, colatitude: ArrayLike) -> FloatArray:
-    """Distance of the surface from the centre, exact (I.9.36), m.
+    """Exact radius of a spheroid's surface (perimeter) at a given colatitude (I.9.36), m.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def perimeter(radius: ArrayLike, flattening: ArrayLike, colatitude: ArrayLike) -
 def perimeter_first_order(
     radius: ArrayLike, flattening: ArrayLike, colatitude: ArrayLike
 ) -> FloatArray:
-    """Distance of the surface from the centre, to first order in f (I.9.39), m.
+    """Radius of a spheroid's surface at a given colatitude, to first order in f (I.9.39), m.
 
     In terms of the mean radius, `mean_radius_first_order`, the distance is <r> [1 - (2/3) f P2(cos
     theta)] to first order in f (I.9.43).
@@ -112,7 +112,7 @@ def perimeter_first_order(
 def perimeter_about_mean(
     mean_radius: ArrayLike, flattening: ArrayLike, colatitude: ArrayLike
 ) -> FloatArray:
-    """Distance of the surface from the centre, in terms of the mean radius (I.9.43), m.
+    """Radius of a spheroid's surface at a given colatitude, from the mean radius (I.9.43), m.
 
     The formula is of first order in the flattening.
 

@@ -59,9 +59,9 @@ def h_homogeneous(j2: Numeric) -> Numeric:
 
 
 def homogeneous_ellipsoid(a: float, b: float, c: float) -> tuple[float, float, float]:
-    """J2, H and (B - A)/(M a2) of a homogeneous ellipsoid; J2 refers to its longest axis.
+    """J2, H and triaxiality (B - A)/(M a2) of a homogeneous ellipsoid with longest semi-axis a.
 
-    Its moments are M (b2 + c2)/5, M (a2 + c2)/5 and M (a2 + b2)/5.
+    J2 has a as reference radius. The moments are M (b2 + c2)/5, M (a2 + c2)/5 and M (a2 + b2)/5.
 
     Parameters
     ----------

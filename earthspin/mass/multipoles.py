@@ -34,7 +34,7 @@ ComplexArray = NDArray[np.complex128]
 
 
 def solid_harmonics(position: FloatArray, n_max: int) -> Iterator[tuple[int, int, ComplexArray]]:
-    """Yield n, m and r^n C_nm for 0 <= m <= n <= n_max, order by order.
+    """Yield degree n, order m and the solid harmonic r^n C_nm at a position, order by order.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ class Multipoles:
 
     @property
     def n_max(self) -> int:
-        """Last degree."""
+        """Highest degree of the moments."""
         return len(self.moments) - 1
 
     @property

@@ -121,9 +121,9 @@ def _choose(
 
 
 def _signed(axis: FloatArray) -> FloatArray:
-    """Return the axis or its opposite, so that the first component above 0.55 is positive.
+    """Choose the sign of an axis: its first large component becomes positive.
 
-    The condition refers to the absolute value of the component.
+    A component is large if its absolute value exceeds 0.55.
     """
     leading = axis[np.argmax(np.abs(axis) > 0.55)]
     return np.asarray(axis * np.sign(leading))

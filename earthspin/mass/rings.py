@@ -215,7 +215,10 @@ def _far(distance: ArrayLike, radius: ArrayLike) -> tuple[FloatArray, FloatArray
 
 
 def _inverse_cube_excess(s: FloatArray, d: FloatArray, apart: FloatArray) -> FloatArray:
-    """Difference 1/|d - s|^3 - 1/d3 without cancellation for small s; zero for d = 0."""
+    """Difference 1/|d - s|^3 - 1/|d|^3 of two vectors d and s, without cancellation for small s.
+
+    The result is zero where d is zero.
+    """
     square = np.sum(d * d, axis=-1)
     inverse = np.divide(1.0, square, out=np.zeros_like(square), where=square > 0)
     q = np.sum(s * (s - 2 * d), axis=-1) * inverse

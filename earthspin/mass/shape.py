@@ -70,7 +70,7 @@ class Shape:
     def of_masses(
         cls, masses: ArrayLike, positions: ArrayLike, radius: float | None = None
     ) -> Self:
-        """Shape of point masses.
+        """Compute mass, centre of mass and figure of a body of point masses.
 
         Parameters
         ----------
@@ -101,7 +101,9 @@ class Shape:
         z: ArrayLike,
         radius: float | None = None,
     ) -> Self:
-        """Shape of a density that is constant in each cell of a grid; exact for such cells.
+        """Compute mass, centre of mass and figure of a body of uniform grid cells.
+
+        The result is exact for a density that is constant in each cell.
 
         Parameters
         ----------
@@ -132,7 +134,9 @@ class Shape:
         mass: float | None = None,
         radius: float | None = None,
     ) -> Self:
-        """Shape of a homogeneous solid bounded by triangles; exact for flat faces.
+        """Compute mass, centre of mass and figure of a homogeneous solid bounded by triangles.
+
+        The result is exact for flat faces.
 
         Parameters
         ----------
@@ -166,7 +170,10 @@ class Shape:
 
     @classmethod
     def _of(cls, pieces: Pieces, outline: FloatArray, radius: float | None) -> Self:
-        """Shape from weighted points; `outline` has points that may be farthest from the centre."""
+        """Make a `Shape` from weighted points; refuse overflow.
+
+        `outline` holds the points among which the farthest from the centre is found.
+        """
         try:
             with np.errstate(over="raise", divide="raise", invalid="raise"):
                 return cls._summed(pieces, outline, radius)
@@ -176,7 +183,7 @@ class Shape:
 
     @classmethod
     def _summed(cls, pieces: Pieces, outline: FloatArray, radius: float | None) -> Self:
-        """Shape from sums over weighted points."""
+        """Make a `Shape` by sums over the masses and positions of weighted points."""
         mass = sum(float(np.sum(m)) for m, _ in pieces(0))
         centre = np.sum([m @ r for m, r in pieces(1)], axis=0) / mass
         second = np.zeros((3, 3))

@@ -95,11 +95,10 @@ def confocal_squares(flattening: ArrayLike, position: ArrayLike) -> tuple[FloatA
 
 
 def _quadratic(f: FloatArray, square: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Squared focal distance, and coefficients p, w of the equation of confocal spheroids.
+    """Coefficients of the quadratic equation for the confocal spheroid through a point.
 
-    The equation is s2 - p s - w = 0, where s is the smaller squared semi-axis.
-
-    s is the smaller squared semi-axis.
+    Return the squared focal distance, and p and w of s2 - p s - w = 0, where s is the smaller
+    squared semi-axis.
     """
     focal = np.abs(eccentricity_squared(f))
     p = np.sum(square, axis=-1) - focal

@@ -120,7 +120,7 @@ def kinetic_energy(tensor: ArrayLike, omega: ArrayLike) -> FloatArray:
 
 
 def moment_about_axis(tensor: ArrayLike, axis: ArrayLike) -> FloatArray:
-    """Moment of inertia about an axis, n . I n (I.1.10).
+    """Moment of inertia about an axis, from the inertia tensor (I.1.10).
 
     Parameters
     ----------
@@ -218,7 +218,7 @@ def _refuse(wrong: FloatArray, field: str, value: FloatArray, allowed: str) -> N
 
 
 def _offset_tensor(mass: ArrayLike, offset: ArrayLike) -> FloatArray:
-    """Inertia tensor of a point mass at one end of the offset, about the other end."""
+    """Inertia tensor of a point mass about a point at the distance vector `offset` from it."""
     m, d = positive(_BODY, "mass", mass), vectors("offset", offset)
     outer = np.asarray(d[..., :, np.newaxis] * d[..., np.newaxis, :])
     return tensor_of_second_moments(m[..., np.newaxis, np.newaxis] * outer)

@@ -38,7 +38,9 @@ def zonal_integrals(
     radius: float,
     accuracy: float = 1e-12,
 ) -> FloatArray:
-    """Integrals Z_n of a star-shaped body of revolution, n = 0 to n_max, by quadrature (I.9.27).
+    """Zonal integrals Z_n of the density of a star-shaped body of revolution (I.9.27).
+
+    The degree n goes from 0 to n_max; the integrals are computed by Gauss quadrature.
 
     Parameters
     ----------
@@ -100,8 +102,9 @@ def moments_of_density(
 
 
 def zonal_moments(integrals: ArrayLike, radius: float) -> FloatArray:
-    """Zonal moments J_n = -G s^n Z_n as defined in (I.9.23), m^(n+3) s-2.
+    """Zonal moments J_n of a potential as defined in (I.9.23), m^(n+3) s-2.
 
+    They are -G s^n Z_n, with the reference radius s and the zonal integrals Z_n.
     J0 = -GM and J2 = G (C - A).
     """
     z = np.asarray(integrals, dtype=float)
@@ -109,13 +112,16 @@ def zonal_moments(integrals: ArrayLike, radius: float) -> FloatArray:
 
 
 def geodetic_zonals(integrals: ArrayLike) -> FloatArray:
-    """Zonal coefficients J_n = -Z_n/M of geodesy, with J0 = -1; J2 = (C - A)/(M s2)."""
+    """Dimensionless zonal coefficients J_n of geodesy, from the zonal integrals Z_n.
+
+    They are -Z_n/M, so that J0 = -1 and J2 = (C - A)/(M s2) with the reference radius s.
+    """
     z = np.asarray(integrals, dtype=float)
     return np.asarray(-z / positive("body", "mass", z[0]))
 
 
 def spheroid_zonals(flattening: float, n_max: int) -> FloatArray:
-    """Exact zonal coefficients J_n of a homogeneous spheroid, with s its equatorial radius.
+    """Exact zonal coefficients J_n of a homogeneous spheroid; they refer to its equatorial radius.
 
     J_2k = (-1)^(k+1) 3 e^2k/[(2k + 1)(2k + 3)], J0 = -1, and odd coefficients are zero.
     """
@@ -170,7 +176,7 @@ def _integrate(
     integrand: Callable[[FloatArray, FloatArray], FloatArray],
     accuracy: float,
 ) -> FloatArray:
-    """Integrate rho times each integrand over the body, doubling the points until convergence."""
+    """Integrals of density times each integrand over a body, by Gauss quadrature to `accuracy`."""
     previous, error, size = None, np.inf, np.inf
     for points in _POINTS:
         node, weight = np.polynomial.legendre.leggauss(points)

@@ -78,7 +78,7 @@ class AxisPath:
 
     @property
     def error(self) -> float:
-        """Estimated error of the method, rad."""
+        """Estimated numerical error of the directions of the axes, rad."""
         return self.interpolation_error + self.floor
 
     @property
@@ -206,7 +206,7 @@ def axis_path(
 
 
 def window_count(epoch: float, span: tuple[float, float], window: float = WINDOW) -> int:
-    """Number of windows from an epoch over a span, both in s."""
+    """Number of windows to integrate from an epoch to both ends of a span, all in s."""
     forward, backward = (max(0.0, d) for d in (span[1] - epoch, epoch - span[0]))
     return int(np.ceil(forward / window) + np.ceil(backward / window)) or 1
 
@@ -299,5 +299,5 @@ def _concatenated(pieces: list[ComplexArray]) -> ComplexArray | None:
 
 
 def _rounding(segments: list[Segment]) -> float:
-    """Rounding error, rad; it grows like a random walk with the number of windows."""
+    """Rounding error of the axes, rad, proportional to the square root of the window count."""
     return float(np.finfo(float).eps * np.sqrt(sum(len(s.windows.half) for s in segments)))

@@ -139,7 +139,7 @@ def _neighbour_pair(state: FloatArray, rotation: FloatArray, momentum: FloatArra
 
 
 def _distance(pair: FloatArray) -> tuple[FloatArray, FloatArray, float]:
-    """Small rotation and relative change of L between the two states, and their total length."""
+    """Difference of two states: rotation vector, relative change of angular momentum, and norm."""
     state, other = pair[:, :1], pair[:, 1:]
     quaternion = 2 * rotations.times(other[3:], rotations.conjugate(state[3:]))
     rotation = quaternion[1:] * np.sign(quaternion[:1])

@@ -223,9 +223,9 @@ class Equations:
         return np.concatenate([rate, 0.5 * drift])
 
     def _torque(self, q: FloatArray, matrix: FloatArray, spin: FloatArray) -> FloatArray:
-        """Tidal torque on the bulge plus custom torque, in body axes, divided by C u, s-1.
+        """Scaled torque, s-1, along the body axes: tidal torque on the bulge, and custom torque.
 
-        C is the polar moment of inertia, and u the unit of spin.
+        The torque is divided by C u. C is the polar moment of inertia, and u the unit of spin.
         """
         position = np.einsum("jim,jpm->ipm", matrix, self._places)
         products = position.take((1, 0, 0), 0) * position.take((2, 2, 1), 0)
@@ -235,9 +235,9 @@ class Equations:
         return np.asarray(torque)
 
     def _further_torque(self, matrix: FloatArray, momentum: FloatArray) -> FloatArray:
-        """Torque on the zonal harmonics J_n plus torques of effects, in sky axes, divided by C u.
+        """Scaled torque, s-1, along the sky axes: on zonal harmonics J_n, and from further effects.
 
-        The unit is s-1; C is the polar moment of inertia, and u the unit of spin.
+        The torque is divided by C u. C is the polar moment of inertia, and u the unit of spin.
         """
         body, pull = self._body, self._pull
         lanes = (3, self._lanes, self._nodes)

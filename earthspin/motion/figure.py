@@ -31,9 +31,9 @@ _ROUNDING = 1e-17
 def tilt_of_figure(
     windows: Windows, figure: FloatArray, rate: FloatArray, tau: float, rounds: int
 ) -> tuple[FloatArray, list[float]]:
-    """Unit angular momentum minus figure axis F, for motion without free wobble, rad.
+    """Small vector from figure axis to angular momentum in motion without free wobble, rad.
 
-    The result is tau F x F', where F' is the rate of F.
+    It is tau F x F', where F is the unit figure axis and F' its rate.
 
     Parameters
     ----------

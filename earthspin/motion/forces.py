@@ -98,7 +98,9 @@ class Forces:
     mean_pole: Callable[[FloatArray], FloatArray] | None = None
 
     def over(self, windows: Windows) -> tuple[RateLaw, FloatArray]:
-        """Return the law for the rate of angular momentum at the nodes, and the tidal tensor.
+        """Return a function for the rate of the angular momentum at the nodes of some windows.
+
+        Return also the tidal tensor at these nodes.
 
         Positions of the perturbers are evaluated at the nodes of the windows.
 

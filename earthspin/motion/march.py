@@ -145,7 +145,7 @@ class Piece:
 
 @dataclass
 class Solver:
-    """Solver of one form of the equations.
+    """Solver for the rotation of bodies, window by window, with one form of Euler's equations.
 
     Attributes
     ----------
@@ -259,9 +259,9 @@ class Solver:
     def _solve(
         self, equations: Equations, start: FloatArray, half: float, guess: FloatArray | None
     ) -> tuple[FloatArray, float]:
-        """Return the rates of the unknowns in one window, and an error ratio.
+        """Solve one window; return the rates of the unknowns, and truncation error over tolerance.
 
-        The ratio compares the last two Legendre terms with the tolerance; the window fails if it is
+        The error is estimated from the last two Legendre terms; the window fails if the ratio is
         above 1.
         """
         gauss = rule(self.order)
@@ -300,7 +300,7 @@ class Solver:
         return np.concatenate([end[:3], q / np.sqrt(np.sum(q * q, axis=0))])
 
     def _resize(self, over: float, *, complete: bool) -> None:
-        """Choose the next window length from the error ratio of `_solve`."""
+        """Set the length of the next window from the ratio of error to tolerance in `_solve`."""
         if not np.isfinite(over):
             self.window *= 0.5
             return

@@ -87,7 +87,7 @@ def rigid_bodies(
 
 
 def masses(forces: Forces, epoch: float = 0.0) -> Masses:
-    """Make the `Masses` of some forces, as functions of time in s from an epoch."""
+    """Convert `Forces` to the `Masses` of the attitude solver, whose time starts at `epoch`, s."""
 
     def laws(window: Windows, places: Mapping[str, FloatArray]) -> Sequence[SkyLaw]:
         dated = Windows(window.edges + epoch, window.order)

@@ -47,10 +47,9 @@ class Start:
     is_figure: bool
 
     def momentum_with(self, tilt: FloatArray) -> FloatArray:
-        """Direction of the angular momentum at the start of a segment.
+        """Angular momentum at the start of the segment, in units of C Omega.
 
-        If the segment starts from a figure axis, `tilt`, angular momentum minus figure axis, is
-        added.
+        `tilt` is added to the start axis if that axis is a figure axis.
         """
         return self.axis + tilt if self.is_figure else self.axis
 
@@ -93,7 +92,7 @@ class Segment:
     rounds: int
 
     def momentum_at_end(self, forward: bool) -> FloatArray:
-        """Angular momentum at the start of the next segment."""
+        """Angular momentum where this segment ends and the next one starts, in units of C Omega."""
         if forward:
             return np.asarray(self.momentum[:, -1].sum(axis=-1))
         return np.asarray(self.momentum[:, 0] @ signs(self.momentum.shape[-1]))
@@ -178,7 +177,7 @@ def _remaining_change(change: float, previous: float) -> float:
 def _chain(
     windows: Windows, rate: FloatArray, begin: FloatArray, forward: bool
 ) -> tuple[FloatArray, FloatArray]:
-    """Integrate a rate through all windows; return values at window starts and at the nodes."""
+    """Integrate the rate of a vector over all windows; return it at window starts and at nodes."""
     to_nodes, whole = windows.integral(rate)
     if forward:
         starts = begin[:, None] + np.cumsum(whole, axis=1) - whole

@@ -89,7 +89,7 @@ class RotationSeries:
 
 
 def start_of(body: Rigid, attitude: FloatArray, omega: FloatArray) -> State:
-    """Make the initial state of a body and its neighbours from attitude and angular velocity.
+    """Make the initial state of all bodies in `body`, with the same attitude and spin for each.
 
     Parameters
     ----------
@@ -244,7 +244,11 @@ class Motion:
         return np.maximum(np.maximum.accumulate(self._errors(edges), axis=2), self._worst)
 
     def _errors(self, times: FloatArray) -> FloatArray:
-        """Errors at times in the current windows, shape (lanes, kinds, t)."""
+        """Errors of attitude, spin and angular momentum at times in the current windows, by cause.
+
+        The shape is (lanes, kinds, t): the first lane has the error of the method, each other lane
+        that of one uncertain input.
+        """
         assert self._now is not None
         rough, exact = self._now
         states = exact.at(times)
@@ -290,7 +294,7 @@ def shares_of(
 
 
 def differences(body: Rigid, one: FloatArray, other: FloatArray) -> FloatArray:
-    """Angle between attitudes, and lengths of the differences of spin and angular momentum.
+    """Differences of two rotations in attitude (an angle), spin and angular momentum (lengths).
 
     Parameters
     ----------

@@ -95,7 +95,7 @@ def carry(
 
 
 def _largest(change: Array, space: Array | None) -> float:
-    """Largest element of a change of solutions, after its projection on `space` is removed."""
+    """Largest absolute change of solutions outside the span of the columns of `space`."""
     if space is not None:
         change = change - space @ (np.linalg.pinv(space) @ change)
     return float(np.max(abs(change)))

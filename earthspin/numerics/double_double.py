@@ -81,18 +81,18 @@ class DoubleDouble:
 
 
 def as_double_double(number: Numeric) -> DoubleDouble:
-    """Convert a float or array, with lo = 0."""
+    """Convert a float or an array of floats to a `DoubleDouble`."""
     return number if isinstance(number, DoubleDouble) else DoubleDouble(number, 0.0 * number)
 
 
 def where(condition: Numeric, yes: Numeric, no: Numeric) -> DoubleDouble:
-    """Choose element by element, like `numpy.where`."""
+    """Choose elements of `yes` where `condition` is true, otherwise of `no`, like `numpy.where`."""
     yes, no = as_double_double(yes), as_double_double(no)
     return DoubleDouble(np.where(condition, yes.hi, no.hi), np.where(condition, yes.lo, no.lo))
 
 
 def stack(*parts: DoubleDouble) -> DoubleDouble:
-    """Stack along a new last axis."""
+    """Stack double-double arrays along a new last axis."""
     return DoubleDouble(np.stack([p.hi for p in parts], -1), np.stack([p.lo for p in parts], -1))
 
 

@@ -51,10 +51,7 @@ class LandenDescent:
 
     @property
     def quarter_period(self) -> DoubleDouble:
-        """Quarter period K(k) from the arithmetic-geometric mean.
-
-        On the separatrix, where K is infinite, the value 0 marks that there is no period.
-        """
+        """Quarter period K(k); 0 marks the separatrix, where K is infinite."""
         return where(self.separatrix, 0.0, _HALF_PI / self.arithmetic[-1])
 
 
@@ -90,7 +87,9 @@ def landen_descent(complementary_modulus: DoubleDouble) -> LandenDescent:
 
 
 def jacobi(u: FloatArray, descent: LandenDescent) -> tuple[Jacobi, Jacobi]:
-    """Jacobi's functions at the modulus k, and at k1 after one Landen transformation (DLMF 22.7).
+    """Jacobi's functions at a modulus, and at the smaller modulus of the next Landen step.
+
+    The transformation is in DLMF 22.7.
 
     Parameters
     ----------
@@ -150,7 +149,9 @@ def first_kind(sine: FloatArray, cosine: FloatArray, complementary: FloatArray) 
 
 
 def third_kind_mean(n: DoubleDouble, descent: LandenDescent) -> DoubleDouble:
-    """Mean of sn^2/(1 + n sn^2) over a period, at the modulus k1 = (1 - k')/(1 + k') (DLMF 19.8.7).
+    """Mean over a period of sn^2/(1 + n sn^2), an integrand of the third kind (DLMF 19.8.7).
+
+    The modulus is k1 = (1 - k')/(1 + k'), the next one in the Landen descent.
 
     Parameters
     ----------
@@ -175,9 +176,9 @@ def third_kind_mean(n: DoubleDouble, descent: LandenDescent) -> DoubleDouble:
 def third_kind_periodic(
     u: FloatArray, lower: Jacobi, n: FloatArray, mean: FloatArray, descent: LandenDescent
 ) -> FloatArray:
-    """Periodic part of the integral of sn^2/(1 + n sn^2) over the argument v (DLMF 19.25.14).
+    """Periodic part of the elliptic integral of sn^2/(1 + n sn^2) (DLMF 19.25.14).
 
-    The modulus is k1.
+    The integral is over the argument v = (1 + k')u/2, from 0; the modulus is k1 as in `jacobi`.
 
     Parameters
     ----------
@@ -266,10 +267,11 @@ def jacobi_sncndn(
 
 
 def complete_third_kind(complement: FloatArray, shape: FloatArray) -> FloatArray:
-    """Complete elliptic integral of sn^2/(cn^2 + shape sn^2) from 0 to the quarter period K.
+    """Complete elliptic integral of the third kind, with a positive parameter `shape`.
 
-    It equals RJ(0, 1 - m, 1, shape)/3 and is computed by Landen steps with positive terms (Bulirsch
-    1969, Numer. Math. 13, 305: cel with a = 0, b = 1).
+    The integrand is sn^2/(cn^2 + shape sn^2), from 0 to the quarter period K. The integral equals
+    RJ(0, 1 - m, 1, shape)/3 and is computed by Landen steps with positive terms (Bulirsch 1969,
+    Numer. Math. 13, 305: cel with a = 0, b = 1).
 
     Parameters
     ----------

@@ -56,7 +56,7 @@ class Windows:
         return result
 
     def integral(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Integrals from the start of each window to its nodes.
+        """Integrals of a function, given at the nodes, from the start of each window to its nodes.
 
         Returns
         -------

@@ -39,7 +39,7 @@ def quantiles(samples: FloatArray, shares: FloatArray) -> FloatArray:
 
 
 class Shares(NamedTuple):
-    """Slope of each output and share of its variance, for each input of a linear fit.
+    """Linear dependence of outputs on inputs: slopes, and shares of the inputs in the variance.
 
     Attributes
     ----------

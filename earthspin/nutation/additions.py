@@ -1,4 +1,4 @@
-r"""Nutation terms of IAU 2000A that are added to rigid nutation times the resonance form.
+r"""Nutation amplitudes that IAU 2000A adds after multiplying rigid nutation by a resonance.
 
 Mathews, Herring & Buffett (2002) multiply a rigid series by a resonance form (`response`) and add a
 few terms: the Sun-synchronous atmospheric tide in the prograde annual term, second-order effects at

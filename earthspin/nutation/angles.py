@@ -68,7 +68,7 @@ def precession_angles(psi: FloatArray, omega: FloatArray, ecliptic_pole: FloatAr
 
 
 def general_precession(pole: FloatArray, ecliptic_pole: FloatArray) -> FloatArray:
-    """General precession p_A, rad, shape (...).
+    """General precession in longitude p_A of a mean pole, rad, shape (...).
 
     Parameters
     ----------

@@ -96,7 +96,9 @@ def iau_omega_rate() -> float:
 
 @dataclass(frozen=True)
 class Budget:
-    """Contributions to the rates of psi_A and omega_A at J2000.0, rad/s, first order first.
+    """Contributions of effects to the rates of psi_A and omega_A at J2000.0, rad/s.
+
+    The first-order rate comes first.
 
     Attributes
     ----------

@@ -94,7 +94,9 @@ def term_names(multiples: NDArray[np.int64]) -> list[str]:
 def responses(
     circles: Circles, arguments: FloatArray, factors: Mapping[str, ComplexArray]
 ) -> dict[str, ComplexArray]:
-    """Nutations at given times, one for each set of factors that multiply the circular amplitudes.
+    """Nutation at given times after multiplying each circular amplitude by a response factor.
+
+    There is one result for each set of factors.
 
     Parameters
     ----------
@@ -168,10 +170,11 @@ class FrequencyAnalysis:
         )
 
     def _solved(self, eta: ComplexArray) -> ComplexArray:
-        """Solve the least squares for columns of unit length by conjugate gradients.
+        """Solve the least-squares fit of the circular terms to the nutation `eta`.
 
-        The columns are nearly orthogonal (condition number 20 over 150 years), so that the normal
-        equations are accurate enough, and conjugate gradients converge in forty iterations.
+        The solution is for columns of unit length. They are nearly orthogonal (condition number 20
+        over 150 years), so that the normal equations are accurate enough, and conjugate gradients
+        converge in forty iterations.
         """
         right = np.einsum("it,t->i", self._adjoint, eta)
         return np.asarray(cg(self._normal, right, rtol=NEAR_ENOUGH, atol=0.0)[0])

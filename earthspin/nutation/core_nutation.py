@@ -38,7 +38,7 @@ FALSE_ALARM = 1e-2
 
 @dataclass(frozen=True)
 class CoreNutation:
-    """Free core nutation in sliding windows.
+    """Amplitudes of the free core nutation in sliding time windows, with errors.
 
     Attributes
     ----------
@@ -94,7 +94,7 @@ def fit(
     step: float = STEP,
     period: float = PERIOD,
 ) -> CoreNutation:
-    """Fit free core nutation, constant and linear trend to pole offsets in sliding windows.
+    """Fit free core nutation, constant and trend to pole offsets in sliding time windows.
 
     The noise is not white, so its power is measured where it matters: at the same frequency in
     the other sense, and at neighbours of it, in what the fit leaves of the window. The ratio of

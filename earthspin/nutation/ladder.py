@@ -112,7 +112,7 @@ class Rung:
         return {name: refined_modes[name] for name in MODES if name in refined_modes}
 
     def uncertain(self, relative: Mapping[str, float]) -> list[tuple[Rung, Rung]]:
-        """Two models for each uncertain input, raised and lowered by its 95 % half-width.
+        """Make two models for each uncertain input: raised and lowered by its 95 % half-width.
 
         Parameters
         ----------
@@ -192,7 +192,7 @@ class Setting:
         return figure(self.layers, self.spin_rate)
 
     def softened(self, sigma: Array) -> Yielding:
-        """Love numbers of the anelastic body at diurnal or Chandler frequencies.
+        """Love numbers of the anelastic body, for diurnal frequencies or for the Chandler wobble.
 
         One diurnal value is used for all nutations: within the diurnal band the moduli change by a
         thousandth of their change from one second to one day.
@@ -239,7 +239,7 @@ def with_ocean(parts: Parts, setting: Setting, love: Yielding, sigma: Array) -> 
 
 
 def without_core(parts: Parts) -> Parts:
-    """Parameters of the same mantle without a separately rotating core."""
+    """Parameters of the body if its fluid core and inner core rotate with the mantle."""
     return replace(parts, fluid=0.0, inner=0.0)
 
 

@@ -67,7 +67,7 @@ class Neighbours(NamedTuple):
 def neighbours_of(
     multiples: NDArray[np.int64], frequency: FloatArray, rates: FloatArray, arguments: FloatArray
 ) -> Neighbours:
-    """Contributions of omitted nutation terms to the fitted amplitudes of their neighbours.
+    """Compute how much omitted nutation terms add to the fitted amplitudes of their neighbours.
 
     The fitted interval is centred on J2000.0.
 
@@ -103,7 +103,7 @@ def circles_of(term: Term) -> tuple[complex, complex]:
 
 
 def amplitude_error(frequency: FloatArray) -> FloatArray:
-    """Error of a fitted amplitude, apart from its unresolved neighbour, rad.
+    """Error of a fitted amplitude without the effect of unresolved neighbouring terms, rad.
 
     Measured with the series of IAU 2000A, whose amplitudes are known: 0.042 mas for the 18.6-year
     and 9.3-year terms, 0.038 mas for the semi-annual term, 0.007 mas for periods below 100 days.

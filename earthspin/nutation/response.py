@@ -127,14 +127,16 @@ def _form(
 def fit_response(
     frequency: FloatArray, rigid: ComplexArray, real: ComplexArray, h: float, spin_rate: float
 ) -> Response:
-    """Fit resonance strengths and free core nutation to the amplitudes of two sets of terms.
+    """Fit a resonance formula to the ratios of non-rigid to rigid amplitudes of nutation terms.
+
+    Free parameters are the resonance strengths, and the frequency of the free core nutation.
 
     Parameters
     ----------
     frequency : ndarray, shape (k,)
         Frequencies in space, rad/s.
     rigid, real : ndarray, shape (k,), complex
-        Amplitudes; the fit minimises real - T rigid.
+        Rigid and non-rigid amplitudes; the fit minimises real - T rigid.
     h : float
     spin_rate : float
         rad/s.

@@ -389,7 +389,7 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
 def _rates_over_motions(
     rate: Numeric, means: MeanTorques, body: Body, perturbers: tuple[Body, ...]
 ) -> tuple[Numeric, Numeric]:
-    """Ratio of precession rate to mean motion, summed over perturbers, and to the spin rate."""
+    """Precession rate divided by orbital mean motion (summed over perturbers) and by spin rate."""
     by_orbit = sum(
         abs(item_of(rate, index)) / ((body.gm + p.gm) * near) ** 0.5
         for index, (p, near) in enumerate(zip(perturbers, means.nearness, strict=True))
@@ -398,7 +398,7 @@ def _rates_over_motions(
 
 
 def _labeller(means: MeanTorques) -> Callable[[FloatArray], xr.DataArray]:
-    """Return a function that labels an array along perturbers and cases."""
+    """Return a function that labels arrays along `perturber` and the dimensions `means.cases`."""
     import xarray as xr
 
     dims, shape = ("perturber", *means.cases), (len(means.labels), *means.cases.values())

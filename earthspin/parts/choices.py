@@ -106,7 +106,7 @@ def source_has_equator(source: SourceName) -> str | None:
 def chosen_nutation(
     sky: Sky, epochs: Epochs, accuracy: float | None
 ) -> Choice[NutationNodes | None] | None:
-    """Choose the cheapest nutation settings within the accuracy that the ephemeris error leaves."""
+    """Choose the cheapest nutation settings within the accuracy, less the ephemeris error."""
     kernel = max(sky.error(place, epochs.span())[0] for place in sky.targets.values())
     allowed = (accuracy or math.inf) - kernel
     first, last = epochs.span()

@@ -19,7 +19,7 @@ _FUNCTION = "live"
 
 @dataclass(frozen=True)
 class CustomTorque:
-    """A custom torque.
+    """Torque on a body that the user defines by a Python function.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class CustomTorque:
     def over(
         self, polar_moment: float
     ) -> Callable[[FloatArray, FloatArray, FloatArray], FloatArray]:
-        """Return a function for the torque divided by C, which checks every result.
+        """Return a function for the torque divided by the polar moment, which checks every result.
 
         Parameters
         ----------

@@ -123,7 +123,7 @@ def daily_insolation(
 
 
 def _quantile(moved: Callable[[float], xr.DataArray], value: xr.DataArray) -> xr.DataArray:
-    """95 % quantile of the absolute change of a value due to random errors of a longitude."""
+    """95 % half-width of the insolation due to random errors of the longitude of perihelion."""
     quantiles = Quantiles()
     for (by,) in draws(1):
         quantiles.add({_CALL: (moved(float(by)) - value).values})

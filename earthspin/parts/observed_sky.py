@@ -102,7 +102,7 @@ class ObservedSky:
 
 @part(unless=not_observed_then)
 def observed_sky(epochs: Epochs) -> ObservedSky:
-    """Observed celestial pole offsets at the dates of the series, with their core nutation."""
+    """Observed celestial pole offsets and their free core nutation, at the dates of the series."""
     from earthspin.nutation import core_nutation
 
     table = observed_series()

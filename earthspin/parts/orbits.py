@@ -38,14 +38,14 @@ class OrbitChoice(FileName):
         return super().read(value, where)
 
     def write(self, value: str | OrbitTable) -> Plain:
-        """Return "own" or the path, or all numbers of a table."""
+        """Return a word or path unchanged; convert an `OrbitTable` to a dict of all its numbers."""
         if isinstance(value, str):
             return value
         numbers = {name: pack(getattr(value, name)) for name in _ARRAYS}
         return {"name": value.name, "source": value.source, "sha256": value.sha256} | numbers
 
     def begins(self, head: bytes) -> bool:
-        """Return True if a file starts like an archive of arrays or a table."""
+        """Return True if `head`, the first bytes of a file, begins a NumPy archive or a table."""
         return head[:2] == b"PK" or is_table(head)
 
 

@@ -143,7 +143,7 @@ class PathErrors:
         )
 
     def _of_sky(self, figure: FloatArray) -> FloatArray:
-        """95 % half-width of axis directions due to position errors, rad, shape (t,)."""
+        """95 % half-width of axis directions due to perturber position errors, rad, shape (t,)."""
         sky, body = self.pulls.sky, self.body
         _, epoch = start_of(body, self.pulls)
         positions = sky.positions(np.array([epoch / DAY]))
@@ -175,7 +175,7 @@ class PathErrors:
 
 @dataclass(frozen=True)
 class LargestError:
-    """Largest error of a series.
+    """Largest error of the axis directions in a series, with advice to reduce it.
 
     Attributes
     ----------
@@ -210,7 +210,7 @@ def largest_error(
 
 @dataclass(frozen=True)
 class LongitudeCycles:
-    """Continuous longitude of an axis along a path, by which whole turns are added to longitudes.
+    """Longitude of an axis along a path, counted beyond 360 deg as a guide for others.
 
     Attributes
     ----------
@@ -377,9 +377,9 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
 def residual_error(
     analysed: PoleComparison, body: Body, eta: ComplexArray, days: FloatArray
 ) -> float:
-    """95 % half-width of a nutation residual in either angle.
+    """95 % half-width of a nutation residual, the same for both nutation angles, rad.
 
-    It is due to integration, H and interpolation.
+    It is due to the integration, the uncertainty of H, and interpolation.
     """
     from earthspin.sky.iau import node_error
 
@@ -581,7 +581,7 @@ class Shift:
 
 
 def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[str]) -> Shift:
-    """Make a `Shift` from circular amplitudes, with errors from differences from the IAU pole."""
+    """Make a `Shift` from its circular amplitudes; estimate its errors from the IAU pole."""
     from earthspin.sky import iau
 
     circles = replace(analysed.our_circles, amplitude=amplitude)

@@ -39,7 +39,7 @@ class TableFile(FileName):
     content = "a table of polar motion"
 
     def begins(self, head: bytes) -> bool:
-        """Return True if a file starts like a table."""
+        """Return True if `head`, the first bytes of a file, begins a table."""
         return is_table(head)
 
 
@@ -69,7 +69,7 @@ def within(series: PoleSeries, span: Span | None) -> PoleSeries:
 
 
 def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
-    """Days from J2000.0 and x - i y in mas from labelled polar motion.
+    """Convert labelled polar motion to days from J2000.0 and complex numbers x - i y in mas.
 
     Raises
     ------

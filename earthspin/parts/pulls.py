@@ -30,7 +30,10 @@ class AxisMotion(Series):
     )
 
     def check(self) -> None:
-        """Refuse the effect of the planets if all positions follow from elements."""
+        """Switch off the effect `planets` if all positions follow from orbital elements.
+
+        The effect needs a kernel; it is refused if the user requested it.
+        """
         super().check()
         if PLANETS.name not in self.effects or not all_by_elements(self.body, self.perturbers):
             return
@@ -140,7 +143,7 @@ def start_of(body: Body, pulls: Pulls) -> tuple[FloatArray, float]:
 
 
 def start_note(body: Body) -> dict[str, str]:
-    """Attribute that explains that errors exclude the uncertainty of the initial pole.
+    """Note for the attributes of an answer: its errors exclude that of the initial pole.
 
     Empty if the pole follows the models of the IAU.
     """

@@ -48,12 +48,12 @@ class SideBySide:
         return cls(numbers, tuple(map(str, first.dims)), first.coords)
 
     def columns(self, *names: str) -> tuple[Any, ...]:
-        """Return some of the numbers by name; arrays get an additional last axis of length 1."""
+        """Return the numbers with these names; arrays get an additional last axis of length 1."""
         index = (..., np.newaxis) if self.dims else ...
         return tuple(np.asarray(self.numbers[name])[index] for name in names)
 
     def lay(self, values: NDArray[Any], *dims: str) -> xr.DataArray:
-        """Label a result's values along the common dimensions and `dims`; repeat a constant."""
+        """Make a labelled array along the common dimensions and `dims`; broadcast if necessary."""
         import xarray as xr
 
         if values.ndim < len(self.dims) + len(dims):

@@ -147,7 +147,7 @@ class PerturbedBody(Question):
 
 
 def unmeasured(body: Body) -> bool:
-    """Return True if a body has its own position, whose error was not measured."""
+    """Return True if a body has its own source of positions, whose error was not measured."""
     return body.position is not None and not is_measured(body.position)
 
 
@@ -175,7 +175,7 @@ class Places:
 
 @dataclass(frozen=True)
 class Sky:
-    """Opened source of positions, and the code or trajectory of each body of a question in it.
+    """Opened ephemeris or orbits, with the code or trajectory of each body of a question.
 
     Attributes
     ----------
@@ -195,7 +195,7 @@ class Sky:
 
     @cached_property
     def provenance(self) -> dict[str, str]:
-        """Kernel and readers, for the attributes of an answer."""
+        """Ephemeris, and versions of the libraries that read it, as attributes of an answer."""
         own = {
             name: words(place)
             for name, place in self.targets.items()
@@ -214,7 +214,7 @@ class Sky:
         return max(angles), max(distances)
 
     def drift(self, name: str, distance: float) -> float:
-        """Relative error of the motion of an axis due to position errors of one perturber."""
+        """Relative error of the motion of an axis due to the position error of one perturber."""
         return self.source.drift(self.targets[name], self.centre, distance)
 
     @property
@@ -224,7 +224,7 @@ class Sky:
 
     @property
     def no_error(self) -> str:
-        """Reason why some errors are missing; empty if none is."""
+        """Reason why errors of some results are missing (NaN); empty if no error is missing."""
         if not self.unmeasured:
             return ""
         return (
@@ -233,7 +233,7 @@ class Sky:
         )
 
     def place(self, body: Body) -> Place:
-        """Code or trajectory by which the source of positions finds another body."""
+        """NAIF code or trajectory of a further body, by which its position can be found."""
         return _place(self.source, body.name, EllipseChain(body))
 
     def coverage(self, targets: Mapping[str, Place] | None = None) -> tuple[float, float]:
@@ -246,9 +246,9 @@ class Sky:
     def check_times(
         self, days: Iterable[float], targets: Mapping[str, Place] | None = None
     ) -> None:
-        """Raise an error for a day on which the position of any target is missing.
+        """Raise an error if the position of any target is missing on one of the given days.
 
-        The targets are the perturbers by default.
+        By default the targets are the perturbers.
         """
         self.source.check_times(np.array(list(days)), self._all(targets))
 

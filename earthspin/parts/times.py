@@ -66,7 +66,7 @@ BYTES_PER_TIME = 128
 
 
 def by_region(store: str) -> str:
-    """Advice for error messages: write a series block by block if it is too long for memory."""
+    """Advice, for error messages, to write a too long series to a store block by block."""
     return f"write them by region with write_series(scene, '{store}') or run --out"
 
 

@@ -67,7 +67,7 @@ def best_scatter(years: float) -> float:
 
 @cache
 def record(years: float, seed: int) -> Record:
-    """Simulate a record: time (d) and polar motion (mas)."""
+    """Simulate polar motion (mas) with a known free wobble, and return it with its times (d)."""
     return simulate(years, PERIOD, QUALITY, seed=seed)
 
 

@@ -83,7 +83,10 @@ def ladder(quick: bool) -> Ladder:
 
 
 def scaled_error(true: DoubleDouble, result: Array) -> float:
-    """Largest error of any compliance, relative to the geometric mean of its two diagonal ones."""
+    """Largest scaled error of all elements of the compliance matrix.
+
+    The error of element (i, j) is divided by the geometric mean of elements (i, i) and (j, j).
+    """
     own = np.sqrt(abs(np.diagonal(true.hi)))
     return float(np.max(abs((result - true).hi) / np.outer(own, own)))
 

@@ -175,7 +175,7 @@ def _start(orbit: Ellipse) -> tuple[FloatArray, FloatArray, float]:
 
 
 def _integrated(orbit: Ellipse, mean: FloatArray, rtol: float) -> Planar:
-    """Integrate the equations of motion from the pericentre before the first time."""
+    """Positions on an orbit by integrating the two-body problem numerically from the pericentre."""
     position, velocity, gm = _start(orbit)
 
     def slopes(time: float, state: FloatArray) -> list[float]:

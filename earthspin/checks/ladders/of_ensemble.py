@@ -36,7 +36,7 @@ EXCESS, QUICK_EXCESS = 1.5, 2.0
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return methods for a half-width by ensembles, their settings and the reference."""
+    """Return methods for the half-width of the precession period due to H, with a reference."""
     seeds = FEW_SEEDS if quick else SEEDS
     members = QUICK_MEMBERS if quick else MEMBERS
     scatter = (QUICK_EXCESS if quick else EXCESS) * expected_scatter(members[-1])

@@ -117,7 +117,7 @@ def weighting_error(step: float, *, resonant: bool) -> float:
 def _method(
     name: str, task: str, steps: tuple[float, ...], setting: Callable[[float], Setting]
 ) -> Method:
-    """Make the `Method` of one scheme, with a setting for each step.
+    """Make the `Method` of one numerical scheme, with one setting for each time step.
 
     Only exact schemes have a finite error bound.
     """
@@ -127,7 +127,10 @@ def _method(
 
 
 def _excitation_setting(scheme: str, step: float, span: float) -> Setting:
-    """Make a setting that returns excitation computed from polar motion, and the exact mean."""
+    """Make a setting that computes excitation from polar motion.
+
+    It returns the computed excitation, and the exact mean excitation over the same intervals.
+    """
     t, s = np.asarray(step * np.arange(round(span / step) + 1)), frequency()
     intervals = 2 if scheme == "central difference" else 1
     p, true = true_polar_motion(t), true_mean(t[:-intervals], intervals * step)
@@ -135,7 +138,10 @@ def _excitation_setting(scheme: str, step: float, span: float) -> Setting:
 
 
 def _polar_motion_setting(scheme: str, step: float, span: float) -> Setting:
-    """Make a setting that returns polar motion computed from excitation, and the exact one."""
+    """Make a setting that computes polar motion from excitation.
+
+    It returns the computed polar motion, and the exact polar motion at the same times.
+    """
     t, s = np.asarray(step * np.arange(round(span / step) + 1)), frequency()
     chi, true = true_mean(t[:-1], step), true_polar_motion(t)
     return Setting(

@@ -68,7 +68,7 @@ def ladder(quick: bool) -> Ladder:
 
 
 def usual(p: Complex, days: int, years: float) -> Complex:
-    """Predict by least squares plus autoregression of the residual, as is common.
+    """Predict polar motion by a common method: least squares and autoregression of the residual.
 
     The fit has a free wobble, annual and semiannual circles, a constant and a trend.
     """
@@ -109,13 +109,13 @@ def _observed() -> tuple[FloatArray, Complex]:
 
 
 def origins() -> NDArray[np.intp]:
-    """Table row that follows the last known day (the origin) of each forecast."""
+    """Row numbers at which the forecasts begin; each forecast uses only the rows before it."""
     return np.searchsorted(_observed()[0], FIRST + EVERY * np.arange(ORIGINS)) + 1
 
 
 @cache
 def _fitted_once() -> FastExcitation:
-    """Fit the excitation model to the data before the first forecast, for use in all."""
+    """Fit the excitation model, for use in all forecasts, to the data before the first one."""
     return fit(_observed()[1][: origins()[0]])
 
 

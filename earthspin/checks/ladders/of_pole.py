@@ -161,11 +161,9 @@ def _peer(motion: Motion, tolerance: float) -> Result:
 
 
 def _by_scipy(method: str, motion: Motion, rtol: float) -> Result:
-    """Integrate the angular momentum by a SciPy method, and return the figure axis derived from it.
+    """Figure axis from an integration of the angular momentum by SciPy.
 
-    The torque is computed as if the figure axis were parallel to the angular momentum.
-
-    The tilt between angular momentum and figure axis is computed to first order.
+    The torque is computed as if the two were parallel; their tilt, to first order, is added last.
     """
     tide, tau = Tide(motion.end), (1 - H) / SPIN
 

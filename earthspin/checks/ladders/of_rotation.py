@@ -39,7 +39,7 @@ REFERENCE_ERROR = 5e-17
 
 
 def times() -> FloatArray:
-    """Times of the reference, evenly spaced, in units of 1/n, where n is the mean motion."""
+    """Evenly spaced times of the reference solution, multiplied by the orbital mean motion."""
     return np.linspace(0.0, SPAN, TIMES + 1)[1:]
 
 
@@ -93,7 +93,7 @@ def _windows(t: FloatArray, tolerance: float) -> Result:
 
 
 def _attitude(t: FloatArray, rtol: float) -> Result:
-    """Independent step-by-step solver of `earthspin.checks.solvers.attitude`."""
+    """Angular velocity and attitude by the solver in `earthspin.checks.solvers.attitude`."""
     calls = 0
 
     def tide(time: float) -> FloatArray:

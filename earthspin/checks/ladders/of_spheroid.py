@@ -28,9 +28,10 @@ ROUNDING = 1e-28
 
 
 def points() -> FloatArray:
-    """Points of the field in equatorial radii, ordered by distance, shape (n, 3).
+    """Points at which attraction and torque are compared, in equatorial radii, shape (n, 3).
 
-    Directions are rounded to 2^-30, so that they are the same on every machine.
+    They are ordered by distance. Directions are rounded to 2^-30, so that they are the same on
+    every machine.
     """
     azimuth = np.arange(0.3, len(LATITUDES))
     direction = unit_vectors(azimuth, np.radians(LATITUDES))
@@ -95,7 +96,7 @@ def _exact(r: FloatArray) -> tuple[Any, Any]:
 
 
 def _torque(push: Any, r: Any) -> Any:
-    """Torque on the spheroid by a unit mass at r: `push` times r x z, with the axis z."""
+    """Torque on the spheroid: `push` times cross product of position `r` and symmetry axis z."""
     return np.stack([push * r[:, 1], -push * r[:, 0], np.zeros_like(push)], axis=-1)
 
 

@@ -64,7 +64,7 @@ def ladder_of_rotation(
 def periods(
     true: Mapping[str, DoubleDouble], quick: bool
 ) -> tuple[FloatArray, str, tuple[float, ...], float]:
-    """Times, number of periods, integrator tolerances and error bound for a ladder of rotation.
+    """Choose the times and integrator tolerances of a comparison of rotations, full or quick.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-r"""The whole attitude of a body with three different moments, by quaternions.
+r"""Attitude of a body with three different moments of inertia, by integrating its quaternion.
 
     q' = (1/2) q \omega,     l' = R(q) n_b,     \omega_b = I^{-1} R(q)^T L
 

@@ -55,7 +55,7 @@ def simulate(
     time = np.arange(0.0, years * 365.25, step)
 
     def process(rate: complex, size: float) -> Complex:
-        """Draw a stationary complex process with covariance size2 exp(rate |lag|)."""
+        """Draw stationary complex noise of rms `size` with autocorrelation exp(rate |time lag|)."""
         kick = generator.standard_normal((time.size, 2)) @ np.array([1, 1j]) / np.sqrt(2)
         keep = np.exp(rate * step)
         kick[1:] *= np.sqrt(1 - abs(keep) ** 2)

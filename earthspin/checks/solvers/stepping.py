@@ -25,7 +25,7 @@ def integrate(
     atol: ArrayLike | None = None,
     max_step: float = np.inf,
 ) -> tuple[FloatArray, int]:
-    """Integrate with `scipy.integrate.solve_ivp` and return the states at given times.
+    """Integrate a differential equation with SciPy and return the states at given times.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ SOURCE = "measured on DE421 from 1901 to 2050: python -m data_tools neglected"
 
 
 class Growth(NamedTuple):
-    """Bound on an angle that grows with time from J2000.0: mas, mas/year, mas/year squared."""
+    """Bound on an angle as a quadratic in time from J2000.0, in mas and years."""
 
     swing: float
     rate: float = 0.0
