@@ -163,7 +163,8 @@ def _peer(motion: Motion, tolerance: float) -> Result:
 def _by_scipy(method: str, motion: Motion, rtol: float) -> Result:
     """Figure axis from an integration of the angular momentum by SciPy.
 
-    The torque is computed as if the two were parallel; their tilt, to first order, is added last.
+    The torque is computed as if figure axis and angular momentum were parallel; the angle between
+    them, to first order, is added last.
     """
     tide, tau = Tide(motion.end), (1 - H) / SPIN
 
