@@ -261,7 +261,7 @@ class Span:
         return cls(*first_and_last(value, where, microseconds, allowed))
 
     def write(self) -> Plain:
-        """Return the two dates as text, to the microsecond."""
+        """Form stored in scenes: the two dates as text, to the microsecond."""
         return [str(J2000 + np.timedelta64(count, "us")) for count in (self.first, self.last)]
 
     @property

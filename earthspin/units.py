@@ -56,7 +56,7 @@ class Kind(Protocol[T]):
 
     @property
     def words(self) -> str:
-        """Description of the allowed input, for messages."""
+        """Text for error messages that describes the allowed input."""
 
     @property
     def hint(self) -> str:
@@ -307,12 +307,12 @@ class Number:
 
     @property
     def hint(self) -> str:
-        """Type of the allowed number, for editors."""
+        """Type hint of the allowed number, as code editors show it."""
         return "Value" if self.text else "Pure"
 
     @property
     def words(self) -> str:
-        """Description of the allowed number, for messages."""
+        """Text for error messages that describes the allowed number."""
         return f'like "{self.example}"' if self.unit else f"like {self.example}"
 
     def read(self, value: object, where: Where) -> float:
@@ -340,7 +340,7 @@ class Number:
         return f"it is at least {self.low:g}{unit}"
 
     def write(self, value: float) -> Plain:
-        """Return the number with its unit."""
+        """Form stored in scenes: the number with its unit."""
         return f"{float(value)!r} {self.unit}" if self.unit else float(value)
 
 
@@ -367,7 +367,7 @@ class Numbers:
 
     @property
     def words(self) -> str:
-        """Description of the allowed array, for messages."""
+        """Text for error messages that describes the allowed array."""
         size = " x ".join("n" if n is None else str(n) for n in self.shape)
         return f'{size} values like "{self.example}"' if self.unit else f"{size} numbers"
 
@@ -391,7 +391,7 @@ class Numbers:
         return values
 
     def write(self, value: FloatArray) -> Plain:
-        """Return a list of numbers, or bytes if it is long."""
+        """Form stored in scenes: a list of numbers, or bytes if it is long."""
         if value.size > LONGEST_LIST:
             return pack(value) | {"unit": self.unit}
         return value.tolist() if not self.unit else _with_unit(value.tolist(), self.unit)
@@ -447,7 +447,7 @@ class _AsItIs:
     """Base class of kinds whose values are stored in a scene unchanged."""
 
     def write(self, value: Any) -> Plain:
-        """Return the value unchanged."""
+        """Form stored in scenes: the value unchanged."""
         return value
 
 
@@ -462,7 +462,7 @@ class Whole(_AsItIs):
 
     @property
     def words(self) -> str:
-        """Description of the allowed whole number, for messages."""
+        """Text for error messages that describes the allowed whole number."""
         return f"a whole number, {self.low} or more"
 
     def read(self, value: object, where: Where) -> int:
@@ -490,7 +490,7 @@ class Word(_AsItIs):
 
     @property
     def hint(self) -> str:
-        """Type of the allowed words, for editors."""
+        """Type hint of the allowed words, as code editors show it."""
         return f"Literal[{', '.join(map(repr, self.allowed))}]"
 
     @property
@@ -569,12 +569,12 @@ class Several:
 
     @property
     def hint(self) -> str:
-        """Type of the allowed list, for editors."""
+        """Type hint of the allowed list, as code editors show it."""
         return f"{self.of.hint} | Sequence[{self.of.hint}]"
 
     @property
     def words(self) -> str:
-        """Description of the allowed list, for messages."""
+        """Text for error messages that describes the allowed list."""
         return f"{self.of.words}; one or a list"
 
     def read(self, value: object, where: Where) -> tuple[Any, ...]:

@@ -101,7 +101,7 @@ class YearSpan:
         return cls(*first_and_last(value, where, seconds, allowed))
 
     def write(self) -> Plain:
-        """Return the two times in seconds, to the last bit."""
+        """Form stored in scenes: the two times in seconds, to the last bit."""
         return [f"{self.first!r} s", f"{self.last!r} s"]
 
 

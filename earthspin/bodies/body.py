@@ -338,7 +338,7 @@ class Body(FromMass):
             raise where.error(dict(table), str(error)) from None
 
     def write(self) -> Any:
-        """Return a table of all fields that are set, from which `read` restores the body."""
+        """Form stored in scenes: a table of all fields that are set; `read` restores the body."""
         values = {name: getattr(self, name) for name in self.KINDS}
         table = {n: self.KINDS[n].write(value) for n, value in values.items() if value is not None}
         return {"from": NOTHING} | table

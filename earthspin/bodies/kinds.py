@@ -50,7 +50,7 @@ class Magnitude:
         return quantity(value, self.unit, where, self.text)
 
     def write(self, value: Any) -> Plain:
-        """Return a number with its unit, or an array as a table of values, dims and labels."""
+        """Form stored in scenes: a number with its unit, or an array as a table."""
         if hasattr(value, "dims"):
             table = pack(value.values) | {"dims": list(map(str, value.dims))}
             return table | {"labels": _labels_of(value)}
@@ -83,7 +83,7 @@ class Codes:
         return tuple(value)
 
     def write(self, value: tuple[int, ...]) -> Plain:
-        """Return the codes as a list."""
+        """Form stored in scenes: the codes as a list."""
         return list(value)
 
 
@@ -104,7 +104,7 @@ class Uncertainties:
         return {name: quantity(u, "", where.at(name), "1e-4") for name, u in value.items()}
 
     def write(self, value: Mapping[str, float]) -> Plain:
-        """Return the relative standard deviations as a table by field name."""
+        """Form stored in scenes: the relative standard deviations as a table by field name."""
         return dict(value)
 
 
@@ -133,7 +133,7 @@ class OneOf:
         return value
 
     def write(self, value: str) -> Plain:
-        """Return the word unchanged."""
+        """Form stored in scenes: the word unchanged."""
         return value
 
 
@@ -166,7 +166,7 @@ class CitedPeriod:
             raise where.error(value, f"give a table of {names}") from None
 
     def write(self, value: Constant) -> Plain:
-        """Return a table of those fields of the `Constant` that are set."""
+        """Form stored in scenes: a table of those fields of the `Constant` that are set."""
         return {name: entry for name, entry in asdict(value).items() if entry not in (None, "")}
 
 

@@ -55,7 +55,7 @@ class Layers:
         return LayeredBody(name, layers, reference)
 
     def write(self, value: LayeredBody) -> dict[str, Any]:
-        """Return a layered body as a table of its name, reference and layers."""
+        """Form stored in scenes: a layered body as a table of its name, reference and layers."""
         return {
             "name": value.name,
             "reference": value.reference,
@@ -129,5 +129,5 @@ class UnderTheSurface:
         return Text().read(value, where)
 
     def write(self, value: str | LayeredBody) -> str | dict[str, Any]:
-        """Return the name of the interior, or the table of a layered body."""
+        """Form stored in scenes: the name of the interior, or the table of a layered body."""
         return value if isinstance(value, str) else Layers().write(value)

@@ -32,7 +32,7 @@ class Epoch:
         return microseconds(value, where) / MICROSECONDS_PER_DAY
 
     def write(self, value: float) -> Plain:
-        """Return the date as days from J2000.0 TDB, without rounding to the microsecond."""
+        """Form stored in scenes: days from J2000.0 TDB, not rounded to the microsecond."""
         return value
 
 
@@ -132,7 +132,7 @@ class Orbit:
         return cls(**_checked(value, where))
 
     def write(self) -> Plain:
-        """Return the table of all elements that are set."""
+        """Form stored in scenes: the table of all elements that are set."""
         elements = {name: getattr(self, name) for name in _KINDS}
         return {n: _KINDS[n].write(v) for n, v in elements.items() if v not in (None, "")}
 

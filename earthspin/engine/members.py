@@ -246,7 +246,7 @@ class Members:
         )
 
     def write(self) -> dict[str, Any]:
-        """Return the `members` table of a scene, from which `read` restores all values."""
+        """Form stored in scenes: the `members` table; `read` restores all values."""
         table: dict[str, Any] = {"seed": self.seed, "impossible": self.impossible}
         options = {
             "n": self.n,

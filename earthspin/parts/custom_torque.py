@@ -49,7 +49,7 @@ class CustomTorque:
         return cls(value)
 
     def write(self) -> Plain:
-        """Return the name of the function, since a file cannot store the function."""
+        """Form stored in scenes: the name of the function, since code is not stored."""
         name = getattr(self.law, "__qualname__", None) or repr(self.law)
         return {_FUNCTION: re.sub(r" at 0x[0-9a-fA-F]+", "", str(name))}
 

@@ -53,7 +53,7 @@ def no_accuracy(accuracy: float | None) -> str | None:
 
 
 def many_pulls(perturbers: tuple[Body, ...]) -> str | None:
-    """Return the reason to leave out parts that need plain masses, if a mass is an array."""
+    """Return the reason to leave out parts that need one number per mass, if a mass is an array."""
     arrays = [p.name for p in perturbers if hasattr(p.gm, "dims")]
     return f"the mass of '{arrays[0]}' is an array" if arrays else None
 

@@ -82,7 +82,7 @@ class ObservedPole(TableFile):
         return super().read(value, where)
 
     def write(self, value: Any) -> Plain:
-        """Return the name or path of a table, or the rows of a Dataset as bytes."""
+        """Form stored in scenes: the name or path of a table, or the rows of a Dataset as bytes."""
         return pack(value.rows) if isinstance(value, GivenPole) else super().write(value)
 
 

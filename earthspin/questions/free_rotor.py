@@ -59,7 +59,7 @@ class Moments:
         return cls((first, second, third), table)
 
     def write(self) -> Plain:
-        """Return the moments as text with their unit."""
+        """Form stored in scenes: the moments as text with their unit."""
         texts = [f"{number!r} kg m2" for number in self.numbers]
         return dict(zip(KEYS, texts, strict=True)) if self.differences else texts
 

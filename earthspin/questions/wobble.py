@@ -418,7 +418,7 @@ def core_nutation(inside: Inside, body: Body) -> CoreNutation:
 
 
 def no_inner_core(body: Body) -> str | None:
-    """Return the reason to leave out the inner core if none is known."""
+    """Return the reason to leave out the inner core, or None if the body has one."""
     if layered.not_layered(body):
         return layered.not_layered(body)
     if body.labelled:

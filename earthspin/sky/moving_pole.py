@@ -215,7 +215,7 @@ class MovingPole:
         return cls(**fields)
 
     def write(self) -> dict[str, Any]:
-        """Return the table from which `read` restores the pole."""
+        """Form stored in scenes: the table from which `read` restores the pole."""
         table: dict[str, Any] = {name: f"{getattr(self, name)!r} rad" for name in _NAMES}
         table |= {name: f"{getattr(self, name)!r} rad/s" for name in _RATES}
         return table | {

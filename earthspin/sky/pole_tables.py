@@ -31,7 +31,7 @@ class Angles:
         return tuple(quantity(angle, "rad", where, "317.7 deg") for angle in value)
 
     def write(self, value: Direction | Pole) -> str | list[str] | dict[str, Any]:
-        """Return the name, two angles, or the table of a moving pole."""
+        """Form stored in scenes: the name, two angles, or the table of a moving pole."""
         if isinstance(value, MovingPole):
             return value.write()
         if isinstance(value, Direction):

@@ -209,10 +209,10 @@ def _lower_pole_rate(nutation: Nutation) -> FloatArray:
 
 
 def _upper_pole_rate(nutation: Nutation) -> FloatArray:
-    """Rate of passing the upper pole, in the rate unit: (b - a)/sqrt(1 - cos(theta)) at the turn.
+    """Scaled rate at which the axis passes the upper pole: (b - a)/sqrt(1 - cos(theta)).
 
-    Here a and b are the axial and vertical angular momentum over I1, and theta is the smallest
-    inclination. The rate is finite also if the axis reaches the pole.
+    Here a and b are the axial and vertical angular momentum over I1, in the rate unit of the
+    nutation, and theta is the smallest inclination. The rate is finite also if the axis reaches the pole.
     """
     size = np.sqrt(nutation.depth * nutation.gaps.outer)
     sense = np.sign(nutation.start.b_minus_a)
@@ -241,7 +241,7 @@ class _Integral(NamedTuple):
 
 
 def _integrals(nutation: Nutation, upper: BoolArray) -> tuple[_Integral, _Integral]:
-    """Coefficients of the regular integrals in (phi + psi)/2 and (phi - psi)/2, in this order.
+    """Coefficients of the non-singular integrals in (phi + psi)/2 and (phi - psi)/2, in this order.
 
     They start from a turning point; the arctangents are left out.
     """

@@ -1,4 +1,7 @@
-"""Ladder for the period of the free wobble: fits to polar motion, and the peak of a spectrum."""
+"""Error against run time for the period of the free wobble.
+
+Methods: fits to polar motion, and the peak of a spectrum.
+"""
 
 from __future__ import annotations
 

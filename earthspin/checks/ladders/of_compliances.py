@@ -1,4 +1,6 @@
-"""Ladder for the compliances of a layered Earth: collocation and step-by-step integrators.
+"""Error against run time for the compliances of a layered Earth.
+
+Methods: collocation and step-by-step integrators.
 
 The equations, the initial radius and the conditions at boundaries and surface are the same for all
 methods, which differ only in the integration from one radius to another.

@@ -1,4 +1,6 @@
-r"""Ladder for positions on orbits by elements: the package, textbook methods and Skyfield.
+r"""Error against run time for positions on orbits by elements.
+
+Methods: the package, textbook methods and Skyfield.
 
 The other methods compute the position in the plane of the orbit and rotate it as in a textbook.
 With M the mean anomaly and J the Bessel functions,

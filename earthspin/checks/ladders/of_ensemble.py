@@ -1,4 +1,6 @@
-"""Ladder for the uncertainty of the precession period due to H: ensembles and linear errors.
+"""Error against run time for the uncertainty of the precession period due to H.
+
+Methods: ensembles and linear errors.
 
 The period is proportional to 1/H, so the ends of its central 95 % interval are the reciprocals of
 those of H.

@@ -1,4 +1,6 @@
-r"""Ladder for polar motion and its excitation: the exact schemes and approximate ones.
+r"""Error against run time for polar motion and its excitation.
+
+Methods: the exact schemes and approximate ones.
 
 The excitation consists of sinusoids and steps, and its polar motion has a closed form. With
 p' = i s (p - chi), a sinusoid chi = c exp(i w t) gives

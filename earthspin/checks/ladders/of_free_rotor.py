@@ -1,4 +1,7 @@
-"""Ladder for a free triaxial rotor: Jacobi's closed form and numerical integrators."""
+"""Error against run time for a free triaxial rotor.
+
+Methods: Jacobi's closed form and numerical integrators.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Ladder for the mean torque of an orbit by elements: closed form, windowed averages and sums.
+"""Error against run time for the mean torque of an orbit by elements.
+
+Methods: closed form, windowed averages and sums.
 
 Questions use windowed averages if some perturber does not move on a single ellipse about the body.
 """

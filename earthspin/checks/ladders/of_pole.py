@@ -1,4 +1,7 @@
-"""Ladder for the figure axis under Sun and Moon: Picard iteration and step-by-step integrators."""
+"""Error against run time for the figure axis under Sun and Moon.
+
+Methods: Picard iteration and step-by-step integrators.
+"""
 
 from __future__ import annotations
 

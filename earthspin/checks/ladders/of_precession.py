@@ -1,4 +1,7 @@
-"""Ladder for the mean precession rate from torques: tapers, window lengths, steps, plain means."""
+"""Error against run time for the mean precession rate from torques.
+
+Methods: tapers, window lengths, steps, plain means.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Ladder for the attitude of a tumbling moon: Gauss windows and step-by-step integrators."""
+"""Error against run time for the attitude of a tumbling moon.
+
+Methods: Gauss windows and step-by-step integrators.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Ladder for attraction and torque of a homogeneous spheroid: exact form, series and sums."""
+"""Error against run time for attraction and torque of a homogeneous spheroid.
+
+Methods: exact form, series and sums.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ladder for a heavy symmetric top: the closed form and numerical integrators."""
+"""Error against run time for a heavy symmetric top: the closed form and numerical integrators."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ladder for Sun and Moon at the true equator of date, with different treatments of nutation.
+"""Error against run time for Sun and Moon at the true equator, by treatments of nutation.
 
 Nutation is interpolated, exact, or neglected.
 """
