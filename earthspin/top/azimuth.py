@@ -212,7 +212,8 @@ def _upper_pole_rate(nutation: Nutation) -> FloatArray:
     """Scaled rate at which the axis passes the upper pole: (b - a)/sqrt(1 - cos(theta)).
 
     Here a and b are the axial and vertical angular momentum over I1, in the rate unit of the
-    nutation, and theta is the smallest inclination. The rate is finite also if the axis reaches the pole.
+    nutation, and theta is the smallest inclination. The rate is finite also if the axis reaches
+    the pole.
     """
     size = np.sqrt(nutation.depth * nutation.gaps.outer)
     sense = np.sign(nutation.start.b_minus_a)
