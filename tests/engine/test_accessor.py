@@ -27,9 +27,7 @@ def test_the_plan_is_a_table_with_its_seconds() -> None:
     answer = earthspin.wobble_ladder(ocean="global")
     plan = answer.earthspin.plan
     text = str(plan)
-    assert re.search(
-        r"^  wobble-rungs +period of the free wobble, .* \[\d+\.\d ms\]$", text, re.MULTILINE | re.I
-    )
+    assert re.search(r"^  wobble-rungs .+ \[\d+\.\d ms\]$", text, re.MULTILINE)
     assert "ran, in this order" in text
     assert re.search(r"^  sensitivity +its section was not requested$", text, re.MULTILINE)
     assert repr(plan) == text
