@@ -18,7 +18,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
 
 from earthspin.errors import BodyError, EarthspinError
 from earthspin.numerics import quaternion
@@ -163,6 +162,8 @@ def integrate_rotation(
     EarthspinError
         If the integrator fails.
     """
+    from scipy.integrate import solve_ivp
+
     body, t = principal_moments(moments), finite(times, "times", "s")
     start = finite(omega, "omega", "rad/s")
     if start.shape != (3,) or body.values.shape != (3,):
