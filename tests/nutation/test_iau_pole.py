@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 
+import erfa
 import numpy as np
 import pytest
 import xarray as xr
@@ -179,3 +180,38 @@ def test_effects_that_are_off_are_not_in_the_budget() -> None:
     assert set(off.effect.values) == {*EFFECTS} - {"geodesic", "nonrigid"}
     assert not np.any(off[["psi_rate", "omega_rate"]].to_array())
     assert small["residuals/dpsi_sineps"].sizes == {"time": 2}
+
+
+def test_residuals_as_computed_are_those_of_the_returned_pole() -> None:
+    """Against ERFA: the figure axis of `pole` minus that of pnm06a, in the mean equator of date."""
+    keys = {"span": ("1990-01-01", "2010-01-01"), "step": "30 d"}
+    tree = earthspin.run_tree(earthspin.Scene(compute="iau", **keys), sections=["residuals"])
+    residuals = tree["residuals"].to_dataset()
+    effects = earthspin.load_scene(tree).effects
+    axis = earthspin.pole(times=residuals.time.values, effects=effects).sel(axis="figure")
+    jd = 2451545.0 + (residuals.time.values - np.datetime64("2000-01-01T12")) / np.timedelta64(
+        1, "D"
+    )
+    off = np.stack([axis[name].values for name in "XYZ"], axis=1) - erfa.pnm06a(jd, 0.0)[:, 2]
+    x, y, _ = np.einsum("tij,tj->it", erfa.pmat06(jd, 0.0), off) * 180 / np.pi * 3.6e6
+    apart = np.hypot(residuals.dpsi_sineps_unfitted - x, residuals.deps_unfitted - y)
+    assert abs(x).max() > 50  # a rigid Earth
+    # 0.040 mas measured: a component of a vector differs from an angle in second order
+    assert float(apart.max()) < 0.06
+
+
+def test_error_of_residuals_as_computed_is_the_effect_of_the_uncertainty_of_h() -> None:
+    scene = earthspin.Scene(compute="iau", span=("1980-01-01", "2020-01-01"), step="100 d")
+    earth = earthspin.EARTH
+    h, u = earth.dynamical_flattening, earth.relative_uncertainty["dynamical_flattening"]
+    moved = earth.replace(dynamical_flattening=h * (1 + 1.959964 * u))
+    here, there = (
+        earthspin.run_tree(earthspin.load_scene(scene, {"body": body}), ["residuals"])["residuals"]
+        for body in (earth, moved)
+    )
+    change = np.hypot(
+        there.dpsi_sineps_unfitted - here.dpsi_sineps_unfitted,
+        there.deps_unfitted - here.deps_unfitted,
+    )
+    ratio = (change / here.unfitted_error).values
+    assert abs(ratio[[0, -1]] - 1).max() < 0.1
