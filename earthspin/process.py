@@ -78,7 +78,7 @@ def run_command(command: Callable[[], int | None], *, show_traceback: bool = Fal
 
 
 def _judged(error: Exception) -> tuple[int, str]:
-    """Return the exit status for an error, and the line to print."""
+    """Return the exit status for an error, and the message to print."""
     if isinstance(error, EarthspinError):
         return USAGE_ERROR, str(error)
     if isinstance(error, MemoryError):
@@ -104,7 +104,7 @@ def _print(words: str) -> None:
 
 
 def _drop_output() -> None:
-    """Discard the buffer of stdout."""
+    """Discard output that is not yet written to stdout."""
     with suppress(OSError, ValueError, AttributeError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
@@ -129,7 +129,7 @@ def _check_streams() -> None:
 
 @contextmanager
 def _endings() -> Iterator[None]:
-    """Turn signals that end the process into KeyboardInterrupt, so that files are cleaned up."""
+    """Turn signals that end the process into KeyboardInterrupt, so that files are removed first."""
 
     def end(number: int, frame: FrameType | None) -> None:
         signal.signal(number, signal.SIG_DFL)  # the second one ends it at once

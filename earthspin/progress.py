@@ -1,4 +1,4 @@
-"""Progress bar for work of more than two seconds; silent without a terminal.
+"""Progress bar on the terminal, for work that takes more than two seconds.
 
 Programs that watch get lines of JSON instead: how much is done, of how much, how much a second, and
 the seconds left.
@@ -26,15 +26,15 @@ _lines: list[TextIO] = []
 
 
 class Advance(Protocol):
-    """Callable that takes the amount of work done since its last call."""
+    """Protocol of the function that advances a progress bar by an amount of work."""
 
     def __call__(self, amount: int) -> None:
-        """Add an amount of work that is done."""
+        """Advance the progress bar by an amount of finished work."""
 
 
 @contextmanager
 def progress(label: str, total: int, already: int = 0) -> Iterator[Advance]:
-    """Show a bar on stderr once the work has lasted two seconds.
+    """Show a progress bar on stderr as soon as the work has lasted two seconds.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def progress(label: str, total: int, already: int = 0) -> Iterator[Advance]:
 
 @contextmanager
 def lines_to(stream: TextIO) -> Iterator[None]:
-    """Write progress as lines of JSON.
+    """Write the progress of all work to a stream, as lines of JSON, instead of showing a bar.
 
     Parameters
     ----------

@@ -1,1 +1,1 @@
-"""Precession and nutation compared with the IAU models: analysis, response, angles, budget."""
+"""Compare the precession and nutation of computed poles with the IAU models."""

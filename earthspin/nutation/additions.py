@@ -1,4 +1,4 @@
-r"""Nutation amplitudes that IAU 2000A adds after multiplying rigid nutation by a resonance.
+r"""Amplitudes that IAU 2000A adds to some nutation terms, besides the response of the interior.
 
 Mathews, Herring & Buffett (2002) multiply a rigid series by a resonance form (`response`) and add a
 few terms: the Sun-synchronous atmospheric tide in the prograde annual term, second-order effects at
@@ -62,7 +62,7 @@ ADDITIONS = (
 
 
 def added_to(multiples: NDArray[np.int64]) -> ComplexArray:
-    """Amplitudes that IAU 2000A adds to circular terms; zero for most terms.
+    """Amplitudes that IAU 2000A adds to given circular nutation terms; zero for most terms.
 
     Parameters
     ----------

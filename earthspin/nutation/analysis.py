@@ -1,4 +1,4 @@
-"""Separation of a pole's motion into a secular part and circular terms.
+"""Separation of a pole's motion into slow precession and circular nutation terms.
 
 The same least-squares fit is applied to the computed pole and to the IAU pole, so that errors of
 the method affect both equally.
@@ -22,7 +22,7 @@ CENTURY = 100 * JULIAN_YEAR
 
 @dataclass(frozen=True)
 class Secular:
-    """Secular longitude psi and inclination omega of a pole on the fixed ecliptic.
+    """Secular longitude psi and inclination omega of a pole on the ecliptic of J2000.0.
 
     They are polynomials in Julian centuries from J2000.0.
 
@@ -52,7 +52,7 @@ class Secular:
 
 
 class PoleAnalysis:
-    """Analysis of poles given at one set of times.
+    """Separate the motion of poles at given times into a secular part and circular terms.
 
     Parameters
     ----------
@@ -80,14 +80,14 @@ class PoleAnalysis:
         return Secular(slow.real / self._sine, slow.imag.copy())
 
     def circles(self, eta: NDArray[np.complex128]) -> Circles:
-        """Circular terms of a nutation dpsi sin(eps0) + i deps."""
+        """Fit circular terms to the nutation eta = dpsi sin(eps0) + i deps, and return them."""
         return self._least_squares(eta)
 
 
 def shifted_start(
     start: FloatArray, ours: Secular, wanted: Secular, ecliptic: FloatArray, epoch: float
 ) -> FloatArray:
-    """Correct the initial axis of an integration so that its mean pole starts at a given one.
+    """Correct the initial axis of an integration so that the mean pole follows a wanted motion.
 
     Parameters
     ----------

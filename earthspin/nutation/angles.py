@@ -34,7 +34,7 @@ def on_fixed_ecliptic(pole: FloatArray, ecliptic: FloatArray) -> FloatArray:
 
 
 def followed(psi: FloatArray, guide: FloatArray) -> FloatArray:
-    """Add whole turns to longitudes so that each is nearest to its guide value, rad, same shape."""
+    """Add whole turns to longitudes so that each differs least from its guide value, rad."""
     return np.asarray(psi + 2 * np.pi * np.rint((guide - psi) / (2 * np.pi)))
 
 
@@ -49,7 +49,7 @@ def pole_from(psi: FloatArray, omega: FloatArray) -> FloatArray:
 
 
 def precession_angles(psi: FloatArray, omega: FloatArray, ecliptic_pole: FloatArray) -> FloatArray:
-    """Five precession angles, rad, shape (n, 5), in the order of `ANGLES`.
+    """Return psi_A, omega_A, eps_A, chi_A and p_A of a mean pole, rad, shape (n, 5).
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def precession_angles(psi: FloatArray, omega: FloatArray, ecliptic_pole: FloatAr
 
 
 def general_precession(pole: FloatArray, ecliptic_pole: FloatArray) -> FloatArray:
-    """General precession in longitude p_A of a mean pole, rad, shape (...).
+    """General precession in longitude p_A, computed from a mean pole, rad, shape (...).
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def _along_the_moving_ecliptic(equinox: FloatArray, e: FloatArray) -> FloatArray
 
 
 def polynomials(t: FloatArray, angles: FloatArray, degree: int) -> FloatArray:
-    """Fit polynomials of time to angles by least squares.
+    """Fit polynomials in time to angles by least squares, and return the coefficients.
 
     Parameters
     ----------
@@ -109,6 +109,6 @@ def polynomials(t: FloatArray, angles: FloatArray, degree: int) -> FloatArray:
 
 
 def _angle_about(axis: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
-    """Angle from one direction to another about an axis, rad."""
+    """Angle from one direction to another, measured about a given axis, rad."""
     across = np.sum(np.cross(start, end) * axis, axis=-1)
     return np.asarray(np.arctan2(across, np.sum(start * end, axis=-1)))

@@ -1,4 +1,4 @@
-"""Budget of the precession rate: contributions of all effects compared with IAU 2006."""
+"""Contributions of all effects to the precession rate, compared with IAU 2006."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def published_effects() -> dict[str, float]:
 
 
 def closure(rate: Numeric, iau_rate: float) -> Numeric:
-    """Misclosure of the rate of psi_A: computed rate plus published effects minus IAU rate, rad/s.
+    """Unexplained rate of psi_A: computed rate plus published effects minus IAU rate, rad/s.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ FIRST_ORDER = "first-order"
 
 
 def contributions(total: float, without: Mapping[str, float]) -> dict[str, float]:
-    """Contribution of each effect to a rate: rate with all effects minus rate without this effect.
+    """Contribution of each effect to a rate: rate with all effects minus rate without that effect.
 
     The remainder is the first-order rate.
 
@@ -71,7 +71,7 @@ def contributions(total: float, without: Mapping[str, float]) -> dict[str, float
 
 
 def published_contributions(effects: Sequence[str]) -> dict[str, float]:
-    """Published contributions to the rate of psi_A at J2000.0, rad/s; 0 if not published."""
+    """Published contribution of each effect to the rate of psi_A at J2000.0, rad/s; 0 if none."""
     published = published_effects() | {
         FIRST_ORDER: (
             FIRST_ORDER_RATE.value * math.cos(EPSILON_0.value * ARCSEC) + J2_AND_TILT_RATE.value
@@ -82,7 +82,7 @@ def published_contributions(effects: Sequence[str]) -> dict[str, float]:
 
 
 def full_closure(rate: float, iau_rate: float) -> float:
-    """Misclosure of the rate of psi_A computed with all effects, compared with IAU 2006, rad/s.
+    """Unexplained rate of psi_A: rate computed with all effects minus that of IAU 2006, rad/s.
 
     The published non-linear term is added to the computed rate.
     """
@@ -150,7 +150,7 @@ def budget_of(
     psi_iau: float,
     u_h: float,
 ) -> Budget:
-    """Budget of the rates, from solutions with each effect switched off in turn.
+    """Compute the budget of the rates from solutions in which each effect is switched off in turn.
 
     Parameters
     ----------

@@ -53,7 +53,7 @@ NEAR_ENOUGH = 1e-12
 
 @dataclass(frozen=True)
 class Circles:
-    """Circular terms of a pole's motion.
+    """Circular terms of a pole's motion: Delaunay multiples, frequencies and complex amplitudes.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class Circles:
     slow: ComplexArray
 
     def at(self, arguments: FloatArray) -> ComplexArray:
-        """Sum of the circular terms, without the secular part.
+        """Sum of the circular terms at given times; the secular motion is not included.
 
         Parameters
         ----------
@@ -94,7 +94,7 @@ def term_names(multiples: NDArray[np.int64]) -> list[str]:
 def responses(
     circles: Circles, arguments: FloatArray, factors: Mapping[str, ComplexArray]
 ) -> dict[str, ComplexArray]:
-    """Nutation at given times after multiplying each circular amplitude by a response factor.
+    """Sum the circular terms at given times after multiplying their amplitudes by response factors.
 
     There is one result for each set of factors.
 
@@ -170,7 +170,7 @@ class FrequencyAnalysis:
         )
 
     def _solved(self, eta: ComplexArray) -> ComplexArray:
-        """Solve the least-squares fit of the circular terms to the nutation `eta`.
+        """Solve the least-squares problem for the circular terms of the complex nutation `eta`.
 
         The solution is for columns of unit length. They are nearly orthogonal (condition number 20
         over 150 years), so that the normal equations are accurate enough, and conjugate gradients
@@ -187,7 +187,7 @@ def complex_nutation(angles: FloatArray) -> ComplexArray:
 
 
 def phases(amplitude: ComplexArray) -> tuple[FloatArray, FloatArray]:
-    """In-phase and out-of-phase amplitudes in the convention of the IERS.
+    """In-phase and out-of-phase parts of complex nutation amplitudes, in the IERS convention.
 
     eta = -i sum (in + i out) exp(i phi) (Mathews, Herring & Buffett 2002).
     """
@@ -196,7 +196,7 @@ def phases(amplitude: ComplexArray) -> tuple[FloatArray, FloatArray]:
 
 
 def without_line(centuries: FloatArray, series: FloatArray) -> FloatArray:
-    """Series minus its least-squares linear trend along the first axis."""
+    """Subtract the least-squares linear trend from a series along its first axis."""
     design = np.stack([np.ones_like(centuries), centuries], axis=1)
     fit = np.linalg.lstsq(design, series, rcond=None)[0]
     return np.asarray(series - design @ fit)

@@ -83,7 +83,7 @@ class CoreNutation:
 
 
 def circle(time: FloatArray, period: float = PERIOD) -> ComplexArray:
-    """Circular term of unit amplitude at times t: exp(2 pi i t/T) with the period T."""
+    """Circular motion of unit amplitude and period T at times t: exp(2 pi i t/T)."""
     return np.asarray(np.exp(2j * np.pi * time / period))
 
 

@@ -1,4 +1,4 @@
-"""Values of H and C implied by the IAU precession rate and by an Earth model.
+"""Values of H and C that the IAU precession rate and an Earth model imply.
 
 The published H is inferred from the observed precession, so closure of the rate only tests
 consistency. Only an interior model gives an independent C.
@@ -18,7 +18,7 @@ COMPARED = ("planets", "j4", "geodesic", "second-order")
 
 
 def inferred_h(h: float, torque_rate: float, excess: float) -> float:
-    """Dynamical flattening H for which the computed rate equals the IAU rate.
+    """Dynamical flattening H for which the computed precession rate equals that of the IAU.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def inferred_h(h: float, torque_rate: float, excess: float) -> float:
 
 
 def inferred_h_uncertainty(h: float, torque_rate: float, effects: float, method: float) -> float:
-    """Standard deviation of the inferred H.
+    """Standard deviation of the H that is inferred from the IAU precession rate.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def polar_moment_from_mean(
 
 
 def polar_moment_from_h(j2: float, h: float) -> float:
-    """Polar moment factor C/(M a2) = J2/H."""
+    """Polar moment factor C/(M a2) = J2/H, from J2 and the dynamical flattening H."""
     return float(polar_moment_factor(j2, h))
 
 
@@ -85,7 +85,7 @@ class Flattening(NamedTuple):
 
 
 def inferred_from(budget: Budget, h: float) -> tuple[float, float]:
-    """Value of H for which a computed budget equals the IAU rate, and standard uncertainty.
+    """Value of H that makes the computed precession rate equal to the IAU's, and its uncertainty.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def inferred_from(budget: Budget, h: float) -> tuple[float, float]:
 def compared_flattenings(
     budget: Budget, h: float, j2: float, radius: float, *, u_h: float, u_j2: float
 ) -> dict[str, Flattening]:
-    """Values of H and C/(M a2): published, implied by the IAU rate, and from PREM.
+    """Values of H and C/(M a2) by source: published, from the IAU precession rate, and from PREM.
 
     Parameters
     ----------

@@ -62,7 +62,7 @@ LEFT_OUT = {
 
 @dataclass(frozen=True)
 class Rung:
-    """One model of the interior.
+    """One model of the interior in the ladder, a list of models of increasing detail.
 
     Attributes
     ----------
@@ -112,7 +112,9 @@ class Rung:
         return {name: refined_modes[name] for name in MODES if name in refined_modes}
 
     def uncertain(self, relative: Mapping[str, float]) -> list[tuple[Rung, Rung]]:
-        """Make two models for each uncertain input: raised and lowered by its 95 % half-width.
+        """For each uncertain input, return two models, with the input raised or lowered.
+
+        The change is the 95 % half-width of the input.
 
         Parameters
         ----------
@@ -153,7 +155,10 @@ class Rung:
     def transfer_half_width(
         self, sigma: Array, rigid_e: float, relative: Mapping[str, float]
     ) -> Array:
-        """95 % half-width of the transfer function T at body-fixed frequencies."""
+        """95 % half-width of the transfer function T (non-rigid over rigid nutation).
+
+        It is given at body-fixed frequencies.
+        """
         pairs = [[rung.transfer(sigma, rigid_e) for rung in p] for p in self.uncertain(relative)]
         squares = np.sum([np.abs(up - down) ** 2 for up, down in pairs], axis=0)
         return np.asarray(np.sqrt(squares) / 2)
@@ -165,7 +170,7 @@ _INPUTS = {"k2": "answers", "core_fraction": "fluid", "core_ellipticity": "e_f"}
 
 @dataclass(frozen=True)
 class Setting:
-    """Inputs that all interior models of a body share.
+    """Inputs that all models of a body's interior share: layers, ellipticity, spin and ocean.
 
     Attributes
     ----------
@@ -188,7 +193,7 @@ class Setting:
 
     @property
     def figure(self) -> Figure:
-        """Hydrostatic figure of the layers."""
+        """Hydrostatic figure (shape and ellipticities) of the layers of the body."""
         return figure(self.layers, self.spin_rate)
 
     def softened(self, sigma: Array) -> Yielding:
@@ -211,7 +216,9 @@ def _yielding(layers: LayeredBody, strain: complex) -> Yielding:
 
 
 def parts_of(setting: Setting, love: Yielding, e: float | None = None) -> Parts:
-    """Parameters of the body with its hydrostatic internal figures and observed outer ellipticity.
+    """Ellipticities, moments and compliances that determine the nutation of a layered body.
+
+    The internal figures are hydrostatic, and the outer ellipticity is the observed one.
 
     Parameters
     ----------
@@ -225,7 +232,7 @@ def parts_of(setting: Setting, love: Yielding, e: float | None = None) -> Parts:
 
 
 def with_ocean(parts: Parts, setting: Setting, love: Yielding, sigma: Array) -> Parts:
-    """Add an ocean, which follows the equipotential and loads the ground, to a body's parameters.
+    """Add the effect of an ocean, which follows the equipotential and loads the ground.
 
     A wobble of the body, its core or its inner core changes the height of the equipotential above
     the ground, and thereby the sea level; by reciprocity the same coefficients give the effect of
@@ -244,7 +251,7 @@ def without_core(parts: Parts) -> Parts:
 
 
 def climb(setting: Setting, coupling: bool = False) -> dict[str, Rung]:
-    """Build the interior models of increasing detail (rungs), and further models for comparison.
+    """Build all interior models: those of increasing detail (rungs), and some for comparison.
 
     Parameters
     ----------
@@ -280,7 +287,7 @@ def climb(setting: Setting, coupling: bool = False) -> dict[str, Rung]:
 
 
 def at_observed_period(rung: Rung, spin_rate: float) -> Rung:
-    """Interior model whose core flattening gives the observed period of the free core nutation.
+    """Adjust the core flattening of an interior model to the observed free core nutation period.
 
     Parameters
     ----------

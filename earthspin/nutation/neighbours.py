@@ -50,7 +50,7 @@ LEFT_OUT = (
 
 
 class Neighbours(NamedTuple):
-    """Contributions of omitted nutation terms to the fitted amplitudes of their neighbours.
+    """Errors of fitted nutation amplitudes due to small terms of almost the same frequency.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class Neighbours(NamedTuple):
 def neighbours_of(
     multiples: NDArray[np.int64], frequency: FloatArray, rates: FloatArray, arguments: FloatArray
 ) -> Neighbours:
-    """Compute how much omitted nutation terms add to the fitted amplitudes of their neighbours.
+    """Compute how much nutation terms that are not fitted change the fit of adjacent terms.
 
     The fitted interval is centred on J2000.0.
 
@@ -95,7 +95,7 @@ def neighbours_of(
 
 
 def circles_of(term: Term) -> tuple[complex, complex]:
-    """Amplitudes of exp(i phi) and exp(-i phi) in dpsi sin(eps0) + i deps, rad."""
+    """Complex amplitudes of a nutation term's prograde and retrograde circular motion, rad."""
     longitude = np.sin(EPSILON_0.value * ARCSEC) * np.array([term.cosine, term.sine])
     obliquity = 1j * np.array([term.deps_cosine, term.deps_sine])
     cosine, sine = 1e-4 * MAS * (longitude + obliquity)
@@ -103,7 +103,7 @@ def circles_of(term: Term) -> tuple[complex, complex]:
 
 
 def amplitude_error(frequency: FloatArray) -> FloatArray:
-    """Error of a fitted amplitude without the effect of unresolved neighbouring terms, rad.
+    """Error of a fitted nutation amplitude, rad; the error due to close frequencies is excluded.
 
     Measured with the series of IAU 2000A, whose amplitudes are known: 0.042 mas for the 18.6-year
     and 9.3-year terms, 0.038 mas for the semi-annual term, 0.007 mas for periods below 100 days.

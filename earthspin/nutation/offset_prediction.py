@@ -38,7 +38,7 @@ STARTING = 2 * 365
 
 @dataclass(frozen=True)
 class Fits:
-    """Fits of the constant and the free core nutation to the data up to each day of a series.
+    """Constant and free core nutation, fitted for each day to all earlier days of a series.
 
     Attributes
     ----------
@@ -147,7 +147,7 @@ def fit_each_day(time: FloatArray, eta: ComplexArray, weight: FloatArray) -> Fit
 
 
 def half_width(fits: Fits, eta: ComplexArray, horizon: int) -> FloatArray:
-    """95 % half-widths of dX and dY a number of days ahead of the last day, shape (2,).
+    """95 % half-widths of dX and dY, predicted for some days after the last data, shape (2,).
 
     The root mean square of the errors of the same prediction from earlier days, whose targets were
     observed by the last day.
@@ -159,7 +159,7 @@ def half_width(fits: Fits, eta: ComplexArray, horizon: int) -> FloatArray:
 
 
 def _check(mjd: FloatArray, values: FloatArray, horizon: FloatArray) -> None:
-    """Refuse gaps, missing numbers, short series, and dates that cannot be predicted."""
+    """Refuse a series with gaps, missing numbers or too few days; refuse dates too far ahead."""
     if not (np.all(np.isfinite(values)) and np.all(np.isfinite(mjd))):
         raise UndefinedError("offsets or errors are not finite; leave out those days")
     if mjd.size < 2 or np.max(abs(np.diff(mjd) - 1)) > 1e-3:
@@ -175,7 +175,7 @@ def _check(mjd: FloatArray, values: FloatArray, horizon: FloatArray) -> None:
 
 
 def too_short(size: int, longest: float) -> str | None:
-    """Return the reason if `size` days of offsets are too few for a prediction, else None."""
+    """If `size` days of offsets are too few for a prediction, return the reason; otherwise None."""
     needed = STARTING + FEWEST + int(np.ceil(longest))
     if size >= needed:
         return None

@@ -46,7 +46,7 @@ PERIOD_ERROR, QUALITY_ERROR = 0.1 * DAY, 0.02
 
 @dataclass(frozen=True)
 class Response:
-    """Fitted resonance formula for the transfer function from rigid to non-rigid nutation.
+    """Fitted resonance formula for the ratio of non-rigid to rigid nutation (transfer function).
 
     Attributes
     ----------
@@ -67,17 +67,17 @@ class Response:
 
     @property
     def period(self) -> float:
-        """Period of the free core nutation in space, s; negative: retrograde."""
+        """Period of the free core nutation in space, s; negative if it is retrograde."""
         return float(2 * np.pi / (self.spin_rate * (self.core_nutation.real + 1)))
 
     @property
     def period_error(self) -> float:
-        """95 % half-width of the period, s."""
+        """95 % half-width of the period of the free core nutation, s."""
         return PERIOD_ERROR
 
     @property
     def quality_error(self) -> float:
-        """95 % half-width of the quality factor."""
+        """95 % half-width of the quality factor of the free core nutation."""
         return QUALITY_ERROR * self.quality
 
     @property
@@ -86,7 +86,7 @@ class Response:
         return float(abs(self.core_nutation.real / (2 * self.core_nutation.imag)))
 
     def transfer(self, frequency: FloatArray) -> ComplexArray:
-        """Transfer function T at frequencies in space, rad/s."""
+        """Transfer function T (non-rigid over rigid nutation) at frequencies in space, rad/s."""
         base, columns = _form(frequency, self.h, self.spin_rate, self.core_nutation)
         return np.asarray(base + columns @ self.strengths)
 
@@ -111,7 +111,9 @@ def added_half_width(response: Response, frequency: FloatArray, rigid: ComplexAr
 def _form(
     frequency: FloatArray, h: float, spin_rate: float, core_nutation: complex
 ) -> tuple[FloatArray, ComplexArray]:
-    """Non-resonant part of the transfer function, and the factor that multiplies each strength.
+    """Non-resonant part of the transfer function, and the factors that multiply the resonances.
+
+    Each factor is multiplied by the strength of its resonance.
 
     The strengths are those of the resonances.
     """

@@ -1,4 +1,4 @@
-"""Effects of precession on the sky and the calendar (I.8).
+"""Effects of precession on the position of the equinox, the year and the calendar.
 
 Sun and Moon move the equator along the fixed ecliptic; the planets tilt the ecliptic. The sum, the
 general precession, shifts the seasons. The calendar drifts relative to the *tropical* year, which
@@ -38,7 +38,7 @@ def general_precession(rate: Numeric, chi_rate: float, obliquity: float) -> Nume
 
 
 def time_per_degree(rate: Numeric) -> Numeric:
-    """Time in which a rate in rad/s accumulates to one degree, s."""
+    """Time in which a given rate (rad/s) accumulates to one degree, s."""
     return math.radians(1.0) / rate
 
 
@@ -56,7 +56,7 @@ def tropical_year(rate: Numeric, sidereal_year: float) -> Numeric:
 
 
 def time_per_day_of_drift(tropical: Numeric, calendar: float = JULIAN_YEAR) -> Numeric:
-    """Time in which a calendar drifts by one day relative to the seasons, s.
+    """Time in which a calendar year of given length drifts by one day from the seasons, s.
 
     Parameters
     ----------

@@ -38,7 +38,7 @@ SAMPLING = DAY  # s
 
 @dataclass(frozen=True)
 class Samples:
-    """Sampled torques per unit of C - A at equally spaced times, and the window to average them.
+    """Torques divided by C - A at equally spaced times, and the weight function for their mean.
 
     Attributes
     ----------
@@ -81,7 +81,7 @@ def torque_samples(
     perturbers: tuple[Body, ...],
     chosen_average: Choice[Averaging] | None = None,
 ) -> Samples:
-    """Sample the torque of each perturber, from its declination, over an averaging window."""
+    """Sample the torques of all perturbers, from their declinations, over the averaging time."""
     pole, orbit = body.needed("pole"), body.orbit_pole
     cycle = max(map(slowest_cycle, perturbers))
     window, step = best_window(stretch.first * DAY, stretch.last * DAY, cycle), SAMPLING
@@ -117,12 +117,12 @@ def torque_samples(
 
 
 def _labels(perturbers: tuple[Body, ...]) -> list[str]:
-    """Labels along `perturber`: the names of the perturbers, followed by "total"."""
+    """Labels of the dimension `perturber`: the names of the perturbers, followed by "total"."""
     return [*(p.name for p in perturbers), "total"]
 
 
 def _varying_masses(perturbers: tuple[Body, ...]) -> xr.DataArray | None:
-    """GM along `perturber` if any is an array, else None."""
+    """Values of GM of all perturbers in one array if any GM is an array; otherwise None."""
     if not any(hasattr(p.gm, "dims") for p in perturbers):
         return None
     import xarray as xr
@@ -156,14 +156,14 @@ def _locked_error(body: Body, perturber: str, turns: float) -> UndefinedError:
 
 
 def slowest_cycle(perturber: Body) -> float:
-    """Longest period in the torque of a perturber, which averages must cover, s."""
+    """Longest period in the torque of a perturber, s; an average must cover this period."""
     node_period = perturber.orbit is not None and perturber.orbit.node_period
     return max(perturber.cycle, abs(node_period or 0.0))
 
 
 @dataclass(frozen=True)
 class MeanTorques:
-    """Torques per unit of C - A averaged over orbits, by perturber and in total.
+    """Torques averaged over orbits and divided by C - A, for each perturber and in total.
 
     Attributes
     ----------
@@ -257,7 +257,10 @@ def window_means(
 
 @part(unless=no_exact_means)
 def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
-    """Exact mean torques over each orbit and its precessing node, for the axis at J2000.0."""
+    """Exact mean torques of bodies on precessing ellipses, for the spin axis at J2000.0.
+
+    Each mean is over the orbit and the precession of its node.
+    """
     pole, now = body.needed("pole"), np.zeros(1)
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
     axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
@@ -302,7 +305,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
 def mean_torques(
     window_means: MeanTorques | None = None, orbit_means: MeanTorques | None = None
 ) -> MeanTorques:
-    """Mean torques per unit of C - A: exact means if available, else windowed means."""
+    """Mean torques divided by C - A: exact means for elliptic orbits, otherwise windowed means."""
     means = orbit_means if window_means is None else window_means
     assert means is not None  # a plan without both leaves this part out
     return means
@@ -342,12 +345,12 @@ class MeanRates:
 
 
 def total_of(by_perturber: Numeric) -> Numeric:
-    """Total of all perturbers: the last value along `perturber`."""
+    """Total of all perturbers: the last value along the dimension `perturber`."""
     return item_of(by_perturber, -1)
 
 
 def item_of(by_perturber: Numeric, index: int) -> Numeric:
-    """Value for one perturber, selected by index from an array along `perturber`."""
+    """Value for one perturber, selected by its index along the dimension `perturber`."""
     if hasattr(by_perturber, "dims"):
         return by_perturber.isel(perturber=index, drop=True)
     return by_perturber[index]
@@ -389,7 +392,7 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
 def _rates_over_motions(
     rate: Numeric, means: MeanTorques, body: Body, perturbers: tuple[Body, ...]
 ) -> tuple[Numeric, Numeric]:
-    """Precession rate divided by orbital mean motion (summed over perturbers) and by spin rate."""
+    """Precession rate divided by the perturbers' mean motion (summed), and by the spin rate."""
     by_orbit = sum(
         abs(item_of(rate, index)) / ((body.gm + p.gm) * near) ** 0.5
         for index, (p, near) in enumerate(zip(perturbers, means.nearness, strict=True))
@@ -398,7 +401,7 @@ def _rates_over_motions(
 
 
 def _labeller(means: MeanTorques) -> Callable[[FloatArray], xr.DataArray]:
-    """Return a function that labels arrays along `perturber` and the dimensions `means.cases`."""
+    """Return a function that labels the arrays of `means` by perturber and by case."""
     import xarray as xr
 
     dims, shape = ("perturber", *means.cases), (len(means.labels), *means.cases.values())
@@ -411,14 +414,14 @@ MEANS = (torque_samples, window_means, orbit_means, mean_torques, mean_rates)
 
 
 def window_words(window: Window) -> str:
-    """Describe the time window of an average: its taper, number of cycles and cycle length."""
+    """Describe the time window of an average in words: taper, number of cycles, cycle length."""
     return f"{window.taper} taper over {window.cycles:g} cycles of {window.cycle / DAY:.2f} d"
 
 
 def _measured_errors(
     perturbers: tuple[Body, ...], choice: Choice[Averaging] | None
 ) -> tuple[FloatArray, FloatArray] | tuple[None, None]:
-    """Measured errors of the chosen settings of an average, by perturber, s-2.
+    """Measured errors of the averaged torques for the chosen window and step, by perturber, s-2.
 
     They are those of the precessing torque and of the torque vector.
     """

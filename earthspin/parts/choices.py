@@ -1,4 +1,4 @@
-"""Choose the cheapest settings whose error is within the requested accuracy."""
+"""Choose the cheapest settings of a method whose error is within the requested accuracy."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def available_windows(
     pulls: Pulls,
     epochs: Epochs,
 ) -> list[Choice[PoleWindows]]:
-    """Possible windows of the axis solver with their errors; empty if no errors were measured."""
+    """Possible window lengths of the axis integration with their errors; empty if not measured."""
     measured = set(effects) <= set(MEASURED_WITH)
     if not measured or not all(member.naif for member in (body, *perturbers)):
         return []
@@ -58,7 +58,7 @@ def chosen_windows(
     epochs: Epochs,
     accuracy: float | None,
 ) -> list[Choice[PoleWindows]]:
-    """Choose the cheapest windows of the axis solver within the requested accuracy.
+    """Choose the cheapest window length of the axis integration within the requested accuracy.
 
     The most accurate windows follow in the list.
 
@@ -77,7 +77,7 @@ def chosen_windows(
 def chosen_average(
     body: Body, perturbers: tuple[Body, ...], stretch: Stretch, accuracy: float | None
 ) -> Choice[Averaging] | None:
-    """Choose the cheapest averaging window and sampling step within the requested accuracy.
+    """Choose the cheapest time window and sampling step of an average for the requested accuracy.
 
     The result is None if no errors were measured for this sky.
     """
@@ -93,12 +93,15 @@ def chosen_average(
 
 
 def on_mean_equator(equator: str) -> str | None:
-    """Return the reason to leave out nutation if the mean equator is requested."""
+    """If the mean equator is requested, return why nutation is left out; otherwise None."""
     return "the equator is the mean one" if equator == "mean" else None
 
 
 def source_has_equator(source: SourceName) -> str | None:
-    """Return the reason to leave out nutation if the source has its own true equator."""
+    """If the source of positions has its own equator of date, return why nutation is left out.
+
+    Otherwise return None.
+    """
     return f"{source} has the equator of date" if source in OF_DATE else None
 
 
@@ -106,7 +109,10 @@ def source_has_equator(source: SourceName) -> str | None:
 def chosen_nutation(
     sky: Sky, epochs: Epochs, accuracy: float | None
 ) -> Choice[NutationNodes | None] | None:
-    """Choose the cheapest nutation settings within the accuracy, less the ephemeris error."""
+    """Choose the cheapest way to compute nutation that meets the requested accuracy.
+
+    The accuracy is first reduced by the error of the ephemeris.
+    """
     kernel = max(sky.error(place, epochs.span())[0] for place in sky.targets.values())
     allowed = (accuracy or math.inf) - kernel
     first, last = epochs.span()

@@ -1,4 +1,4 @@
-"""Custom torques: Python functions of time, attitude and angular velocity."""
+"""Torques defined by the user's Python functions of time, attitude and angular velocity."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class CustomTorque:
 
     @classmethod
     def read(cls, value: object, where: Where) -> CustomTorque:
-        """Accept a function; its result is checked when it is called."""
+        """Accept a Python function as the torque; its results are checked whenever it is called."""
         if isinstance(value, CustomTorque):
             return value
         if isinstance(value, Mapping) and _FUNCTION in value:
@@ -49,14 +49,14 @@ class CustomTorque:
         return cls(value)
 
     def write(self) -> Plain:
-        """Form stored in scenes: the name of the function, since code is not stored."""
+        """Form stored in scene files: the name of the function; its code is not stored."""
         name = getattr(self.law, "__qualname__", None) or repr(self.law)
         return {_FUNCTION: re.sub(r" at 0x[0-9a-fA-F]+", "", str(name))}
 
     def over(
         self, polar_moment: float
     ) -> Callable[[FloatArray, FloatArray, FloatArray], FloatArray]:
-        """Return a function for the torque divided by the polar moment, which checks every result.
+        """Wrap the user's function: divide its torque by the polar moment, and check every result.
 
         Parameters
         ----------

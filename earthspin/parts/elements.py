@@ -69,7 +69,7 @@ def _add_chain(
     links: Mapping[str, Mapping[str, tuple[Ellipse, int]]],
     reached: dict[str, EllipseChain],
 ) -> None:
-    """Store the chain of ellipses to one body, and then those to all bodies linked to it."""
+    """Store the chain of ellipses to one body, then the chains to the bodies linked to it."""
     reached[end] = chain
     for name, link in links[end].items():
         if name not in reached:
@@ -94,7 +94,7 @@ def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
 
 
 def _refuse_circles(centres: Mapping[str, str]) -> None:
-    """Refuse orbits of bodies about one another."""
+    """Refuse central bodies that form a closed loop, such as two bodies that orbit each other."""
     for name in centres:
         current, visited = name, [name]
         while current in centres:
@@ -109,7 +109,7 @@ def _refuse_circles(centres: Mapping[str, str]) -> None:
 
 
 def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
-    """Ellipse with elements in SI units and their reference plane."""
+    """Ellipse of a body's orbit about its centre, from the orbital elements in SI units."""
     orbit = member.orbit
     assert orbit is not None
     a, motion = size_and_motion(member, centre)
@@ -182,7 +182,7 @@ def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
 
 
 def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
-    """Return True if the positions of all perturbers from the body follow from elements."""
+    """If all perturber positions relative to the body follow from orbital elements, return True."""
     if not any(member.orbit is not None for member in (body, *perturbers)):
         return False
     by_name = ellipse_chains(body, perturbers)
@@ -190,7 +190,7 @@ def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
 
 
 def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """Return the reason to leave out windowed means if exact means are possible.
+    """If exact mean torques are possible, return why windowed means are left out; otherwise None.
 
     They are possible if each perturber moves on an ellipse about the body.
     """
@@ -202,7 +202,7 @@ def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 
 def no_exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """Return the reason to leave out exact means if a perturber has no ellipse about the body."""
+    """If exact mean torques are impossible, return the reason; otherwise return None."""
     if exact_means(body, perturbers) is None:
         return "not all perturbers move on ellipses about the body, so windowed averages are used"
     return None

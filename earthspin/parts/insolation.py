@@ -1,4 +1,4 @@
-"""Daily insolation with its error from an answer of `long_term`."""
+"""Daily insolation with its error, from the orbit and obliquity computed by `long_term`."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ def daily_insolation(
 
 
 def _quantile(moved: Callable[[float], xr.DataArray], value: xr.DataArray) -> xr.DataArray:
-    """95 % half-width of the insolation due to random errors of the longitude of perihelion."""
+    """95 % half-width of insolation due to random errors of the longitude of perihelion."""
     quantiles = Quantiles()
     for (by,) in draws(1):
         quantiles.add({_CALL: (moved(float(by)) - value).values})
@@ -140,7 +140,7 @@ def _insolation(
     true: bool,
     share: float | None,
 ) -> xr.DataArray:
-    """Insolation divided by the solar constant, averaged over a day or over a share of the year."""
+    """Insolation divided by the solar constant, averaged over a day or over a part of the year."""
     arrays = xr.broadcast(obliquity, eccentricity, perihelion, latitude, longitude)
     eps, e, w, phi, sun = (array.values for array in arrays)
     season = Season(eps, e, w)
@@ -176,7 +176,7 @@ def _share(days: Any, body: str) -> float | None:
 
 
 def _year(body: str) -> float:
-    """Sidereal year of a body, s."""
+    """Length of a body's sidereal year, s."""
     year = BODIES[body].orbital_period if body in BODIES else None
     if year is None:
         raise UndefinedError(
@@ -187,7 +187,7 @@ def _year(body: str) -> float:
 
 
 def _constant(value: Any, body: str) -> float:
-    """Solar constant at the mean distance, W/m2."""
+    """Solar constant at the body's mean distance from the Sun, W/m2."""
     if value is None:
         distance = (SUN.gm * (_year(body) / _TURN) ** 2) ** (1 / 3)
         return float(SOLAR_CONSTANT.value * (AU / distance) ** 2)

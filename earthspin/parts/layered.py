@@ -1,4 +1,4 @@
-"""Interior of the body of a question: layers from the question or from the body."""
+"""Interior of the rotating body: layers given by the user, or those known for the body."""
 
 from __future__ import annotations
 
@@ -35,7 +35,10 @@ def interior_of(body: Body) -> Interior | None:
 
 
 def of_another_body(layers: LayeredBody, body: Body) -> str | None:
-    """Return the reason to leave out results if the layers have another mass or radius."""
+    """If the layers have another mass or radius than the body, return why results are left out.
+
+    Otherwise return None.
+    """
     flattening = 0.0 if body.flattening is None else body.flattening
     mean_radius = body.needed("radius") * (1 - flattening / 3)
     for what, own, model in (
@@ -61,13 +64,19 @@ def refuse_unknown(question: Question, body: Body) -> None:
 
 
 def no_interior(body: Body) -> str | None:
-    """Return the reason to leave out results that need an interior, if none is known."""
+    """If no interior of the body is known, return why results that need it are left out.
+
+    Otherwise return None.
+    """
     none = interior_of(body) is None
     return f"no interior of {in_a_sentence(body.name)} is known" if none else None
 
 
 def not_layered(body: Body) -> str | None:
-    """Return the reason to leave out results that need layers, if none are known."""
+    """If no layers of the body are known, return why results that need them are left out.
+
+    Otherwise return None.
+    """
     interior = interior_of(body)
     if interior is None or interior.layers is not None:
         return no_interior(body)
@@ -88,7 +97,7 @@ def require_layers(question: Question, interior: LayeredBody | None, body: Body)
 
 
 def layers_of(body: Body) -> LayeredBody:
-    """Layers of a body that has them."""
+    """Layers of the body's interior, which the caller knows to exist."""
     within = interior_of(body)
     assert within is not None
     assert within.layers is not None
@@ -97,11 +106,11 @@ def layers_of(body: Body) -> LayeredBody:
 
 @part
 def layers(interior: LayeredBody | None, body: Body) -> LayeredBody:
-    """Layers from the question, or else those of the body."""
+    """Layers that the user gives as input, or by default those of the body."""
     return layers_of(body) if interior is None else interior
 
 
 def not_prem(interior: LayeredBody | None, body: Body) -> str | None:
-    """Return the reason to leave out published numbers if the layers are not PREM."""
+    """If the layers are not those of PREM, return why published numbers are left out; else None."""
     name = (interior or layers_of(body)).name
     return None if name == "prem" else f"no published numbers of '{name}' are known"

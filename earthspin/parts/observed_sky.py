@@ -34,7 +34,7 @@ def observed_series() -> PoleSeries:
 
 
 def not_observed_then(span: Span, step: float) -> str | None:
-    """Return the reason to leave out the comparison if too few dates have an observed pole."""
+    """If too few dates have an observed pole, return why the comparison is left out; else None."""
     first, last = span.days
     first, last = max(first, FIRST_DAY), min(last, float(observed_series().mjd[-1]) - MJD)
     if (last - first) * DAY >= FEWEST * step:
@@ -44,7 +44,7 @@ def not_observed_then(span: Span, step: float) -> str | None:
 
 @dataclass(frozen=True)
 class ObservedSky:
-    """Observed celestial pole offsets at the dates of a series.
+    """Observed celestial pole offsets, and the free core nutation in them, at given dates.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ class ObservedSky:
     provenance: dict[str, str]
 
     def sizes(self, models: Mapping[str, FloatArray], error: float) -> ObservedSizes:
-        """Sizes (rms) of the differences between models and the observed celestial pole.
+        """Root mean square differences (sizes) between models and the observed celestial pole.
 
         Parameters
         ----------
@@ -102,7 +102,7 @@ class ObservedSky:
 
 @part(unless=not_observed_then)
 def observed_sky(epochs: Epochs) -> ObservedSky:
-    """Observed celestial pole offsets and their free core nutation, at the dates of the series."""
+    """Interpolate the observed celestial pole offsets and their free core nutation to the dates."""
     from earthspin.nutation import core_nutation
 
     table = observed_series()
@@ -127,7 +127,7 @@ _AS_RETURNED = "nothing removed"
 
 
 class ObservedSizes(Variables, along=("model", "direction"), error="observed_size_error"):
-    """Root mean square differences of models from the observed celestial pole."""
+    """Root mean square of the differences between models and the observed celestial pole."""
 
     observed_rms: Value = number("mas", f"{_RMS}, {_LINE}", short="rms")
     observed_rms_without_core: Value = number(

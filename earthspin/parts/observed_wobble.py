@@ -9,13 +9,13 @@ from earthspin.engine.variables import Pair, Variables, measured
 
 
 class ObservedWobble(Variables):
-    """Declaration of the variable for the observed period of the free wobble."""
+    """Observed period of the free wobble, as a variable of a result (Dataset)."""
 
     observed_period: Pair = measured("d", "observed period of the free wobble")
 
 
 def not_observed(body: Body) -> str | None:
-    """Return the reason to leave out the observed period if no wobble was observed."""
+    """If no free wobble of the body was observed, return why its period is left out; else None."""
     if body.observed_wobble:
         return None
     return f"no observed wobble of this {proper(body.name)} is known"

@@ -1,4 +1,4 @@
-"""Table of an orbit over millions of years, for the questions that need one."""
+"""Orbits over millions of years: the table in the library, a file, or an `OrbitTable`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _ARRAYS = ("edges", "coefficients", "axes", "errors")
 
 
 class OrbitChoice(FileName):
-    """Converter of the choice of an orbit table: the body's own, a file, or an `OrbitTable`."""
+    """Kind of input: an orbit table, which is the body's own, a file, or an `OrbitTable`."""
 
     words = '"own", the path of a table, or the result of read_orbit'
     hint = "str | PathLike[str] | OrbitTable"
@@ -50,7 +50,7 @@ class OrbitChoice(FileName):
 
 
 def _table_of(table: Mapping[str, Any], where: Where) -> OrbitTable:
-    """Make an `OrbitTable` from the form in which a scene file stores it."""
+    """Build an `OrbitTable` from the dict in which a scene file stores it."""
     wanted = {"name", "source", "sha256", *_ARRAYS}
     if set(table) != wanted:
         raise where.error(sorted(table), f"an orbit table needs {', '.join(sorted(wanted))}")
@@ -72,7 +72,7 @@ def _table_of(table: Mapping[str, Any], where: Where) -> OrbitTable:
 
 @part
 def orbit_table(orbit: str | OrbitTable, body: Body) -> OrbitTable:
-    """Orbit of the body over millions of years."""
+    """Return the table of the body's orbit over millions of years."""
     if not isinstance(orbit, str):
         return orbit
     if orbit != OWN:

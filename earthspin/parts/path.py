@@ -61,7 +61,7 @@ def axis_path(
     chosen_windows: list[Choice[PoleWindows]] | None = None,
     interior_shift: Shift | None = None,
 ) -> AxisPath:
-    """Integrate the axes from J2000.0 to all dates by Picard iteration on Gauss windows.
+    """Integrate the axes of the body from J2000.0 to all dates, by Picard iteration.
 
     The chosen windows are used if they are accurate enough, else the finest. With the response of
     the interior, the rigid axes start such that their mean pole agrees with that of the IAU.
@@ -197,7 +197,10 @@ def largest_error(
     pulls: Pulls,
     interior_shift: Shift | None = None,
 ) -> LargestError:
-    """Largest error of the whole series, which is computed before its first block is written."""
+    """Largest error of the axis directions over a whole series, and advice to reduce it.
+
+    It is computed before the first block of the series is written.
+    """
     remedies = {
         "kernel": "the positions are not known better so far from J2000.0",
         "given": "choose dates nearer to J2000.0, or give a more accurate H",
@@ -210,7 +213,7 @@ def largest_error(
 
 @dataclass(frozen=True)
 class LongitudeCycles:
-    """Longitude of an axis along a path, counted beyond 360 deg as a guide for others.
+    """Continuous longitude of an axis along a path, from which whole turns are restored.
 
     Attributes
     ----------
@@ -224,7 +227,7 @@ class LongitudeCycles:
     psi: FloatArray
 
     def unwrapped(self, psi: FloatArray, times: FloatArray) -> FloatArray:
-        """Add whole turns to longitudes, shape (t, k), to make them continuous along the path.
+        """Add whole turns to longitudes, shape (t, k), so that they are continuous along the path.
 
         `times` are in s, shape (t,).
         """
@@ -251,7 +254,7 @@ def _integrate(
     choice: Choice[PoleWindows] | None,
     start: FloatArray | None,
 ) -> AxisPath:
-    """Integrate the axes with the chosen windows, by default the most accurate ones.
+    """Integrate the axes with chosen window lengths, by default the most accurate ones.
 
     The initial axis is that of the body, unless `start` is given.
     """
@@ -280,7 +283,7 @@ def _integrate(
 
 
 class Comparison(AxisMotion):
-    """Keys of every question that compares the computed pole with that of the IAU over time."""
+    """Base class of questions that compare the computed pole with the IAU pole over time."""
 
     span: Span = key(
         ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
@@ -291,7 +294,7 @@ class Comparison(AxisMotion):
 
 @dataclass(frozen=True)
 class PoleComparison:
-    """Computed pole and pole of IAU 2006/2000A, analysed in the same way.
+    """Computed pole and pole of IAU 2006/2000A, each separated into precession and nutation.
 
     Attributes
     ----------
@@ -347,7 +350,7 @@ def path_over(
 
 
 def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, ComplexArray]:
-    """Nutation of the IAU at the days of a series.
+    """Nutation of IAU 2000A at the days of a series.
 
     Returns
     -------
@@ -377,7 +380,7 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
 def residual_error(
     analysed: PoleComparison, body: Body, eta: ComplexArray, days: FloatArray
 ) -> float:
-    """95 % half-width of a nutation residual, the same for both nutation angles, rad.
+    """95 % half-width of computed minus IAU nutation, the same for both nutation angles, rad.
 
     It is due to the integration, the uncertainty of H, and interpolation.
     """
@@ -390,13 +393,13 @@ def residual_error(
 
 
 def rigid(effects: Sequence[str]) -> list[str]:
-    """Select the effects that apply to a rigid body, which excludes the non-rigid response."""
+    """Select the effects that apply to a rigid body: all except the non-rigid response."""
     return [effect for effect in effects if effect != NONRIGID.name]
 
 
 @part(unless=no_iau_model)
 def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> PoleComparison:
-    """Analyse the computed pole and the pole of the IAU over 150 years in the same way.
+    """Analyse the computed pole and the IAU pole over 150 years: precession and circular terms.
 
     The initial axis is corrected so that the mean poles agree at the start.
     """
@@ -451,7 +454,7 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> PoleCom
 
 @part
 def core_response(pole_analysis: PoleComparison, body: Body) -> Response:
-    """Fit the resonance formula to the ratios of IAU 2000A to computed rigid amplitudes."""
+    """Fit the resonance formula to the ratios of IAU 2000A amplitudes to computed rigid ones."""
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
     return _response_between(ours, ours.amplitude, theirs.amplitude, body)
 
@@ -459,7 +462,7 @@ def core_response(pole_analysis: PoleComparison, body: Body) -> Response:
 def _response_between(
     circles: Circles, rigid: ComplexArray, other: ComplexArray, body: Body
 ) -> Response:
-    """Fit the transfer function from rigid to non-rigid amplitudes of circular nutation terms."""
+    """Fit the transfer function that relates rigid to non-rigid amplitudes of nutation terms."""
     from earthspin.nutation.response import fit_response
 
     used = _circles_for_fit(circles)
@@ -473,7 +476,7 @@ def _response_between(
 
 
 def _circles_for_fit(circles: Circles) -> NDArray[np.bool_]:
-    """Mask of the circular terms that the fit of a response uses.
+    """Select the circular nutation terms that the fit of the transfer function uses (mask).
 
     These are all except the prograde annual term.
     """
@@ -484,7 +487,7 @@ def _circles_for_fit(circles: Circles) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True)
 class ResponseFit:
-    """Response fitted to IAU 2000A without terms that do not come from the interior.
+    """Interior response fitted to IAU 2000A after removal of terms not caused by the interior.
 
     Attributes
     ----------
@@ -512,7 +515,7 @@ class ResponseFit:
 def response_apart(
     pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
 ) -> ResponseFit:
-    """Fit the resonance formula after removing geodesic nutation and terms that IAU 2000A adds."""
+    """Fit the resonance formula to IAU 2000A without its geodesic nutation and added terms."""
     from earthspin.nutation.additions import added_to
     from earthspin.nutation.circles import complex_nutation
     from earthspin.sky import iau
@@ -535,7 +538,7 @@ def response_apart(
 
 @dataclass(frozen=True)
 class Shift:
-    """Displacement of the axes by the non-rigid response, which is added to a rigid path.
+    """Displacement of the axes due to the non-rigid interior, to be added to the rigid solution.
 
     Attributes
     ----------
@@ -562,7 +565,7 @@ class Shift:
     residual: float
 
     def apply(self, directions: dict[str, FloatArray], days: FloatArray) -> None:
-        """Move the axes in place by the non-rigid precession and nutation.
+        """Move the axes in place by the precession and nutation of the non-rigid interior.
 
         Nutation does not move the angular momentum.
         """
@@ -576,12 +579,15 @@ class Shift:
             directions[name] = iau.moved_by_nutation(axis, shift, days)
 
     def half_width(self, days: FloatArray) -> FloatArray:
-        """95 % half-width of axis directions due to errors of response and rates, rad."""
+        """95 % half-width of axis directions due to errors of the response and rates, rad."""
         return np.hypot(self.residual, self.closure * (days * DAY - self.epoch))
 
 
 def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[str]) -> Shift:
-    """Make a `Shift` from its circular amplitudes; estimate its errors from the IAU pole."""
+    """Build the axis displacement (`Shift`) from the amplitudes of non-rigid minus rigid nutation.
+
+    Its errors follow from the difference from the IAU pole.
+    """
     from earthspin.sky import iau
 
     circles = replace(analysed.our_circles, amplitude=amplitude)
@@ -609,7 +615,7 @@ def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[
 def nonrigid_shift(
     pole_analysis: PoleComparison, response_apart: ResponseFit, effects: tuple[str, ...]
 ) -> Shift:
-    """Non-rigid nutation of core, mantle, oceans and atmosphere, fitted to IAU 2000A."""
+    """Axis displacement due to core, mantle, oceans and atmosphere, fitted to IAU 2000A."""
     factor = response_apart.response.transfer(pole_analysis.our_circles.frequency) - 1
     amplitude = response_apart.rigid * factor + response_apart.added
     return _shift(pole_analysis, amplitude, effects)
@@ -619,7 +625,7 @@ def nonrigid_shift(
 def predicted_shift(
     pole_analysis: PoleComparison, prediction: Prediction, effects: tuple[str, ...]
 ) -> Shift:
-    """Non-rigid nutation, predicted from the layers of the interior."""
+    """Axis displacement due to the non-rigid interior, predicted from its layers."""
     circles = pole_analysis.our_circles
     factor = prediction.transfer(CHOSEN, circles.frequency) - 1
     return _shift(pole_analysis, circles.amplitude * factor, effects)

@@ -1,4 +1,4 @@
-"""Bright stars near the celestial pole of an answer of `long_term`."""
+"""Bright stars near the celestial pole, as computed by `long_term`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from earthspin.sky.stars import STARS, UNKNOWN_MOTION, directions
 
 
 def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
-    """Bright stars nearest to the celestial pole, at each epoch of an answer of `long_term`.
+    """Bright stars nearest to the celestial pole, at each epoch of a result of `long_term`.
 
     The stars are those of magnitude 4 or brighter near the circle of the pole (Hipparcos catalogue,
     ESA 1997), moved by their proper motions.

@@ -1,4 +1,4 @@
-"""Tables of the observed pole: files, days of their rows, and labelled polar motion."""
+"""Tables of the observed pole: select a file, read its rows, and label its polar motion."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ C04 = "c04"
 
 
 class TableFile(FileName):
-    """Kind of a table of the observed pole: one that astropy includes, or a local file."""
+    """Kind of input: a table of the observed pole, included in astropy or in a local file."""
 
     words = '"c04", "finals" or the path of a file'
     known = tuple(CARRIED)
@@ -44,18 +44,18 @@ class TableFile(FileName):
 
 
 class Daily(Variables, along=("time",)):
-    """Declaration of variables at the days of a table of the observed pole."""
+    """Base class of results given at the days of a table of the observed pole."""
 
     time: Labels = labels("time", standard_name="time", comment="0h UTC in daily tables")
 
 
 def not_observed(body: Body) -> str | None:
-    """Return the reason to leave out polar motion if the body has no observed pole."""
+    """If the body has no observed pole, return why polar motion is left out; otherwise None."""
     return f"no polar motion of {in_a_sentence(body.name)} is known" if no_iau_model(body) else None
 
 
 def within(series: PoleSeries, span: Span | None) -> PoleSeries:
-    """Rows of a table of the observed pole within a span, or all rows if no span is given.
+    """Select the rows of a table of the observed pole within a span, or all if no span is given.
 
     Raises
     ------
@@ -69,7 +69,7 @@ def within(series: PoleSeries, span: Span | None) -> PoleSeries:
 
 
 def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
-    """Convert labelled polar motion to days from J2000.0 and complex numbers x - i y in mas.
+    """Convert polar motion in a Dataset to days from J2000.0 and complex numbers x - i y, mas.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Response of a body's interior to nutation, predicted from its layers."""
+"""Response of a body's interior to nutation torques, predicted from its layers."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ SOURCES = "; ".join(
 
 @dataclass(frozen=True)
 class Prediction:
-    """Predicted response of a body's interior, by models of increasing detail (rungs of a ladder).
+    """Predicted response of a body's interior, from models of increasing detail (rungs).
 
     Attributes
     ----------
@@ -53,17 +53,20 @@ class Prediction:
         return [name for name in self.rungs if name not in ladder.BESIDE]
 
     def transfer(self, name: str, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
-        """Transfer function of a rung at frequencies in space, rad/s."""
+        """Transfer function (non-rigid over rigid nutation) of one model, at frequencies in rad/s.
+
+        The frequencies are in space.
+        """
         return self.rungs[name].transfer(frequency / self.spin_rate - 1, self.e)
 
     def half_width(self, name: str, frequency: NDArray[np.float64]) -> NDArray[np.float64]:
-        """95 % half-width of the transfer function from uncertainties of the interior."""
+        """95 % half-width of the transfer function due to uncertainties of the interior."""
         sigma = frequency / self.spin_rate - 1
         return self.rungs[name].transfer_half_width(sigma, self.e, self.uncertainty)
 
 
 def layered(body: Body) -> Interior | None:
-    """Interior of a body whose layers include an inner core; None for any other body."""
+    """If the layers of the body include an inner core, return its interior; otherwise None."""
     interior = interior_of(body)
     if interior is None or interior.layers is None or not interior.layers.inner_core_radius:
         return None
@@ -71,7 +74,10 @@ def layered(body: Body) -> Interior | None:
 
 
 def no_layers(body: Body) -> str | None:
-    """Return the reason to leave out a prediction if no fitting layers or IAU model are known."""
+    """If no suitable layers or no IAU model is known, return why the prediction is left out.
+
+    Otherwise return None.
+    """
     if no_iau_model(body):
         return no_iau_model(body)
     interior = layered(body)

@@ -23,7 +23,7 @@ from earthspin.units import FloatArray, Several, Word
 
 
 class AxisMotion(Series):
-    """Keys of every question about axes that move under torques."""
+    """Base class of questions about the motion of a body's axes under torques."""
 
     effects: Annotated[tuple[str, ...], Several(Word(EFFECTS))] = key(
         RIGID, doc="effects besides the torque of the perturbers on the bulge"
@@ -50,7 +50,7 @@ class AxisMotion(Series):
 
 @dataclass(frozen=True)
 class Pulls:
-    """Masses and positions of all perturbers, and first and last time of the positions.
+    """GM and positions of all perturbers, and the time range in which the positions are known.
 
     Attributes
     ----------
@@ -85,7 +85,7 @@ class Pulls:
 
 @part
 def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]) -> Pulls:
-    """Masses and positions of the perturbers, and of the planets if they are switched on."""
+    """Collect GM and positions of the perturbers; include the planets if that effect is on."""
     masses = {p.name: p.number("gm") for p in perturbers}
     targets = dict(sky.targets)
     if PLANETS.name in effects:
@@ -98,7 +98,7 @@ def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str
 
 
 def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = False) -> Forces:
-    """Make the forces that move the axes of a body, with only the given effects switched on."""
+    """Build the forces that move the axes of a body, including only the given effects."""
     near = tuple(pulls.sky.targets)
     forces = Forces(
         figure=figure_of(body, 2 * math.pi / body.number("spin_period")),
@@ -114,7 +114,7 @@ def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = Fal
 
 
 def figure_of(body: Body, spin_rate: float) -> Figure:
-    """Parameters of a body that determine its motion when all effects are switched off."""
+    """Flattening, spin rate and radius of a body, which determine its motion under torque."""
     h = body.number("dynamical_flattening")
     return Figure(
         h=h,
@@ -126,7 +126,7 @@ def figure_of(body: Body, spin_rate: float) -> Figure:
 
 
 def switched_on(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:
-    """Return the forces with the given effects switched on."""
+    """Add the effects with the given names to the forces, and return the new forces."""
     for name, effect in EFFECTS.items():
         if name in effects:
             forces = effect.switch_on(forces, body)
@@ -134,7 +134,7 @@ def switched_on(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:
 
 
 def start_of(body: Body, pulls: Pulls) -> tuple[FloatArray, float]:
-    """Figure axis at the start of the integration, and the epoch of the start, s from J2000.0.
+    """Figure axis at the start of the integration, and the time of the start, s from J2000.0.
 
     The epoch is J2000.0, or the nearest time that the kernel covers.
     """
@@ -143,7 +143,7 @@ def start_of(body: Body, pulls: Pulls) -> tuple[FloatArray, float]:
 
 
 def start_note(body: Body) -> dict[str, str]:
-    """Note for the attributes of an answer: its errors exclude that of the initial pole.
+    """Note for the attributes of a result: its errors do not include that of the initial pole.
 
     Empty if the pole follows the models of the IAU.
     """

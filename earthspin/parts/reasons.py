@@ -1,4 +1,4 @@
-"""Shared conditions for leaving out parts, and published rates of neglected effects."""
+"""Conditions under which results are left out, and published rates of neglected effects."""
 
 from __future__ import annotations
 
@@ -11,13 +11,16 @@ from earthspin.nutation.budget import published_effects
 
 
 def no_iau_model(body: Body) -> str | None:
-    """Return the reason to leave out parts that need IAU models, if the body has none."""
+    """If the IAU has no precession model of the body, return why IAU results are left out.
+
+    Otherwise return None.
+    """
     described = body.pole is not None and body.pole.of_the_iau
     return None if described else f"the IAU has no precession model for {in_a_sentence(body.name)}"
 
 
 def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """Return the reason to leave out comparisons with the IAU if body or perturbers do not fit.
+    """If body or perturbers do not fit, return why IAU comparisons are left out; otherwise None.
 
     They need a body with an IAU precession model and only the Sun and the Moon as perturbers.
     """
@@ -31,7 +34,10 @@ def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 
 def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """Return the reason to leave out numbers of the IAU if body or perturbers are modified."""
+    """If the Earth or its perturbers are modified, return why IAU numbers are left out.
+
+    Otherwise return None.
+    """
     if not_sun_and_moon(body, perturbers):
         return not_sun_and_moon(body, perturbers)
     if body.is_as_named:
@@ -40,7 +46,7 @@ def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 
 def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """Return the reason to leave out parts that need the Moon, if it does not perturb the Earth."""
+    """If the Moon does not perturb the Earth, return why lunar results are left out; else None."""
     if no_iau_model(body):
         return no_iau_model(body)
     has_moon = "moon" in {p.name for p in perturbers}
@@ -48,12 +54,15 @@ def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 
 def no_accuracy(accuracy: float | None) -> str | None:
-    """Return the reason to leave out the choice of settings if no accuracy is requested."""
+    """If no accuracy is requested, return why no settings are chosen for it; otherwise None."""
     return "no accuracy is requested, so the finest settings are used" if accuracy is None else None
 
 
 def many_pulls(perturbers: tuple[Body, ...]) -> str | None:
-    """Return the reason to leave out parts that need one number per mass, if a mass is an array."""
+    """If the mass of a perturber is an array, return why some results are left out; else None.
+
+    These are results that need one number for each mass.
+    """
     arrays = [p.name for p in perturbers if hasattr(p.gm, "dims")]
     return f"the mass of '{arrays[0]}' is an array" if arrays else None
 

@@ -1,4 +1,4 @@
-"""Broadcast numbers and labelled arrays to common dimensions, for functions of plain arrays."""
+"""Broadcast numbers and labelled arrays to common dimensions, for plain NumPy functions."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SideBySide:
-    """Named numbers and arrays, broadcast to common dimensions.
+    """Numbers and arrays with names, broadcast to common dimensions.
 
     Attributes
     ----------
@@ -48,12 +48,12 @@ class SideBySide:
         return cls(numbers, tuple(map(str, first.dims)), first.coords)
 
     def columns(self, *names: str) -> tuple[Any, ...]:
-        """Return the numbers with these names; arrays get an additional last axis of length 1."""
+        """Return the named numbers; arrays get an additional last axis of length 1."""
         index = (..., np.newaxis) if self.dims else ...
         return tuple(np.asarray(self.numbers[name])[index] for name in names)
 
     def lay(self, values: NDArray[Any], *dims: str) -> xr.DataArray:
-        """Make a labelled array along the common dimensions and `dims`; broadcast if necessary."""
+        """Build a DataArray of the values, with the common dimensions followed by `dims`."""
         import xarray as xr
 
         if values.ndim < len(self.dims) + len(dims):
@@ -64,5 +64,5 @@ class SideBySide:
     def lay_pair(
         self, value: NDArray[Any], error: NDArray[Any], *dims: str
     ) -> tuple[xr.DataArray, xr.DataArray]:
-        """Label a number and its half-width in the same way."""
+        """Build two DataArrays: one of a quantity, and one of its half-width."""
         return self.lay(value, *dims), self.lay(error, *dims)

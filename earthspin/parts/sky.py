@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 
 class KernelName(FileName):
-    """Kind of an ephemeris: the name of a kernel, the path of a file, or a Skyfield kernel."""
+    """Kind of input: an ephemeris, as a kernel name, the path of a file, or a Skyfield kernel."""
 
     words = '"de421", "de440", or the path of a .bsp file'
     hint = "str | PathLike[str] | SpiceKernel"
@@ -60,11 +60,11 @@ class KernelName(FileName):
         return super().read(value, where)
 
     def is_path(self, value: object) -> bool:
-        """Return True if a value is a path, not the name of a kernel in upper or lower case."""
+        """If a value is a path and not the name of a known kernel, return True."""
         return isinstance(value, str) and value.lower() not in NAMED_KERNELS
 
     def begins(self, head: bytes) -> bool:
-        """Return True if a file starts like an SPK kernel."""
+        """If the first bytes of a file are those of an SPK kernel, return True."""
         return head.startswith((b"DAF/SPK", b"NAIF/DAF"))
 
 
@@ -74,7 +74,7 @@ SOURCE_DOC = (
 
 
 class PerturbedBody(Question):
-    """Keys of every question about a rotating body and its perturbers."""
+    """Base class of questions about a rotating body and its perturbers."""
 
     body: Body = key(EARTH, doc="rotating body; its numbers may be labelled arrays")
     perturbers: tuple[Body, ...] = key(
@@ -137,7 +137,7 @@ class PerturbedBody(Question):
                 raise self.error("accuracy", accuracy, problem)
 
     def needed(self) -> tuple[str, ...]:
-        """Names of the fields of the body that the question needs."""
+        """Names of the body's properties that the question needs."""
         return self.needs
 
     def check_spin(self) -> None:
@@ -147,13 +147,13 @@ class PerturbedBody(Question):
 
 
 def unmeasured(body: Body) -> bool:
-    """Return True if a body has its own source of positions, whose error was not measured."""
+    """Return True if the body has its own positions, and their error was not measured."""
     return body.position is not None and not is_measured(body.position)
 
 
 @dataclass(frozen=True)
 class Places:
-    """How the position of each body of a question is found: kernel, own trajectory or elements.
+    """For each body, the way to find its position: kernel, own trajectory or orbital elements.
 
     Attributes
     ----------
@@ -175,7 +175,7 @@ class Places:
 
 @dataclass(frozen=True)
 class Sky:
-    """Opened ephemeris or orbits, with the code or trajectory of each body of a question.
+    """Open source of positions, with the code or trajectory by which it finds each body.
 
     Attributes
     ----------
@@ -195,7 +195,7 @@ class Sky:
 
     @cached_property
     def provenance(self) -> dict[str, str]:
-        """Ephemeris, and versions of the libraries that read it, as attributes of an answer."""
+        """Name of the ephemeris and versions of the libraries that read it, by attribute name."""
         own = {
             name: words(place)
             for name, place in self.targets.items()
@@ -207,14 +207,14 @@ class Sky:
         return attributes
 
     def error(self, target: Place, days: Iterable[float] = (0.0,)) -> tuple[float, float]:
-        """Largest position error of a body on some days, as an angle (rad) and in m."""
+        """Largest error of a body's position over given days: angle (rad) and distance (m)."""
         angles, distances = zip(
             *(self.source.error(target, self.centre, day) for day in days), strict=True
         )
         return max(angles), max(distances)
 
     def drift(self, name: str, distance: float) -> float:
-        """Relative error of the motion of an axis due to the position error of one perturber."""
+        """Relative error of the spin axis motion due to the position error of one perturber."""
         return self.source.drift(self.targets[name], self.centre, distance)
 
     @property
@@ -224,7 +224,7 @@ class Sky:
 
     @property
     def no_error(self) -> str:
-        """Reason why errors of some results are missing (NaN); empty if no error is missing."""
+        """If some results have no error (NaN), return the reason; otherwise an empty text."""
         if not self.unmeasured:
             return ""
         return (
@@ -233,11 +233,11 @@ class Sky:
         )
 
     def place(self, body: Body) -> Place:
-        """NAIF code or trajectory of a further body, by which its position can be found."""
+        """NAIF code or trajectory by which the position of an additional body can be found."""
         return _place(self.source, body.name, EllipseChain(body))
 
     def coverage(self, targets: Mapping[str, Place] | None = None) -> tuple[float, float]:
-        """First and last day for which the positions of all targets are known.
+        """First and last day on which the positions of all targets are known.
 
         The targets are the perturbers by default.
         """
@@ -246,7 +246,7 @@ class Sky:
     def check_times(
         self, days: Iterable[float], targets: Mapping[str, Place] | None = None
     ) -> None:
-        """Raise an error if the position of any target is missing on one of the given days.
+        """If the position of any target is missing on one of the given days, raise an error.
 
         By default the targets are the perturbers.
         """
@@ -339,14 +339,14 @@ class Sky:
 
 @dataclass(frozen=True)
 class Stretch:
-    """Time span of an average: first and last day, days from J2000.0 TDB."""
+    """First and last day of the time span of an average, days from J2000.0 TDB."""
 
     first: float
     last: float
 
 
 def _place(source: Source, name: str, chain: EllipseChain) -> Place:
-    """Code, trajectory or chain of ellipses by which a source of positions finds a body."""
+    """NAIF code, trajectory or ellipses with which a source of positions finds a body."""
     if chain.ellipses:
         return ByElements(chain.ellipses, source.code(chain.start.naif, name))
     return place_of(source, name, chain.start.naif, chain.start.position)
@@ -354,7 +354,7 @@ def _place(source: Source, name: str, chain: EllipseChain) -> Place:
 
 @part
 def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
-    """Determine how the position of each body is found: kernel, own trajectory or elements."""
+    """Determine for each body how its position is found: kernel, own trajectory or elements."""
     targets = {p.name: EllipseChain(p) for p in perturbers} | ellipse_chains(body, perturbers)
     for p in perturbers:
         start = targets[p.name].start
@@ -370,7 +370,7 @@ def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
 
 
 def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple[Body, ...]) -> str:
-    """Describe the source of the positions."""
+    """Describe in words where the positions of the body and its perturbers come from."""
     if all_by_elements(body, perturbers):
         return "positions from orbital elements; no kernel is opened"
     phrases = [f"positions {describe_source(source, ephemeris)}"]
@@ -402,7 +402,7 @@ def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
 
 @part
 def stretch(sky: Sky, span: Span | None) -> Stretch:
-    """Time span of an average: the requested span, or by default all days with positions.
+    """Time span of an average: the requested span, or by default the span with known positions.
 
     For orbits by elements, which have no limits, a usual length is taken.
     """

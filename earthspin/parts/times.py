@@ -27,7 +27,7 @@ SPAN_DOC = "first and last date, TDB; the last is included if the step meets it"
 
 
 class Series(PerturbedBody):
-    """Keys of every question that is answered at many dates."""
+    """Base class of questions whose results are time series at given dates."""
 
     exclusive = (("times",), ("span", "step"))
 
@@ -37,13 +37,13 @@ class Series(PerturbedBody):
 
 
 class Dated(Variables, along=("time",)):
-    """Declaration of variables at the dates of a series."""
+    """Base class of results given at the dates of a time series."""
 
     time: Labels = labels("time (TDB)", standard_name="time", axis="T")
 
 
 class FromStart(Variables, along=("time",)):
-    """Declaration of variables at times from the start of a motion, in axes of the body."""
+    """Base class of results given at times from the start of a motion, in axes of the body."""
 
     time: Labels = labels("time from the start", "s")
     component: Labels = labels(default=["x", "y", "z"])
@@ -51,13 +51,13 @@ class FromStart(Variables, along=("time",)):
 
 @part
 def epochs(span: Span, step: float, times: TimeList | None) -> Epochs:
-    """Dates of the series."""
+    """Dates of a time series, from its span and step or from a list of dates."""
     return TimeGrid.over(span, step) if times is None else times
 
 
 @part
 def instants(duration: float, points: int, times: FloatArray | None) -> FloatArray:
-    """Times of the motion, s from its start."""
+    """Times at which a motion is computed, s from its start."""
     return np.linspace(0.0, duration, points) if times is None else times
 
 
@@ -66,7 +66,7 @@ BYTES_PER_TIME = 128
 
 
 def by_region(store: str) -> str:
-    """Advice, for error messages, to write a too long series to a store block by block."""
+    """Advice, for error messages, on how to write a series that is too long for memory."""
     return f"write them by region with write_series(scene, '{store}') or run --out"
 
 
@@ -76,7 +76,7 @@ def days_of(
     remedy: str = "choose a longer step or a shorter span",
     bodies: Iterable[Body] = (),
 ) -> FloatArray:
-    """Days from J2000.0 TDB of a block of a series, or of all its times.
+    """Days from J2000.0 TDB of one block of a time series, or of the whole series.
 
     Parameters
     ----------
