@@ -1,4 +1,4 @@
-"""Short text for numbers and durations, with two digits, and for units."""
+"""Format numbers and durations as short text with two digits, and units with a space."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import math
 
 
 def shown_unit(unit: str) -> str:
-    """Return a unit with a space before it, or nothing for pure numbers."""
+    """Return a unit with a space before it; for a pure number, return an empty text."""
     return "" if unit == "1" else f" {unit.replace('uas', 'µas')}"
 
 
 def plain(value: float) -> str:
-    """Format a number with two digits: 0.05, 920, 1e-6, 2.3e5."""
+    """Format a number as short text with two digits: 0.05, 920, 1e-6, 2.3e5."""
     value = float(f"{value:.1e}")
     if 1e-3 <= abs(value) <= 1e4 or value == 0:
         return f"{value:g}"
@@ -20,7 +20,7 @@ def plain(value: float) -> str:
 
 
 def duration(seconds: float) -> str:
-    """Write a duration with two digits, from microseconds to years."""
+    """Format a duration as text with two digits and a unit, from microseconds to years."""
     for unit, size in (("s", 1.0), ("ms", 1e-3)):
         if seconds >= 0.9995 * size:
             return f"{_two_digits(seconds / size)} {unit}"

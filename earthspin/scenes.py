@@ -1,4 +1,4 @@
-"""Read scenes and run their questions."""
+"""Read scenes, which are tables of inputs for a question, and run the questions."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ if TYPE_CHECKING:
 
 
 class _Questions(Mapping[str, type[Question]]):
-    """Mapping from the word after ``compute =`` in a scene to the class of the question.
+    """Mapping from the name of a question, as used in scene files, to its class.
 
     A module is named after the word of its question, and imported when the class is needed.
     """
 
     @property
     def calls(self) -> dict[str, str]:
-        """Names of the public functions, by the word after ``compute =`` in a scene."""
+        """Names of the public functions, by the name of the question in scene files."""
         modules = vars(earthspin)["_QUESTIONS"].items()
         return {path.rpartition(".")[2].replace("_", "-"): call for call, path in modules}
 
@@ -70,7 +70,7 @@ VERSIONS = (
 
 
 class VersionWarning(UserWarning):
-    """Warning that a rerun uses other versions or files than those that made the stored answer.
+    """Warning that a stored result is computed again with other versions of libraries or files.
 
     Examples
     --------
@@ -88,7 +88,7 @@ class VersionWarning(UserWarning):
 
 
 def Scene(*, compute: str, **keys: Any) -> Question:
-    """Create the question that a scene with the given keys describes.
+    """Create the question that is described by a scene, which is a set of keys and values.
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ def Scene(*, compute: str, **keys: Any) -> Question:
 
 
 def question_named(word: object, source: str = "") -> type[Question]:
-    """Return the class of a question from its name.
+    """Return the class of a question from the name of the question in scene files.
 
     Raises
     ------
@@ -126,7 +126,7 @@ def question_named(word: object, source: str = "") -> type[Question]:
 
 
 def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question:
-    """Read a question from a scene file, a shipped scene, or an answer, with optional changes.
+    """Read a question from a scene file, a shipped scene, or a result, with optional changes.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
 
 
 def typed_scene(scene: str, changes: Mapping[str, Any]) -> Question:
-    """Read a question as `load_scene` does; numbers in the changes must have units.
+    """Read a question from a scene; in the changes, numbers must be given with units.
 
     Parameters
     ----------
@@ -167,7 +167,7 @@ def typed_scene(scene: str, changes: Mapping[str, Any]) -> Question:
 
 
 def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Question:
-    """Read a question and apply changes.
+    """Read a question from a scene, file or result, and apply changes to its inputs.
 
     If `typed`, numbers in the changes have units, otherwise they are in SI units.
     """
@@ -209,14 +209,14 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
 
 
 def _names(table: Mapping[str, Any]) -> set[str]:
-    """Keys of a scene, together with the keys inside its tables."""
+    """All keys of a scene: those at the top level, and those inside its tables."""
     return {*table}.union(*(inner for inner in table.values() if isinstance(inner, Mapping)))
 
 
 def _changed(
     table: dict[str, Any], changes: Mapping[str, Any], source: str, title: str, typed: set[str]
 ) -> Question:
-    """Build a question from the table of a scene after setting the changed keys."""
+    """Build a question from the table of a scene, after new values are set for some keys."""
     for key, value in changes.items():
         _set_key(table, str(key), value, source)
     if "compute" not in table:
@@ -230,7 +230,7 @@ def _changed(
 
 
 def shipped_scenes() -> dict[str, str]:
-    """Names of the shipped scenes, with the title of each."""
+    """Names and titles of the scenes that are part of the package."""
     folder = resources.files("earthspin") / "shipped"
     titles = {}
     for file in sorted(folder.iterdir(), key=lambda f: f.name.removesuffix(".toml")):
@@ -241,7 +241,7 @@ def shipped_scenes() -> dict[str, str]:
 
 
 def plan(scene: Any, sections: str | Iterable[str] = ()) -> planning.Plan:
-    """Return the parts that will run for a scene, and the parts left out, with reasons.
+    """Plan the run of a scene: which computations will run and which are left out, with reasons.
 
     Parameters
     ----------
@@ -268,7 +268,7 @@ def plan(scene: Any, sections: str | Iterable[str] = ()) -> planning.Plan:
 
 
 def run(scene: Any) -> xr.Dataset:
-    """Run a question and return its answer.
+    """Run a question and return its result as a Dataset.
 
     Parameters
     ----------
@@ -302,7 +302,7 @@ def run(scene: Any) -> xr.Dataset:
 
 
 def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
-    """Run a question and some of its sections; return also the plan with run times.
+    """Run a question with optional sections; return a DataTree that includes the plan of the run.
 
     Parameters
     ----------
@@ -336,7 +336,7 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
 
 
 def _say_what_differs(scene: Any, answer: Any) -> None:
-    """Warn if a stored answer was made with other versions than the new answer."""
+    """Warn if a stored result was computed with other versions than the new result."""
     if isinstance(scene, (str, Path)) and Path(str(scene)).suffix in (".nc", ".zarr"):
         scene = open_file(scene)
     old = getattr(scene, "attrs", {})
@@ -353,7 +353,7 @@ def _say_what_differs(scene: Any, answer: Any) -> None:
 
 
 def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path:
-    """Compute a series of torques, pole or rotation of any length, and write it to Zarr by blocks.
+    """Compute a time series of torques, pole or rotation, and write it to Zarr block by block.
 
     Parameters
     ----------
@@ -388,7 +388,7 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
 
 
 def _series(question: Question) -> Series:
-    """Describe the time series of torques, pole or rotation, and its division into blocks.
+    """Describe how a time series of torques, pole or rotation is divided into blocks.
 
     Refuse all other questions.
     """
@@ -400,7 +400,7 @@ def _series(question: Question) -> Series:
 
 
 def series_length(question: Question) -> int:
-    """Number of times in the time series of a question.
+    """Number of times in the time series that a question computes.
 
     It is 0 if the answer cannot be written in blocks.
     """
@@ -412,13 +412,13 @@ def series_length(question: Question) -> int:
 
 
 def members_of(question: Question) -> int:
-    """Number of members of a question: one, or the number of bodies in its labelled arrays."""
+    """Number of bodies for which a question is computed at once; one without labelled arrays."""
     groups = [value if isinstance(value, tuple) else (value,) for value in question.keys().values()]
     return members(value for group in groups for value in group if isinstance(value, Body))
 
 
 def run_blocks(scene: Any) -> Iterator[xr.Dataset]:
-    """Run a series of torques, pole or rotation block by block, if it does not fit into memory.
+    """Compute a time series of torques, pole or rotation, and yield it block by block.
 
     Parameters
     ----------
@@ -436,7 +436,7 @@ def run_blocks(scene: Any) -> Iterator[xr.Dataset]:
 
 
 def chosen(question: Question) -> list[str]:
-    """Describe the settings that are chosen to reach the accuracy that a question requests.
+    """Describe in words the settings chosen for the accuracy that a question requests.
 
     Whether the numbers of the body and the kernel allow it shows when it runs.
     """
@@ -449,7 +449,7 @@ def chosen(question: Question) -> list[str]:
 
 
 def _scene_of(answer: Any) -> str:
-    """Text of the scene that is stored in an answer; refuse an answer without one."""
+    """Text of the scene from which a stored result was computed; refuse a result without one."""
     text = planning.scene_of(answer)
     if not text:
         raise SceneError("scene", type(answer).__name__, "it does not carry the scene that made it")
@@ -457,7 +457,7 @@ def _scene_of(answer: Any) -> str:
 
 
 def _read(scene: str | Path) -> tuple[str, str, str]:
-    """Return the text of a scene file, the name of the file for messages, and a title."""
+    """Return the text of a scene, its file name for messages, and a default title."""
     text = str(scene)
     if "/" not in text and not text.endswith(".toml"):
         names = shipped_scenes()
@@ -480,7 +480,7 @@ def _read(scene: str | Path) -> tuple[str, str, str]:
 
 
 def toml(text: str) -> dict[str, Any]:
-    """Parse a text in TOML.
+    """Parse a text in TOML; refuse keys with too many parts.
 
     Raises
     ------
@@ -493,7 +493,7 @@ def toml(text: str) -> dict[str, Any]:
 
 
 def files_of(question: Question, but: Iterable[str] = ()) -> list[tuple[str, Path, FileName]]:
-    """Return the files that a question reads, each as key, path and expected kind of file.
+    """List the files that a question reads, each with its key and the expected kind of file.
 
     Parameters
     ----------
@@ -521,7 +521,7 @@ _HEAD = 1 << 16
 
 
 def _check_kind(key: str, path: Path, kind: FileName, source: str) -> None:
-    """Refuse a file that a stored scene names if its content does not fit the key.
+    """Refuse a file, named in a stored scene, whose content does not fit its key.
 
     Raises
     ------
@@ -540,7 +540,7 @@ def _check_kind(key: str, path: Path, kind: FileName, source: str) -> None:
 
 
 def _set_key(table: dict[str, Any], key: str, value: Any, source: str) -> None:
-    """Set the value of a key in the table of a scene; dots lead to inner tables."""
+    """Set the value of a key in the table of a scene; dots in the key lead to inner tables."""
     if key.count(".") >= MOST_PARTS:
         raise SceneError(key, value, f"give a key of at most {MOST_PARTS} parts", source=source)
     *path, last = key.split(".")

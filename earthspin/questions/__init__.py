@@ -1,1 +1,1 @@
-"""Questions that a user can ask, one module each: class, parts of the computation, sections."""
+"""One module for each question that a user can ask, such as the precession rate of a body."""

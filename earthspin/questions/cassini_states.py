@@ -98,13 +98,13 @@ class Locking:
 
 
 def orbit_of(body: Body, orbit: Orbit | None) -> Orbit | None:
-    """Return the orbit of the scene, else the body's own, else its known mean orbit, else None."""
+    """Return the orbit given by the user, or else the body's known orbit; None if there is none."""
     return orbit or body.orbit or PRECESSING_ORBITS.get(body.name)
 
 
 @part
 def own_orbit(body: Body, orbit: Orbit | None) -> Orbit:
-    """Return the orbit of the scene, else the body's own, else its known mean orbit; never None."""
+    """Return the orbit given by the user, or else the body's known orbit, which must exist."""
     usual = orbit_of(body, orbit)
     assert usual is not None  # `check` has seen to it
     return usual
@@ -127,7 +127,7 @@ def locking(body: Body, own_orbit: Orbit) -> Locking:
 
 
 def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
-    """Compute the strengths of the torques on a body and the precession rate of its orbit."""
+    """Compute the torque strengths and the orbital precession rate that set the Cassini states."""
     axial, locked = strengths(
         locking.motion,
         body.spin_rate,
@@ -177,7 +177,7 @@ def states(body: Body, own_orbit: Orbit, locking: Locking) -> States:
 
 
 def _error(body: Body, orbit: Orbit, locking: Locking, obliquity: FloatArray) -> FloatArray:
-    """Half-width of the obliquity due to the uncertainties of J2, H and the triaxiality, rad."""
+    """95 % half-width of the obliquity due to the errors of J2, H and the triaxiality, rad."""
     squares = np.zeros_like(obliquity)
     for name, share in body.relative_uncertainty.items():
         if name not in ("j2", "dynamical_flattening", "triaxiality"):
@@ -193,7 +193,7 @@ def _error(body: Body, orbit: Orbit, locking: Locking, obliquity: FloatArray) ->
 
 @part
 def neglected(body: Body, own_orbit: Orbit) -> Neglected:
-    """Sizes of effects on the obliquity that Cassini states neglect, if they were published."""
+    """Published sizes of effects on the obliquity that the theory of Cassini states neglects."""
     sizes = LEFT_OUT_OF_STATES.get(body.name, {})
     if sizes and body.is_as_named and own_orbit == PRECESSING_ORBITS.get(body.name):
         return Neglected.cited(sizes, "change of the obliquity in the upright state")

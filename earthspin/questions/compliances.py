@@ -58,7 +58,7 @@ class Compliances(Question, word="compliances", call="compliances", positional=(
 
 
 class Numbers(Variables, along=("number",), no_error=FROM_LAYERS):
-    """Values of the compliances, ellipticities and coupling numbers of a body, with their names."""
+    """Compliances, ellipticities and coupling numbers of a body, as values with names."""
 
     number_value: Value = number("1", "number of the body, in units of its moments", short="value")
     number: Labels = labels()
@@ -92,7 +92,7 @@ def published() -> Published:
 
 
 class Modes(Variables, along=("free_mode",), no_error=FROM_LAYERS):
-    """Periods of the free modes of a layered elastic body."""
+    """Periods of the free modes (wobbles and nutations) of a layered elastic body."""
 
     compliance_mode_period: Value = number(
         "d",
@@ -105,7 +105,7 @@ class Modes(Variables, along=("free_mode",), no_error=FROM_LAYERS):
 
 @part
 def modes(layers: LayeredBody, body: Body) -> Modes:
-    """Compute the periods of the free modes of the elastic body without ocean.
+    """Compute the periods of the free modes (wobbles and nutations) of the body without ocean.
 
     The dynamical flattening H is the observed one.
     """
@@ -120,7 +120,7 @@ def modes(layers: LayeredBody, body: Body) -> Modes:
 
 @part
 def neglected() -> Neglected:
-    """Effects that the compliances neglect, because the model is a non-rotating sphere."""
+    """Effects that the computed compliances neglect because the model is a non-rotating sphere."""
     return Neglected(what="rotation and ellipticity in the answers, about one per cent")
 
 

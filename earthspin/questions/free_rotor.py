@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Moments:
-    """Principal moments as typed: three moments, or one moment and two differences of moments.
+    """Kind of input: three principal moments of inertia, or A, B - A and C - A, in kg m2.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Moments:
 
     @classmethod
     def read(cls, given: object, where: Where) -> Moments:
-        """Read principal moments, typed as three moments or as a table of "A", "B-A" and "C-A"."""
+        """Read principal moments of inertia: three moments, or a table of "A", "B-A" and "C-A"."""
         if isinstance(given, Moments):
             return given
         table = isinstance(given, Mapping)
@@ -59,18 +59,18 @@ class Moments:
         return cls((first, second, third), table)
 
     def write(self) -> Plain:
-        """Form stored in scenes: the moments as text with their unit."""
+        """Form stored in scene files: the moments of inertia as text with their unit."""
         texts = [f"{number!r} kg m2" for number in self.numbers]
         return dict(zip(KEYS, texts, strict=True)) if self.differences else texts
 
     @property
     def values(self) -> list[float] | dict[str, float]:
-        """List of the three moments, or mapping of "A", "B-A" and "C-A" if these were typed."""
+        """Return the three moments of inertia as a list, or A, B - A and C - A as a mapping."""
         numbers = list(self.numbers)
         return dict(zip(KEYS, numbers, strict=True)) if self.differences else numbers
 
     def of_many(self, starts: int) -> FloatArray | dict[str, FloatArray]:
-        """Arrays of the moments of one or more bodies, with trailing axes of length 1.
+        """Return the moments of inertia as arrays over bodies, with trailing axes of length 1.
 
         The argument `starts` is the number of these axes, one for each axis of initial states.
         """
@@ -88,7 +88,7 @@ class FreeRotor(
     table="rotor",
     positional=("moments", "omega", "times"),
 ):
-    """Motion of a body without torque, in closed form (I.4 to I.6).
+    """Motion of a rigid body without torque, in closed form (source text, I.4 to I.6).
 
     Returns
     -------
@@ -178,7 +178,7 @@ def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> 
 
 
 def several_starts(omega: FloatArray) -> str | None:
-    """Return the reason to leave out Poinsot's construction if several initial states are given."""
+    """For several initial states, return why Poinsot's construction is left out; else None."""
     return None if omega.ndim == 1 else "there are several starts"
 
 
@@ -251,19 +251,19 @@ def poinsot(moments: Moments, omega: FloatArray, instants: FloatArray) -> Poinso
 
 
 class RotationAccuracy(Report, units="1", error_of="relative, of angular velocity and attitude"):
-    """Requested and estimated error of the rotation, and the method of computation."""
+    """Estimated error of the rotation, the accuracy that was requested, and the method used."""
 
 
 @part(unless=no_accuracy)
 def rotation_accuracy(free_rotation: xr.Dataset, accuracy: float | None) -> RotationAccuracy:
-    """Requested and estimated error of the rotation, and the method of computation."""
+    """Estimated error of the rotation, the accuracy that was requested, and the method used."""
     size, bound = free_rotation.attitude.size // 4, float(free_rotation.relative_error)
     return RotationAccuracy.closed_form(accuracy, bound, "Jacobi's closed form", size)
 
 
 @part
 def neglected() -> Neglected:
-    """Report that the model of a rigid body without torque neglects nothing."""
+    """Report that no effect is neglected, as the question is about a rigid body without torque."""
     return Neglected(what="nothing: the question is about a rigid body without torque")
 
 

@@ -132,7 +132,7 @@ _ADOPTED = "a model that was adopted, exact by definition"
 
 
 class EffectRates(Variables):
-    """Contributions of effects to the rates of psi_A and omega_A at J2000.0, and the remainder."""
+    """Contribution of each effect to the rates of psi_A and omega_A, and the unexplained rest."""
 
     psi_rate: Pair = measured(
         "arcsec/yr",
@@ -222,7 +222,7 @@ def _over(closure: float, uncertainty: float) -> float:
 
 @dataclass(frozen=True)
 class Differences:
-    """Computed pole minus IAU pole over time for each model of the effects, in two angles, rad.
+    """Time series of computed pole minus IAU pole in two angles, for different sets of effects.
 
     The angles are dpsi sin(eps0) in longitude and deps in obliquity.
 
@@ -259,7 +259,7 @@ def differences(
     effects: tuple[str, ...],
     predicted_shift: Shift | None = None,
 ) -> Differences:
-    """Compute computed pole minus IAU pole over time, for each model of the effects."""
+    """Compute time series of computed pole minus IAU pole, for different sets of effects."""
     from earthspin.nutation.circles import complex_nutation, without_line
     from earthspin.sky import iau
 
@@ -309,7 +309,7 @@ _UNFITTED_HALF_WIDTH = "95 % half-width of a residual without a fit, from H and 
 
 
 class Residuals(Dated, error="residual_error"):
-    """Computed pole minus IAU pole over time, with a constant and a rate removed, or not."""
+    """Time series of computed pole minus IAU pole, with and without a fitted trend removed."""
 
     dpsi_sineps: Value = number("mas", _LONGITUDE)
     deps: Value = number("mas", _OBLIQUITY)
@@ -327,7 +327,7 @@ class Residuals(Dated, error="residual_error"):
 
 @part
 def residuals(differences: Differences) -> Residuals:
-    """Return computed pole minus IAU pole over time, for the effects that are switched on."""
+    """Return the time series of computed pole minus IAU pole, for the requested effects."""
     fitted = differences.fitted[:, differences.chosen]
     plain = differences.plain[:, differences.chosen]
     return Residuals(
@@ -342,7 +342,7 @@ def residuals(differences: Differences) -> Residuals:
 
 
 class ResidualsByModel(Dated, along=("time", "model"), error="error_by_model"):
-    """Computed pole minus IAU pole over time, for each model of the effects."""
+    """Time series of computed pole minus IAU pole, for different sets of effects."""
 
     dpsi_sineps_by_model: Value = number("mas", _LONGITUDE)
     deps_by_model: Value = number("mas", _OBLIQUITY)
@@ -352,7 +352,7 @@ class ResidualsByModel(Dated, along=("time", "model"), error="error_by_model"):
 
 @part
 def residuals_by_model(differences: Differences) -> ResidualsByModel:
-    """Return the computed pole minus the IAU pole over time, for each model of the effects."""
+    """Return the time series of computed pole minus IAU pole, for different sets of effects."""
     return ResidualsByModel(
         time=datetime64(differences.days),
         dpsi_sineps_by_model=differences.fitted[..., 0],
@@ -363,7 +363,7 @@ def residuals_by_model(differences: Differences) -> ResidualsByModel:
 
 
 class ResidualSizes(Variables, along=("model", "direction")):
-    """Root mean square and maximum of computed pole minus IAU pole, by model of the effects."""
+    """Root mean square and maximum of computed minus IAU pole, for different sets of effects."""
 
     residual_rms: Value = number(
         "mas",
@@ -390,7 +390,7 @@ class ResidualSizes(Variables, along=("model", "direction")):
 
 @part
 def residual_sizes(differences: Differences) -> ResidualSizes:
-    """Compute root mean square and maximum of computed pole minus IAU pole, by model of effects."""
+    """Compute root mean square and maximum of computed minus IAU pole, for each set of effects."""
     plain, fitted = differences.plain, differences.fitted
     return ResidualSizes(
         residual_rms=np.sqrt(np.mean(fitted**2, axis=0)),
@@ -404,7 +404,7 @@ def residual_sizes(differences: Differences) -> ResidualSizes:
 
 @part
 def observed(differences: Differences, observed_sky: ObservedSky) -> ObservedSizes:
-    """Compute the root mean square of model pole minus observed celestial pole, for each model."""
+    """Compute the root mean square of computed minus observed pole, for each set of effects."""
     plain = dict(zip(differences.models, differences.plain.swapaxes(0, 1), strict=True))
     return observed_sky.sizes(plain, differences.error)
 
@@ -416,7 +416,7 @@ _FIT = "part of a fit; left_in_phase and left_out_of_phase are its residuals"
 
 
 class Nutation(Variables, along=("term",)):
-    """The largest circular nutation terms of the computed pole and of the IAU pole."""
+    """Largest circular nutation terms of the computed pole and of the IAU pole."""
 
     period: Value = number(
         "d", "period of the circle in space, negative if retrograde", no_error=_ARGUMENTS
@@ -481,7 +481,7 @@ _ABSORBING = "the response that absorbs what it can"
 
 
 class Core(Variables):
-    """Free core nutation fitted to IAU 2000A: period, quality factor, strengths and residuals."""
+    """Parameters of the free core nutation from a fit of the resonance formula to IAU 2000A."""
 
     core_nutation_period: Pair = measured("d", "period of the free core nutation in space")
     core_nutation_quality: Pair = measured("1", "quality factor of the free core nutation")
@@ -531,7 +531,7 @@ class Core(Variables):
 def core(
     pole_analysis: PoleComparison, core_response: Response, response_apart: ResponseFit
 ) -> Core:
-    """Return period, quality factor and residuals of the core nutation fitted to IAU 2000A."""
+    """Return the parameters of the free core nutation fitted to IAU 2000A, and fit residuals."""
     from earthspin.nutation.circles import phases, term_names
     from earthspin.nutation.response import added_half_width
 
@@ -558,7 +558,7 @@ def core(
 
 
 class Angles(Variables, along=("angle", "degree")):
-    """Polynomial coefficients of the precession angles, computed and of IAU 2006."""
+    """Polynomial coefficients of the precession angles: computed values and those of IAU 2006."""
 
     angle_coefficient: Value = number(
         "arcsec", "coefficient of (t/century)^degree, computed pole, ecliptic of IAU 2006"
@@ -601,7 +601,7 @@ def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
 
 
 class Inferred(Variables, along=("origin",)):
-    """Dynamical flattening H and C/(M a2) of the Earth from each of three sources."""
+    """Dynamical flattening H and C/(M a2) of the Earth, according to three sources."""
 
     flattening: Pair = measured("1", "dynamical flattening H", short="H = (C-A)/C")
     polar_moment: Pair = measured("1", "C/(M a2)", short="C/(M a2)")
@@ -610,7 +610,7 @@ class Inferred(Variables, along=("origin",)):
 
 @part
 def inferred_flattening(rates_by_effect: Budget, body: Body) -> Inferred:
-    """Collect H and C/(M a2) as implied by the IAU's precession rate, as published, and of PREM."""
+    """Collect H and C/(M a2) from three sources: the IAU precession rate, literature, and PREM."""
     h, j2, radius = (body.number(name) for name in ("dynamical_flattening", "j2", "radius"))
     u_h, u_j2 = (
         body.relative_uncertainty.get(name, 0.0) for name in ("dynamical_flattening", "j2")

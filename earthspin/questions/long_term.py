@@ -131,7 +131,7 @@ class LongTerm(
 
 
 def _unknown_start(body: Body) -> str:
-    """Reason why errors are missing for a body whose pole has no published uncertainty."""
+    """Reason why errors are missing: the body's pole at J2000.0 has no known uncertainty."""
     return (
         f"how far off the pole of {in_a_sentence(body.name)} is at J2000.0 is not known; give the "
         "body a pole_uncertainty"
@@ -144,7 +144,7 @@ class FromStart(Variables):
     _unknown_start = ""
 
     def started_from(self, body: Body) -> Self:
-        """Mark errors of the result as unknown if the body's pole has no uncertainty."""
+        """If the uncertainty of the body's pole is unknown, mark the result's errors as unknown."""
         if body.pole_uncertainty is None:
             self._unknown_start = f"NaN, not given: {_unknown_start(body)}"
         return self
@@ -162,13 +162,13 @@ class FromStart(Variables):
 
 @part
 def wanted(span: YearSpan, step: float, times: YearList | None) -> FloatArray:
-    """Return the epochs at which results are requested, s from J2000.0 TDB."""
+    """Return the epochs at which the user requests results, s from J2000.0 TDB."""
     return grid(span, step, Where("step")) if times is None else times.listed
 
 
 @part
 def stretch(sky: Sky) -> Stretch:
-    """Return the time span over which torques are averaged: all that the kernel covers."""
+    """Return the time span over which torques are averaged: all dates that the kernel covers."""
     return Stretch(*sky.coverage())
 
 
@@ -183,7 +183,7 @@ def numbers(
     obliquity_shift: float,
     longitude_shift: float,
 ) -> SideBySide:
-    """Collect the inputs of the spin axis that may differ among members, in arrays of one shape."""
+    """Broadcast to one shape all inputs of the long-term precession that may be arrays."""
     rate, error = mean_rates.total()
     as_published = 0.0 if not_sun_and_moon(body, perturbers) else body.are_as_named
     return SideBySide.of(
@@ -209,7 +209,7 @@ def strength(
     body: Body,
     orbit_table: OrbitTable,
 ) -> Strength:
-    """Compute the constant of precession at J2000.0 and parameters of its change in time.
+    """Compute the constant of precession at J2000.0, and parameters of its change in time.
 
     It follows from the rates of `precession` divided by the cosine of the obliquity. The published
     effects of second order, planets, J4 and the interior are added to the Moon's part, which is
@@ -253,7 +253,7 @@ def _published() -> float:
 
 
 def _relative_j2_rate(body: Body) -> Numeric:
-    """Relative rate of J2, s-1; zero if the body has none."""
+    """Rate of change of J2 divided by J2, s-1; zero if J2 does not change."""
     j2 = body.needed("j2")
     return body.j2_rate / (j2 + (j2 == 0))
 
@@ -266,7 +266,7 @@ def solved(
     wanted: FloatArray,
     body: Body,
 ) -> solutions.Solved:
-    """Integrate the nominal spin axis, and again with each error source varied.
+    """Integrate the motion of the spin axis, and repeat it with each uncertain input changed.
 
     A further integration has windows of twice the length.
     """
@@ -287,7 +287,7 @@ def solved(
 
 
 def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArray:
-    """Unit vectors of the spin axis at J2000.0, of all members, shape (3, ...)."""
+    """Unit vectors of the spin axis at J2000.0, for all sets of inputs, shape (3, ...)."""
     now = np.zeros(1)
     pole = np.asarray(body.needed("pole").without_nutation().mean(now)[0])
     obliquity, longitude = (
@@ -300,7 +300,7 @@ def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArr
 
 @part
 def readings(solved: solutions.Solved, wanted: FloatArray, body: Body) -> reading.Readings:
-    """Compute angles and rates from the nominal axis, and with each error source varied."""
+    """Compute angles and rates, with their errors, from the integrated motions of the spin axis."""
     fixed = body.needed("pole").without_nutation().orbit_axes(body.orbit_pole)
     return reading.readings(solved, wanted, fixed)
 
@@ -420,12 +420,12 @@ def series(
 
 
 class PoleAccuracy(Report, units="arcsec", error_of="in direction"):
-    """Requested and estimated error of the pole, and the method of computation."""
+    """Estimated error of the pole, the accuracy that was requested, and the method used."""
 
 
 @part(unless=no_accuracy)
 def long_term_accuracy(series: xr.Dataset, accuracy: float | None) -> PoleAccuracy:
-    """Requested and estimated error of the pole, and the method of computation."""
+    """Estimated error of the pole, the accuracy that was requested, and the method used."""
     return PoleAccuracy.of_series(accuracy, series.pole_error)
 
 
@@ -448,7 +448,7 @@ class Budget(Variables, along=("cause", "epoch"), no_error="a share of an error"
     epoch: Labels = labels()
 
     def dataset(self) -> xr.Dataset:
-        """Build the dataset of error contributions, with a comment that explains them."""
+        """Build the Dataset of error contributions, with a comment that explains these numbers."""
         return super().dataset().assign_attrs(comment=_ONE_AT_A_TIME)
 
 
@@ -499,7 +499,7 @@ def matrices(
 
 @part
 def neglected() -> Neglected:
-    """Effects that are neither modelled nor included in the errors."""
+    """Effects on the long-term motion that are neither modelled nor included in the errors."""
     return Neglected(
         what="friction between core and mantle, ice ages in the figure: not measured; asteroids "
         "and the Sun's flattening in the orbit: in the errors of a shipped orbit, not in those of "

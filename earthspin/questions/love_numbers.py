@@ -74,12 +74,12 @@ _FIELDS = {
 
 
 def _numbers(response: Yielding) -> NDArray[np.complex128]:
-    """Array of the complex Love numbers of a body's response to tide and load."""
+    """Array of the complex Love numbers of a body: its response to a tide and to a surface load."""
     return np.array([getattr(response, field) for field in _FIELDS.values()], dtype=complex)
 
 
 class Love(Variables, along=("love",), no_error=FROM_LAYERS):
-    """Love numbers at one period."""
+    """Love numbers at one period of the tide."""
 
     love_number: Value = number("1", "Love number of degree two", short="real part")
     love_number_imaginary: Value = number(

@@ -1,4 +1,4 @@
-"""Nutation predicted from the layers of the body, step by step, compared with IAU 2000A."""
+"""Nutation predicted from the Earth's layers by models of increasing detail, against IAU 2000A."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class NutationLadder(
     table="nutation",
     positional=("start", "stop", "step"),
 ):
-    """Nutation predicted from the layers of the Earth, step by step, compared with IAU 2000A.
+    """Nutation predicted from the layers of the Earth by a ladder of increasingly detailed models.
 
     A ladder of models, each of which adds one thing to the model before, from a rigid Earth to
     the layers of the `interior` of the body. The dynamical flattening H is the observed one
@@ -107,13 +107,13 @@ class NutationLadder(
 
 @part
 def models(body: Body, coupling: str, anelastic_exponent: float) -> Prediction:
-    """Compute the response of the interior to the torques, for each step of the ladder."""
+    """Compute the response of the Earth's interior to the torques, for each model of the ladder."""
     return predict(body, coupling == "inferred", anelastic_exponent)
 
 
 @dataclass(frozen=True)
 class RungResiduals:
-    """Predicted pole minus IAU 2000A for each model, before and after a line is removed.
+    """Predicted pole minus IAU 2000A for each model, with and without a linear trend removed.
 
     Attributes
     ----------
@@ -133,7 +133,7 @@ class RungResiduals:
     error: float
 
     def rms(self, names: list[str]) -> NDArray[np.float64]:
-        """Root mean square of both angles of the named models, rad, shape (2, model)."""
+        """Root mean square of both residual angles for the named models, rad, shape (2, model)."""
         return np.array([np.sqrt(np.mean(self.series[name] ** 2, axis=0)) for name in names]).T
 
 
@@ -146,7 +146,7 @@ def left(
     body: Body,
     effects: tuple[str, ...],
 ) -> RungResiduals:
-    """Compute predicted pole minus IAU pole over time, for the response of each model."""
+    """Compute the time series of predicted pole minus IAU pole (residuals) for each model."""
     from earthspin.nutation.circles import complex_nutation, responses, without_line
     from earthspin.sky import iau
 
@@ -179,7 +179,7 @@ _ADDS = "what the model adds, or what it is"
 
 
 class RungSizes(Variables, along=("rung",), error="rms_error"):
-    """Root mean square of predicted pole minus IAU 2000A, for each step of the ladder."""
+    """Root mean square of predicted pole minus IAU 2000A, for each model of the ladder."""
 
     rms_dpsi_sineps: Value = number(
         "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
@@ -192,7 +192,7 @@ class RungSizes(Variables, along=("rung",), error="rms_error"):
 
 @part
 def rung_sizes(left: RungResiduals, models: Prediction) -> RungSizes:
-    """Compute the root mean square of predicted pole minus IAU 2000A, step by step."""
+    """Compute the root mean square of predicted pole minus IAU 2000A, for each ladder model."""
     names = models.ladder
     longitude, obliquity = left.rms(names)
     return RungSizes(
@@ -205,7 +205,7 @@ def rung_sizes(left: RungResiduals, models: Prediction) -> RungSizes:
 
 
 class ModelSizes(Variables, along=("model",), error="model_rms_error"):
-    """Root mean square of predicted pole minus IAU 2000A, for the models outside the ladder."""
+    """Root mean square of predicted pole minus IAU 2000A, for two models outside the ladder."""
 
     model_rms_dpsi_sineps: Value = number(
         "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
@@ -218,7 +218,7 @@ class ModelSizes(Variables, along=("model",), error="model_rms_error"):
 
 @part
 def beside(left: RungResiduals) -> ModelSizes:
-    """Compute the size of predicted pole minus IAU 2000A (root mean square) for two other models.
+    """Compute the root mean square of predicted pole minus IAU 2000A for two more models.
 
     They are a fluid core in a rigid mantle, and a body with the H of hydrostatic equilibrium.
     """
@@ -236,7 +236,7 @@ def beside(left: RungResiduals) -> ModelSizes:
 
 
 class Terms(Variables, along=("term",)):
-    """Amplitudes of the largest circular nutation terms, of each step and of IAU 2000A."""
+    """Amplitudes of the largest circular nutation terms, from each model and from IAU 2000A."""
 
     period: Value = number(
         "d",
@@ -259,7 +259,7 @@ class Terms(Variables, along=("term",)):
 
 @part
 def terms(pole_analysis: PoleComparison, models: Prediction) -> Terms:
-    """Compute the largest circular nutation terms of each step, in phase and out of phase."""
+    """Compute the largest circular nutation terms of each model, in phase and out of phase."""
     from earthspin.nutation.circles import phases, term_names
     from earthspin.nutation.neighbours import amplitude_error
 
@@ -282,7 +282,7 @@ def terms(pole_analysis: PoleComparison, models: Prediction) -> Terms:
 
 
 class Modes(Variables, along=("mode",)):
-    """Periods and quality factors of the free modes, for each step of the ladder."""
+    """Periods and quality factors of the free modes (wobbles and nutations) of each model."""
 
     mode_rung: Value = words("rung that has the mode", short="rung")
     mode_name: Value = words("name of the mode", short="mode")
@@ -302,7 +302,7 @@ class Modes(Variables, along=("mode",)):
 
 @part
 def modes(models: Prediction) -> Modes:
-    """Compute period and quality factor of the free modes that each step of the ladder has."""
+    """Compute periods and quality factors of the free modes (wobbles, nutations) of each model."""
     rows = []
     for name in models.ladder:
         rung = models.rungs[name]
@@ -330,7 +330,7 @@ class Transfer(
     along=("rung", "frequency"),
     no_error="the section terms gives errors at the frequencies of nutation",
 ):
-    """Transfer function from rigid to non-rigid nutation, for each step of the ladder."""
+    """Transfer function from rigid to non-rigid nutation, for each model of the ladder."""
 
     transfer_real: Value = number("1", "nutation over that of a rigid body, real part")
     transfer_imaginary: Value = number("1", "nutation over that of a rigid body, imaginary part")
@@ -342,14 +342,14 @@ class Transfer(
 
 @part
 def transfer(models: Prediction) -> Transfer:
-    """Compute the transfer function of each step over frequencies through its resonances."""
+    """Compute the transfer function of each model, at frequencies that include its resonances."""
     names = models.ladder
     response = np.array([models.rungs[name].transfer(_IN_SPACE - 1, models.e) for name in names])
     return Transfer(transfer_real=response.real, transfer_imaginary=response.imag, rung=names)
 
 
 class Residuals(Dated, along=("time", "rung"), error="residual_error"):
-    """Predicted pole minus IAU pole over time, for each step of the ladder."""
+    """Time series of predicted pole minus IAU pole, for each model of the ladder."""
 
     dpsi_sineps: Value = number("mas", f"predicted pole minus the IAU's in {_LONGITUDE}")
     deps: Value = number("mas", f"predicted pole minus the IAU's in {_OBLIQUITY}")
@@ -361,7 +361,7 @@ class Residuals(Dated, along=("time", "rung"), error="residual_error"):
 
 @part
 def residuals(left: RungResiduals, models: Prediction) -> Residuals:
-    """Return the predicted pole minus the IAU pole over time, for each step of the ladder."""
+    """Return the time series of predicted pole minus IAU pole, for each model of the ladder."""
     series = np.stack([left.series[name] for name in models.ladder], axis=1)
     return Residuals(
         time=datetime64(left.days),
@@ -374,7 +374,7 @@ def residuals(left: RungResiduals, models: Prediction) -> Residuals:
 
 @part
 def observed(left: RungResiduals, models: Prediction, observed_sky: ObservedSky) -> ObservedSizes:
-    """Compute the root mean square of each step's pole minus the observed celestial pole."""
+    """Compute the root mean square of predicted minus observed pole, for each model."""
     return observed_sky.sizes({name: left.plain[name] for name in models.ladder}, left.error)
 
 
@@ -383,7 +383,7 @@ class Compliances(
     along=("compliance_name",),
     no_error="they follow from the layers; the relative uncertainty of the interior is that of k2",
 ):
-    """Compliances of the elastic body."""
+    """Compliances of the elastic Earth: its deformation by wobbles of mantle and cores."""
 
     compliance: Value = number("1", "answer of a part to a wobble of size 1", short="value")
     compliance_name: Labels = labels()
@@ -391,7 +391,7 @@ class Compliances(
 
 @part
 def compliances(models: Prediction) -> Compliances:
-    """Compliances of the elastic body, in the notation of Mathews et al. (1991)."""
+    """Compliances of the elastic Earth, in the notation of Mathews et al. (1991)."""
     parts = models.rungs["inner-core"].parts(np.array(-1.0))
     return Compliances(
         compliance=[float(value) for value in parts.compliances.values()],
@@ -401,7 +401,7 @@ def compliances(models: Prediction) -> Compliances:
 
 @part
 def neglected() -> Neglected:
-    """Effects that the last step of the ladder neglects."""
+    """Effects on nutation that even the most detailed model neglects."""
     return Neglected.cited(ladder.LEFT_OUT, "change of the largest term that is concerned")
 
 

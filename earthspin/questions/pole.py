@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 
 class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "step")):
-    """Path of the axes under the torques, in the GCRS.
+    """Path of the angular momentum, rotation and figure axes under torques, in the GCRS.
 
     The path starts at J2000.0 from the pole of the body; for the Earth, from the true pole of IAU
     2006/2000A. The effect `geodesic` needs the Sun among the perturbers and turns a sphere, too;
@@ -97,42 +97,45 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
 
 
 def not_nonrigid(effects: tuple[str, ...]) -> str | None:
-    """Return the reason to leave out the interior's response, if that effect is switched off."""
+    """If the non-rigid effect is switched off, return why the interior's response is left out.
+
+    Otherwise return None.
+    """
     return None if NONRIGID.name in effects else "the non-rigid response is switched off"
 
 
 def not_fitted(response: str) -> str | None:
-    """Return the reason to leave out the fitted response if the predicted one is chosen."""
+    """If the predicted response is requested, return why the fitted one is left out; else None."""
     return None if response == "fitted" else "the response is predicted"
 
 
 def not_predicted(response: str) -> str | None:
-    """Return the reason to leave out the predicted response if the fitted one is chosen."""
+    """If the fitted response is requested, return why the predicted one is left out; else None."""
     return None if response == "predicted" else "the response is fitted"
 
 
 @part(unless=(not_nonrigid, not_fitted))
 def as_fitted(nonrigid_shift: Shift) -> Shift:
-    """Shift of the axes by the fitted response of the interior; runs only if that is chosen."""
+    """Return the axis displacement from the fitted interior response, if that is requested."""
     return nonrigid_shift
 
 
 @part(unless=(not_nonrigid, not_predicted))
 def as_predicted(predicted_shift: Shift) -> Shift:
-    """Shift of the axes by the predicted response of the interior; runs only if that is chosen."""
+    """Return the axis displacement from the predicted interior response, if that is requested."""
     return predicted_shift
 
 
 @part(unless=not_nonrigid)
 def interior_shift(as_fitted: Shift | None = None, as_predicted: Shift | None = None) -> Shift:
-    """Return the chosen shift of the rigid body's axes by its interior: fitted or predicted."""
+    """Return the displacement of the axes by the interior: the fitted or the predicted one."""
     shift = as_fitted or as_predicted
     assert shift is not None
     return shift
 
 
 class Directions(Dated, error="direction_error"):
-    """Unit vectors of the axes of angular momentum, rotation and figure in time, with errors."""
+    """Unit vectors of the angular momentum, rotation and figure axes in time, with errors."""
 
     X: Value = number(
         "1", "first component of the unit vector of the axis", along=("time", "axis"), frame="GCRS"
@@ -165,7 +168,7 @@ def axes(
     interior_shift: Shift | None = None,
     block: Block | None = None,
 ) -> Directions:
-    """Compute the directions of the axes of angular momentum, rotation and figure at every time."""
+    """Compute unit vectors of the angular momentum, rotation and figure axes at every time."""
     if largest_error is not None:
         refuse_unkept(accuracy, largest_error.error, "mas", largest_error.remedy)
     now = days_of(epochs, block, by_region("pole.zarr"))
@@ -223,7 +226,7 @@ def response_error(
 
 
 def no_longitude(body: Body) -> str | None:
-    """Return the reason to leave out psi and eps: unknown orbit, or axis normal to the orbit."""
+    """If psi and eps of the axes are undefined for the body, return the reason; else None."""
     pole = body.needed("pole")
     if body.orbit_pole is None and not pole.of_the_iau:
         return f"psi is counted along the orbit, and {in_a_sentence(body.name)} has no orbit_pole"
@@ -233,7 +236,7 @@ def no_longitude(body: Body) -> str | None:
 
 
 class Angles(Dated, along=("time", "axis"), error="direction_error"):
-    """Longitude psi and inclination eps of the axes, relative to the fixed orbit of J2000.0."""
+    """Longitude psi and inclination eps of the axes, relative to the body's orbit at J2000.0."""
 
     psi: Value = number("arcsec", "precession and nutation in longitude along the orbit of J2000.0")
     eps: Value = number("arcsec", "angle of the axis from the normal of that orbit")
@@ -242,7 +245,7 @@ class Angles(Dated, along=("time", "axis"), error="direction_error"):
 
 @part(unless=no_longitude)
 def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> LongitudeCycles:
-    """Whole turns of the longitude psi, counted from the first time of the series."""
+    """Count whole turns of the longitude psi, from the first time of the series."""
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     return longitude_cycles(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
 
@@ -255,7 +258,7 @@ def pole_angles(
     body: Body,
     block: Block | None = None,
 ) -> Angles:
-    """Compute longitude psi and inclination eps of the axes, relative to the orbit of J2000.0."""
+    """Compute longitude psi and inclination eps of the axes, relative to the J2000.0 orbit."""
     vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     angles = on_fixed_ecliptic(vectors.reshape(-1, 3), ecliptic).reshape(*vectors.shape[:2], 2)
@@ -264,14 +267,14 @@ def pole_angles(
 
 
 class DirectionAccuracy(Report, units="uas", error_of="in direction"):
-    """Requested and estimated error of the pole, and the method of computation."""
+    """Estimated error of the pole, the accuracy that was requested, and the method used."""
 
 
 @part(unless=no_accuracy)
 def pole_accuracy(
     axes: xr.Dataset, largest_error: LargestError, accuracy: float | None
 ) -> DirectionAccuracy:
-    """Requested and estimated error of the pole, and the method of computation."""
+    """Estimated error of the pole, the accuracy that was requested, and the method used."""
     by = axes.direction_error.attrs
     return DirectionAccuracy(
         error_asked=accuracy,
@@ -283,7 +286,7 @@ def pole_accuracy(
 
 @part
 def neglected(body: Body, effects: tuple[str, ...], epochs: Epochs) -> Neglected:
-    """Sizes of effects on the pole that are switched off, at the date farthest from J2000.0."""
+    """Sizes of the effects that are switched off, at the date farthest from J2000.0."""
     if no_iau_model(body) or not body.is_as_named:
         half, unknown = start_error(body), f"effects not measured for this {proper(body.name)}"
         if half is None or body.needed("pole").of_the_iau:

@@ -119,14 +119,14 @@ class CoreNutation(Variables, along=("middle",)):
 
 
 def shorter_than_a_window(span: Span | None, window: float | None) -> str | None:
-    """Return the reason to leave out the core nutation, if the span is shorter than a window."""
+    """If the span is shorter than a window, return why the core nutation is left out; else None."""
     if span is None or _length(span) >= (core.WINDOW if window is None else window):
         return None
     return "the span is shorter than a window, which is three years if not given"
 
 
 def too_short_for_a_period(span: Span | None) -> str | None:
-    """Return the reason to leave out the period of the core nutation, if the span is too short."""
+    """If the span is too short, return why the core nutation period is left out; else None."""
     needed = 2 * shortest_span()
     if span is None or _length(span) >= needed:
         return None
@@ -175,7 +175,7 @@ class CorePeriod(Variables):
 
 @part(unless=too_short_for_a_period)
 def period(offset_table: PoleSeries) -> CorePeriod:
-    """Fit the period of the free core nutation since 1984, as a noise-driven oscillator."""
+    """Fit the free core nutation period to offsets since 1984, as a noise-driven oscillator."""
     from earthspin.wobble.observed import fit
 
     good = offset_table.mjd >= FIRST_MJD

@@ -46,7 +46,7 @@ MODELS = ("mccullough", "homogeneous", "measured")
 
 
 class Precession(PerturbedBody, word="precession", call="precession"):
-    """Rate and period of precession from torques averaged over orbits (I.8).
+    """Rate and period of precession, from torques averaged over orbits (source text, I.8).
 
     Returns
     -------
@@ -87,7 +87,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     many_pulls = True
 
     def check(self) -> None:
-        """Refuse several masses for one perturber if the method can use only one.
+        """Refuse an array of masses for one perturber if the method can use only one mass.
 
         That is, if an accuracy is requested, or if all orbits are given by elements.
         """
@@ -163,19 +163,19 @@ def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Bod
 
 
 def _plane(body: Body) -> str:
-    """Name of the plane along which the precession rate of a body is counted."""
+    """Name of the reference plane in which the precession rate of a body is measured."""
     if body.needed("pole").of_the_iau:
         return "ecliptic of J2000.0"
     return f"orbit whose normal has {body.orbit_pole} (ICRF)"
 
 
 class RateAccuracy(Report, units="1", error_of="relative, of the rate by all perturbers"):
-    """Requested and estimated error of the precession rate, and the method of computation."""
+    """Estimated error of the precession rate, the accuracy that was requested, and the method."""
 
 
 @part(unless=reasons.no_accuracy)
 def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> RateAccuracy:
-    """Requested and estimated error of the precession rate, and the method of computation."""
+    """Estimated error of the precession rate, the accuracy that was requested, and the method."""
     rate = mean_rates.rate
     size = abs(total_of(rate.value))
     if not all_of(size != 0):
@@ -201,7 +201,7 @@ def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> RateAccuracy
 
 
 class Convergence(Variables, no_error="the curve itself shows the error of each window"):
-    """Precession rate as a function of the length of the averaging window."""
+    """Precession rate for averaging windows of different lengths, to show the convergence."""
 
     rate_by_window: Value = number(
         "arcsec/yr", "rate of precession by all perturbers", along=("window", "window_cycles")
@@ -213,7 +213,7 @@ class Convergence(Variables, no_error="the curve itself shows the error of each 
 
 @part(unless=reasons.many_pulls)
 def convergence(torque_samples: Samples, body: Body) -> Convergence:
-    """Compute the precession rate over the length of the averaging window, for each taper."""
+    """Compute the precession rate for averaging windows of different lengths and tapers."""
     import xarray as xr
 
     window = torque_samples.window
@@ -232,7 +232,7 @@ def convergence(torque_samples: Samples, body: Body) -> Convergence:
 
 
 def no_figure(body: Body) -> str | None:
-    """Return the reason to leave out the models of the figure, if data of the body forbid them."""
+    """If data of the body are unsuitable, return why the figure models are left out; else None."""
     missing = [k for k in ("j2", "flattening", "radius") if getattr(body, k) is None]
     if missing:
         return f"{in_a_sentence(body.name)} has no {missing[0]}"
@@ -248,7 +248,7 @@ class FigureModels(
     along=("earth_model",),
     no_error="a model of the figure, for comparison with the others",
 ):
-    """Dynamical flattening, precession period and wobble period for each model of the figure."""
+    """Dynamical flattening, precession period and wobble period, for three figure models."""
 
     h_by_model: Value = number("1", "dynamical flattening (C - A)/C", short="H = (C-A)/C")
     period_by_model: Value = number(
@@ -262,7 +262,7 @@ class FigureModels(
 
 @part(unless=(no_figure, reasons.many_pulls))
 def figure_models(mean_torques: MeanTorques, body: Body) -> FigureModels:
-    """Three models of the dynamical flattening, each with its precession and free wobble."""
+    """Compute H from three models of the figure, and the precession and free wobble for each H."""
     import xarray as xr
 
     j2, measured_h = body.needed("j2"), body.needed("dynamical_flattening")
@@ -284,13 +284,13 @@ def figure_models(mean_torques: MeanTorques, body: Body) -> FigureModels:
 
 
 def is_sphere(body: Body) -> str | None:
-    """Return the reason to leave out the free wobble if the body is a sphere, otherwise None."""
+    """If the body is a sphere, return why the free wobble is left out; otherwise None."""
     oblate = all_of(body.needed("dynamical_flattening") != 0)
     return None if oblate else "a sphere does not wobble"
 
 
 class FreeWobble(Variables, no_error="its relative error is that of free_wobble_period"):
-    """Period of the free wobble of the rigid body."""
+    """Period of the free wobble of the body, if it is rigid."""
 
     free_wobble_period: Pair = measured("d", "period of the rigid free wobble, A/(C - A)")
     free_wobble_period_sidereal: Value = number(
@@ -300,7 +300,7 @@ class FreeWobble(Variables, no_error="its relative error is that of free_wobble_
 
 @part(unless=is_sphere)
 def free_wobble(body: Body) -> FreeWobble:
-    """Period of the free wobble of the rigid body."""
+    """Compute the period of the free wobble of the body, as if it is rigid."""
     h = body.needed("dynamical_flattening")
     period = free_wobble_period(inertia.ellipticity_from_h(h), body.needed("spin_period"))
     u = body.relative_uncertainty.get("dynamical_flattening", 0.0)
@@ -311,7 +311,7 @@ def free_wobble(body: Body) -> FreeWobble:
 
 
 class Seasons(Variables, no_error="its relative error is that of general_precession"):
-    """Motion of the equinox, tropical year, and drift of the calendar against the seasons."""
+    """Motion of the equinox, tropical year, and drift of the calendar relative to the seasons."""
 
     general_precession: Pair = measured(
         "arcsec/yr",
@@ -337,7 +337,7 @@ class Seasons(Variables, no_error="its relative error is that of general_precess
 def seasons(
     mean_rates: MeanRates, mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ...]
 ) -> Seasons:
-    """Compute general precession, drift of the calendar, and years per degree of the equinox.
+    """Compute the motion of the equinox, the tropical year, and the drift of the calendar.
 
     For the Earth as it is, the published effects that the rate leaves out are included.
     """
@@ -371,7 +371,7 @@ def seasons(
 
 
 class BesideIAU(Variables):
-    """Computed precession rate minus the rate of IAU 2006, and the unexplained remainder."""
+    """Computed precession rate minus that of IAU 2006, and the part that remains unexplained."""
 
     iau_rate: Value = number(
         "arcsec/yr",
@@ -386,7 +386,7 @@ class BesideIAU(Variables):
 
 @part(unless=reasons.not_the_iaus_earth)
 def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> BesideIAU:
-    """Compare the computed precession rate with IAU 2006, without and with published effects."""
+    """Compute the precession rate minus that of IAU 2006, before and after known effects."""
     from earthspin.sky.iau import precession_rates
 
     rate, error = mean_rates.total()

@@ -64,7 +64,7 @@ SECONDS_PER_TURN, MOST_TURNS = 4e-3, 1e6
 
 
 class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start", "stop", "step")):
-    """Attitude and spin of a rigid body, without averaging (I.2, I.4, I.9.34).
+    """Attitude and spin of a rigid body, without averaging (source text, I.2, I.4, I.9.34).
 
     Any three moments, any spin, a locked or a tumbling one among them. The motion begins at the
     first date, with the body's own pole, meridian and spin, or as `start_attitude` and
@@ -148,7 +148,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
 @dataclass(frozen=True)
 class Pulling:
-    """Torques of all perturbers, with their relative error due to the perturbers' position errors.
+    """Torques of all perturbers, and the relative torque error due to errors of their positions.
 
     Attributes
     ----------
@@ -168,18 +168,18 @@ class Pulling:
 
 
 def nothing_pulls(perturbers: tuple[Body, ...]) -> str | None:
-    """Return the reason to leave out the positions of perturbers if there are no perturbers."""
+    """If there are no perturbers, return why their positions are left out; otherwise None."""
     return None if perturbers else "nothing pulls on the body"
 
 
 def _length(vector: FloatArray) -> float:
-    """Length of a vector; infinite if the square of the length overflows."""
+    """Length of a vector; infinite if its square is too large for a float."""
     with np.errstate(over="ignore"):
         return float(np.linalg.norm(vector))
 
 
 def _spinning(body: Body, start_omega: FloatArray | None) -> Body:
-    """Return the body, with a spin from the initial angular velocity if it has none."""
+    """If the body has no spin rate, take the rate from the initial angular velocity."""
     if body.spin_period is not None or start_omega is None:
         return body
     speed = _length(start_omega)
@@ -194,7 +194,7 @@ def pulling(
     effects: tuple[str, ...],
     start_omega: FloatArray | None,
 ) -> Pulling:
-    """Build the torques of all perturbers for the chosen effects, and estimate their error."""
+    """Build the torques of all perturbers on the body, and estimate the torque error."""
     from earthspin.motion.neighbours import relative_tide_error
 
     days = epochs.span()
@@ -215,7 +215,7 @@ def pulling(
 
 @dataclass(frozen=True)
 class Rotor:
-    """Body with its initial state and the torques on it, ready for integration.
+    """Rotating body with its initial state and the torques on it, ready for integration.
 
     Attributes
     ----------
@@ -247,15 +247,15 @@ class Rotor:
         return float(self.since(self.end))
 
     def motion(self, tolerance: float) -> Motion:
-        """Prepare the integration of the rotation with a given error tolerance per time window."""
+        """Prepare the integration of the rotation for a given error tolerance per time window."""
         return Motion(self.body, self.masses, self.start, self.duration, tolerance=tolerance)
 
     def turns(self, seconds: float) -> float:
-        """Number of rotations of the body in a time in s, at its initial spin."""
+        """Number of rotations of the body in a given time (s), at its initial spin rate."""
         return float(np.linalg.norm(self.start.spin[:, 0])) * seconds / (2 * np.pi)
 
     def refuse_many_turns(self, begin: float, end: float) -> None:
-        """Refuse a span that takes hours to integrate; its ends are in s from the initial date.
+        """Refuse a time span (s from the initial date) whose integration would take hours.
 
         Raises
         ------
@@ -273,7 +273,7 @@ class Rotor:
             )
 
     def since(self, days: float | FloatArray) -> FloatArray:
-        """Convert days from J2000.0 to s from the initial date, rounded to the microsecond."""
+        """Convert days from J2000.0 to s after the initial date, rounded to the microsecond."""
         return np.asarray(np.round((days - self.begin) * DAY, 6))
 
 
@@ -287,7 +287,10 @@ def rotor(
     torque: CustomTorque | None,
     pulling: Pulling | None = None,
 ) -> Rotor:
-    """Build the rotating body: initial state, torques, copies with each uncertain input changed."""
+    """Build the rotating body with its initial state and torques, ready for integration.
+
+    It includes copies of the body in which one uncertain input is changed.
+    """
     from earthspin.motion import neighbours
 
     begin, end = epochs.span()
@@ -329,7 +332,7 @@ def rotor(
 
 @part
 def motion(rotor: Rotor, accuracy: float | None) -> Motion:
-    """Prepare the integration of the rotation with the tolerance that the accuracy requires."""
+    """Prepare the integration of the rotation, with the tolerance for the requested accuracy."""
     return rotor.motion(tolerance_for(accuracy))
 
 
@@ -342,12 +345,12 @@ _CAUSES = {
 
 
 def _error(units: str, quantity: str) -> Any:
-    """Declare the output variable that holds the error of a quantity, as a time series."""
+    """Declare the output variable for the error (95 % half-width) of a quantity over time."""
     return number(units, f"95 % half-width of {quantity}, largest so far", along=("time",))
 
 
 def _share(units: str, name: str, cause: str) -> Any:
-    """Declare the output variable that holds the part of a quantity's error due to one cause."""
+    """Declare the output variable for the error of a quantity over time due to one cause."""
     return number(units, f"share of {name}_error from {_CAUSES[cause]}", along=("time",))
 
 
@@ -385,7 +388,7 @@ class Attitudes(Dated, along=("time", "component")):
 
 
 def _followed(motion: Motion, rotor: Rotor, seconds: FloatArray, begin: float) -> RotationSeries:
-    """Integrate the rotation to the given times, in s, and show a progress bar."""
+    """Integrate the rotation up to the given times (s), while a progress bar is shown."""
     total, shown = round(rotor.turns(float(seconds[-1]) - begin)), 0
     with progress("turns of the body", total) as advance:
 
@@ -450,17 +453,17 @@ def turning(
 
 
 class AttitudeAccuracy(Report, units="mas", error_of="of the attitude"):
-    """Requested and estimated error of the attitude, and the method of computation."""
+    """Estimated error of the attitude, the accuracy that was requested, and the method used."""
 
 
 @part(unless=no_accuracy)
 def rotation_accuracy(turning: xr.Dataset, accuracy: float | None) -> AttitudeAccuracy:
-    """Requested and estimated error of the attitude, and the method of computation."""
+    """Estimated error of the attitude, the accuracy that was requested, and the method used."""
     return AttitudeAccuracy.of_series(accuracy, turning.attitude_error)
 
 
 class Growth(Dated):
-    """Growth in time of a small deviation between two neighbouring rotations of the body."""
+    """Growth in time of the distance between two rotations that start almost equal."""
 
     growth: Value = number(
         "1",
@@ -488,14 +491,17 @@ class Growth(Dated):
 
 
 def one_date(span: Span, times: TimeList | None) -> str | None:
-    """Return the reason to leave out the divergence of rotations, for a single date."""
+    """If only one date is requested, return why the divergence is left out; otherwise None."""
     first, last = span.days if times is None else times.span()
     return None if last > first else "neighbours part in time, and one date is asked for"
 
 
 @part(unless=one_date)
 def parting(rotor: Rotor) -> Divergence:
-    """Integrate the growth of a small deviation of the rotation, which is rescaled repeatedly."""
+    """Integrate the distance between two rotations that start almost equal.
+
+    The distance is scaled back repeatedly.
+    """
     from earthspin.motion.divergence import divergence
 
     rotor.refuse_many_turns(0.0, rotor.duration)
@@ -504,7 +510,7 @@ def parting(rotor: Rotor) -> Divergence:
 
 @part(unless=one_date)
 def divergence(parting: Divergence, rotor: Rotor, epochs: Epochs) -> Growth:
-    """Rate at which neighbouring rotations diverge, and the Lyapunov time of chaotic motion."""
+    """Rate at which rotations with almost equal starts diverge, and Lyapunov time if chaotic."""
     now = days_of(epochs)
     rate, spread = parting.rate
     chaotic = parting.is_chaotic
@@ -532,7 +538,10 @@ def neglected(
     effects: tuple[str, ...],
     epochs: Epochs,
 ) -> Neglected:
-    """Sizes of neglected effects on the attitude at the last date, or names if no size is known."""
+    """Sizes of effects on the attitude that are neglected, or their names if sizes are unknown.
+
+    The sizes are for the last date.
+    """
     off = _switched_off(body, perturbers, effects)
     known = BEYOND_RIGID.get(body.name) if body.is_as_named else None
     usual = {perturber.name for perturber in pulled_by(body)}
@@ -556,7 +565,7 @@ def neglected(
 
 
 def _switched_off(body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]) -> list[str]:
-    """Names of effects that are switched off although they would change the motion."""
+    """Names of the effects that are switched off although they would change the rotation."""
     moves = {
         "planets": not all_by_elements(body, perturbers),
         "j3": body.j3 != 0,

@@ -1,4 +1,4 @@
-"""Exact field of a homogeneous spheroid at points."""
+"""Exact gravity field of a homogeneous spheroid at given points."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 class Spheroid(
     Question, word="spheroid", call="spheroid_field", table="spheroid", positional=("position",)
 ):
-    """Exact field of a homogeneous spheroid with the mass and figure of a body (I.9).
+    """Exact field of a homogeneous spheroid with a body's mass and figure (source text, I.9).
 
     Its `gm`, `radius` and `flattening` are used; the flattening may be negative (prolate) or zero
     (sphere).
@@ -70,7 +70,7 @@ _FRAME = "principal axes of the spheroid, z along its axis"
 
 
 class Field(Variables, along=_VECTOR, error="relative_error"):
-    """Potential, attraction and torque of a spheroid at points, with their relative error."""
+    """Potential, attraction and torque of a spheroid at given points, with their relative error."""
 
     position: Value = number(
         "m", "coordinates of the point from the centre", no_error="as it was given", frame=_FRAME
@@ -88,7 +88,7 @@ class Field(Variables, along=_VECTOR, error="relative_error"):
 
 @part
 def field(body: Body, position: FloatArray, point_mass: float) -> Field:
-    """Compute potential, attraction and torque of a homogeneous spheroid at points."""
+    """Compute potential, attraction and torque of a homogeneous spheroid at given points."""
     from earthspin.mass import spheroid
 
     numbers = SideBySide.of(
@@ -107,19 +107,19 @@ def field(body: Body, position: FloatArray, point_mass: float) -> Field:
 
 
 class FieldAccuracy(Report, units="1", error_of="relative, of potential, attraction and torque"):
-    """Requested and estimated error of the field, and the method of computation."""
+    """Estimated error of the gravity field, the accuracy that was requested, and the method."""
 
 
 @part(unless=no_accuracy)
 def field_accuracy(field: xr.Dataset, accuracy: float | None) -> FieldAccuracy:
-    """Requested and estimated error of the field, and the method of computation."""
+    """Estimated error of the gravity field, the accuracy that was requested, and the method."""
     points, worst = field.sizes["point"], float(field.relative_error.max())
     return FieldAccuracy.closed_form(accuracy, worst, "exact closed form", points)
 
 
 @part
 def neglected(body: Body, position: FloatArray) -> Neglected:
-    """Effect of assuming uniform density: real bodies are denser inside and have a smaller J2."""
+    """Effect of the assumption of uniform density; real bodies have a smaller J2."""
     from earthspin.mass.figure import eccentricity_squared
 
     if body.labelled or body.j2 is None:

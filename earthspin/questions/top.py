@@ -36,7 +36,7 @@ Rate = Annotated[float, Number("rad/s", "200 rad/s")]
 
 
 class Top(Question, word="top", call="heavy_top", table="top", positional=("times",)):
-    """Motion of a heavy symmetric top, by elliptic functions (I.7).
+    """Motion of a heavy symmetric top, by elliptic functions (source text, I.7).
 
     Returns
     -------
@@ -88,7 +88,7 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     accuracy: Relative | None = key(None, doc="largest allowed relative error")
 
     def check(self) -> None:
-        """Refuse an impossible top or initial motion."""
+        """Refuse a top whose moments or initial motion are impossible."""
         HeavyTop(**{name: getattr(self, name) for name in _OF_THE_TOP})
 
 
@@ -104,7 +104,7 @@ def numbers(
     phi: float,
     psi: float,
 ) -> SideBySide:
-    """Broadcast the moments and initial values of one or more tops to one shape."""
+    """Broadcast the moments and initial values of one or more tops to arrays of one shape."""
     return SideBySide.of(
         transverse_moment=transverse_moment,
         axial_moment=axial_moment,
@@ -126,7 +126,7 @@ def heavy_top_start(numbers: SideBySide) -> HeavyTop:
 
 @part
 def motion(heavy_top_start: HeavyTop, instants: FloatArray) -> HeavyTopMotion:
-    """Compute Euler angles, pattern and turning angles of the top, by elliptic functions."""
+    """Compute the Euler angles of the top, the shape of its path, and its turning angles."""
     from earthspin.top.motion import heavy_top_motion
 
     return heavy_top_motion(heavy_top_start, instants)
@@ -137,7 +137,7 @@ ERROR_POINTS = 64
 
 
 class Motion(FromStart, error="relative_error"):
-    """Euler angles, attitude, angular velocity and pattern of a top in time."""
+    """Motion of a top in time: Euler angles, attitude, angular velocity and shape of the path."""
 
     theta: Value = number("rad", "angle from the vertical to the axis")
     phi: Value = number("rad", "azimuth of the axis about the vertical")
@@ -169,7 +169,7 @@ class Motion(FromStart, error="relative_error"):
 def euler_angles(
     motion: HeavyTopMotion, heavy_top_start: HeavyTop, numbers: SideBySide, instants: FloatArray
 ) -> Motion:
-    """Return Euler angles, attitude, angular velocity and pattern of the top in time."""
+    """Return the motion of the top in time: Euler angles, attitude and angular velocity."""
     from earthspin.top.rounding import error_bound
 
     lay = numbers.lay
@@ -194,7 +194,7 @@ class Turning(
     along=("turning",),
     no_error="same closed form as the motion, so its relative_error holds",
 ):
-    """Turning angles of the nutation: smallest and largest theta of a top."""
+    """Smallest and largest inclination theta of the top's axis, where its nutation turns back."""
 
     turning_angle: Value = number("rad", "smallest and largest theta")
     turning: Labels = labels(default=["upper", "lower"])
@@ -202,7 +202,7 @@ class Turning(
 
 @part
 def turning(motion: HeavyTopMotion) -> Turning:
-    """Return the turning angles of the nutation: smallest and largest theta of the top."""
+    """Return the smallest and largest inclination theta between which the top's axis nutates."""
     return Turning(turning_angle=motion.turning_angle)
 
 
@@ -211,7 +211,7 @@ class Potential(
     along=("inclination",),
     no_error="two terms of one formula, with rounding errors only",
 ):
-    """Effective potential of a heavy top as a function of the inclination of its axis."""
+    """Effective potential of a heavy top, as a function of the inclination of its axis."""
 
     effective_potential: Value = number(
         "rad2 / s2", "effective potential V, where alpha = theta'^2 + V is constant"
@@ -232,14 +232,14 @@ def potential(heavy_top_start: HeavyTop) -> Potential:
 
 
 class TopAccuracy(Report, units="1", error_of="relative, of angles, angular velocity and attitude"):
-    """Requested and estimated error of the top's motion, and the method of computation."""
+    """Estimated error of the top's motion, the accuracy that was requested, and the method."""
 
 
 @part(unless=no_accuracy)
 def top_accuracy(
     heavy_top_start: HeavyTop, instants: FloatArray, accuracy: float | None
 ) -> TopAccuracy:
-    """Requested and estimated error of the top's motion, and the method of computation."""
+    """Estimated error of the top's motion, the accuracy that was requested, and the method."""
     from earthspin.top.rounding import error_bound
 
     bound = float(error_bound(heavy_top_start, instants))
@@ -248,7 +248,7 @@ def top_accuracy(
 
 @part
 def neglected() -> Neglected:
-    """Report that the model of a rigid top without friction neglects nothing."""
+    """Report that no effect is neglected, as the question is about a rigid top without friction."""
     return Neglected(what="nothing: the question is about a rigid top without friction")
 
 

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 
 class Torque(Series, word="torque", call="torque_series", positional=("start", "stop", "step")):
-    """Declination, distance and torque of each perturber in time (I.8.7).
+    """Declination, distance and torque of each perturber in time (source text, I.8.7).
 
     Returns
     -------
@@ -186,7 +186,7 @@ def torques(
 def _equator_words(
     equator: str, nutation: Nutation | None, chosen: Choice[NutationNodes | None] | None
 ) -> str:
-    """Description of the equator model in words, for the attributes of the answer."""
+    """Describe the model of the equator in words, for the attributes of the result."""
     if nutation is not None:
         return f"IAU {nutation.model} nutation, a node each {nutation.spacing:g} d"
     if chosen is not None:
@@ -195,18 +195,21 @@ def _equator_words(
 
 
 class DirectionAccuracy(Report, units="mas", error_of="in direction"):
-    """Requested and estimated error of the directions, and the method of computation."""
+    """Estimated error of the directions, the accuracy that was requested, and the method used."""
 
 
 @part(unless=no_accuracy)
 def series_accuracy(torques: xr.Dataset, accuracy: float | None) -> DirectionAccuracy:
-    """Requested and estimated error of the directions, and the method of computation."""
+    """Estimated error of the directions, the accuracy that was requested, and the method used."""
     return DirectionAccuracy.of_series(accuracy, torques.direction_error)
 
 
 @part
 def neglected(torques: xr.Dataset, body: Body, perturbers: tuple[Body, ...]) -> Neglected:
-    """Largest torques on J3, J4 and the triaxiality, at the smallest distance of each perturber."""
+    """Largest neglected torques, which act on J3, J4 and the triaxiality of the body.
+
+    They are computed at the smallest distance of each perturber.
+    """
     if body.labelled:
         return Neglected(what="effects whose sizes are given for one body at a time")
     nearest = torques.distance.min("time")

@@ -1,4 +1,4 @@
-"""The wobble ladder: free wobble period of rigid and non-rigid models, and its sensitivity.
+"""Free wobble period from a ladder of models, from rigid to deformable, and its sensitivity.
 
 A rung is a model that adds one effect to the model before.
 """
@@ -56,7 +56,7 @@ _INTERIOR = {
 
 
 class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
-    """Period of the free wobble for a ladder of models, from rigid to deformable (I.6).
+    """Period of the free wobble, by models from rigid to deformable (source text, I.6).
 
     A ladder of models: each rung adds one effect to the rung before. The `interior` of the body
     determines the last rung.
@@ -121,7 +121,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
             raise self.error("ocean_love_number", self.ocean_love_number, "the body has no ocean")
 
     def published_inputs(self) -> Mapping[str, tuple[str, tuple[float, float]]]:
-        """Published distributions of the uncertain interior parameters, for an ensemble."""
+        """Published distributions of the interior parameters, from which ensembles draw."""
         if why_rigid(self.body) or self.body.labelled:
             return {}
         ranges: dict[str, tuple[str, tuple[float, float]]] = {}
@@ -138,7 +138,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
 
 
 def why_rigid(body: Body) -> str | None:
-    """Reason why the ladder has no non-rigid steps for this body; None if it has them."""
+    """If non-rigid models do not apply to the body, return the reason; otherwise return None."""
     interior = layered.interior_of(body)
     if interior is None:
         return f"{layered.no_interior(body)}; set body.interior"
@@ -152,7 +152,7 @@ def why_rigid(body: Body) -> str | None:
 
 @dataclass(frozen=True)
 class Inside:
-    """Inputs of the non-rigid steps of the wobble ladder, as arrays of one shape.
+    """Inputs of the non-rigid models of the free wobble, as arrays of one shape.
 
     Attributes
     ----------
@@ -174,18 +174,18 @@ class Inside:
 
     @property
     def setting(self) -> tuple[ladder.Spin, Interior, str]:
-        """Spin, interior and ocean, as arguments of the functions of the non-rigid steps."""
+        """Return spin, interior and ocean, the arguments that all non-rigid models take."""
         return self.spin, self.interior, self.ocean
 
     def label(self, value: Numeric) -> xr.DataArray:
-        """Convert an array over bodies to a DataArray with the dimension names of the inputs."""
+        """Convert an array over bodies to a DataArray, with the dimension names of the inputs."""
         import xarray as xr
 
         array = np.asarray(value)
         return xr.DataArray(array, dims=self.dims[len(self.dims) - array.ndim :])
 
     def stack(self, values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
-        """Stack several arrays over bodies along a new dimension, labelled by their names."""
+        """Stack arrays over bodies along a new dimension, labelled by the names of the arrays."""
         return _along({name: self.label(value) for name, value in values.items()}, dim)
 
 
@@ -199,7 +199,7 @@ def inside(
     core_ellipticity: Numeric | None = None,
     ocean_love_number: Numeric | None = None,
 ) -> Inside:
-    """Collect the inputs of the non-rigid steps from the body, its interior and the ocean."""
+    """Collect the inputs of the non-rigid wobble models: figure, interior and ocean of the body."""
     import xarray as xr
 
     interior = layered.interior_of(body)
@@ -232,7 +232,7 @@ class Rungs(
     no_error="its relative error is that of period_solar; the quality factor follows from "
     "published ones",
 ):
-    """Period of the free wobble, step by step."""
+    """Period of the free wobble from each model of the ladder, from rigid to deformable."""
 
     period_solar: Pair = measured("d", "period of the free wobble in days of 86400 s")
     period_sidereal: Value = number(
@@ -253,7 +253,7 @@ class Rungs(
 
 @part
 def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
-    """Period of the free wobble for each step of the ladder, from rigid to deformable."""
+    """Compute the free wobble period for each model of the ladder, from rigid to deformable."""
     import xarray as xr
 
     h, j2 = body.needed("dynamical_flattening"), body.needed("j2")
@@ -311,7 +311,7 @@ def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric
 
 
 def _along(values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
-    """Stack the arrays of a mapping along a new dimension, labelled by their names."""
+    """Stack the arrays of a mapping along a new dimension, labelled by the keys of the mapping."""
     import xarray as xr
 
     return xr.concat(
@@ -358,7 +358,7 @@ def interior_response(body: Body) -> InteriorNumbers:
 
 
 class Sensitivity(Variables, along=("input",), no_error="a share of an error, or an input of it"):
-    """Change of the ladder's last period with each input, and the half-width of that input."""
+    """Derivative of the last model's wobble period by each input, and that input's half-width."""
 
     days_per_unit: Value = number("d", "change of the last rung per unit of the input")
     input_value: Value = number("1", "value of the input")
@@ -370,7 +370,7 @@ class Sensitivity(Variables, along=("input",), no_error="a share of an error, or
 
 @part
 def sensitivity(inside: Inside) -> Sensitivity:
-    """Derivative of the last step's period with respect to each input, in days per unit."""
+    """Derivative of the last model's wobble period with respect to each input, days per unit."""
     slopes = propagation.sensitivities(inside.inputs, *inside.setting)
     anelastic = "anelastic" in ladder.climb(inside.inputs, *inside.setting).turns
     half_widths = propagation.half_widths(inside.inputs, inside.uncertainty, anelastic)
@@ -388,7 +388,7 @@ class CoreNutation(
     along=("core_shape",),
     no_error="the uncertainty of the core was not propagated to it",
 ):
-    """Free core nutation, for different shapes of the core."""
+    """Period of the free core nutation, for different shapes of the core."""
 
     free_core_nutation: Value = number("d", "period of the free core nutation in space")
     free_core_nutation_sidereal: Value = number(
@@ -398,7 +398,7 @@ class CoreNutation(
 
 @part
 def core_nutation(inside: Inside, body: Body) -> CoreNutation:
-    """Free core nutation of the mantle-core system, for different shapes of the core."""
+    """Compute the period of the free core nutation, for different shapes of the core."""
     shapes = {"hydrostatic": inside.inputs}
     attributes = {}
     observed = inside.interior.observed_core_ellipticity
@@ -418,7 +418,7 @@ def core_nutation(inside: Inside, body: Body) -> CoreNutation:
 
 
 def no_inner_core(body: Body) -> str | None:
-    """Return the reason to leave out the inner core, or None if the body has one."""
+    """If the inner core model cannot be used for the body, return the reason; otherwise None."""
     if layered.not_layered(body):
         return layered.not_layered(body)
     if body.labelled:
@@ -431,7 +431,7 @@ class InnerCore(
     along=("core_model",),
     no_error="the section interior has the numbers that it follows from, which have none",
 ):
-    """Free wobble, for different models of the inner core."""
+    """Period of the free wobble, for different models of the inner core."""
 
     chandler_by_core: Value = number(
         "d", "period of the free wobble of the elastic body without an ocean, by the inner core"
@@ -452,7 +452,7 @@ def inner_core(body: Body) -> InnerCore:
 
 @part
 def neglected(body: Body, inside: Inside | None = None) -> Neglected:
-    """Effects that the last step of the ladder neglects."""
+    """Effects on the free wobble that the last, most detailed model neglects."""
     if inside is None:
         return Neglected(what=f"all deformation: {why_rigid(body)}")
     left_out = inside.interior.neglected
