@@ -1,1 +1,1 @@
-"""Kernels, IAU models, observed Earth rotation, orbit tables, and lunar standstills."""
+"""Positions and orbits of bodies, directions of poles, IAU models, and observed Earth rotation."""

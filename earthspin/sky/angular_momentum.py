@@ -1,4 +1,4 @@
-"""Effective angular momentum functions of atmosphere, ocean and land water, from files.
+"""Read effective angular momentum functions of atmosphere, ocean and land water from files.
 
 The layout is the common one: year, month, day, hour, MJD, then chi1, chi2, chi3 of the mass term
 and, if there is one, of the motion term, as pure numbers (Dobslaw & Dill 2018, GFZ, user's guide).
@@ -34,7 +34,7 @@ SAME_TIME = 1e-6
 
 @dataclass(frozen=True)
 class AngularMomentum:
-    """Time series of effective angular momentum functions: mass and motion terms.
+    """Time series of the mass and motion terms of effective angular momentum functions.
 
     Attributes
     ----------
@@ -88,7 +88,7 @@ class AngularMomentum:
 
 @dataclass(frozen=True)
 class _Row:
-    """Date, mass term and motion term from one row of a file, with file and line number."""
+    """Date, mass term and motion term of one row in a file, with the file and line number."""
 
     file: Path
     line: int
@@ -143,7 +143,7 @@ def _between(series: AngularMomentum, first: float, last: float) -> AngularMomen
 def _files(
     paths: str | Path | Sequence[str | Path], components: Iterable[str] | None
 ) -> dict[str, list[Path]]:
-    """Sort the paths of the files by component, such as atmosphere, ocean or land water."""
+    """Group the paths of the files by component, such as atmosphere, ocean or land water."""
     folders = [paths] if isinstance(paths, (str, Path)) else list(paths)
     names = ", ".join(map(str, folders))
     files: dict[str, list[Path]] = {}
@@ -174,7 +174,7 @@ def _files(
 
 
 def _joined(files: list[Path]) -> AngularMomentum:
-    """Join the rows of all files of one component in order of time; equal rows are merged."""
+    """Join the rows of all files of one component in order of time, without repeated rows."""
     rows = sorted((row for file in files for row in _rows(file)), key=lambda row: row.mjd)
     if len(rows) < 2:
         raise SeriesError(files[0], f"it holds {len(rows)} rows of excitation")

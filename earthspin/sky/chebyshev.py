@@ -1,4 +1,4 @@
-"""Evaluation of Chebyshev series: positions from the records of a kernel.
+"""Evaluate the Chebyshev series that store positions in an ephemeris kernel.
 
 A segment of a kernel is a table of records of equal length in time, each with a series for x, y and
 z. Two memory layouts give identical bits, because the operations for each time are the same:
@@ -38,7 +38,7 @@ _UNEVEN = 1.5
 
 
 class Grid(NamedTuple):
-    """Time grid of the records of a kernel segment, which have equal lengths.
+    """Time intervals of equal length, one for each record of a kernel segment.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class Grid(NamedTuple):
     records: int
 
     def places(self, days: FloatArray) -> tuple[IntArray, FloatArray]:
-        """Index of the record that contains each time, and the position within it, from -1 to 1."""
+        """For each time, return the index of its record, and its place there, from -1 to 1."""
         seconds = days * DAY
         record = ((seconds - self.start) / self.length).astype(np.int64)
         np.clip(record, 0, self.records - 1, out=record)
@@ -64,7 +64,7 @@ class Grid(NamedTuple):
 
 
 class Table(NamedTuple):
-    """Chebyshev coefficients of the positions in a kernel segment, with the times of its records.
+    """Chebyshev coefficients of all records in a kernel segment, and the times of the records.
 
     Attributes
     ----------
@@ -80,11 +80,11 @@ class Table(NamedTuple):
 
     @property
     def grid(self) -> Grid:
-        """Time grid of the records of the segment."""
+        """Time intervals of the records of the segment."""
         return Grid(self.start, self.length, len(self.series))
 
     def positions(self, days: FloatArray) -> FloatArray:
-        """Evaluate the Chebyshev series of the positions at given times.
+        """Evaluate the Chebyshev series of the body's positions at given times.
 
         Parameters
         ----------
@@ -103,7 +103,7 @@ class Table(NamedTuple):
         return sums
 
     def at(self, epochs: Epochs) -> FloatArray:
-        """Evaluate the positions at given times, in the unit of the coefficients, shape (3, n).
+        """Evaluate positions at given times, in the unit of the coefficients, shape (3, n).
 
         Tables with equal time grids can share the `Epochs`, which holds the arranged times.
         """
@@ -111,7 +111,7 @@ class Table(NamedTuple):
 
 
 class Epochs:
-    """Times at which one or more tables of Chebyshev coefficients are evaluated.
+    """Times at which Chebyshev series are evaluated, with their arrangement for each segment.
 
     The arrangement of the times on each time grid is computed once.
 
@@ -126,14 +126,14 @@ class Epochs:
         self._layouts: dict[Grid, _InOrder | _InAnyOrder] = {}
 
     def on(self, grid: Grid) -> _InOrder | _InAnyOrder:
-        """Return the times arranged for evaluation of a table whose records lie on a time grid."""
+        """Arrange the times for the evaluation of Chebyshev series with given record intervals."""
         if grid not in self._layouts:
             self._layouts[grid] = _laid_out(*grid.places(self.days))
         return self._layouts[grid]
 
 
 def _laid_out(record: IntArray, place: FloatArray) -> _InOrder | _InAnyOrder:
-    """Arrange times to evaluate Chebyshev series: in a matrix if they fill the records evenly.
+    """Arrange times for the evaluation of Chebyshev series, as a matrix if possible.
 
     Otherwise each time is evaluated by itself. A matrix also requires sorted times.
     """
@@ -147,7 +147,9 @@ def _laid_out(record: IntArray, place: FloatArray) -> _InOrder | _InAnyOrder:
 
 
 class _InOrder(NamedTuple):
-    """Sorted times arranged in a matrix, so that all times in a row or column share coefficients.
+    """Times in ascending order, arranged as a matrix for the evaluation of Chebyshev series.
+
+    All times in one row, or in one column, use the same coefficients.
 
     If there are many times per record, the rows are records. Otherwise the rows are the first times
     of all records, the second times, and so on, because numpy is fast on long rows.
@@ -171,7 +173,7 @@ class _InOrder(NamedTuple):
 
     @classmethod
     def of(cls, record: IntArray, counts: IntArray, place: FloatArray) -> _InOrder:
-        """Arrange sorted times in a matrix, from each time's record and the count per record."""
+        """Arrange times in ascending order as a matrix, given the kernel record of each time."""
         low, longest = int(record[0]), int(counts.max())
         starts = np.cumsum(counts) - counts
         within = np.arange(place.size) - starts[record - low]
@@ -184,19 +186,19 @@ class _InOrder(NamedTuple):
         return cls(slice(low, low + counts.size), rows, own, side)
 
     def sums(self, series: FloatArray) -> FloatArray:
-        """Evaluate the Chebyshev series at the arranged times, shape (3, n)."""
+        """Evaluate the Chebyshev series at the times of the matrix, shape (3, n)."""
         coefficients = np.expand_dims(_coefficients(series[self.records]), self.side)
         return np.take(_clenshaw(coefficients, self.rows).reshape(3, -1), self.own, axis=1)
 
 
 class _InAnyOrder(NamedTuple):
-    """Times in any order, each with its own copy of the coefficients of its record."""
+    """Times in any order; the Chebyshev coefficients are looked up separately for each time."""
 
     record: IntArray
     place: FloatArray
 
     def sums(self, series: FloatArray) -> FloatArray:
-        """Evaluate the Chebyshev series at the times, shape (3, n)."""
+        """Evaluate the Chebyshev series at times in any order, shape (3, n)."""
         sums = np.empty((3, self.place.size))
         for first in range(0, self.place.size, _BLOCK_OF_ANY):
             some = slice(first, first + _BLOCK_OF_ANY)
@@ -206,7 +208,7 @@ class _InAnyOrder(NamedTuple):
 
 
 def _coefficients(series: FloatArray) -> FloatArray:
-    """Reorder Chebyshev coefficients from shape (n, 3 terms) to (terms, 3, n), contiguous."""
+    """Reorder Chebyshev coefficients from shape (n, 3 terms) to a contiguous (terms, 3, n)."""
     return np.ascontiguousarray(series.reshape(len(series), 3, -1).transpose(2, 1, 0))
 
 

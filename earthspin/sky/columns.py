@@ -1,4 +1,4 @@
-"""Rows and numbers of text tables, with errors that give the line."""
+"""Read rows of numbers from text tables, with error messages that name the line."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _SAME_DATE = 2e-3
 
 
 def lines_of(file: Path) -> list[str]:
-    """Read all lines of a file.
+    """Read the lines of a text file.
 
     Raises
     ------
@@ -49,12 +49,12 @@ def is_table(head: bytes) -> bool:
 
 
 def checksum(file: Path) -> str:
-    """SHA-256 of an input file, stored in answers to identify it."""
+    """SHA-256 hash of an input file, stored in results to identify the file."""
     return hashlib.sha256(file.read_bytes()).hexdigest()
 
 
 def is_number(word: str) -> bool:
-    """Return True if a word is a number."""
+    """Return True if a word of text can be read as a number."""
     try:
         float(word)
     except ValueError:
@@ -63,7 +63,7 @@ def is_number(word: str) -> bool:
 
 
 def rows_of(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
-    """Yield line number and words of each line that begins with a number; lines count from 1."""
+    """For each line that begins with a number, yield its line number (from 1) and its words."""
     for number, line in enumerate(lines, start=1):
         words = line.split()
         if words and is_number(words[0]):
@@ -71,7 +71,7 @@ def rows_of(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
 
 
 def text_between(lines: list[str], is_row: Callable[[str], bool]) -> list[int]:
-    """Line numbers of text that stands below the first row; comments and blank lines do not count.
+    """Line numbers of text lines below the first row of a table, except comments and blank lines.
 
     Parameters
     ----------
@@ -89,13 +89,13 @@ def text_between(lines: list[str], is_row: Callable[[str], bool]) -> list[int]:
 
 
 def starts_with_number(line: str) -> bool:
-    """Return True if the first word of a line is a number; commas also separate words."""
+    """Return True if the first word of a line is a number; words end at spaces or commas."""
     words = re.split(r"[\s,;]", line.strip(" \t,;"), maxsplit=1)
     return is_number(FORTRAN.sub("e", words[0]))
 
 
 def refuse_text_between(file: Path, lines: list[str]) -> None:
-    """Refuse a file with lines of text below the first row of numbers.
+    """Refuse a file that contains lines of text below the first row of numbers.
 
     Raises
     ------
@@ -110,7 +110,7 @@ def refuse_text_between(file: Path, lines: list[str]) -> None:
 
 
 def numbers(file: Path, line: int, words: list[str]) -> list[float]:
-    """Convert the words of a line to numbers.
+    """Convert the words of a text line to numbers.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Positions from Keplerian elements, without a kernel.
+"""Positions of bodies from Keplerian orbital elements, without an ephemeris kernel.
 
 Orbits are ellipses whose node and pericentre precess at constant rates. The elements define the
 orbit, so the only errors are those of rounding.
@@ -37,7 +37,7 @@ _EPS = float(np.finfo(float).eps)
 
 @dataclass(frozen=True)
 class Plane:
-    """Reference plane from which inclination and longitudes of an orbit are counted.
+    """Reference plane for the inclination and node of an orbit, such as the ecliptic.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class Plane:
 
     @classmethod
     def of(cls, word: str, pole: Pole | None, orbit: Direction | None) -> Self:
-        """Create a reference plane from its name.
+        """Create the reference plane of an orbit from its name, such as "ecliptic".
 
         Parameters
         ----------
@@ -93,14 +93,14 @@ class Plane:
         return np.asarray(np.array(tilted) @ self.matrix)
 
     def mean_normal(self, i: float, node: float, node_period: float | None) -> Direction:
-        """Mean normal of an orbit: its normal, or the plane's pole if the node precesses."""
+        """Mean normal of an orbit: the pole of the reference plane if the node precesses."""
         x, y, z = self.normal(0.0 if node_period is not None else i, node)
         return Direction(math.atan2(y, x), math.atan2(z, math.hypot(x, y)))
 
 
 @dataclass(frozen=True)
 class Ellipse:
-    """Precessing ellipse: the orbit of one body about another, in SI units and radians.
+    """Orbit of one body about another: an ellipse whose node and pericentre may precess.
 
     Attributes
     ----------
@@ -127,12 +127,12 @@ class Ellipse:
 
     @property
     def normal(self) -> FloatArray:
-        """Unit normal of the ellipse at the epoch in the ICRF, shape (3,)."""
+        """Unit normal of the orbit at its epoch, in the ICRF, shape (3,)."""
         return self.plane.normal(self.i, self.node)
 
     @property
     def sidereal_motion(self) -> float:
-        """Rate of the mean longitude, rad/s."""
+        """Mean rate of the body's longitude on the orbit, rad/s."""
         return self.motion + self.node_rate + self.pericentre_rate
 
     def positions(self, days: FloatArray) -> FloatArray:
@@ -158,7 +158,7 @@ class Ellipse:
         return np.asarray(in_plane @ self.plane.matrix)
 
     def error(self, day: float) -> tuple[float, float]:
-        """Bounds on the rounding errors of direction (rad) and distance (m) on a day.
+        """Bounds on the errors of direction (rad) and distance (m) due to rounding, on a day.
 
         An error of the mean anomaly is amplified in direction by at most sqrt(1 + e)/(1 - e)^(3/2).
         """
@@ -170,7 +170,7 @@ class Ellipse:
         return angle, self.a * (1 + self.e) * angle
 
     def rounding(self, day: float) -> float:
-        """Relative error of the tidal tensor due to rounding of the mean longitude on a day.
+        """Relative error of the tidal tensor on a day, caused by rounding of the mean longitude.
 
         Half a unit in the last place of the mean longitude: measured, see docs/coverage.md.
         """
@@ -180,7 +180,7 @@ class Ellipse:
 
 @dataclass(frozen=True)
 class ByElements:
-    """Trajectory of a body as a sum of positions on Keplerian ellipses.
+    """Trajectory of a body whose position is a sum of positions on Keplerian ellipses.
 
     Attributes
     ----------
@@ -196,7 +196,7 @@ class ByElements:
 
     @property
     def coverage(self) -> tuple[float, float]:
-        """First and last day with positions: minus and plus infinity."""
+        """First and last day with positions: minus and plus infinity, as orbits have no end."""
         return -math.inf, math.inf
 
     def positions(self, days: FloatArray) -> FloatArray:
@@ -208,12 +208,12 @@ class ByElements:
         return total
 
     def error(self, day: float) -> tuple[float, float]:
-        """Sum over the ellipses of rounding errors of direction (rad) and distance (m) on a day."""
+        """Errors of direction (rad) and distance (m) due to rounding, summed over the ellipses."""
         angles, distances = zip(*(ellipse.error(day) for ellipse, _ in self.ellipses), strict=True)
         return sum(angles), sum(distances)
 
     def rounding(self, day: float) -> float:
-        """Sum over the ellipses of the relative rounding error of the tidal tensor on a day."""
+        """Relative error of the tidal tensor due to rounding, summed over the ellipses."""
         return sum(ellipse.rounding(day) for ellipse, _ in self.ellipses)
 
     def __str__(self) -> str:
@@ -223,17 +223,17 @@ class ByElements:
 
 
 class Elements:
-    """Source of positions that follow from orbital elements of all bodies, without a kernel."""
+    """Source of positions for which all bodies have orbital elements; it needs no kernel."""
 
     name = BY_ELEMENTS
 
     @property
     def provenance(self) -> dict[str, str]:
-        """Note for the attributes of an answer that positions follow from orbital elements."""
+        """Note for the attributes of a result: positions follow from orbital elements."""
         return {"positions": "by the elements of orbits, without a kernel"}
 
     def code(self, codes: Iterable[int], name: str) -> int:
-        """Raise an error for a body without orbital elements, as this source has no NAIF codes.
+        """Raise an error: the named body has no orbital elements, which this source needs.
 
         Raises
         ------
@@ -242,7 +242,7 @@ class Elements:
         raise SceneError("perturbers", name, "it has no orbit by elements; give it one")
 
     def coverage(self, places: Iterable[Place]) -> tuple[float, float]:
-        """First and last day with positions: minus and plus infinity."""
+        """First and last day with positions: minus and plus infinity, as orbits have no end."""
         return -math.inf, math.inf
 
     def check_times(self, days: FloatArray, places: Iterable[Place]) -> None:
@@ -265,7 +265,7 @@ class Elements:
         return _trajectory(target).error(day)
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
-        """Relative error of a spin axis's motion due to rounding of a perturber's position.
+        """Relative error of the spin axis motion due to rounding of a perturber's position.
 
         It is a fraction of the angle by which the axis moves.
         """
@@ -274,7 +274,7 @@ class Elements:
 
 
 def _trajectory(place: Place) -> ByElements:
-    """Return the trajectory of a body; refuse a body without elements."""
+    """Return the trajectory of a body; refuse a body that has no orbital elements."""
     if not isinstance(place, ByElements):
         raise SceneError("perturbers", place, "it has no orbit by elements; give it one")
     return place

@@ -49,7 +49,7 @@ _ERRORS = ("x_error", "y_error")
 
 @dataclass(frozen=True)
 class _Coordinates:
-    """Layout and limits of one pair of pole coordinates in the tables of the IERS.
+    """Columns, unit and limits of polar motion or of celestial pole offsets in the IERS tables.
 
     The pair is polar motion or celestial pole offsets.
 
@@ -114,7 +114,7 @@ _POLE_OFFSETS = _Coordinates(
 
 @dataclass(frozen=True)
 class PoleSeries:
-    """Series of observed polar motion or of observed celestial pole offsets.
+    """Time series of observed polar motion, or of observed celestial pole offsets.
 
     Attributes
     ----------
@@ -144,7 +144,7 @@ class PoleSeries:
 
     @property
     def provenance(self) -> dict[str, str]:
-        """SHA-256 of the file of the series, for the attributes of an answer."""
+        """SHA-256 hash of the file of the series, for the attributes of a result."""
         return {"table_sha256": self.sha256}
 
     @property
@@ -158,7 +158,7 @@ class PoleSeries:
         return np.asarray(self.x + 1j * self.y)
 
     def between(self, first: float, last: float) -> PoleSeries:
-        """Part of the series from one date to another, both included.
+        """Select the part of the series from one date to another, both dates included.
 
         Raises
         ------
@@ -177,7 +177,7 @@ class PoleSeries:
 
 @dataclass(frozen=True)
 class _Row:
-    """Date, coordinates x and y, and their errors from one row of a file, arcsec."""
+    """Date, two pole coordinates and their errors from one row of a file, arcsec."""
 
     line: int
     mjd: float
@@ -185,14 +185,14 @@ class _Row:
 
 
 def c04_path() -> Path:
-    """Path of the C04 file included in astropy."""
+    """Path of the C04 file (IERS Earth orientation series) that is included in astropy."""
     from astropy_iers_data import IERS_B_FILE
 
     return Path(IERS_B_FILE)
 
 
 def finals_path() -> Path:
-    """Path of the finals2000A file included in astropy."""
+    """Path of the finals2000A file (IERS rapid series) that is included in astropy."""
     from astropy_iers_data import IERS_A_FILE
 
     return Path(IERS_A_FILE)
@@ -203,12 +203,12 @@ CARRIED = {"c04": c04_path, "finals": finals_path}
 
 
 def file_of(path: str | Path) -> Path:
-    """Return the path of a file, or that of the file in astropy if its short name is given."""
+    """Return the path of a file; a short name such as "c04" gives the file included in astropy."""
     return CARRIED[str(path)]() if str(path) in CARRIED else Path(path)
 
 
 def read_polar_motion(path: str | Path = "c04", kind: str | None = None) -> PoleSeries:
-    """Read polar motion from a file.
+    """Read a time series of observed polar motion from a file.
 
     Parameters
     ----------
@@ -226,7 +226,7 @@ def read_polar_motion(path: str | Path = "c04", kind: str | None = None) -> Pole
 
 
 def read_pole_offsets(path: str | Path = "c04", kind: str | None = None) -> PoleSeries:
-    """Read observed celestial pole offsets dX, dY, as `x` and `y` of the series.
+    """Read a time series of observed celestial pole offsets dX, dY from a file.
 
     Rows that finals2000A flags as predicted in column 96, and the zeros with which C04 and C01
     begin, before there were observations, are left out.
@@ -245,7 +245,7 @@ def read_pole_offsets(path: str | Path = "c04", kind: str | None = None) -> Pole
 
 
 def _read(path: str | Path, kind: str | None, pair: _Coordinates) -> PoleSeries:
-    """Read a pair of coordinates from a file; an unchanged file is parsed only once."""
+    """Read polar motion or celestial pole offsets from a file; unchanged files are read once."""
     file = file_of(path)
     lines_of(file)  # refuses what cannot be read
     return _parsed(file, checksum(file), kind, pair.name)
@@ -253,7 +253,7 @@ def _read(path: str | Path, kind: str | None, pair: _Coordinates) -> PoleSeries:
 
 @lru_cache(maxsize=8)
 def _parsed(file: Path, sha256: str, kind: str | None, name: str) -> PoleSeries:
-    """Parse a file into a series; repair small defects and refuse large ones."""
+    """Convert the text of a file to a pole series; repair small defects and refuse large ones."""
     pair = _POLE_OFFSETS if name == _POLE_OFFSETS.name else _POLAR_MOTION
     lines = lines_of(file)
     kind = kind or _kind(file, lines)
@@ -280,7 +280,7 @@ def _parsed(file: Path, sha256: str, kind: str | None, name: str) -> PoleSeries:
 
 
 def _c04(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
-    """Yield the rows of a C04 table, with the hour in its dates (20 C04) or without (older)."""
+    """Yield the rows of a C04 table, in the layout of 20 C04 or of older series."""
     columns = 0
     layouts = {count: layout for count, layout in pair.columns.items() if count != _C01_COLUMNS}
     for number, words in rows_of(lines):
@@ -301,7 +301,7 @@ def _c04(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
 
 
 def _c01(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
-    """Yield the rows of a C01 table, with dates as MJD (present) or Besselian years (former).
+    """Yield the rows of a C01 table, dated by MJD (new layout) or Besselian year (old layout).
 
     By date: MJD, x, y, UT1-TAI, dX, dY, then their errors and 18 more columns. By year: decimal
     year, x, its error, y, its error.
@@ -331,7 +331,7 @@ def _c01(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
 
 
 def read_bulletin_a(path: str | Path = "finals") -> PoleSeries | None:
-    """Read the pole predicted by Bulletin A, from the rows after the observed ones of finals2000A.
+    """Read the polar motion predicted by Bulletin A, from the last rows of a finals2000A table.
 
     Parameters
     ----------
@@ -356,7 +356,7 @@ def read_bulletin_a(path: str | Path = "finals") -> PoleSeries | None:
 
 
 def _finals(file: Path, lines: list[str], pair: _Coordinates, flag: str = "I") -> Iterator[_Row]:
-    """Yield the observed rows ("I") or the predicted rows ("P") of a finals2000A table."""
+    """Yield the rows of a finals2000A table that are observed ("I") or predicted ("P")."""
     for number, line in enumerate(lines, start=1):
         if not line.strip() or line[pair.flag : pair.flag + 1] != flag:
             continue
@@ -380,7 +380,7 @@ _READERS: dict[str, Callable[[Path, list[str], _Coordinates], Iterator[_Row]]] =
 
 
 def _is_row_of_finals(line: str) -> bool:
-    """Return True if a line of finals2000A is a row: flagged "I" or "P", or only a date."""
+    """Return True if a line of finals2000A is a data row: with flag "I" or "P", or only a date."""
     return line[16:17] in ("I", "P") or (is_number(line[7:15]) and not line[15:].strip())
 
 
@@ -393,7 +393,7 @@ _IS_ROW: dict[str, Callable[[str], bool]] = {
 
 
 def _kind(file: Path, lines: list[str]) -> str:
-    """Detect the kind of IERS table from the first line that starts with a number."""
+    """Detect the kind of IERS table (C01, C04 or finals2000A) from its first row of numbers."""
     for line in lines:
         words = line.split()
         if not words or not is_number(words[0]):
@@ -414,7 +414,7 @@ def _kind(file: Path, lines: list[str]) -> str:
 
 
 def _drop_missing(file: Path, rows: list[_Row], text: list[int], repairs: list[str]) -> list[_Row]:
-    """Remove rows without a position, and note their number as a repair.
+    """Remove rows without pole coordinates, and add a note of their number to the repairs.
 
     Lines of text between rows count as such rows.
     """
@@ -436,7 +436,7 @@ def _check_dates(file: Path, rows: list[_Row]) -> None:
 
 
 def _drop_zeros(rows: list[_Row], repairs: list[str]) -> list[_Row]:
-    """Remove the rows of zeros before the first observation."""
+    """Remove the rows of zeros that a table holds before its first observation."""
     first = next((i for i, row in enumerate(rows) if any(row.values[:2])), len(rows))
     if first:
         repairs.append(f"{first} rows of zeros at the start, before observations, left out")
@@ -463,7 +463,7 @@ def _check_size(file: Path, rows: list[_Row], pair: _Coordinates) -> None:
 
 
 def _check_jumps(file: Path, rows: list[_Row], pair: _Coordinates) -> None:
-    """Refuse a step larger than the motion of the pole and the stated errors allow."""
+    """Refuse a jump of the pole that is too large for its usual motion and the stated errors."""
     for last, row in pairwise(rows):
         x, y = (abs(a - b) for a, b in zip(row.values[:2], last.values[:2], strict=True))
         days = row.mjd - last.mjd
@@ -475,7 +475,7 @@ def _check_jumps(file: Path, rows: list[_Row], pair: _Coordinates) -> None:
 
 
 def _in_order(file: Path, rows: list[_Row], repairs: list[str]) -> list[_Row]:
-    """Sort rows by date; merge equal rows of one date and refuse contradictory ones."""
+    """Sort rows by date; merge equal rows of one date, and refuse different rows of one date."""
     ordered = sorted(rows, key=lambda row: row.mjd)
     if ordered != rows:
         repairs.append("rows sorted by date")
@@ -494,7 +494,7 @@ def _in_order(file: Path, rows: list[_Row], repairs: list[str]) -> list[_Row]:
 
 
 def _even(file: Path, rows: list[_Row], kind: str, repairs: list[str]) -> PoleSeries:
-    """Interpolate the rows to an even step, the median step; refuse long gaps."""
+    """Interpolate the rows to an even time step, the median of the steps; refuse long gaps."""
     mjd = np.array([row.mjd for row in rows])
     values = np.array([row.values for row in rows]) * ARCSEC
     steps = np.diff(mjd)
@@ -523,5 +523,5 @@ def _even(file: Path, rows: list[_Row], kind: str, repairs: list[str]) -> PoleSe
 
 
 def day_of(mjd: float) -> str:
-    """Date of a modified Julian date, like ``"1962-01-01"``."""
+    """Calendar date, as text like ``"1962-01-01"``, of a modified Julian date."""
     return str(np.datetime64("1858-11-17") + np.timedelta64(int(mjd // 1), "D"))

@@ -1,4 +1,4 @@
-"""JPL kernels: positions of Sun, Moon and planets.
+"""Positions of Sun, Moon and planets from JPL ephemeris kernels.
 
 Positions are geometric, without light time and aberration, because gravity acts from the geometric
 position. They are in metres in the ICRF, read with jplephem. Ranges are checked here, because
@@ -55,7 +55,7 @@ Step: TypeAlias = "tuple[int, int] | Trajectory"
 
 
 class Ephemeris:
-    """An open kernel, read with jplephem: the default source of positions, and the fastest.
+    """Open ephemeris kernel that is read with jplephem, the default source of positions.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ class Ephemeris:
             self._check_bodies()
 
     def _check_bodies(self) -> None:
-        """Check that Sun, Moon and planets have plausible positions over their common coverage."""
+        """Check that Sun, Moon and planets have plausible positions on the dates they all cover."""
         bodies = {10, 301, *ORBITS, *(100 * planet + 99 for planet in ORBITS)} & self.targets
         reached = {code for code in bodies if self._reaches_root(code)}
         if not reached:
@@ -125,7 +125,7 @@ class Ephemeris:
 
     @property
     def provenance(self) -> dict[str, str]:
-        """Name, hash and reader of the kernel, for the attributes of an answer."""
+        """Name and hash of the kernel, and the library that reads it, for result attributes."""
         return {
             "ephemeris": self.name,
             "ephemeris_sha256": self.sha256,
@@ -139,7 +139,7 @@ class Ephemeris:
         return {target for _, target in self._segments} | {0}
 
     def code(self, codes: Iterable[int], name: str) -> int:
-        """First of a body's possible NAIF codes that is in the kernel.
+        """Return the first of a body's possible NAIF codes that the kernel contains.
 
         Raises
         ------
@@ -177,7 +177,7 @@ class Ephemeris:
     def positions(
         self, targets: Mapping[str, Place], centre: Place, days: FloatArray
     ) -> dict[str, FloatArray]:
-        """Positions of several bodies relative to one body, at the same times.
+        """Compute the positions of several bodies relative to one body, at the same times.
 
         Parameters
         ----------
@@ -213,7 +213,7 @@ class Ephemeris:
     def _difference(
         self, target: Place, centre: Place, epochs: Epochs, steps: dict[Step, FloatArray]
     ) -> FloatArray:
-        """Position of the target minus that of the centre, m, shape (3, n).
+        """Position of a target relative to a centre, m, shape (3, n).
 
         Segments on the paths of both bodies cancel and are skipped.
         """
@@ -232,7 +232,7 @@ class Ephemeris:
         return total
 
     def _evaluate(self, step: Step, epochs: Epochs) -> FloatArray:
-        """Evaluate one kernel segment and count the evaluations; position in m, shape (3, n)."""
+        """Compute positions from one kernel segment, m, shape (3, n), and count the evaluations."""
         self.evaluations[step] += epochs.days.size
         return self._along(step, epochs)
 
@@ -248,7 +248,7 @@ class Ephemeris:
         return position
 
     def _path_to_root(self, place: Place) -> list[Step]:
-        """Segments from the solar-system barycentre to a body, the last segment first."""
+        """List the kernel segments from a body back to the solar-system barycentre."""
         path: list[Step] = []
         if not isinstance(place, int):
             path, place = [place], place.centre
@@ -263,7 +263,7 @@ class Ephemeris:
         return path
 
     def error(self, target: Place, centre: Place, day: float = 0.0) -> tuple[float, float]:
-        """Bounds on the error of a body's position in the kernel: direction (rad), distance (m).
+        """Bounds on the error of a body's direction (rad) and distance (m) in the kernel.
 
         Parameters
         ----------
@@ -280,7 +280,7 @@ class Ephemeris:
         return growth(day) * mas * MAS, growth(day) * metres
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
-        """Relative error of a spin axis's motion due to the position error of a perturber.
+        """Relative error of the spin axis motion due to the position error of a perturber.
 
         It is a fraction of the angle by which the axis moves.
 
@@ -295,7 +295,7 @@ class Ephemeris:
         return 2 * angle + 3 * metres / distance
 
     def check_times(self, days: FloatArray, places: Iterable[Place]) -> None:
-        """Refuse times at which some of the bodies have no position.
+        """Refuse times at which any of the given bodies has no position.
 
         Raises
         ------
@@ -314,7 +314,7 @@ class Ephemeris:
             )
 
     def check_records(self, days: FloatArray, places: Iterable[Place]) -> None:
-        """Refuse a kernel with damaged records among those that given bodies and times need.
+        """Refuse a kernel if records that are needed for the given bodies and times are damaged.
 
         For a named kernel, the published hash of the whole file is checked instead.
 
@@ -375,7 +375,7 @@ def open_ephemeris(kernel: str | os.PathLike[str] | Any) -> Ephemeris:
 
 
 def find_kernel(name: str) -> Path:
-    """Path of a named kernel.
+    """Return the path of a kernel, such as "de421", from its name.
 
     Raises
     ------
@@ -440,7 +440,7 @@ def _open_spk(path: Path) -> Any:
 
 
 def _date(days: float) -> str:
-    """Calendar date, as text, of a time in days from J2000.0 TDB, for messages."""
+    """Calendar date, as text for messages, of a time in days from J2000.0 TDB."""
     if not np.isfinite(days):
         return str(days)
     micro = np.timedelta64(round(float(days) * 86_400_000_000), "us")
@@ -448,7 +448,7 @@ def _date(days: float) -> str:
 
 
 def describe_kernel(name: str) -> str:
-    """One-line description of a named kernel: coverage and path, or why it is unavailable."""
+    """Describe a named kernel in one line: its dates and path, or why it is not available."""
     try:
         ephemeris = open_ephemeris(name)
     except (MissingExtraError, KernelError) as error:

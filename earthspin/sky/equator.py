@@ -1,4 +1,4 @@
-"""Equator of date of any body: the frame in which declination is measured.
+"""Equator of date of any body, from which declinations are measured.
 
 The third axis is the spin axis, the first points to the body's equinox, where the Sun on its
 apparent orbit crosses the equator northward.

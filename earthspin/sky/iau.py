@@ -29,7 +29,7 @@ _MARGIN = 4  # nodes beyond each end, for accuracy at the ends
 
 
 class NutationModel(NamedTuple):
-    """An IAU nutation series: its ERFA function and its number of terms."""
+    """One of the IAU nutation series: its function in ERFA and its number of terms."""
 
     series: Callable[..., tuple[FloatArray, FloatArray]]
     terms: int
@@ -44,7 +44,7 @@ NUTATION_MODELS = {
 
 
 def mean_equator(days: FloatArray) -> FloatArray:
-    """Bias and precession matrix of IAU 2006.
+    """Bias-precession matrices of IAU 2006, from the GCRS to the mean equator of date.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def ecliptic_pole() -> FloatArray:
 
 @dataclass(frozen=True)
 class PrecessionRates:
-    """Rates of the precession angles psi_A, omega_A and chi_A of IAU 2006 at an epoch, rad/s.
+    """Rates of the IAU 2006 precession angles psi_A, omega_A and chi_A at an epoch, rad/s.
 
     Attributes
     ----------
@@ -152,7 +152,7 @@ def precession_angles(days: FloatArray) -> FloatArray:
 
 
 def moved_by_nutation(pole: FloatArray, eta: ComplexArray, days: FloatArray) -> FloatArray:
-    """Unit vectors of poles that are shifted by small nutation angles, shape (n, 3).
+    """Shift the unit vectors of poles by small nutation angles, and return them, shape (n, 3).
 
     Parameters
     ----------
@@ -169,7 +169,7 @@ def moved_by_nutation(pole: FloatArray, eta: ComplexArray, days: FloatArray) -> 
 
 
 def nutation_of(pole: FloatArray, days: FloatArray) -> FloatArray:
-    """Nutation in longitude and obliquity of a pole, relative to IAU 2006, rad, shape (n, 2).
+    """Nutation of a pole in longitude and obliquity, relative to IAU 2006, rad, shape (n, 2).
 
     Parameters
     ----------
@@ -214,7 +214,7 @@ def _spline(nodes: FloatArray, values: FloatArray) -> Callable[[FloatArray], Flo
 
 
 def at_days(angles: Callable[[FloatArray], FloatArray], days: FloatArray) -> FloatArray:
-    """Evaluate a function of time that returns nutation angles; interpolate if days are dense.
+    """Evaluate nutation angles at given days; interpolate them if the days are dense.
 
     Parameters
     ----------
@@ -231,7 +231,7 @@ def at_days(angles: Callable[[FloatArray], FloatArray], days: FloatArray) -> Flo
 
 
 def node_error(days: FloatArray) -> float:
-    """Half-width of the interpolation error of `at_days`, rad; zero without interpolation."""
+    """Half-width of the interpolation error of nutation angles at given days, rad; 0 if exact."""
     return NODE_ERROR if days.size > _nodes_of(days).size else 0.0
 
 
@@ -240,7 +240,7 @@ def _nodes_of(days: FloatArray) -> FloatArray:
 
 
 class Nutation:
-    """Interpolated nutation of IAU 2000A or 2000B, adapted to the precession of IAU 2006.
+    """Nutation of IAU 2000A or 2000B, interpolated in time, for use with IAU 2006 precession.
 
     `erfa.nut06a` takes about 30 us per epoch. A quintic spline with one node per day takes a few
     tenths of a microsecond, with an error of at most 8e-12 rad. Wider spacings, or the 77 terms of

@@ -1,4 +1,4 @@
-"""Tables of Earth orientation for astropy, with polar motion and pole offsets replaced."""
+"""Tables of Earth orientation for astropy, with the observed pole followed by a forecast."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FloatArray = NDArray[np.float64]
 
 
 class PoleTable(iers.IERS_A):  # type: ignore[misc]
-    """Table of Earth orientation for astropy that refuses dates which it does not cover.
+    """Table of Earth orientation for astropy; it refuses dates outside its range.
 
     In some transformations the tables of astropy only warn, and use the mean pole or zero.
     """
@@ -25,17 +25,17 @@ class PoleTable(iers.IERS_A):  # type: ignore[misc]
     iers_table = None
 
     def ut1_utc(self, jd1: Any, jd2: Any = 0.0, return_status: bool = False) -> Any:
-        """Return UT1 - UTC as astropy's method does; refuse dates outside the table."""
+        """Return UT1 - UTC as the method of astropy does, but refuse dates outside the table."""
         self._require(jd1, jd2)
         return super().ut1_utc(jd1, jd2, return_status)
 
     def dcip_xy(self, jd1: Any, jd2: Any = 0.0, return_status: bool = False) -> Any:
-        """Return dX and dY of the pole as astropy's method does; refuse dates outside the table."""
+        """Return dX and dY of the pole as astropy's method, but refuse dates outside the table."""
         self._require(jd1, jd2)
         return super().dcip_xy(jd1, jd2, return_status)
 
     def pm_xy(self, jd1: Any, jd2: Any = 0.0, return_status: bool = False) -> Any:
-        """Return the polar motion as astropy's method does; refuse dates outside the table."""
+        """Return the polar motion as astropy's method, but refuse dates outside the table."""
         self._require(jd1, jd2)
         return super().pm_xy(jd1, jd2, return_status)
 
@@ -51,14 +51,14 @@ class PoleTable(iers.IERS_A):  # type: ignore[misc]
 
 
 def last_ut1(finals: Path) -> float:
-    """Last modified Julian date for which a file has UT1 - UTC, observed or predicted."""
+    """Last modified Julian date for which a finals2000A file has UT1 - UTC."""
     return float(PoleTable.read(finals)["MJD"][-1].value)
 
 
 def with_pole(
     finals: Path, pole: FloatArray, offsets: FloatArray, observed: tuple[float, float]
 ) -> PoleTable:
-    """Build a table from finals2000A with other polar motion and celestial pole offsets.
+    """Build a table from finals2000A, with polar motion and celestial pole offsets replaced.
 
     Parameters
     ----------

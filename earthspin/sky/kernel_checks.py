@@ -1,4 +1,4 @@
-"""Integrity checks of kernel files: internal consistency, plausible positions, and hashes.
+"""Check kernel files for damage: file structure, continuity, and plausible positions.
 
 A kernel reader does not detect a shifted start, a repeated record or a wrong centre; the resulting
 positions look normal. But a kernel has redundant information, which is compared here:
@@ -60,7 +60,7 @@ _BLOCK = 1 << 12  # joints per block
 
 
 def check_summaries(daf: Any, path: Path) -> None:
-    """Check that the linked list of a kernel's summary records is finite and plausible.
+    """Check that the linked list of summary records in a kernel file ends and is plausible.
 
     Raises
     ------
@@ -103,7 +103,7 @@ def check_words(segments: Iterable[Any], size: int, path: Path) -> None:
 
 
 class Records:
-    """Consecutive records of a kernel segment, of equal length in time, with checks for damage.
+    """Records of one kernel segment, each for an equal time interval, with checks for damage.
 
     Parameters
     ----------
@@ -148,7 +148,7 @@ class Records:
         return KernelError(self.path, f"its segment {_name(self.segment)} {problem}", AGAIN)
 
     def _check_times(self, records: IntArray) -> None:
-        """Check that the start and length stored in each record match the segment's directory."""
+        """Check the start and length stored in each record against the directory of the segment."""
         expected = self.start + (records + 0.5) * self.length
         half = np.full_like(expected, self.length / 2)
         differences = self._midpoints[records].T - [expected, half]
@@ -158,12 +158,12 @@ class Records:
             raise self._damaged(f"has records of other times than its directory gives ({place})")
 
     def table(self) -> Table:
-        """Chebyshev coefficients of the segment's positions, km, with the times of the records."""
+        """Chebyshev coefficients (km) of all records of the segment, with the record times."""
         series = self._series.reshape(self.count, -1).astype(float, copy=False)
         return Table(series, self.start, self.length)
 
     def check(self, days: FloatArray) -> None:
-        """Check the records that contain given times, and their continuity with adjacent records.
+        """Check the records that contain given times, and their continuity with the records beside.
 
         Parameters
         ----------
@@ -190,7 +190,7 @@ class Records:
 
     @cached_property
     def _usual_gap(self) -> float:
-        """Median jump of position between adjacent records of a kernel segment, as a ratio.
+        """Median position jump from each record of a segment to the next, in relative units.
 
         Each jump is divided by the sum of the absolute terms of the Chebyshev series.
 
@@ -201,7 +201,7 @@ class Records:
         return float(np.median(gaps / sizes)) if sample.size >= _FEWEST else np.nan
 
     def _check_joints(self, joints: IntArray) -> None:
-        """Check that each given record ends where the next record begins."""
+        """Check that the position at the end of each given record agrees with the next record."""
         gaps, sizes, tails = self._gaps(joints)
         bound = _JOINT * sizes
         if not self._usual_gap <= _TIED:  # not continuous by construction
@@ -215,7 +215,7 @@ class Records:
             raise self._damaged(f"{problem} of {self.count}")
 
     def _gaps(self, joints: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Jumps of position between the end of a record and the start of the next, km, shape (n,).
+        """Position jumps from the end of each record to the start of the next, km, shape (n,).
 
         Returns also the sum of the absolute terms, which scales the rounding error, and the smaller
         of the last terms of both series, which scales the truncation error.
@@ -321,7 +321,7 @@ def check_bodies(
 def _distances(
     positions: Mapping[int, FloatArray],
 ) -> Iterator[tuple[str, FloatArray, int, float, float]]:
-    """Yield vectors between pairs of bodies, and the range that their length must have.
+    """Yield vectors between pairs of bodies, with the range that each distance must be in.
 
     Each item is a name, the vectors, the centre, and the smallest and largest length in m.
     """
@@ -342,7 +342,7 @@ def _distances(
 
 
 def _pulls(positions: Mapping[int, FloatArray]) -> Iterator[tuple[str, FloatArray, FloatArray]]:
-    """Yield bodies with positions and Newtonian accelerations (m s-2) by the other bodies."""
+    """For each body, yield its positions and its acceleration by the other bodies, m s-2."""
     if _SUN not in positions:
         return
     places = {code: vectors[:, 2] for code, vectors in positions.items()}

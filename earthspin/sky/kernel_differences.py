@@ -1,4 +1,4 @@
-"""Error bounds of kernels: the largest differences between DE421 and DE440, pair by pair.
+"""Error bounds of kernels: largest differences between DE421 and DE440, by pair of bodies.
 
 Measured by `python -m data_tools kernels` at steps of 1.7 d over the coverage of DE421, 1899 to
 2053. Outside that span nothing was measured, and the bound grows with the square of the time from
@@ -77,7 +77,7 @@ DIFFERENCES: dict[tuple[int, int], tuple[float, float]] = {
 
 
 def largest_difference(centre: int, target: int) -> tuple[float, float]:
-    """Largest difference between kernels in direction (mas) and distance (m) of a pair of bodies.
+    """Largest difference between two kernels for a pair of bodies: direction (mas), distance (m).
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def largest_difference(centre: int, target: int) -> tuple[float, float]:
 
 
 def growth(day: float) -> float:
-    """Factor by which differences between kernels grow outside the dates of their measurement.
+    """Factor by which kernel differences grow outside the dates for which they were measured.
 
     Parameters
     ----------
@@ -107,12 +107,12 @@ def growth(day: float) -> float:
 
 
 def drift_is_measured(centre: int, target: int) -> bool:
-    """Return True if the axis error `DRIFT` was measured for this pair of body and perturber."""
+    """Return True if the error `DRIFT` of the axis motion was measured for a body and perturber."""
     pair = sorted((_barycentre(centre), _barycentre(target)))
     return (pair[0], pair[1]) in DRIFT_MEASURED
 
 
 def _barycentre(code: int) -> int:
-    """NAIF code of the barycentre of a planet's system; Earth and Moon keep their own codes."""
+    """NAIF code of the planetary system's barycentre; the Earth and the Moon keep their codes."""
     planet = code // 100 if 100 < code < 1000 and code % 100 == 99 else code
     return code if planet == 3 else planet

@@ -1,4 +1,4 @@
-"""Spin axes that move by published IAU rates and periodic terms.
+"""Poles (spin axes) that move as published by the IAU: linear rates and periodic terms.
 
 The working group on cartographic coordinates writes right ascension and declination of a pole as
 
@@ -38,7 +38,7 @@ LONGEST_NUTATION = 100 * _CENTURY
 
 
 class Swing(NamedTuple):
-    """Periodic term of the right ascension or declination of a pole.
+    """Periodic term in the right ascension or declination of a moving pole.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ _SWINGS = ("right_ascension_swings", "declination_swings")
 
 @dataclass(frozen=True)
 class MovingPole:
-    """A pole that moves by rates and periodic terms.
+    """Pole (spin axis) that moves with constant rates and periodic terms.
 
     Attributes
     ----------
@@ -90,7 +90,7 @@ class MovingPole:
         alpha_terms: Sequence[tuple[float, float, float]] = (),
         delta_terms: Sequence[tuple[float, float, float]] = (),
     ) -> Self:
-        """Create a pole from published numbers in degrees and degrees per Julian century.
+        """Create a moving pole from published numbers in degrees and degrees per Julian century.
 
         Parameters
         ----------
@@ -119,7 +119,7 @@ class MovingPole:
         return f"moving; at J2000.0 {Direction(*self.at(0.0))}"
 
     def at(self, day: float) -> FixedPole:
-        """Direction of the pole on a day from J2000.0 TDB, periodic terms included."""
+        """Direction of the pole on a given day from J2000.0 TDB, with periodic terms."""
         time = day * DAY
         ra = self.right_ascension + self.right_ascension_rate * time
         dec = self.declination + self.declination_rate * time
@@ -132,14 +132,14 @@ class MovingPole:
         return self.at(0.0).orbit_normal(orbit)
 
     def is_upright(self, orbit: Direction | None) -> bool:
-        """Return True if the axis at J2000.0 is nearly normal to the orbit.
+        """Return True if the spin axis at J2000.0 is nearly normal to the orbit.
 
         Its longitude is then undefined.
         """
         return self.at(0.0).is_upright(orbit)
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
-        """Matrix from the GCRS to the plane of the orbit and the equinox of J2000.0."""
+        """Matrix from the GCRS to the orbital plane, with the equinox of J2000.0 as first axis."""
         return self.at(0.0).orbit_axes(orbit)
 
     def mean(self, days: FloatArray) -> FloatArray:
@@ -158,7 +158,7 @@ class MovingPole:
         return np.stack([level * np.cos(ra), level * np.sin(ra), np.sin(dec)], axis=-1)
 
     def without_nutation(self) -> Self:
-        """Pole without the periodic terms whose period is shorter than `LONGEST_NUTATION`."""
+        """Return the pole without its short-period terms, which count as nutation."""
 
         def slow(swings: tuple[Swing, ...]) -> tuple[Swing, ...]:
             return tuple(s for s in swings if abs(s.rate) * LONGEST_NUTATION < math.tau)
@@ -176,7 +176,7 @@ class MovingPole:
     def equator(
         self, orbit: Direction | None, days: FloatArray, nutation: Nutation | None = None
     ) -> FloatArray:
-        """Matrices to the equator of date and its equinox on the fixed orbit, shape (n, 3, 3)."""
+        """Matrices from the GCRS to the equator and equinox of date, shape (n, 3, 3)."""
         normal = self.orbit_normal(orbit)
         axes = self.mean(days)
         if self.is_upright(orbit):
@@ -189,7 +189,7 @@ class MovingPole:
 
     @classmethod
     def read(cls, table: Mapping[str, Any], where: Where) -> Self:
-        """Create a pole from a table that `write` returned.
+        """Create a moving pole from the table that `write` returned.
 
         Raises
         ------
@@ -215,7 +215,7 @@ class MovingPole:
         return cls(**fields)
 
     def write(self) -> dict[str, Any]:
-        """Form stored in scenes: the table from which `read` restores the pole."""
+        """Form stored in scene files: a table of the pole's angles, rates and periodic terms."""
         table: dict[str, Any] = {name: f"{getattr(self, name)!r} rad" for name in _NAMES}
         table |= {name: f"{getattr(self, name)!r} rad/s" for name in _RATES}
         return table | {
@@ -228,7 +228,7 @@ class MovingPole:
 
 
 def _swing(row: object, where: Where) -> Swing:
-    """Read one periodic term: size, phase and rate."""
+    """Read one periodic term of a moving pole: amplitude, phase and rate."""
     if not isinstance(row, (list, tuple)) or len(row) != 3:
         raise where.error(row, "give size, phase and rate of each term")
     units, examples = ("rad", "rad", "rad/s"), ("0.7 deg", "357.85 deg", "1e-11 rad/s")

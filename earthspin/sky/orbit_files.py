@@ -98,14 +98,17 @@ def _ecliptic() -> FloatArray:
 
 
 def _solar(pole: FloatArray) -> FloatArray:
-    """Frame of the Sun's equator, with the first axis at its ascending node on the ecliptic."""
+    """Axes of the Sun's equator; the first is towards the equator's ascending node.
+
+    The node is on the ecliptic.
+    """
     node = np.cross(_ecliptic()[2], pole)
     node /= np.linalg.norm(node)
     return np.stack([node, np.cross(pole, node), pole])
 
 
 def axes_of(frame: str) -> FloatArray:
-    """Axes of a reference frame in the GCRS, as rows.
+    """Axes of the named reference frame as unit vectors in the GCRS, one per row.
 
     Parameters
     ----------
@@ -132,7 +135,7 @@ def read_orbit(
     time: Literal["d", "yr", "kyr"] | None = None,
     angles: Literal["deg", "rad"] | None = None,
 ) -> OrbitTable:
-    """Read an orbit over millions of years for `long_term`.
+    """Read an orbit over millions of years from a file, for use in `long_term`.
 
     Parameters
     ----------
@@ -228,7 +231,7 @@ def _load(file: Path) -> OrbitTable:
 
 @dataclass(frozen=True)
 class _Rows:
-    """Columns of numbers from the user's file or data frame, in order of time.
+    """Columns of orbital elements from the user's file or data frame, in order of time.
 
     Attributes
     ----------
@@ -246,7 +249,7 @@ class _Rows:
 
     @classmethod
     def of_frame(cls, frame: pd.DataFrame) -> _Rows:
-        """Read the rows of a pandas data frame."""
+        """Read the columns of orbital elements from a pandas data frame."""
         chosen = _chosen([str(name) for name in frame.columns], _FRAME)
         columns = {}
         for name, place in chosen.items():
@@ -259,7 +262,7 @@ class _Rows:
 
     @classmethod
     def of_text(cls, file: Path) -> _Rows:
-        """Read the rows of a text file whose numbers are separated by spaces or commas.
+        """Read the columns of orbital elements from a text file; spaces or commas separate numbers.
 
         The last header line has the names of the columns, if any.
         """
@@ -297,7 +300,7 @@ class _Rows:
         return cls(file, {n: values[:, at] for n, at in chosen.items()}, np.array(lines))
 
     def error(self, problem: str, remedy: str = "", row: int | None = None) -> SeriesError:
-        """Build an error that names the file and the line of a row."""
+        """Build an error whose message names the file, and the line if a row is given."""
         if row is None:
             return SeriesError(self.source, problem, remedy)
         if self.lines is None:
@@ -305,7 +308,7 @@ class _Rows:
         return SeriesError(self.source, problem, remedy, int(self.lines[row]))
 
     def in_order(self) -> _Rows:
-        """Return the rows in ascending time; refuse missing, repeated, too few or unsorted rows."""
+        """Return the rows in order of time; refuse missing or repeated times and too few rows."""
         for name, column in self.columns.items():
             if not np.isfinite(column).all():
                 row = int(np.argmin(np.isfinite(column)))
@@ -333,7 +336,7 @@ class _Rows:
 
 
 def _chosen(names: Sequence[str], source: object) -> dict[str, int]:
-    """Find the columns that describe the orbit; return their indices by the names of `NAMES`."""
+    """Find the columns of orbital elements by their headers; return index by element name."""
     places = {}
     for name, words in NAMES.items():
         exact = [at for at, column in enumerate(names) if column in words]
@@ -398,7 +401,7 @@ def _seconds(rows: _Rows, unit: str) -> FloatArray:
 
 
 def _from_sines(rows: _Rows, angles: str | None) -> tuple[FloatArray, FloatArray]:
-    """Normal and eccentricity vector from the variables k, h, q, p, shape (n, 3) each."""
+    """Unit normals and eccentricity vectors from the variables k, h, q, p, shape (n, 3) each."""
     k, h, q, p = (rows.columns[name] for name in ("k", "h", "q", "p"))
     half = q * q + p * p  # squared sine of half the inclination
     if np.any(half >= 1):
@@ -414,7 +417,7 @@ def _from_sines(rows: _Rows, angles: str | None) -> tuple[FloatArray, FloatArray
 
 
 def _from_elements(rows: _Rows, angles: str | None) -> tuple[FloatArray, FloatArray]:
-    """Normal and eccentricity vector from Keplerian elements, shape (n, 3) each."""
+    """Unit normals and eccentricity vectors from Keplerian elements, shape (n, 3) each."""
     e = rows.columns["e"]
     _check_eccentricity(rows, e)
     unit = ANGLES[angles or _unit_of(rows)]
@@ -442,14 +445,14 @@ def _check_eccentricity(rows: _Rows, e: FloatArray) -> None:
 
 
 def _turning(rows: _Rows) -> list[FloatArray]:
-    """Columns of the angles that make full turns: node, and longitude or argument of perihelion."""
+    """Columns of angles that take all values: node, and longitude or argument of perihelion."""
     return [
         column for name, column in rows.columns.items() if name in ("varpi", "argument", "node")
     ]
 
 
 def _unit_of(rows: _Rows) -> str:
-    """Detect whether the angles of a file are in degrees or radians, from their size."""
+    """Detect from the largest value whether the angles in a file are in degrees or radians."""
     largest = max(float(np.max(np.abs(column))) for column in _turning(rows))
     if np.max(rows.columns["inc"]) > math.pi or 2 * math.pi * (1 + 1e-6) < largest <= 360.001:
         return "deg"
@@ -460,7 +463,7 @@ def _unit_of(rows: _Rows) -> str:
 
 
 def _check_unit(rows: _Rows, angles: str | None) -> None:
-    """Refuse a declared angle unit, degrees or radians, that the values contradict."""
+    """Refuse an angle unit declared by the user (degrees, radians) that the values contradict."""
     largest = max(float(np.max(np.abs(column))) for column in _turning(rows))
     jump = max(float(np.max(np.abs(np.diff(column)))) for column in _turning(rows))
     steep = float(np.max(rows.columns["inc"]))
@@ -482,7 +485,7 @@ def _check_moves(rows: _Rows, normal: FloatArray, eccentricity: FloatArray) -> N
 
 
 def _check_ecliptic(rows: _Rows, normal: FloatArray, axes: FloatArray, frame: object) -> None:
-    """Refuse an Earth orbit that is not near the ecliptic at J2000.0; suggest another frame."""
+    """Refuse an orbit of the Earth far from the ecliptic at J2000.0; suggest another frame."""
 
     def lean(frame_axes: FloatArray) -> float:
         n = normal @ frame_axes
@@ -500,7 +503,7 @@ def _check_ecliptic(rows: _Rows, normal: FloatArray, axes: FloatArray, frame: ob
 
 
 def _check_body(rows: _Rows, e: FloatArray, body: str) -> None:
-    """Refuse eccentricities far above the largest in the shipped orbit table of a body."""
+    """Refuse eccentricities far above the largest in the orbit table of the package for a body."""
     largest = _largest_eccentricity(body)
     if largest is not None and np.any(e > MOST_ECCENTRIC * largest):
         row = int(np.argmax(e > MOST_ECCENTRIC * largest))
@@ -510,7 +513,7 @@ def _check_body(rows: _Rows, e: FloatArray, body: str) -> None:
 
 @cache
 def _largest_eccentricity(body: str) -> float | None:
-    """Largest eccentricity in the shipped table of a body; None without a table."""
+    """Largest eccentricity in the package's orbit table of a body; None if there is no table."""
     table = shipped(body)
     if table is None:
         return None

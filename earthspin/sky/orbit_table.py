@@ -1,4 +1,4 @@
-"""Tables of orbits that change over millions of years: storage and evaluation.
+"""Store and evaluate tables of orbits that change over millions of years.
 
 An orbit is stored as two components each of its unit normal n and its eccentricity vector e
 (towards the pericentre, with the eccentricity as its length), in the table's own frame; the third
@@ -42,7 +42,9 @@ UNIT = 1e-9
 
 
 class Growth(NamedTuple):
-    """Growth with time of the error of a shipped orbit table, without its integration error.
+    """Increase with time of the error of the package's orbit tables.
+
+    The integration error is excluded.
 
     Attributes
     ----------
@@ -60,7 +62,7 @@ class Growth(NamedTuple):
     eccentricity: float
 
     def at(self, times: FloatArray) -> FloatArray:
-        """Half-widths of orbit normal (rad) and eccentricity vector at times in s, shape (2, n)."""
+        """95 % half-widths of orbit normal (rad) and eccentricity at times in s, shape (2, n)."""
         away = np.abs(times)
         by_shape = np.hypot(self.short_periods, self.eccentricity * away)
         return np.stack([self.normal * away, by_shape])
@@ -81,7 +83,7 @@ GROWTH = {
 
 @dataclass(frozen=True, eq=False)
 class OrbitTable:
-    """Orbit over millions of years, as tables of polynomials for normal and eccentricity vector.
+    """Orbit over millions of years: polynomials in time for orbit normal and eccentricity vector.
 
     Attributes
     ----------
@@ -114,22 +116,22 @@ class OrbitTable:
 
     @property
     def provenance(self) -> dict[str, str]:
-        """SHA-256 of the file of the table, for the attributes of an answer."""
+        """SHA-256 hash of the file of the table, for the attributes of a result."""
         return {"orbit_sha256": self.sha256} if self.sha256 else {}
 
     @property
     def coverage(self) -> tuple[float, float]:
-        """First and last time that the table covers, s from J2000.0 TDB."""
+        """First and last time that the orbit table covers, s from J2000.0 TDB."""
         return float(self.edges[0]), float(self.edges[-1])
 
     @cached_property
     def _rates(self) -> FloatArray:
-        """Legendre coefficients of the rates of the normal's first two components, s-1."""
+        """Legendre coefficients of the rates of the orbit normal's x and y components, s-1."""
         half = np.diff(self.edges)[:, np.newaxis] / 2
         return np.asarray(legendre.legder(self.coefficients[:2], axis=-1) / half)
 
     def check_times(self, times: FloatArray) -> None:
-        """Refuse, with a CoverageError, times outside the table."""
+        """Refuse times outside the orbit table, with a CoverageError."""
         first, last = self.coverage
         low, high = float(np.min(times)), float(np.max(times))
         if not (first <= low and high <= last):
@@ -142,7 +144,7 @@ class OrbitTable:
         return np.stack([np.interp(times, middle, widths) for widths in self.errors])
 
     def at(self, times: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Unit normal, eccentricity vector and rate of the normal (s-1) in the GCRS, (3, n) each.
+        """Orbit normal, eccentricity vector and rate of the normal (s-1), in the GCRS, (3, n) each.
 
         Parameters
         ----------
@@ -176,7 +178,7 @@ class OrbitTable:
         return normal, eccentricity, turning
 
     def to_file(self, path: str | os.PathLike[str]) -> None:
-        """Write the table to a file, which `earthspin.read_orbit` reads.
+        """Write the orbit table to a file that `earthspin.read_orbit` can read.
 
         Coefficients are stored as integer multiples of 1e-9 (0.2 mas), so that reading and writing
         a file again does not change them.
@@ -206,7 +208,7 @@ class OrbitTable:
 
 @lru_cache(maxsize=SETS_REMEMBERED)
 def _remembered(table: OrbitTable, times: bytes) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the orbit at given times from a cache, as read-only arrays."""
+    """Return the orbit at given times, as read-only arrays; repeated times come from a cache."""
     arrays = table._evaluated(np.frombuffer(times))
     for values in arrays:
         values.flags.writeable = False
@@ -214,7 +216,7 @@ def _remembered(table: OrbitTable, times: bytes) -> tuple[FloatArray, FloatArray
 
 
 def _words(time: float) -> str:
-    """Format a time as thousands of years from J2000.0."""
+    """Format a time (s from J2000.0) as text in thousands of years."""
     return f"{time / JULIAN_YEAR / 1000:.15g} kyr"
 
 
@@ -226,7 +228,7 @@ def fitted(
     axes: FloatArray,
     source: str,
 ) -> OrbitTable:
-    """Fit an orbit table to samples of the normal and the eccentricity vector.
+    """Fit polynomials of an orbit table to samples of orbit normal and eccentricity vector.
 
     In a window with many samples the series are fitted by least squares, which smooths faster
     variations; with few samples, quintic splines are used.
@@ -271,7 +273,7 @@ def fitted(
 def _left_out(
     table: OrbitTable, times: FloatArray, normal: FloatArray, eccentricity: FloatArray
 ) -> FloatArray:
-    """Twice the root mean square difference of table and samples in each window.
+    """Error of the fitted orbit table: twice its rms difference from the samples, by window.
 
     The shape is (2, w), for the normal and the eccentricity vector.
     """
@@ -285,7 +287,7 @@ def _left_out(
 
 
 def _to_meet(ends: FloatArray, samples: FloatArray) -> FloatArray:
-    """Corrections of the last two Legendre coefficients that make a series fit its end samples.
+    """Corrections of the last two Legendre coefficients so that a series meets its end samples.
 
     The last two terms are 1 at the end, plus and minus 1 at the start, and small in between.
     """
@@ -294,7 +296,7 @@ def _to_meet(ends: FloatArray, samples: FloatArray) -> FloatArray:
 
 
 def write(path: Path, table: OrbitTable) -> None:
-    """Write an orbit table to a compressed file, with coefficients as integers."""
+    """Write an orbit table to a compressed file, in which the coefficients are integers."""
     np.savez_compressed(
         path,
         name=table.name,
@@ -307,7 +309,7 @@ def write(path: Path, table: OrbitTable) -> None:
 
 
 def load(path: Path) -> OrbitTable:
-    """Read an orbit table from a file that `write` made.
+    """Read an orbit table from a file written by `write`.
 
     Raises
     ------
@@ -344,7 +346,7 @@ def load(path: Path) -> OrbitTable:
 
 
 def _arrays(path: Path) -> dict[str, NDArray[Any]]:
-    """Read the arrays of an .npz file; check the declared sizes before unpacking."""
+    """Read the arrays of an .npz file, after a check of their declared sizes."""
     arrays = {}
     with zipfile.ZipFile(path) as archive:
         members = archive.infolist()
@@ -365,7 +367,7 @@ def _arrays(path: Path) -> dict[str, NDArray[Any]]:
 
 @cache
 def shipped(name: str) -> OrbitTable | None:
-    """Shipped orbit table of a body; None if the library has none.
+    """Orbit table of a body that the package includes; None if it includes no such table.
 
     Its errors are those of its integration, stored in the file, plus those of `GROWTH`.
     """

@@ -1,4 +1,4 @@
-"""Converters of poles in scenes: a name, two angles, or a table of rates and periodic terms."""
+"""Kind of input for poles: a name, two angles, or a table of rates and periodic terms."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from earthspin.units import quantity
 
 
 class Angles:
-    """Reader and writer of a pole in a scene: two angles, a name, or a moving pole."""
+    """Kind of input: the pole of a body, as two angles, a name, or a table of a moving pole."""
 
     words, hint = "right ascension and declination", "tuple[float | str, float | str]"
     form = '["... deg", "... deg"]'
 
     def read(self, value: object, where: Where) -> object:
-        """Read a pole: two angles, in radians by default, a name, or a table of a moving pole."""
+        """Read the pole of a body: two angles (rad by default), a name, or a table."""
         if isinstance(value, str) or hasattr(value, "of_the_iau"):
             return value
         if isinstance(value, Mapping):
@@ -31,7 +31,7 @@ class Angles:
         return tuple(quantity(angle, "rad", where, "317.7 deg") for angle in value)
 
     def write(self, value: Direction | Pole) -> str | list[str] | dict[str, Any]:
-        """Form stored in scenes: the name, two angles, or the table of a moving pole."""
+        """Form stored in scene files: the name, the two angles, or the table of a moving pole."""
         if isinstance(value, MovingPole):
             return value.write()
         if isinstance(value, Direction):

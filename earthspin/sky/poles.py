@@ -1,4 +1,4 @@
-"""Direction of a body's spin axis, and the plane along which its precession is measured.
+"""Direction of a body's pole (spin axis), and the plane in which its precession is measured.
 
 All kinds of poles have the interface of `Pole`. Times are days from J2000.0 TDB, vectors are in the
 GCRS.
@@ -29,7 +29,7 @@ UPRIGHT = 2e-7
 
 
 class Direction(NamedTuple):
-    """A direction in the ICRF.
+    """Direction in the ICRF, as right ascension and declination.
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ class Direction(NamedTuple):
 
     @classmethod
     def of(cls, pair: object) -> Self:
-        """Create a direction from a pair of angles in radians.
+        """Create a direction from a pair of angles: right ascension and declination, rad.
 
         Raises
         ------
@@ -58,7 +58,9 @@ class Direction(NamedTuple):
 
     @classmethod
     def across(cls, i: float, node: float) -> Self:
-        """Normal of an orbit from inclination and node on the ecliptic of J2000.0.
+        """Create the direction of an orbit's normal, from inclination and node.
+
+        The angles refer to the ecliptic of J2000.0.
 
         The mean equator of that date is used for that of the ICRF; they differ by 0.02 arcsec.
 
@@ -75,7 +77,7 @@ class Direction(NamedTuple):
 
     @classmethod
     def along(cls, vector: FloatArray) -> Self:
-        """Create a direction from a vector, shape (3,)."""
+        """Create a direction that is parallel to a given vector, shape (3,)."""
         x, y, z = vector
         return cls(math.atan2(y, x) % math.tau, math.atan2(z, math.hypot(x, y)))
 
@@ -89,7 +91,7 @@ class Direction(NamedTuple):
 
 
 class Pole(Protocol):
-    """Protocol of a spin axis.
+    """Protocol of a body's pole (spin axis).
 
     The argument `orbit` is the normal of the body's own orbit, if known.
     """
@@ -98,7 +100,7 @@ class Pole(Protocol):
     of_the_iau: bool
 
     def orbit_normal(self, orbit: Direction | None) -> FloatArray:
-        """Unit normal of the plane along which precession is counted, shape (3,).
+        """Unit normal of the plane in which precession is measured, shape (3,).
 
         Raises
         ------
@@ -107,13 +109,13 @@ class Pole(Protocol):
         """
 
     def is_upright(self, orbit: Direction | None) -> bool:
-        """Return True if the axis is nearly normal to the orbit.
+        """Return True if the spin axis is nearly normal to the orbit.
 
         Its longitude is then undefined.
         """
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
-        """Matrix from the GCRS to the orbital plane and the equinox of J2000.0, shape (3, 3)."""
+        """Matrix from the GCRS to the orbital plane and equinox of J2000.0, shape (3, 3)."""
 
     def mean(self, days: FloatArray) -> FloatArray:
         """Unit vectors of the spin axis on given days, without IAU nutation, shape (n, 3)."""
@@ -127,7 +129,7 @@ class Pole(Protocol):
     def equator(
         self, orbit: Direction | None, days: FloatArray, nutation: Nutation | None = None
     ) -> FloatArray:
-        """Matrices from the GCRS to equator and equinox of date on given days.
+        """Matrices from the GCRS to the body's equator and equinox of date, on given days.
 
         Parameters
         ----------
@@ -143,18 +145,18 @@ class Pole(Protocol):
 
 
 class FixedPole(Direction):
-    """A spin axis with a fixed direction in the ICRF."""
+    """Pole (spin axis) with a fixed direction in the ICRF."""
 
     of_the_iau = False
 
     def orbit_normal(self, orbit: Direction | None) -> FloatArray:
-        """Unit normal of the body's orbit, shape (3,)."""
+        """Unit normal of the body's orbit, the plane in which precession is measured, (3,)."""
         if orbit is None:
             raise UndefinedError("precession is counted along the orbit; set the body's orbit_pole")
         return orbit.vector()
 
     def is_upright(self, orbit: Direction | None) -> bool:
-        """Return True if the axis is within `UPRIGHT` of the orbit's normal or its opposite."""
+        """Return True if the spin axis is nearly parallel or opposite to the orbit's normal."""
         if orbit is None:
             return False
         (ra, dec), (ra0, dec0) = self, orbit
@@ -169,7 +171,7 @@ class FixedPole(Direction):
         return np.stack([equinox, np.cross(normal, equinox), normal])
 
     def mean(self, days: FloatArray) -> FloatArray:
-        """Unit vector of the axis, the same for all days, shape (n, 3)."""
+        """Unit vectors of the fixed spin axis on given days, shape (n, 3)."""
         return np.broadcast_to(self.vector(), (days.size, 3))
 
     def without_nutation(self) -> Self:
@@ -177,7 +179,7 @@ class FixedPole(Direction):
         return self
 
     def true(self, day: float) -> FloatArray:
-        """Unit vector of the axis, which has no nutation, shape (3,)."""
+        """Unit vector of the fixed spin axis, which has no nutation, shape (3,)."""
         return self.vector()
 
     def equator(
@@ -186,13 +188,13 @@ class FixedPole(Direction):
         days: FloatArray | None = None,
         nutation: Nutation | None = None,
     ) -> FloatArray:
-        """Matrix from the GCRS to the equator, the same for all days, shape (3, 3)."""
+        """Matrix from the GCRS to the fixed equator of the body, shape (3, 3)."""
         return fixed_equator(self.vector(), self.orbit_normal(orbit))
 
 
 @dataclass(frozen=True)
 class IAU2006Pole:
-    """The Earth's pole: precession IAU 2006, nutation IAU 2000A, on the ecliptic of J2000.0."""
+    """Pole of the Earth, with precession IAU 2006 and nutation IAU 2000A."""
 
     of_the_iau = True
 
@@ -200,13 +202,13 @@ class IAU2006Pole:
         return "iau2006"
 
     def orbit_normal(self, orbit: Direction | None) -> FloatArray:
-        """Pole of the ecliptic of J2000.0, shape (3,)."""
+        """Unit normal of the ecliptic of J2000.0, where precession is measured, shape (3,)."""
         from earthspin.sky import iau
 
         return iau.ecliptic_pole()
 
     def is_upright(self, orbit: Direction | None) -> bool:
-        """Return False: the obliquity remains near 23.4 degrees."""
+        """Return False, as the Earth's axis is never normal to the ecliptic."""
         return False
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
@@ -216,17 +218,17 @@ class IAU2006Pole:
         return iau.fixed_ecliptic()
 
     def mean(self, days: FloatArray) -> FloatArray:
-        """Mean pole of date, frame bias included, shape (n, 3)."""
+        """Unit vectors of the mean pole of date, frame bias included, shape (n, 3)."""
         from earthspin.sky import iau
 
         return np.asarray(iau.mean_equator(days)[..., 2, :])
 
     def without_nutation(self) -> Self:
-        """Return the pole itself, as its `mean` has no nutation."""
+        """Return the pole itself; its mean direction has no nutation."""
         return self
 
     def true(self, day: float) -> FloatArray:
-        """Celestial intermediate pole on a day, frame bias included, shape (3,)."""
+        """Unit vector of the celestial intermediate pole on a day, bias included, shape (3,)."""
         from earthspin.sky import iau
 
         return np.asarray(iau.true_pole(np.array([day]))[0])
@@ -234,7 +236,7 @@ class IAU2006Pole:
     def equator(
         self, orbit: Direction | None, days: FloatArray, nutation: Nutation | None = None
     ) -> FloatArray:
-        """Matrices from the GCRS to the mean or true equator and equinox of date."""
+        """Matrices from the GCRS to the Earth's mean or true equator and equinox of date."""
         from earthspin.sky import iau
 
         return iau.mean_equator(days) if nutation is None else nutation.true_equator(days)
@@ -246,7 +248,7 @@ NAMED_POLES: dict[str, Pole] = {str(IAU_2006): IAU_2006}
 
 
 def pole_of(value: object) -> Pole:
-    """Pole from a pole, its name, or a pair of angles in radians.
+    """Return the pole that is given directly, by its name, or by a pair of angles in radians.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Protocols of position sources and trajectories.
+"""Protocols (required methods) of sources of positions and of trajectories.
 
 A *source* gives positions of many bodies by their NAIF codes, as a kernel does. A *trajectory*
 gives positions of one body relative to another, from any origin: a vector function of Skyfield, an
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class Trajectory(Protocol):
-    """Protocol of the positions of one body relative to another, for custom positions.
+    """Protocol of a trajectory, by which a user gives positions of one body relative to another.
 
     It must be hashable, such as a frozen dataclass, so that a shared trajectory is evaluated once.
 
@@ -62,7 +62,7 @@ Place: TypeAlias = "int | Trajectory"
 
 
 class Source(Protocol):
-    """Protocol of a source of positions of many bodies.
+    """Protocol of a source that gives the positions of many bodies.
 
     Attributes
     ----------
@@ -75,16 +75,16 @@ class Source(Protocol):
 
     @property
     def provenance(self) -> dict[str, str]:
-        """Names, hashes and versions of the files and programs that give the positions."""
+        """Names, hashes and versions of files and programs that give the positions."""
 
     def code(self, codes: Iterable[int], name: str, /) -> int:
-        """First of a body's possible NAIF codes in the source; KernelError if there is none."""
+        """Return the first of a body's NAIF codes that the source has; KernelError if none."""
 
     def coverage(self, places: Iterable[Place], /) -> tuple[float, float]:
         """First and last day (TDB, from J2000.0) for which all given bodies have positions."""
 
     def check_times(self, days: FloatArray, places: Iterable[Place], /) -> None:
-        """Refuse, with a CoverageError, times at which some of the bodies have no position."""
+        """Refuse times at which any of the given bodies has no position, with a CoverageError."""
 
     def positions(
         self, targets: Mapping[str, Place], centre: Place, days: FloatArray, /
@@ -92,13 +92,13 @@ class Source(Protocol):
         """Geometric positions of targets relative to a centre, in the ICRF, m, (n, 3) each."""
 
     def error(self, target: Place, centre: Place, day: float, /) -> tuple[float, float]:
-        """Bounds on the error of a body's position on a day: direction (rad), distance (m).
+        """Bounds on the error of a body's direction (rad) and distance (m) on a day.
 
         The errors grow with the time from J2000.0; NaN if no error was measured.
         """
 
     def drift(self, target: Place, centre: Place, distance: float, /) -> float:
-        """Relative error of a spin axis's motion due to the position error of a perturber.
+        """Relative error of the spin axis motion due to the position error of a perturber.
 
         It is a fraction of the angle by which the axis moves.
 
@@ -112,7 +112,7 @@ class Source(Protocol):
 
 @runtime_checkable
 class OfDate(Protocol):
-    """Protocol of a position source that also computes right ascension and declination."""
+    """Protocol of a source that gives right ascension and declination as well as positions."""
 
     def equator(self, days: FloatArray, /) -> FloatArray:
         """Matrices from the ICRF to the Earth's mean equator of date, shape (n, 3, 3)."""
@@ -132,18 +132,18 @@ class OfDate(Protocol):
 
 
 def measured_code(place: Place) -> int | None:
-    """NAIF code whose error bounds apply to a position source; None if there is none."""
+    """NAIF code under which position errors of a body are known; None if they are not known."""
     return place if isinstance(place, int) else getattr(place, "code", None)
 
 
 def words(place: object) -> str:
-    """One-line description of a NAIF code or trajectory, identical in every run."""
+    """Describe a NAIF code or trajectory in one line, which is the same in every run."""
     text = f"NAIF {place}" if isinstance(place, int) else " ".join(str(place).split())
     return re.sub(r" at 0x[0-9a-fA-F]+", "", text)
 
 
 def checked(positions: FloatArray, place: Place, days: FloatArray) -> FloatArray:
-    """Check positions that a trajectory returned: one finite vector for each time.
+    """Check the positions that a trajectory returned: one finite vector for each time.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Positions, right ascensions and declinations from Skyfield's public calls.
+"""Positions, right ascensions and declinations, computed by Skyfield.
 
 The call is ``(body - earth).at(t).frame_latlon(mean_equator_and_equinox_of_date)``. The geometric
 `at(t)` is used, because gravity acts from the geometric position, not from the apparent one.
@@ -33,7 +33,7 @@ FloatArray: TypeAlias = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class EquatorOfDate:
-    """A Skyfield frame defined by matrices as a function of the day.
+    """Skyfield frame of an equator of date, defined by rotation matrices for given days.
 
     Attributes
     ----------
@@ -45,13 +45,13 @@ class EquatorOfDate:
     matrices: Callable[[FloatArray], FloatArray]
 
     def rotation_at(self, t: Time) -> FloatArray:
-        """Rotation matrices at a Skyfield time, in Skyfield's layout, shape (3, 3, n) or (3, 3)."""
+        """Rotation matrices at the times of a Skyfield Time, shape (3, 3, n) or (3, 3)."""
         matrices = self.matrices((t.whole - J2000_JD) + t.tdb_fraction)
         return matrices if matrices.ndim == 2 else np.moveaxis(matrices, 0, -1)
 
 
 class Skyfield:
-    """A kernel whose positions are computed by Skyfield.
+    """Source of positions that Skyfield computes from an ephemeris kernel.
 
     Parameters
     ----------
@@ -66,14 +66,14 @@ class Skyfield:
 
     @property
     def provenance(self) -> dict[str, str]:
-        """Name and hash of the kernel, and version of Skyfield, for the attributes of an answer."""
+        """Name and hash of the kernel, and version of Skyfield, for the attributes of a result."""
         return self.file.provenance | {
             "ephemeris_reader": "Skyfield",
             "skyfield_version": version("skyfield"),
         }
 
     def code(self, codes: Iterable[int], name: str) -> int:
-        """First of a body's possible NAIF codes in the kernel; KernelError if there is none."""
+        """Return the first of a body's NAIF codes that the kernel has; KernelError if none."""
         return self.file.code(codes, name)
 
     def coverage(self, places: Iterable[Place]) -> tuple[float, float]:
@@ -81,15 +81,15 @@ class Skyfield:
         return self.file.coverage(places)
 
     def check_times(self, days: FloatArray, places: Iterable[Place]) -> None:
-        """Refuse, with a CoverageError, times at which some of the bodies have no position."""
+        """Refuse times at which any of the given bodies has no position, with a CoverageError."""
         self.file.check_times(days, places)
 
     def error(self, target: Place, centre: Place, day: float = 0.0) -> tuple[float, float]:
-        """Bounds on the error of a body's position in the kernel: direction (rad), distance (m)."""
+        """Bounds on the error of a body's direction (rad) and distance (m) in the kernel."""
         return self.file.error(target, centre, day)
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
-        """Relative error of a spin axis's motion due to the position error of a perturber.
+        """Relative error of the spin axis motion due to the position error of a perturber.
 
         It is a fraction of the angle by which the axis moves.
         """
@@ -98,7 +98,7 @@ class Skyfield:
     def positions(
         self, targets: Mapping[str, Place], centre: Place, days: FloatArray
     ) -> dict[str, FloatArray]:
-        """Positions of bodies relative to a centre by Skyfield, in the ICRF, m, shape (n, 3) each.
+        """Positions of bodies relative to a centre, from Skyfield, in the ICRF, m, (n, 3) each.
 
         That is ``(body - centre).at(t)``.
 
@@ -150,7 +150,7 @@ class Skyfield:
         days: FloatArray,
         equator: Callable[[FloatArray], FloatArray] | None,
     ) -> dict[str, tuple[FloatArray, FloatArray, FloatArray]]:
-        """Right ascension and declination (rad) and distance (m) of targets, by Skyfield.
+        """Right ascension, declination (rad) and distance (m) of each target, from Skyfield.
 
         That is ``(body - centre).at(t).frame_latlon(equator)``, with shape (n,) each.
 
@@ -175,7 +175,7 @@ class Skyfield:
         return {name: (ra, dec, distance) for name, (ra, dec, distance) in angles.items()}
 
     def _seen_from(self, target: Place, centre: Place) -> VectorFunction:
-        """Skyfield vector function from one body to another."""
+        """Skyfield vector function for the position of one body relative to another."""
         if not isinstance(target, int) and target.centre == centre:
             return function_of(target)  # no common vectors to cancel
         return self._from_barycentre(target) - self._from_barycentre(centre)

@@ -1,4 +1,4 @@
-"""Sources of positions by name, and custom positions of one body."""
+"""Open sources of positions by name, and read positions of single bodies given by the user."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _LIVE = "live"
 
 
 def open_source(word: SourceName, ephemeris: str | PathLike[str]) -> Source:
-    """Open a kernel with the reader of the given name: jplephem or Skyfield.
+    """Open an ephemeris kernel with the named reader, "jplephem" or "skyfield".
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def open_source(word: SourceName, ephemeris: str | PathLike[str]) -> Source:
 
 
 def describe_source(word: SourceName, ephemeris: object) -> str:
-    """Describe the source of positions in words."""
+    """Describe in words how positions are computed, for example "read from de421 with jplephem"."""
     how = {
         "jplephem": f"read from {ephemeris} with jplephem",
         "skyfield": f"and directions by Skyfield from {ephemeris}: "
@@ -59,7 +59,7 @@ def describe_source(word: SourceName, ephemeris: object) -> str:
 
 
 def is_vector_function(value: object) -> bool:
-    """Return True if an object is a Skyfield vector function, without importing Skyfield."""
+    """Return True if an object is a Skyfield vector function; Skyfield is not imported."""
     return any(
         kind.__module__ == "skyfield.vectorlib" and kind.__name__ == "VectorFunction"
         for kind in type(value).__mro__
@@ -67,7 +67,7 @@ def is_vector_function(value: object) -> bool:
 
 
 def trajectory(position: Any) -> Trajectory:
-    """Return what `read_position` returned as a trajectory; a vector function is wrapped."""
+    """Return the positions of a body as a trajectory; wrap a Skyfield vector function as one."""
     if is_vector_function(position):
         from earthspin.sky.vector_functions import VectorTrajectory
 
@@ -77,7 +77,7 @@ def trajectory(position: Any) -> Trajectory:
 
 
 def read_position(value: Any, where: Where) -> VectorFunction | Trajectory:
-    """Read the positions of a body: a vector function, a trajectory, or tables of kernel segments.
+    """Read a body's positions from a Skyfield vector function, a trajectory, or stored tables.
 
     Parameters
     ----------
@@ -117,12 +117,12 @@ def read_position(value: Any, where: Where) -> VectorFunction | Trajectory:
 
 
 def describe_position(position: object) -> str:
-    """One-line description of a position source, identical in every run."""
+    """Describe a body's source of positions in one line, which is the same in every run."""
     return words(repr(position))
 
 
 def write_position(position: Any) -> Any:
-    """Convert a position to what a scene stores: a table of kernel segments, or a description."""
+    """Convert a body's positions to the form stored in scene files: tables, or a description."""
     if is_vector_function(position):
         from earthspin.sky.vector_functions import write_segments
 
@@ -133,12 +133,12 @@ def write_position(position: Any) -> Any:
 
 
 def is_measured(position: Any) -> bool:
-    """Return True if the error of a position is known, as for positions from kernels only."""
+    """Return True if a body's positions have a known error, which only kernels have."""
     return getattr(trajectory(position), "code", None) is not None
 
 
 def place_of(source: Source, name: str, codes: tuple[int, ...], position: Any = None) -> Place:
-    """Return the key under which a source finds a body: the body's trajectory, or its NAIF code.
+    """Return the trajectory of a body, or else the NAIF code by which a source finds the body.
 
     Raises
     ------

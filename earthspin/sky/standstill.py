@@ -1,4 +1,4 @@
-"""Lunar standstills: months of the largest and smallest range of the Moon's declination.
+"""Lunar standstills: dates when the range of the Moon's declination is largest or smallest.
 
 The orbit is inclined by 5.1 degrees to the ecliptic and its node has a period of 18.6 years. When
 the ascending node is at the equinox, inclination and obliquity add (major standstill); half a
@@ -26,7 +26,7 @@ _REACH = 2.0 * 365.25  # days searched before and after the passage of the node
 
 @dataclass(frozen=True)
 class Standstill:
-    """One lunar standstill.
+    """Date and declination of one lunar standstill.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class Standstill:
 
 
 def node_passages(start: float, end: float) -> list[tuple[str, float]]:
-    """Times at which the mean node passes the equinox (major) and the opposite point (minor).
+    """Times when the Moon's mean node passes the equinox (major) or the opposite point (minor).
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def node_passages(start: float, end: float) -> list[tuple[str, float]]:
 def find_standstills(
     declination: Callable[[FloatArray], FloatArray], start: float, end: float
 ) -> list[Standstill]:
-    """Find every standstill that is entirely within a time span.
+    """Find all lunar standstills that lie entirely within a time span.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def find_standstills(
 def _vertices(
     declination: Callable[[FloatArray], FloatArray], days: FloatArray, spacing: float
 ) -> FloatArray:
-    """Days of the extremes of declination near given days, by parabolas through three values."""
+    """Days of extreme declination near given days, from a parabola through three values each."""
     before, middle, after = np.split(
         declination(np.concatenate([days - spacing, days, days + spacing])), 3
     )

@@ -11,7 +11,7 @@ from earthspin.units import FloatArray
 
 
 class Star(NamedTuple):
-    """A star of the Hipparcos catalogue (ESA 1997, SP-1200).
+    """One star of the Hipparcos catalogue (ESA 1997, SP-1200).
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ UNKNOWN_MOTION = float(np.hypot(201.02, 287.46)) * 1e-3 * ARCSEC / JULIAN_YEAR
 
 
 def directions(times: FloatArray) -> FloatArray:
-    """Unit vectors of the stars, moved uniformly along great circles.
+    """Unit vectors of the stars at given times, from their proper motions.
 
     Parameters
     ----------

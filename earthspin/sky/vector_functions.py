@@ -1,4 +1,4 @@
-"""Conversions between Skyfield vector functions, trajectories and scenes.
+"""Convert Skyfield vector functions to trajectories and to the form stored in scene files.
 
 A segment, a sum of vectors, a comet from its elements, a satellite or a custom function gives a
 position at a time, and can be the position of a body. Vector functions based on kernels only have a
@@ -36,19 +36,19 @@ _BLOCK = 1 << 12  # times per block: 1365 nutation terms for each take 45 MB
 
 @lru_cache
 def timescale() -> Timescale:
-    """Skyfield's timescale from its built-in tables, without downloads."""
+    """Skyfield's time scale from tables included in Skyfield, without downloads."""
     return load.timescale(builtin=True)
 
 
 def blocks_of_times(days: FloatArray) -> Iterator[tuple[slice, Time]]:
-    """Skyfield times from days of TDB (from J2000.0), in blocks."""
+    """Yield Skyfield times for days of TDB from J2000.0, in blocks of limited size."""
     for first in range(0, days.size, _BLOCK):
         block = slice(first, first + _BLOCK)
         yield block, timescale().tdb_jd(J2000_JD, days[block])
 
 
 def at(function: VectorFunction, t: Time) -> ICRF:
-    """Position of a vector function at given times.
+    """Compute the position of a Skyfield vector function at given times.
 
     Raises
     ------
@@ -65,7 +65,7 @@ def at(function: VectorFunction, t: Time) -> ICRF:
 
 @dataclass(frozen=True)
 class VectorTrajectory:
-    """A Skyfield vector function as a trajectory.
+    """Trajectory that computes its positions by a Skyfield vector function.
 
     Attributes
     ----------
@@ -76,26 +76,26 @@ class VectorTrajectory:
 
     @property
     def centre(self) -> int:
-        """NAIF code of the function's center."""
+        """NAIF code of the body relative to which the vector function gives positions."""
         return int(self.function.center)
 
     @cached_property
     def code(self) -> int | None:
-        """NAIF code of the function's target, if it is based on kernel segments only."""
+        """NAIF code of the vector function's target, if all its segments are from kernels."""
         target = self.function.target
         is_measured = all(map(_segments, _leaves(self.function))) and isinstance(target, int)
         return target if is_measured else None
 
     @cached_property
     def coverage(self) -> tuple[float, float]:
-        """First and last day that all kernel segments cover; infinite if there are none."""
+        """First and last day covered by all kernel segments; infinite if there are none."""
         stacks = [stack for stack in map(_segments, _leaves(self.function)) if stack]
         first = [min(s.spk_segment.start_jd for s in segments) - J2000_JD for segments in stacks]
         last = [max(s.spk_segment.end_jd for s in segments) - J2000_JD for segments in stacks]
         return max(first, default=-math.inf), min(last, default=math.inf)
 
     def positions(self, days: FloatArray) -> FloatArray:
-        """Positions in the ICRF, m, shape (n, 3)."""
+        """Positions of the vector function's target, in the ICRF, m, shape (n, 3)."""
         blocks = [at(self.function, t).position.m.T for _, t in blocks_of_times(days)]
         return np.concatenate(blocks) if blocks else np.empty((0, 3))
 
@@ -104,7 +104,7 @@ class VectorTrajectory:
 
 
 class _Along(VectorFunction):  # type: ignore[misc]
-    """Skyfield vector function that wraps a trajectory; it has no velocities."""
+    """Skyfield vector function whose positions are those of a trajectory; no velocities."""
 
     def __init__(self, trajectory: Trajectory) -> None:
         self.trajectory, self.center, self.target = trajectory, trajectory.centre, self
@@ -119,7 +119,7 @@ class _Along(VectorFunction):  # type: ignore[misc]
 
 
 def function_of(trajectory: Trajectory) -> VectorFunction:
-    """Return a trajectory as a Skyfield vector function: the original one, or a wrapper."""
+    """Convert a trajectory to a Skyfield vector function, by a wrapper if necessary."""
     if isinstance(trajectory, VectorTrajectory):
         return trajectory.function
     return _Along(trajectory)
@@ -129,7 +129,7 @@ def function_of(trajectory: Trajectory) -> VectorFunction:
 
 
 def _leaves(function: VectorFunction) -> Iterator[VectorFunction]:
-    """Yield the elementary functions of which a vector function is the sum, signs ignored."""
+    """Yield the elementary vector functions whose sum is the given one; signs are ignored."""
     if isinstance(function, VectorSum):
         for term in function.vector_functions:
             yield from _leaves(term)
@@ -140,14 +140,14 @@ def _leaves(function: VectorFunction) -> Iterator[VectorFunction]:
 
 
 def _segments(function: VectorFunction) -> Sequence[SPICESegment]:
-    """Kernel segments of an elementary vector function; empty if it is not from a kernel."""
+    """Kernel segments of an elementary vector function; empty if it does not use a kernel."""
     if isinstance(function, Stack):
         return list(function.segments)
     return [function] if isinstance(function, SPICESegment) else []
 
 
 def write_segments(function: VectorFunction) -> list[dict[str, Any]] | None:
-    """Tables of the kernel segments of a vector function; None if it has any other component."""
+    """Describe a vector function by tables of kernel segments; None if it has other components."""
     tables = []
     for term in getattr(function, "vector_functions", (function,)):
         inner = term.vector_function if isinstance(term, ReversedVector) else term
@@ -166,7 +166,7 @@ def write_segments(function: VectorFunction) -> list[dict[str, Any]] | None:
 
 
 def read_segments(tables: Sequence[Mapping[str, Any]], where: Where) -> VectorFunction:
-    """Vector function of a chain of segments given by tables.
+    """Build a Skyfield vector function from tables that describe a chain of kernel segments.
 
     Raises
     ------
@@ -210,5 +210,5 @@ def _read_segment(table: Mapping[str, Any], where: Where) -> VectorFunction:
 
 @lru_cache
 def _spice_kernel(path: str, sha256: str) -> SpiceKernel:
-    """Kernel opened by Skyfield, cached by file and content."""
+    """Open a kernel with Skyfield; a kernel with the same file and hash is opened once."""
     return SpiceKernel(path)
