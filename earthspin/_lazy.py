@@ -4,7 +4,7 @@ from importlib import import_module
 
 
 def submodule(package: str, name: str) -> object:
-    """Import a module of a package, as in ``earthspin.bodies``.
+    """Import a module of a package when it is first used, as in ``earthspin.bodies``.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""HTML cards that a notebook shows for a body, a question or a plan."""
+"""HTML tables (cards) that a notebook shows for a body, a question or a plan."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from html import escape
 
 
 def card(caption: str, rows: Iterable[tuple[str, ...]]) -> str:
-    """HTML of a table; the first cell of each row is its heading.
+    """HTML text of a table; the first cell of each row is the heading of the row.
 
     Parameters
     ----------

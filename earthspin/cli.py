@@ -56,10 +56,10 @@ class _Parser(ArgumentParser):
 
 
 class _ShowHelp(Action):
-    """Option `--help` of a command; after the name of a scene it also lists its keys."""
+    """Option `--help` of a command; if a scene is named, its input keys are listed as well."""
 
     def __call__(self, parser: ArgumentParser, options: Namespace, *_: object) -> NoReturn:
-        """Print the help and exit."""
+        """Print the help of a command, and exit."""
         parser.print_help()
         if options.scene is not None:
             try:
@@ -205,7 +205,7 @@ def _welcome(_: Namespace) -> None:
 
 
 def _report(options: Namespace) -> None:
-    """Write the report on precession or on the wobble, and print its tables."""
+    """Command `report`: write the report on precession or on the wobble, and print its tables."""
     from earthspin.views import report
     from earthspin.views.of_question import print_tables
 
@@ -226,7 +226,7 @@ def _report(options: Namespace) -> None:
 
 
 def _play(options: Namespace) -> None:
-    """Write an interactive HTML page about the chosen topic."""
+    """Command `play`: write an interactive HTML page about the chosen topic."""
     from earthspin.views.play import write_page
 
     page = write_page(options.what, options.out or f"play-{options.what}.html")
@@ -236,7 +236,7 @@ def _play(options: Namespace) -> None:
 
 
 def _run(options: Namespace) -> None:
-    """Run a scene."""
+    """Command `run`: run a scene, print its tables, and write its results."""
     from earthspin.engine import drafts, store
     from earthspin.parts import times
     from earthspin.scenes import members_of, run_tree, series_length, write_series
@@ -285,7 +285,7 @@ def _run(options: Namespace) -> None:
 
 
 def _ensemble(options: Namespace) -> None:
-    """Run a scene for many members whose numbers differ."""
+    """Command `ensemble`: run a scene many times with different inputs."""
     import json
 
     from earthspin.many import ensemble
@@ -316,7 +316,7 @@ def _ensemble(options: Namespace) -> None:
 
 
 def _plan(options: Namespace) -> None:
-    """Print the plan of a scene: parts that run, and parts that are left out."""
+    """Command `plan`: print the computations that a scene runs, and those that are left out."""
     from earthspin.engine.asking import script_of
     from earthspin.scenes import chosen, plan
 
@@ -332,7 +332,7 @@ def _plan(options: Namespace) -> None:
 
 
 def _accuracy(options: Namespace) -> int:
-    """Run the command `accuracy`: measure and show the error and run time of all methods."""
+    """Command `accuracy`: measure and show the error and run time of all methods."""
     from earthspin.checks.work_precision import QUANTITIES, accuracy
     from earthspin.engine import drafts
     from earthspin.views import work_precision_views as views
@@ -351,7 +351,7 @@ def _accuracy(options: Namespace) -> int:
 
 
 def _scenes(_: Namespace) -> None:
-    """List the shipped scenes."""
+    """Command `scenes`: list the scenes that are part of the package."""
     from earthspin.scenes import shipped_scenes
 
     scenes = shipped_scenes()
@@ -361,7 +361,7 @@ def _scenes(_: Namespace) -> None:
 
 
 def _keys(options: Namespace) -> None:
-    """Print the input keys of one question or of all questions."""
+    """Command `keys`: print the input keys of one question or of all questions."""
     from earthspin.engine.question import describe_keys
     from earthspin.scenes import QUESTIONS, question_named
 
@@ -370,7 +370,7 @@ def _keys(options: Namespace) -> None:
 
 
 def _info(options: Namespace) -> None:
-    """Print versions and kernels, or the numbers of bodies."""
+    """Command `info`: print versions and kernels, or the properties of bodies."""
     from importlib.metadata import PackageNotFoundError, version
 
     if options.what:
@@ -392,14 +392,14 @@ def _info(options: Namespace) -> None:
 
 
 def _verify(options: Namespace) -> None:
-    """Compare a stored result with its checksums."""
+    """Command `verify`: compare a stored result with its checksums."""
     from earthspin.engine.store import verify
 
     print(f"{printable(str(verify(options.file)))} is what was written")
 
 
 def _stability(options: Namespace) -> int:
-    """Run the stiff and extreme cases."""
+    """Command `stability`: run the numerical tests of stiff and extreme cases."""
     from earthspin.checks.case import FAILS
     from earthspin.checks.stability import stability
     from earthspin.views.stability_tables import print_verdicts, tally
@@ -410,7 +410,7 @@ def _stability(options: Namespace) -> int:
 
 
 def _completion(options: Namespace) -> None:
-    """Print the script with which a shell completes commands."""
+    """Command `completion`: print the script by which a shell completes commands."""
     try:
         from argcomplete.shell_integration import shellcode
     except ImportError:
@@ -427,7 +427,7 @@ def _print_written(*paths: str | Path, file: Any = None) -> None:
 
 
 def _open(page: Path) -> None:
-    """Open a page in the default browser; print a message if no browser can be opened."""
+    """Open an HTML page in the default browser; print a message if there is no browser."""
     import webbrowser
 
     if not webbrowser.open(page.resolve().as_uri()):
@@ -436,7 +436,7 @@ def _open(page: Path) -> None:
 
 @contextmanager
 def _note_of_results(data: str | Path | None) -> Iterator[None]:
-    """Add the path of the stored results to any error raised while the views are made."""
+    """If an error occurs while figures are made, add to it the path of the stored results."""
     try:
         yield
     except BaseException as error:
@@ -446,14 +446,14 @@ def _note_of_results(data: str | Path | None) -> Iterator[None]:
 
 
 def _sections(options: Namespace) -> str | list[str] | None:
-    """Section names from the option --sections, or "all"; None if the option is absent."""
+    """Return the section names given by the option --sections; None if the option is absent."""
     if options.sections is None or options.sections.strip() == "all":
         return options.sections and "all"
     return [name.strip() for name in options.sections.split(",") if name.strip()]
 
 
 def _keys_of(scene: str) -> str:
-    """Keys and sections of the question that a scene asks."""
+    """Text that lists the input keys and the sections of the question in a scene."""
     from earthspin.engine.question import describe_keys
     from earthspin.scenes import load_scene
 
@@ -463,7 +463,7 @@ def _keys_of(scene: str) -> str:
 
 
 def _question(options: Namespace) -> Question:
-    """Build the question of a scene, with the changes of --set and then of --ephemeris."""
+    """Build the question of a scene, changed by the options --set and --ephemeris."""
     from earthspin.scenes import files_of, typed_scene
 
     changes = dict(_setting(text) for text in options.settings)
@@ -478,7 +478,7 @@ def _question(options: Namespace) -> Question:
 
 
 def _setting(text: str) -> tuple[str, Any]:
-    """Read KEY=VALUE; a value that is valid TOML is read as TOML, any other as text."""
+    """Split KEY=VALUE into key and value; the value is read as TOML, or else as text."""
     import tomllib
 
     from earthspin.scenes import toml
@@ -498,7 +498,7 @@ def _setting(text: str) -> tuple[str, Any]:
 
 
 def _complete(parser: ArgumentParser) -> None:
-    """Print completions and exit if a shell asks for them; otherwise do nothing."""
+    """If a shell asks for completions, print them and exit; otherwise do nothing."""
     if "_ARGCOMPLETE" in os.environ:
         import argcomplete
 
@@ -506,7 +506,7 @@ def _complete(parser: ArgumentParser) -> None:
 
 
 def _offer(prefix: str, action: Action, parsed_args: Namespace, **_: object) -> list[str]:
-    """Return completions for an argument: scenes, kernels, keys, sections and files."""
+    """Return the possible completions of an argument: scenes, kernels, keys, sections or files."""
     from argcomplete.completers import FilesCompleter
 
     from earthspin.checks.work_precision import QUANTITIES

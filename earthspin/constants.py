@@ -49,18 +49,18 @@ class Constant:
 
     @property
     def verified(self) -> bool:
-        """Return True if the value was read in a copy of its source."""
+        """Return True if the value was checked against its published source."""
         return UNVERIFIED not in self.read_in
 
     @property
     def relative_uncertainty(self) -> float:
-        """One standard deviation as a fraction of the value; 0 where none is known."""
+        """Standard deviation of the constant divided by its value; 0 if it is not known."""
         return abs((self.uncertainty or 0.0) / self.value)
 
 
 @dataclass(frozen=True, slots=True)
 class Tabulated:
-    """Source of the numbers in a table: poles, orbits, layers.
+    """Source of the numbers in a table, such as the table of poles, orbits or layers.
 
     Attributes
     ----------
@@ -138,7 +138,7 @@ EPSILON_0 = Constant(84381.406, "arcsec", 0.001, P03 + ": obliquity at J2000.0",
 
 
 def _rate(value: float, source: str, read_in: str) -> Constant:
-    """Constant for a rate in arcseconds per year whose source gives no uncertainty."""
+    """Build the constant for a rate in arcseconds per year that has no published uncertainty."""
     return Constant(value, "arcsec yr-1", None, source, read_in)
 
 

@@ -34,7 +34,7 @@ _ISO_DATE = re.compile(r"\d{4}-\d\d-\d\d([T ]\d\d(:\d\d(:\d\d(\.\d{1,6})?)?)?)?(
 
 
 def microseconds(value: Any, where: Where) -> int:
-    """Convert one date to whole microseconds from J2000.0 TDB.
+    """Convert one date to the whole number of microseconds from J2000.0 TDB.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def microseconds(value: Any, where: Where) -> int:
 
 
 def _from_utc(value: Any, where: Where) -> NDArray[np.int64]:
-    """Microseconds from J2000.0 TDB of UTC, one datetime or an array of datetime64."""
+    """Convert UTC, given as a datetime or an array of datetime64, to microseconds of TDB."""
     from astropy.time import Time
 
     with _tables_at_hand(), warnings.catch_warnings():
@@ -124,7 +124,10 @@ def days(times: object, where: Where) -> FloatArray:
 
 
 def _counts(times: Any, where: Where) -> NDArray[np.int64]:
-    """Convert a list of dates, not an astropy Time, to whole microseconds from J2000.0 TDB."""
+    """Convert a list of dates to whole microseconds from J2000.0 TDB.
+
+    An astropy Time is not accepted.
+    """
     if is_masked(times):
         raise where.error("a masked time", "give times that are all known")
     zone = getattr(times, "tz", None) or getattr(getattr(times, "dt", None), "tz", None)
@@ -190,7 +193,7 @@ def is_skyfield_time(value: object) -> bool:
 
 @contextmanager
 def _tables_at_hand() -> Iterator[None]:
-    """Use the installed tables of leap seconds and UT1, without a download.
+    """Make astropy use its installed tables of leap seconds and UT1, without a download.
 
     Without a largest age, nobody complains of theirs.
     """
@@ -206,7 +209,7 @@ def is_time(value: object) -> bool:
 
 
 def datetime64(days_tdb: FloatArray) -> NDArray[np.datetime64]:
-    """Convert days from J2000.0 TDB to ``datetime64[us]``, as in time coordinates of datasets."""
+    """Convert days from J2000.0 TDB to ``datetime64[us]``, the type of times in results."""
     counts: NDArray[np.int64] = np.rint(days_tdb * MICROSECONDS_PER_DAY).astype(np.int64)
     return J2000 + counts.astype("timedelta64[us]")
 
@@ -214,7 +217,7 @@ def datetime64(days_tdb: FloatArray) -> NDArray[np.datetime64]:
 def first_and_last(
     value: Any, where: Where, read: Callable[[Any, Where], _Time], allowed: str
 ) -> tuple[_Time, _Time]:
-    """Read two times; refuse them if the second is before the first.
+    """Read the first and the last time of a span; refuse a last time before the first.
 
     Raises
     ------
@@ -239,7 +242,7 @@ def first_and_last(
 
 @dataclass(frozen=True)
 class Span:
-    """Span of time between two dates.
+    """Time span from a first to a last date.
 
     Attributes
     ----------
@@ -254,25 +257,25 @@ class Span:
 
     @classmethod
     def read(cls, value: Any, where: Where) -> Span:
-        """Read two dates; refuse them if the second is before the first."""
+        """Read the first and the last date of a span; refuse a last date before the first."""
         if isinstance(value, Span):
             return value
         allowed = "two dates, like ['2000-01-01', '2001-01-01']"
         return cls(*first_and_last(value, where, microseconds, allowed))
 
     def write(self) -> Plain:
-        """Form stored in scenes: the two dates as text, to the microsecond."""
+        """Form stored in scene files: both dates as text, to the microsecond."""
         return [str(J2000 + np.timedelta64(count, "us")) for count in (self.first, self.last)]
 
     @property
     def days(self) -> tuple[float, float]:
-        """Start and end of the span, days from J2000.0 TDB."""
+        """First and last date of the span, days from J2000.0 TDB."""
         return self.first / MICROSECONDS_PER_DAY, self.last / MICROSECONDS_PER_DAY
 
 
 @dataclass(frozen=True)
 class TimeGrid:
-    """Evenly spaced times, exact to the microsecond, computed when needed.
+    """Evenly spaced times, exact to the microsecond, which are computed only when needed.
 
     Attributes
     ----------
@@ -290,7 +293,7 @@ class TimeGrid:
 
     @classmethod
     def over(cls, span: Span, step: float) -> TimeGrid:
-        """Make a grid of times from the start of a span up to its end, `step` seconds apart.
+        """Make a grid of times that starts with a span and ends within it, with steps of `step` s.
 
         The last time is the end, or the last step before it.
         """
@@ -298,11 +301,11 @@ class TimeGrid:
         return cls(span.first, spacing, (span.last - span.first) // spacing + 1)
 
     def span(self) -> tuple[float, float]:
-        """Earliest and latest of the times, days from J2000.0 TDB."""
+        """First and last time of the grid, days from J2000.0 TDB."""
         return float(self.days(0, 1)[0]), float(self.days(self.size - 1)[0])
 
     def days(self, first: int = 0, last: int | None = None) -> FloatArray:
-        """Days from J2000.0 TDB of the times with index `first` to `last` - 1."""
+        """Days from J2000.0 TDB of the times in the grid with index `first` to `last` - 1."""
         index = np.arange(first, self.size if last is None else last, dtype=np.int64)
         whole, rest = np.divmod(self.start + self.step * index, MICROSECONDS_PER_DAY)
         return np.asarray(whole + rest / MICROSECONDS_PER_DAY)
@@ -322,12 +325,12 @@ class Listed:
 
     @classmethod
     def times(cls, value: Any, where: Where) -> FloatArray:
-        """Read times in any form that `days` takes."""
+        """Read a list of times in any form that the function `days` takes."""
         return days(value, where).copy()
 
     @classmethod
     def read(cls, value: Any, where: Where) -> Self:
-        """Read times, or the table that `write` returns."""
+        """Read a list of times, or restore it from the table that `write` returns."""
         if isinstance(value, cls):
             return value
         listed = unpack(value, where) if isinstance(value, Mapping) else cls.times(value, where)
@@ -336,26 +339,26 @@ class Listed:
         return cls(listed)
 
     def write(self) -> Plain:
-        """Return the times as bytes, in the form that a scene stores."""
+        """Return the times in the form stored in scene files: a table of bytes."""
         return pack(self.listed)
 
 
 class TimeList(Listed):
-    """List of times, stored as days from J2000.0 TDB."""
+    """List of times in any order, stored as days from J2000.0 TDB."""
 
     words, hint = "a list of times", "Dates"
 
     @property
     def size(self) -> int:
-        """Number of times."""
+        """Number of times in the list."""
         return int(self.listed.size)
 
     def span(self) -> tuple[float, float]:
-        """Earliest and latest of the times, days from J2000.0 TDB."""
+        """Earliest and latest time of the list, days from J2000.0 TDB."""
         return float(self.listed.min()), float(self.listed.max())
 
     def days(self, first: int = 0, last: int | None = None) -> FloatArray:
-        """Days from J2000.0 TDB of the times with index `first` to `last` - 1."""
+        """Days from J2000.0 TDB of the times in the list with index `first` to `last` - 1."""
         return self.listed[first:last]
 
 
@@ -365,13 +368,13 @@ Epochs = TimeGrid | TimeList
 
 @dataclass(frozen=True)
 class Spacing(Number):
-    """Converter of a time step: at least a microsecond, and less than 10,000 years."""
+    """Kind of input: a time step of at least a microsecond and less than 10,000 years."""
 
     unit: str = "s"
     example: str = "6 h"
 
     def read(self, value: object, where: Where) -> float:
-        """Convert a time step to seconds, and check its range."""
+        """Convert a time step to seconds, and refuse a step outside the allowed range."""
         try:
             step = super().read(value, where)
         except SceneError as error:

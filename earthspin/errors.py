@@ -1,4 +1,4 @@
-"""Exceptions of this package, each with its data.
+"""Exceptions of this package, each with the data that describe the error.
 
 A message is one line: what was given, what is allowed, what to do. Each class
 keeps the same facts as attributes, so that a program can act on them.
@@ -22,7 +22,7 @@ LONGEST_MESSAGE = 1000
 
 
 class EarthspinError(Exception):
-    """Base class of errors that a user can correct; the command line then exits with 2.
+    """Base class of errors that the user can correct; the command line then exits with status 2.
 
     The message is one line, whatever was given.
 
@@ -47,7 +47,7 @@ class EarthspinError(Exception):
 
 
 class SceneError(EarthspinError, ValueError):
-    """A key or value of a scene is not allowed.
+    """Error raised if a key or a value of a scene is not allowed.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ class SceneError(EarthspinError, ValueError):
 
 @dataclass(frozen=True)
 class Where:
-    """Location of a value in the input of the user, for messages.
+    """Location of a value in the user's input, such as key and file, for error messages.
 
     Attributes
     ----------
@@ -100,16 +100,16 @@ class Where:
         return f"{self.source}: {self.key}" if self.source else self.key
 
     def error(self, given: object, problem: str) -> SceneError:
-        """Build the error for a wrong value of the key that this object locates."""
+        """Build the error for a wrong value at this location of the input."""
         return SceneError(self.key, given, problem, source=self.source)
 
     def at(self, inner: str) -> Where:
-        """Return the location of an element within the value that this object locates."""
+        """Return the location of an element inside the value at this location."""
         return Where(f"{self.key}.{inner}", self.source, self.typed)
 
 
 class BodyError(EarthspinError, ValueError):
-    """A body that cannot exist.
+    """Error raised for a body whose properties are physically impossible or incomplete.
 
     Attributes
     ----------
@@ -138,7 +138,7 @@ class BodyError(EarthspinError, ValueError):
 
     @classmethod
     def lacking(cls, body: str, forms: Mapping[str, str]) -> BodyError:
-        """Build the error for numbers that a body lacks and the question needs.
+        """Build the error for properties that the body lacks and the question needs.
 
         Parameters
         ----------
@@ -158,7 +158,7 @@ class BodyError(EarthspinError, ValueError):
 
 
 class UnitsError(EarthspinError, ValueError):
-    """A value whose unit is missing, unknown, or of another kind.
+    """Error raised for a value whose unit is missing, unknown, or of the wrong dimension.
 
     Attributes
     ----------
@@ -186,7 +186,7 @@ class UnitsError(EarthspinError, ValueError):
 
 
 class KernelError(EarthspinError, OSError):
-    """An ephemeris kernel that cannot be used.
+    """Error raised if an ephemeris kernel cannot be used.
 
     Attributes
     ----------
@@ -209,7 +209,7 @@ class KernelError(EarthspinError, OSError):
 
 
 class CoverageError(EarthspinError, ValueError):
-    """Times outside what a kernel or a table covers.
+    """Error raised for times outside the range of a kernel or a table.
 
     Attributes
     ----------
@@ -239,7 +239,7 @@ class CoverageError(EarthspinError, ValueError):
 
 
 class UndefinedError(EarthspinError, ValueError):
-    """A quantity that is not defined for these inputs; the message gives the reason.
+    """Error raised if a quantity is not defined for the given inputs.
 
     Examples
     --------
@@ -254,7 +254,7 @@ class UndefinedError(EarthspinError, ValueError):
 
 
 class ApartError(UndefinedError):
-    """Members of an ensemble that cannot be computed together, but possibly one by one.
+    """Error raised if bodies cannot be computed together, but possibly one at a time.
 
     Examples
     --------
@@ -273,7 +273,7 @@ class ApartError(UndefinedError):
 
 
 class SeriesError(EarthspinError, ValueError):
-    """A file of observations that cannot be used as it is.
+    """Error raised if a file of observations cannot be used as it is.
 
     Attributes
     ----------
@@ -301,7 +301,7 @@ class SeriesError(EarthspinError, ValueError):
 
 
 class AccuracyError(EarthspinError, ValueError):
-    """An accuracy that was asked for and cannot be given.
+    """Error raised if the requested accuracy cannot be reached.
 
     Attributes
     ----------
@@ -327,7 +327,7 @@ class AccuracyError(EarthspinError, ValueError):
 
 
 class OutputError(EarthspinError, OSError):
-    """A result that cannot be written.
+    """Error raised if a result cannot be written.
 
     Attributes
     ----------
@@ -350,7 +350,7 @@ class OutputError(EarthspinError, OSError):
 
 
 class MissingExtraError(EarthspinError, ImportError):
-    """Raised if a task needs an optional package that is not installed.
+    """Error raised if a task needs an optional package that is not installed.
 
     Examples
     --------
@@ -370,7 +370,7 @@ class MissingExtraError(EarthspinError, ImportError):
 def _rebuild(
     kind: type[EarthspinError], args: tuple[Any, ...], facts: dict[str, Any]
 ) -> EarthspinError:
-    """Rebuild an error from its message and data, for pickle."""
+    """Build an error again from its class, message and data, as pickle requires."""
     error = kind.__new__(kind)
     error.args = args  # OSError takes them in __init__ alone if a class has one of its own
     error.__dict__.update(facts)
@@ -378,7 +378,7 @@ def _rebuild(
 
 
 def nearest(word: object, allowed: Iterable[str]) -> str:
-    """List the allowed words for a message; name the one most similar to the wrong word first.
+    """List the allowed words for a message, starting with the one most similar to a wrong word.
 
     Parameters
     ----------
@@ -399,18 +399,18 @@ def nearest(word: object, allowed: Iterable[str]) -> str:
 
 
 def _rounded_up(value: float) -> str:
-    """Round up to three digits, so that the printed accuracy can be requested."""
+    """Round an accuracy up to three digits, so that the printed value can be requested."""
     digits = f"{value:.3g}"
     return digits if float(digits) >= value else f"{value * (1 + 5e-3):.3g}"
 
 
 def one_line(error: BaseException) -> str:
-    """Message of an exception of a library or the operating system, on one line."""
+    """Return the message of an exception as one line."""
     return " ".join(str(getattr(error, "strerror", None) or error).split())
 
 
 def in_bytes(count: float) -> str:
-    """Write a size of memory or disk, as in ``"1.5 GB"``."""
+    """Format a number of bytes as a size with a unit, as in ``"1.5 GB"``."""
     units = ("B", "kB", "MB", "GB", "TB", "PB", "EB")
     power = 0
     while count >= 999.5 and power < len(units) - 1:
@@ -419,7 +419,7 @@ def in_bytes(count: float) -> str:
 
 
 def no_plain_file(path: object) -> str:
-    """Reason why a path cannot be read as a file: a folder, device or pipe; otherwise empty.
+    """If a path is a folder, device or pipe, return why it cannot be read; else an empty text.
 
     It is also empty if nothing exists at the path.
 
@@ -439,7 +439,7 @@ def no_plain_file(path: object) -> str:
 
 
 def _shown(given: object) -> str:
-    """Show any input on one line, shortened, without ever raising an error.
+    """Show any input as one short line of text; this function never raises an error.
 
     A long list is cut before it is converted to text. An object that cannot be converted is shown
     as its type.
@@ -454,7 +454,7 @@ def _shown(given: object) -> str:
 
 
 def _brief(word: object) -> str:
-    """Show a word of the input in a message, shortened and without quotes."""
+    """Show a word of the user's input in a message, shortened and without quotes."""
     return _cut(printable(word)) if isinstance(word, str) else _shown(word)
 
 
@@ -463,13 +463,13 @@ def _cut(text: str) -> str:
 
 
 def _named(path: object) -> str:
-    """Show a path in a message; only the end of a very long path is shown."""
+    """Show a file path in a message; only the end of a very long path is shown."""
     text = printable(str(path))
     return text if len(text) <= LONGEST_PATH else f"...{text[-LONGEST_PATH:]}"
 
 
 def is_one_line(text: str) -> bool:
-    """Return True for a single line without control characters.
+    """Return True if a text is a single line without control characters.
 
     Parameters
     ----------
@@ -480,12 +480,12 @@ def is_one_line(text: str) -> bool:
 
 
 def printable(text: str) -> str:
-    """Escape control characters and newlines."""
+    """Replace control characters and newlines in a text by escape sequences."""
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
 
 
 def _sentence(subject: str, problem: str, remedy: str) -> str:
-    """Join the parts of a message, leaving out an empty remedy."""
+    """Join subject, problem and remedy of an error message; an empty remedy is left out."""
     return f"{subject}: {problem}" + (f"; {remedy}" if remedy else "")

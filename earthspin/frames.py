@@ -1,4 +1,4 @@
-"""Frames of astropy and Skyfield whose axes are those of a computed answer.
+"""Frames for astropy and Skyfield whose axes were computed by this package.
 
 The frames rotate directions: no light time, aberration or light deflection is applied, unlike in
 astropy's GCRS and CIRS. The question of an answer is solved again at the very time of the frame,
@@ -44,7 +44,7 @@ __all__ = ["BodyFixed", "EquatorOfDate", "SkyfieldFrame", "rotations"]
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """Question of an answer without its times; a frame answers it again at its own times.
+    """Question and inputs of a result, with which it is computed again at other times.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ class Model:
 
     @classmethod
     def of(cls, answer: Any, words: tuple[str, ...]) -> Model:
-        """Make the model from an answer.
+        """Make the model (question and inputs) from a result.
 
         Raises
         ------
@@ -95,7 +95,7 @@ class Model:
         return f"<answer to '{self.question.word}'>"
 
     def at(self, **times: Any) -> Question:
-        """Build a question that has the inputs of the answer and other times."""
+        """Build a question with the inputs of the result, and with new times."""
         own = {
             name: getattr(self.question, name)
             for name in self.question.given
@@ -107,7 +107,7 @@ class Model:
 
 @lru_cache(maxsize=64)
 def _solved(model: Model, times: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
-    """Rotation matrices from the ICRS, shape (n, 3, 3), and 95 % half-widths of their error, rad.
+    """Rotation matrices from the ICRS, shape (n, 3, 3), and 95 % half-widths of the axes, rad.
 
     The error is that of the pole or of the attitude.
     """
@@ -116,7 +116,7 @@ def _solved(model: Model, times: tuple[float, ...]) -> tuple[FloatArray, FloatAr
 
 
 def _long_term(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Matrices from the ICRS to the mean equator and equinox of date, and their errors, rad."""
+    """Matrices from the ICRS to the mean equator and equinox of date, and pole errors, rad."""
     different, index = np.unique(times, return_inverse=True)
     tree = run_tree(model.at(times=different * u.d), sections=["matrices"])
     section = tree["matrices"].to_dataset()
@@ -155,7 +155,7 @@ def _tdb(times: FloatArray) -> Time:
 
 
 def _at(model: Model | None, obstime: Time) -> tuple[FloatArray, FloatArray]:
-    """Rotation matrices from the ICRS and their errors (rad) at the times of a frame."""
+    """Rotation matrices from the ICRS to a frame, at its times, and their errors, rad."""
     if model is None:
         raise SceneError("model", "nothing", "give an answer, as in model=answer")
     times = days(obstime.reshape(-1), Where("obstime"))
@@ -164,35 +164,35 @@ def _at(model: Model | None, obstime: Time) -> tuple[FloatArray, FloatArray]:
 
 
 class _ModelAttribute(Attribute):  # type: ignore[misc]
-    """Attribute of a frame that holds an answer."""
+    """Attribute of an astropy frame that holds a result of this package."""
 
     def __init__(self, *words: str) -> None:
         self.words = words
         super().__init__(default=None)
 
     def convert_input(self, value: Any) -> tuple[Any, bool]:
-        """Convert an answer to its model, as astropy requires for attributes of frames."""
+        """Convert a result to its model (question and inputs), as astropy requires."""
         return (None, False) if value is None else (Model.of(value, self.words), True)
 
 
 class _Rotated(BaseCoordinateFrame):  # type: ignore[misc]
-    """Base class of astropy frames whose axes are those of an answer."""
+    """Base class of astropy frames whose axes are computed by this package."""
 
     default_representation = SphericalRepresentation
 
     @property
     def error(self) -> u.Quantity:
-        """95 % half-width of the direction of the pole, or of the attitude, in arcsec."""
+        """95 % half-width of the pole's direction or, for a rotation, of the attitude, arcsec."""
         return (_at(self.model, self.obstime)[1] * u.rad).to(u.arcsec)
 
     @property
     def matrix(self) -> FloatArray:
-        """Matrix from the ICRS to this frame, shape (..., 3, 3)."""
+        """Rotation matrix from the ICRS to this frame, shape (..., 3, 3)."""
         return _at(self.model, self.obstime)[0]
 
 
 class EquatorOfDate(_Rotated):
-    """Equator and equinox of date of a computed pole, as a frame of astropy.
+    """Frame of astropy: equator and equinox of date of a computed pole.
 
     Directions are rotated only: no light time, aberration or light deflection is applied, unlike
     in astropy's GCRS and CIRS.
@@ -237,7 +237,7 @@ class EquatorOfDate(_Rotated):
 
 
 class BodyFixed(_Rotated):
-    """Principal axes of a rotating body, as a frame of astropy.
+    """Frame of astropy: principal axes of a rotating body, computed by `rotation`.
 
     Parameters
     ----------
@@ -275,7 +275,7 @@ for _frame in (EquatorOfDate, BodyFixed):
 
 
 class SkyfieldFrame:
-    """Axes of an answer for `frame_xyz` and `frame_latlon` of Skyfield.
+    """Frame of Skyfield, for `frame_xyz` and `frame_latlon`, whose axes are those of a result.
 
     Parameters
     ----------
@@ -287,14 +287,14 @@ class SkyfieldFrame:
         self.model = Model.of(answer, ("long-term", "pole", "rotation"))
 
     def rotation_at(self, t: Any) -> FloatArray:
-        """Matrix from the ICRF at a time of Skyfield, shape (3, 3) or (3, 3, n)."""
+        """Rotation matrix from the ICRF at the times of a Skyfield Time, (3, 3) or (3, 3, n)."""
         times = days(t, Where("t"))
         matrix, _ = _solved(self.model, tuple(times.tolist()))
         return np.moveaxis(matrix.reshape(*t.shape, 3, 3), (-2, -1), (0, 1))
 
 
 def rotations(answer: xr.Dataset) -> Rotation:
-    """Attitudes of an answer as rotations of SciPy, from body axes to inertial axes.
+    """Attitudes of a result as SciPy rotations, from body axes to inertial axes.
 
     Parameters
     ----------

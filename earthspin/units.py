@@ -1,4 +1,4 @@
-"""Kinds of inputs, such as numbers with units, words and lists: how to read and write them.
+"""Kinds of input, such as numbers with units, words or lists: how each is read and written.
 
 A kind knows how one sort of value is read (`read`, which checks dimension, shape, length and
 finiteness) and written (`write`, whose text or numbers `read` turns into the same bits). Inside
@@ -52,25 +52,25 @@ _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s
 
 
 class Kind(Protocol[T]):
-    """Protocol of a kind of input: how an input is read, described in words, and written."""
+    """Protocol of a kind of input: it reads the user's input, describes it, and writes it."""
 
     @property
     def words(self) -> str:
-        """Text for error messages that describes the allowed input."""
+        """Text for error messages that describes the input which is allowed."""
 
     @property
     def hint(self) -> str:
-        """Type of the allowed input, for editors and type checkers."""
+        """Type hint of the allowed input, shown by code editors and used by type checkers."""
 
     def read(self, given: object, where: Where) -> T:
         """Check an input and convert it to the value that the program uses."""
 
     def write(self, value: T) -> Plain:
-        """Return the value as a scene file stores it; `read` restores the same bits."""
+        """Return the value in the form stored in scene files; `read` restores it exactly."""
 
 
 def by_name(kind: object) -> bool:
-    """Return True if inputs of a kind can be a word, a name or a path instead of a number.
+    """Return True if a kind of input takes words, names or paths rather than numbers.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def by_name(kind: object) -> bool:
 
 
 def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
-    """Convert a value with a unit to floats in `unit`.
+    """Convert a value with a unit to floats in the unit that the program uses.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
 
 @dataclass(frozen=True)
 class _Target:
-    """Required unit of an input, with its key and an example, for error messages."""
+    """Unit that an input must have, with the input's name and an example for error messages."""
 
     unit: str
     where: Where
@@ -137,7 +137,7 @@ class _Target:
         return UnitsError(str(self.where), value, self.unit or "a pure number", self.example)
 
     def factor(self, value: object, unit: str) -> float:
-        """Factor that converts a value from the given unit to the required unit."""
+        """Factor that converts a value from a given unit to the unit that the input must have."""
         import astropy.units as u
 
         try:
@@ -185,14 +185,14 @@ def _convert(value: Any, target: _Target) -> Any:
 
 
 def _is_bare(value: object) -> bool:
-    """Return True for a number without a unit, or a list that contains one."""
+    """Return True for a number without a unit, or for a list that contains such a number."""
     if isinstance(value, (list, tuple)):
         return any(map(_is_bare, value))
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def is_masked(value: object) -> bool:
-    """Return True if an array, a list of arrays or a Time has masked elements."""
+    """Return True if an array, a list of arrays or an astropy Time has masked elements."""
     if isinstance(value, (list, tuple)):
         try:
             return any(map(is_masked, value))
@@ -203,7 +203,7 @@ def is_masked(value: object) -> bool:
 
 
 def _has_unit(value: object) -> bool:
-    """Return True if a value, or an element of nested lists, has a unit."""
+    """Return True if a value has a unit, or any element of nested lists has one."""
     nested = isinstance(value, (list, tuple)) and any(map(_has_unit, value))
     return nested or isinstance(value, (str, dt.timedelta)) or hasattr(value, "to_value")
 
@@ -238,7 +238,7 @@ def _length_of_time(value: dt.timedelta | np.timedelta64, target: _Target) -> fl
 
 
 def _plain(value: Any, target: _Target) -> Any:
-    """Convert numbers without units to floats; refuse anything else."""
+    """Convert numbers without units to floats; refuse values of any other type."""
     try:
         array = np.asarray(value)
         if array.dtype.kind == "m" and target.unit == "s" and not np.isnat(array).any():
@@ -250,7 +250,7 @@ def _plain(value: Any, target: _Target) -> Any:
 
 
 def real_numbers(value: Any) -> FloatArray:
-    """Convert an array or list to floats; NaN and infinity are allowed.
+    """Convert an array or a list of numbers to floats; NaN and infinity are allowed.
 
     Raises
     ------
@@ -280,7 +280,7 @@ def real_numbers(value: Any) -> FloatArray:
 
 @dataclass(frozen=True)
 class Number:
-    """Kind of input: one finite number, stored as a float in `unit`.
+    """Kind of input: one finite number, converted to a float in the unit `unit`.
 
     Attributes
     ----------
@@ -312,11 +312,11 @@ class Number:
 
     @property
     def words(self) -> str:
-        """Text for error messages that describes the allowed number."""
+        """Text for error messages: an example of the allowed number."""
         return f'like "{self.example}"' if self.unit else f"like {self.example}"
 
     def read(self, value: object, where: Where) -> float:
-        """Check a number, with or without a unit, and convert it to a float in `unit`."""
+        """Check a number, given with or without a unit, and convert it to a float in `unit`."""
         real = isinstance(value, (int, float)) and not hasattr(value, "to_value")
         if (isinstance(value, str) and not self.text) or (real and not self.plain):
             form = f"it with its unit, like '{self.example}'"
@@ -340,13 +340,13 @@ class Number:
         return f"it is at least {self.low:g}{unit}"
 
     def write(self, value: float) -> Plain:
-        """Form stored in scenes: the number with its unit."""
+        """Form stored in scene files: the number as text with its unit."""
         return f"{float(value)!r} {self.unit}" if self.unit else float(value)
 
 
 @dataclass(frozen=True)
 class Numbers:
-    """Kind of input: an array of finite numbers, stored as floats in `unit`.
+    """Kind of input: an array of finite numbers, converted to floats in the unit `unit`.
 
     Attributes
     ----------
@@ -367,12 +367,12 @@ class Numbers:
 
     @property
     def words(self) -> str:
-        """Text for error messages that describes the allowed array."""
+        """Text for error messages: size of the allowed array, and an example of an element."""
         size = " x ".join("n" if n is None else str(n) for n in self.shape)
         return f'{size} values like "{self.example}"' if self.unit else f"{size} numbers"
 
     def read(self, value: object, where: Where) -> FloatArray:
-        """Check an array and return a read-only copy as floats."""
+        """Check an array of numbers, convert it to floats, and return a read-only copy."""
         if isinstance(value, Mapping):
             unit = str(value.get("unit", self.unit))
             factor = _Target(self.unit, where, self.example).factor(unit, unit)
@@ -391,7 +391,7 @@ class Numbers:
         return values
 
     def write(self, value: FloatArray) -> Plain:
-        """Form stored in scenes: a list of numbers, or bytes if it is long."""
+        """Form stored in scene files: a list of numbers, or the bytes of a long array."""
         if value.size > LONGEST_LIST:
             return pack(value) | {"unit": self.unit}
         return value.tolist() if not self.unit else _with_unit(value.tolist(), self.unit)
@@ -404,7 +404,7 @@ def _with_unit(values: Any, unit: str) -> Any:
 
 
 def _in_order(value: Any, where: Where) -> Any:
-    """Order the components x, y, z of a labelled array along its last axis; refuse other labels."""
+    """Sort the components x, y, z of a labelled array along its last axis; refuse other labels."""
     if hasattr(value, "iloc"):
         labels = getattr(value, "columns", value.index)
         if labels.dtype.kind not in "iu":
@@ -420,13 +420,13 @@ def _in_order(value: Any, where: Where) -> Any:
 
 
 def pack(values: FloatArray) -> dict[str, Plain]:
-    """Write an array as a table of its shape and bytes."""
+    """Convert an array to a dict of its shape and its bytes as text, for scene files."""
     data = np.ascontiguousarray(values, dtype="<f8").tobytes()
     return {"shape": list(values.shape), "float64": base64.b64encode(data).decode("ascii")}
 
 
 def unpack(table: Mapping[str, Any], where: Where) -> FloatArray:
-    """Read an array that `pack` wrote.
+    """Restore an array from the dict that `pack` returned.
 
     Raises
     ------
@@ -444,16 +444,16 @@ def unpack(table: Mapping[str, Any], where: Where) -> FloatArray:
 
 
 class _AsItIs:
-    """Base class of kinds whose values are stored in a scene unchanged."""
+    """Base class of kinds of input whose values are stored in scene files without conversion."""
 
     def write(self, value: Any) -> Plain:
-        """Form stored in scenes: the value unchanged."""
+        """Form stored in scene files: the value itself."""
         return value
 
 
 @dataclass(frozen=True)
 class Whole(_AsItIs):
-    """Kind of input: a whole number between `low` and `high`."""
+    """Kind of input: a whole number from `low` to `high`."""
 
     low: int = 1
     high: int = LONGEST_IN_MEMORY
@@ -462,7 +462,7 @@ class Whole(_AsItIs):
 
     @property
     def words(self) -> str:
-        """Text for error messages that describes the allowed whole number."""
+        """Text for error messages: the smallest allowed whole number."""
         return f"a whole number, {self.low} or more"
 
     def read(self, value: object, where: Where) -> int:
@@ -476,7 +476,7 @@ class Whole(_AsItIs):
 
 @dataclass(frozen=True)
 class Word(_AsItIs):
-    """Kind of input: a word from a list.
+    """Kind of input: one word from a list of allowed words.
 
     Attributes
     ----------
@@ -495,7 +495,7 @@ class Word(_AsItIs):
 
     @property
     def words(self) -> str:
-        """List of the allowed words, for messages."""
+        """Text for error messages: the list of the allowed words."""
         return " or ".join(f'"{word}"' for word in self.allowed)
 
     def read(self, value: object, where: Where) -> str:
@@ -509,12 +509,12 @@ class Word(_AsItIs):
 
 @dataclass(frozen=True)
 class Text(_AsItIs):
-    """Kind of input: a line of text."""
+    """Kind of input: one line of text."""
 
     words, hint = "a line of text", "str"
 
     def read(self, value: object, where: Where) -> str:
-        """Check that a value is a line of text."""
+        """Check that a value is text on a single line."""
         if not isinstance(value, str) or not is_one_line(value):
             raise where.error(value, f"it is {self.words}")
         return value
@@ -522,7 +522,7 @@ class Text(_AsItIs):
 
 @dataclass(frozen=True)
 class FileName(_AsItIs):
-    """Kind of input: path of a file or folder, or a name that stands for a file.
+    """Kind of input: the path of a file or folder, or a short name that stands for a file.
 
     Attributes
     ----------
@@ -542,23 +542,23 @@ class FileName(_AsItIs):
     content: ClassVar[str] = "text"
 
     def read(self, value: object, where: Where) -> Any:
-        """Check that a value is a path or a word; the file is opened later."""
+        """Check that a value is a path or a short name; the file is not opened here."""
         if not isinstance(value, (str, os.PathLike)) or not os.fspath(value).strip():
             raise where.error(value, f"it is {self.expected or self.words}")
         return os.fspath(value)
 
     def is_path(self, value: object) -> bool:
-        """Return True if a value is a path."""
+        """Return True if a value is a path, and False if it is a known short name."""
         return isinstance(value, str) and value not in self.known
 
     def begins(self, head: bytes) -> bool:
-        """Return True if a file of this kind may begin with these bytes."""
+        """Return True if the given first bytes can begin a file of this kind."""
         return True
 
 
 @dataclass(frozen=True)
 class Several:
-    """Kind of input: list of values of one kind; a single value may be given without a list.
+    """Kind of input: a list of values of one kind, or a single such value.
 
     Attributes
     ----------
@@ -574,11 +574,11 @@ class Several:
 
     @property
     def words(self) -> str:
-        """Text for error messages that describes the allowed list."""
+        """Text for error messages that describes one allowed value, and that lists are allowed."""
         return f"{self.of.words}; one or a list"
 
     def read(self, value: object, where: Where) -> tuple[Any, ...]:
-        """Check each value of a list, or a single value."""
+        """Check each value of a list, or a single value, and return them as a tuple."""
         if isinstance(value, (set, frozenset)):
             raise where.error(value, "a set has no order; give a list")
         if isinstance(value, np.ndarray) and value.ndim:
@@ -588,12 +588,12 @@ class Several:
         return tuple(self.of.read(element, where) for element in value)
 
     def write(self, value: tuple[Any, ...]) -> Plain:
-        """Return the list in the form that a scene stores."""
+        """Return the values in the form stored in scene files, as a list."""
         return [self.of.write(element) for element in value]
 
 
 def kind_of(annotation: Any) -> Kind[Any]:
-    """Choose the kind of input for a type annotation, ignoring None.
+    """Choose the kind of input that fits a type annotation; None in the annotation is ignored.
 
     Parameters
     ----------

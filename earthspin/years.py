@@ -1,4 +1,4 @@
-"""Times over millennia, in seconds of TDB from J2000.0 and in Julian years.
+"""Read times over millennia: seconds of TDB from J2000.0, from durations or dates.
 
 They are given as durations from J2000.0 (``"-65 kyr"``, ``"1 Myr"``) or as dates of the proleptic
 Gregorian calendar with astronomical years (``"-3000-01-01"``: the year 0 stands before the year 1).
@@ -27,7 +27,7 @@ EXAMPLE = "-65 kyr"
 
 
 def seconds(value: Any, where: Where) -> float:
-    """Read one time: a duration from J2000.0 TDB, or a date.
+    """Read one time, given as a duration from J2000.0 or as a date; return s from J2000.0 TDB.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def seconds(value: Any, where: Where) -> float:
 
 
 def _days_of_date(year: int, month: int, day: int, where: Where) -> float:
-    """Days from J2000.0 to midnight at the start of a proleptic Gregorian date."""
+    """Days from J2000.0 to 0h of a date in the proleptic Gregorian calendar."""
     try:
         date = np.datetime64(f"{'-' * (year < 0)}{abs(year):04}-{month:02}-{day:02}", "D")
     except ValueError:
@@ -79,7 +79,7 @@ def _days_of_date(year: int, month: int, day: int, where: Where) -> float:
 
 @dataclass(frozen=True)
 class YearSpan:
-    """Span of time over millennia.
+    """Time span over millennia, from a first to a last time.
 
     Attributes
     ----------
@@ -94,25 +94,25 @@ class YearSpan:
 
     @classmethod
     def read(cls, value: Any, where: Where) -> YearSpan:
-        """Read the first and the last time of a span; refuse a reversed order."""
+        """Read the first and the last time of a span; refuse a last time before the first."""
         if isinstance(value, YearSpan):
             return value
         allowed = "two times, like ['-1 Myr', '0 kyr']"
         return cls(*first_and_last(value, where, seconds, allowed))
 
     def write(self) -> Plain:
-        """Form stored in scenes: the two times in seconds, to the last bit."""
+        """Form stored in scene files: both times in seconds, with all digits."""
         return [f"{self.first!r} s", f"{self.last!r} s"]
 
 
 class YearList(Listed):
-    """List of times over millennia, in seconds from J2000.0 TDB."""
+    """List of times over millennia, stored in seconds from J2000.0 TDB."""
 
     words, hint = "a list of times from J2000.0, or of dates", "Epochs"
 
     @classmethod
     def times(cls, value: Any, where: Where) -> FloatArray:
-        """Read durations from J2000.0, or dates in any form that `dates` reads, as seconds."""
+        """Read a list of durations from J2000.0 or of dates; return seconds from J2000.0 TDB."""
         if isinstance(value, str):
             value = [value]
         if hasattr(value, "to_value") and not hasattr(value, "jd1"):
@@ -131,7 +131,7 @@ YearStep = Annotated[float, Number("s", "1 kyr", low=SHORTEST, high=FARTHEST, pl
 
 
 def grid(span: YearSpan, step: float, where: Where) -> FloatArray:
-    """Evenly spaced times from the start of a span to at most its end.
+    """Evenly spaced times that start at the beginning of a span and end within it.
 
     Raises
     ------

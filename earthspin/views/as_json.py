@@ -1,4 +1,4 @@
-"""Write an answer as JSON in pieces, so that the full text never occupies memory."""
+"""Write a result as JSON text piece by piece, so that the full text is never in memory."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ AT_ONCE = 1 << 16
 
 
 def write_json(tree: xr.DataTree, stream: TextIO) -> None:
-    """Write an answer with its sections, laid out as by `Dataset.to_dict`.
+    """Write a result and its sections as JSON, in the layout of `Dataset.to_dict`.
 
     Dates are text in ISO 8601, and so are infinity and what is no number, for which JSON has none.
 
@@ -37,7 +37,7 @@ def write_json(tree: xr.DataTree, stream: TextIO) -> None:
 def _write_members(
     title: str, members: Mapping[Any, T], write: Callable[[T, TextIO], None], stream: TextIO
 ) -> None:
-    """Write named items as one JSON object; close each item, which `write` leaves open."""
+    """Write several named items as one JSON object; `write` writes each of the items."""
     stream.write(f',\n"{title}": {{')
     for number, (name, member) in enumerate(members.items()):
         stream.write(f"{',' if number else ''}\n{json.dumps(str(name))}: ")
@@ -71,7 +71,7 @@ def _text(value: Any) -> str:
 
 
 def _plain(value: Any) -> Any:
-    """Convert arrays, dates and infinite numbers to types that JSON can store."""
+    """Convert arrays, dates and infinite numbers to types that JSON can represent."""
     if isinstance(value, Mapping):
         return {str(key): _plain(inner) for key, inner in value.items()}
     if isinstance(value, (np.ndarray, np.generic)):

@@ -47,7 +47,7 @@ def _caption(tree: Result) -> str:
 
 
 def plot_states(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the spin axes of the Cassini states in the plane that they share.
+    """Draw the spin axes of the Cassini states in the plane in which all of them lie.
 
     Parameters
     ----------

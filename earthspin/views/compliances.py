@@ -1,4 +1,4 @@
-"""Tables and figure of compliances and coupling numbers, with published values, and free modes."""
+"""Tables and figure of compliances, coupling numbers and free modes, with published values."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ LINEAR = 1e-10
 
 
 def numbers(tree: Result) -> Table:
-    """Table of the compliances and coupling numbers of a body, with published values if known."""
+    """Table of a body's compliances and coupling numbers, with published values if known."""
     answer, known = answer_of(tree), section(tree, "published")
     published, sources = beside_published(known, "number", "number_value")
     note = (
@@ -38,7 +38,7 @@ def numbers(tree: Result) -> Table:
 
 
 def modes(tree: Result) -> Table:
-    """Table of the periods of the free modes of the elastic body."""
+    """Table of the periods of the free modes (wobbles, nutations) of the elastic body."""
     columns = Column("free_mode", head="mode"), "compliance_mode_period:.1f"
     note = "Nutations have their periods in space, negative if retrograde; wobbles in the body."
     title = "Free modes of the elastic body"

@@ -1,4 +1,4 @@
-"""Style, axes and parts that all figures share.
+"""Style and common elements of all figures, such as axes, error bands and legends.
 
 No pyplot: it costs half a second and keeps global state. Matplotlib is imported when something is
 drawn, so that tables do not wait for it.
@@ -59,7 +59,7 @@ _NO_STYLE = ("backend", "interactive", "toolbar", "webagg", "tk.", "macosx", "sa
 
 @contextmanager
 def style() -> Iterator[None]:
-    """Draw in the style of this package; also a decorator."""
+    """Use the plot style of this package in a `with` block or a decorated function."""
     matplotlib = _matplotlib()
     own = {
         name: value
@@ -71,7 +71,7 @@ def style() -> Iterator[None]:
 
 
 def _matplotlib() -> Any:
-    """Import matplotlib, even if MPLBACKEND names a backend that is not available.
+    """Import matplotlib, even if the environment variable MPLBACKEND names a missing backend.
 
     No window is opened here, and the library could not be imported.
     """
@@ -89,7 +89,7 @@ def _matplotlib() -> Any:
 
 @dataclass(frozen=True)
 class Drawing:
-    """A finished figure with title and caption, for an HTML page.
+    """Finished figure with title and caption, for use on an HTML page.
 
     Attributes
     ----------
@@ -114,7 +114,7 @@ class Drawing:
 
     @property
     def narrow(self) -> str:
-        """SVG text of a narrow version of the figure; empty if the figure is already narrow."""
+        """SVG text of the figure's version for phones; empty if the figure is narrow already."""
         if self.phone is not None:
             return _saved(self.phone)
         width, height = self.figure.get_size_inches()
@@ -138,7 +138,7 @@ def _saved(figure: Figure) -> str:
 
 @dataclass(frozen=True)
 class PageFigure:
-    """Declaration of a figure on a page: title, caption, drawing function and required sections.
+    """Description of a figure on an HTML page: title, caption, plot function, required sections.
 
     Attributes
     ----------
@@ -170,13 +170,13 @@ class PageFigure:
     phone: float = 0.0
 
     def is_there(self, tree: Result) -> bool:
-        """Return True if an answer meets the conditions of the figure and has its main section."""
+        """Return True if a result has the main section of the figure and meets its conditions."""
         there = not self.section or section(tree, self.section) is not None
         return there and (self.applies is None or self.applies(tree))
 
     @style()
     def drawn(self, tree: Result) -> Drawing:
-        """Draw the figure for an answer, with caption and, if declared, a version for phones."""
+        """Draw the figure for a result, with its caption and, if required, a version for phones."""
         caption = self.caption(tree) if callable(self.caption) else self.caption
         figure, phone = figure_of(self.plot(tree)), None
         if self.phone:
@@ -185,7 +185,7 @@ class PageFigure:
 
 
 def figure_of(shown: Axes | Figure) -> Figure:
-    """Figure that contains the given axes; a figure is returned as it is."""
+    """Return the figure that contains the given axes; return a given figure unchanged."""
     figure = shown.get_figure(root=True)
     assert figure is not None
     return figure
@@ -194,7 +194,7 @@ def figure_of(shown: Axes | Figure) -> Figure:
 def stacked(
     count: int, height: float, figure: Figure | None = None, *, width: float = 8.0, **how: Any
 ) -> tuple[Figure, list[Axes]]:
-    """Axes one above the other with a common horizontal axis, on a new figure by default."""
+    """Return axes one above the other with a common horizontal axis, by default in a new figure."""
     figure = empty(width, height) if figure is None else figure
     return figure, list(figure.subplots(count, 1, sharex=True, squeeze=False, **how)[:, 0])
 
@@ -210,14 +210,14 @@ def band(
     lowest: float = -np.inf,
     **how: Any,
 ) -> None:
-    """Draw a line and the band of its 95 % half-width, not below `lowest`."""
+    """Draw a line and, as a band, its 95 % half-width; the band is cut below `lowest`."""
     low = np.maximum(value - error, lowest)
     ax.fill_between(x, low, value + error, color=colour, alpha=alpha, lw=0)
     ax.plot(x, value, color=colour, **how)
 
 
 def lines(ax: Axes, x: Any, values: xr.DataArray, **how: Any) -> None:
-    """Draw a line for each label of the last dimension, in successive colours."""
+    """Draw one line for each label of the array's last dimension, in different colours."""
     labels = values[values.dims[-1]].values
     for colour, label, value in zip((*CYCLE, GREY), labels, values.values.T, strict=False):
         ax.plot(x, value, color=colour, label=label, **how)
@@ -226,7 +226,7 @@ def lines(ax: Axes, x: Any, values: xr.DataArray, **how: Any) -> None:
 def plot_both_angles(
     ax: Axes, time: Any, dpsi_sineps: Any, deps: Any, title: str, label: str
 ) -> None:
-    """Draw celestial pole offsets in longitude and in obliquity over time, in the same axes."""
+    """Draw celestial pole offsets in longitude and obliquity over time, on the same axes."""
     ax.plot(time, dpsi_sineps, color=BLUE, lw=0.6, label="dpsi sin(eps)")
     ax.plot(time, deps, color=RED, lw=0.6, label="deps")
     ax.set_title(title, loc="left", fontsize=9)
@@ -234,14 +234,14 @@ def plot_both_angles(
 
 
 def rungs(ax: Axes, labels: Sequence[object]) -> None:
-    """Label the horizontal axis with the names of the models in a ladder."""
+    """Label the horizontal axis with the names of models of increasing detail (rungs)."""
     ax.set_xticks(range(len(labels)), [str(label) for label in labels])
     ax.margins(x=0.08)
     ax.grid(axis="x", visible=False)
 
 
 def empty(width: float, height: float) -> Figure:
-    """Empty figure of a given width and height, in inches."""
+    """Create an empty figure of a given width and height, in inches."""
     _matplotlib()
     from matplotlib.figure import Figure
 
@@ -249,7 +249,7 @@ def empty(width: float, height: float) -> Figure:
 
 
 def axes(ax: Axes | None, width: float = 8.0, height: float = 3.8) -> Axes:
-    """Return the given axes, or axes in a new figure if None is given."""
+    """Return the given axes; if None is given, return the axes of a new figure."""
     if ax is not None:
         return ax
     with style():
@@ -257,7 +257,7 @@ def axes(ax: Axes | None, width: float = 8.0, height: float = 3.8) -> Axes:
 
 
 def few_dates(ax: Axes) -> None:
-    """Limit the dates along an axis, so that they do not overlap on a phone."""
+    """Limit the number of dates along an axis, so that their labels do not overlap on a phone."""
     from matplotlib.dates import AutoDateLocator, ConciseDateFormatter
 
     dates = AutoDateLocator(minticks=3, maxticks=7)  # type: ignore[no-untyped-call]
@@ -276,5 +276,5 @@ def legend_above(ax: Axes) -> None:
 
 
 def note(ax: Axes, text: str, at: tuple[float, float], by: tuple[float, float], **how: Any) -> None:
-    """Write small text beside a point, at an offset in points."""
+    """Write small text near a point, shifted from it by a distance in typographic points."""
     ax.annotate(text, at, xytext=by, textcoords="offset points", **{"fontsize": 8} | how)

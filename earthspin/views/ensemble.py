@@ -1,4 +1,4 @@
-"""Tables and figures of the spread of an ensemble, and the contribution of each input to it."""
+"""Tables and figures of the spread of an ensemble's results, and of each input's share of it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ SMALL = 5e-4
 
 
 class Number(NamedTuple):
-    """Identification of one quantity that differs among the members: name, coordinates and unit."""
+    """Name, coordinates and unit of one number that differs among the members of an ensemble."""
 
     name: str
     labels: dict[str, Any]
@@ -32,7 +32,7 @@ class Number(NamedTuple):
 
     @property
     def words(self) -> str:
-        """Name of the quantity and its coordinates, in words."""
+        """Describe one number of a result in words: its name and its coordinates."""
         labels = (
             str(label.astype("M8[m]") if isinstance(label, np.datetime64) else label)
             for label in self.labels.values()
@@ -41,7 +41,7 @@ class Number(NamedTuple):
 
 
 def spread(tree: Result) -> Table:
-    """Table of the spread of each quantity over the members of an ensemble."""
+    """Table of the spread of each quantity over the members of an ensemble of runs."""
     answer = _whole(tree)
     numbers, count = _numbers(answer), answer.sizes[MEMBER]
     if not numbers:
@@ -63,7 +63,7 @@ def spread(tree: Result) -> Table:
 
 
 def shares(tree: Result) -> Table:
-    """Table of each input's share of the variance of each quantity.
+    """Table of the share of each input in the variance of each quantity of an ensemble.
 
     The table is empty if the members are too few.
     """
@@ -88,7 +88,7 @@ TABLES = [("", spread), ("", shares)]
 
 
 def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray, list[float]]:
-    """Main quantities of an ensemble, each input's share of their variance, and the rest."""
+    """Main quantities of an ensemble, share of each input in their variance, and the rest."""
     result, chiefs = sensitivity(answer), _chiefs(answer)
     rows = [number for number in _numbers(answer) if number.name in chiefs]
     share = [result[f"{name}_share"].sel(labels).values for name, labels, _ in rows]
@@ -97,7 +97,7 @@ def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray, list[float]]:
 
 
 def lead(tree: Result) -> str:
-    """Sentence that gives the main quantity of an ensemble and the input that spreads it most."""
+    """Sentence with an ensemble's main quantity, and the input that causes most of its spread."""
     answer = _whole(tree)
     if not _numbers(answer):
         return _alike(answer)
@@ -123,7 +123,7 @@ def _caption_of_shares(tree: Result) -> str:
 
 
 def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Axes:
-    """Draw the histogram of one quantity over the members, and its central 95 % as a band.
+    """Draw a histogram of one quantity over the ensemble members, with its central 95 % as a band.
 
     Parameters
     ----------
@@ -154,7 +154,7 @@ def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Ax
 
 
 def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw each input's share of the variance of the main quantities, as bars.
+    """Draw the share of each input in the variance of the main quantities, as bars.
 
     Parameters
     ----------
@@ -211,12 +211,12 @@ def _whole(result: Result) -> xr.Dataset:
 
 
 def _enough(answer: xr.Dataset) -> bool:
-    """Return True if an ensemble has enough members for a linear fit in all inputs."""
+    """Return True if an ensemble has enough members to fit a linear function of all inputs."""
     return bool(answer.sizes[MEMBER] >= members_needed(answer))
 
 
 def _numbers(answer: xr.Dataset) -> list[Number]:
-    """All finite quantities that differ among the members of an ensemble."""
+    """List all finite quantities of an ensemble whose values differ among the members."""
     numbers = []
     for name, variable in answer.data_vars.items():
         if MEMBER not in variable.dims or variable.dtype.kind != "f" or "_error" in str(name):
@@ -232,13 +232,13 @@ def _numbers(answer: xr.Dataset) -> list[Number]:
 
 
 def _alike(answer: xr.Dataset) -> str:
-    """Sentence to print if no quantity differs among the members of an ensemble."""
+    """Sentence to print if all members of an ensemble give the same numbers."""
     count, inputs = answer.sizes[MEMBER], ", ".join(inputs_of(answer))
     return f"No finite number differs among the members: {count} members, inputs {inputs}."
 
 
 def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
-    """Names of the main quantities of an answer, among those that differ between members.
+    """Names of the main quantities of a result whose values differ among ensemble members.
 
     If the view of the question names none that differs, this is the first number that does; empty
     if no number differs.
@@ -249,7 +249,7 @@ def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
 
 
 def _chief(answer: xr.Dataset, name: str = "") -> Number:
-    """Quantity whose spread stands for that of an ensemble: the last element of a main variable.
+    """Main quantity of an ensemble, such as the total, or the value at the last time.
 
     It is for example the total, or the value at the last time.
     """
@@ -262,7 +262,7 @@ def _chief(answer: xr.Dataset, name: str = "") -> Number:
 
 
 def _digits(value: float, other: float) -> str:
-    """Format a number with enough digits to distinguish it from another number."""
+    """Format a number with so many digits that it differs visibly from another number."""
     apart = abs(other - value) / max(abs(value), abs(other), 1e-300)
     digits = int(np.clip(2 - np.floor(np.log10(max(apart, 1e-15))), 3, 16))
     return short_exponents(f"{value:.{digits}g}")

@@ -1,4 +1,4 @@
-"""Forecast of polar motion: bands in time, the path of the pole, and measured skill."""
+"""Tables and figures of a polar motion forecast, and of the errors of past forecasts."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ DRAWN = {
 
 
 def at_horizons(tree: Result) -> Table:
-    """Table of the forecast x and y of the pole at some numbers of days after the origin."""
+    """Table of the forecast x and y of the pole, for selected days after the last observation."""
     answer = answer_of(tree)
     days = _days(answer)
     rows = [
@@ -44,7 +44,7 @@ def at_horizons(tree: Result) -> Table:
 
 
 def skill(tree: Result) -> Table:
-    """Table of measured errors of past forecasts, by number of days ahead."""
+    """Table of the measured errors of past forecasts, by number of days ahead."""
     data = needed(tree, "skill")
     rows = []
     for _, row in along(data, "case"):
@@ -64,7 +64,7 @@ def skill(tree: Result) -> Table:
 
 
 def offsets(tree: Result) -> Table:
-    """Table of the forecast celestial pole offsets at some numbers of days after the origin."""
+    """Table of the forecast celestial pole offsets, for selected days after the last data."""
     data = needed(tree, "pole_offsets")
     rows = [
         (f"{day:.0f}", date(row.time), measured(row, "dX"), measured(row, "dY"))
@@ -87,14 +87,14 @@ TABLES = [("", at_horizons), ("pole_offsets", offsets), ("skill", skill)]
 
 
 def _days(answer: xr.Dataset) -> FloatArray:
-    """Times of a forecast in days after its origin."""
+    """Times of a forecast, in days after the last observation that the forecast uses."""
     origin = np.datetime64(answer.x.attrs["origin"])
     days: FloatArray = (answer.time.values - origin) / np.timedelta64(1, "D")
     return days
 
 
 def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Draw the forecast x and y with 95 % bands.
+    """Draw the forecast coordinates x and y of the pole over time, with 95 % bands.
 
     The prediction of Bulletin A is added if the answer has it.
 
@@ -157,7 +157,7 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_skill(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Draw measured error and coverage of past forecasts by number of days ahead.
+    """Draw the measured error of past forecasts, and the coverage of their 95 % intervals.
 
     The origins were not used to choose parameters.
 

@@ -1,4 +1,4 @@
-"""Tables, figures and solids of a free rotor."""
+"""Tables, figures and three-dimensional pictures of a rotor without torque."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from earthspin.views.table import Table, listed, quantities
 
 
 def constants(tree: Result) -> Table:
-    """Table of the constants of a free rotor's motion: energy, angular momentum, periods."""
+    """Table of a free rotor's constants of motion: energy, angular momentum, and periods."""
     answer, poinsot = answer_of(tree).isel(time=0), section(tree, "poinsot")
     momentum = float(np.linalg.norm(answer.angular_momentum_body))
     rows = [
@@ -60,7 +60,7 @@ def _caption_of_herpolhode(tree: Result) -> str:
 
 
 def plot_components(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the angular velocity along the principal axes in time.
+    """Draw the components of angular velocity along the principal axes over time.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def plot_components(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_herpolhode(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the herpolhode: path of the angular velocity in the invariable plane, with its bounds.
+    """Draw the path of the angular velocity in the invariable plane (herpolhode) and its bounds.
 
     Parameters
     ----------
@@ -114,7 +114,10 @@ FIGURES = [
 
 
 def ellipsoids_with_polhodes(tree: Result) -> Solid:
-    """Solid of the inertia and momentum ellipsoids, which meet in the polhode (I.5.1 to I.5.5)."""
+    """Three-dimensional picture of the inertia and momentum ellipsoids, with the polhode.
+
+    The ellipsoids meet in the polhode (source text, I.5.1 to I.5.5).
+    """
     answer, poinsot = answer_of(tree), needed(tree, "poinsot")
     inertia, momentum = poinsot.inertia_ellipsoid.values, poinsot.momentum_ellipsoid.values
     polhode = poinsot.polhode.values
@@ -137,7 +140,10 @@ def ellipsoids_with_polhodes(tree: Result) -> Solid:
 
 
 def polhode_with_sphere(tree: Result) -> Solid:
-    """Solid of the polhode on the inertia ellipsoid, with a sphere of mean spin (I.5.4)."""
+    """Three-dimensional picture of the inertia ellipsoid, polhode, and a sphere of mean spin.
+
+    See the source text, I.5.4.
+    """
     answer, poinsot = answer_of(tree), needed(tree, "poinsot")
     inertia, polhode = poinsot.inertia_ellipsoid.values, poinsot.polhode.values
     speed = np.linalg.norm(polhode, axis=1)
@@ -161,7 +167,10 @@ def polhode_with_sphere(tree: Result) -> Solid:
 
 
 def rolling_ellipsoid(tree: Result) -> Solid:
-    """Solid of the inertia ellipsoid that rolls on the invariable plane (Poinsot; I.5.8, I.5.9)."""
+    """Three-dimensional picture of the inertia ellipsoid rolling on the invariable plane.
+
+    See Poinsot's construction in the source text, I.5.8 and I.5.9.
+    """
     answer, poinsot = answer_of(tree), needed(tree, "poinsot")
     to_plane = _turn_to_z(answer.angular_momentum_body.values[0])
     attitude = np.array([multiply(to_plane, q) for q in answer.attitude.values])
@@ -192,7 +201,10 @@ def rolling_ellipsoid(tree: Result) -> Solid:
 
 
 def rolling_cones(rotor: SymmetricRotor, title: str, points: int = 241) -> Solid:
-    """Solid of the body cone that rolls on the space cone (I.6.30, I.6.31)."""
+    """Three-dimensional picture of the body cone rolling on the space cone.
+
+    See the source text, I.6.30 and I.6.31.
+    """
     period = 2 * np.pi / float(rotor.precession_rate)
     times = np.linspace(0, 2 * period, points)
     omega = rotor.omega_inertial(times)
@@ -225,7 +237,7 @@ def rolling_cones(rotor: SymmetricRotor, title: str, points: int = 241) -> Solid
 
 
 def _turn_to_z(vector: FloatArray) -> FloatArray:
-    """Quaternion of the smallest rotation that takes a vector to the third axis."""
+    """Quaternion of the smallest rotation that makes a vector parallel to the third axis."""
     unit = vector / np.linalg.norm(vector)
     half = np.array([1 + unit[2], unit[1], -unit[0], 0.0])
     return np.asarray(half / np.linalg.norm(half))

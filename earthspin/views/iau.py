@@ -30,7 +30,7 @@ MODELS = {
 
 
 def budget(tree: Result) -> Table:
-    """Table of the contributions to the precession rate, their sum, and its difference from IAU."""
+    """Table of the contributions to the precession rate, their sum, and the difference from IAU."""
     rates = answer_of(tree).map(lambda rate: rate * table.MAS_PER_CENTURY)
 
     def published(row: xr.Dataset) -> str:
@@ -61,7 +61,7 @@ def budget(tree: Result) -> Table:
 
 
 def residuals(tree: Result) -> Table:
-    """Table of the sizes of computed pole minus IAU pole, for each model of the effects."""
+    """Table of the rms and maximum of computed minus IAU pole, for different sets of effects."""
     series = section(tree, "residuals_by_model")
     dates = ""
     if series is not None:
@@ -84,7 +84,7 @@ def residuals(tree: Result) -> Table:
 
 
 def observed(tree: Result) -> Table:
-    """Table of the root mean square of model pole minus observed celestial pole, for each model."""
+    """Table of the root mean square of computed minus observed pole, for each set of effects."""
 
     def both(name: str) -> Column:
         return Column(name, lambda row: " / ".join(f"{v:.3f}" for v in row[name].values))
@@ -254,7 +254,7 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
 
 @drawing.style()
 def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Draw the computed pole minus that of the IAU, one panel for each model.
+    """Draw the computed pole minus the IAU pole over time, one panel for each set of effects.
 
     Parameters
     ----------
@@ -277,7 +277,7 @@ def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figu
 
 
 def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the ratio of IAU 2000A to rigid amplitudes over frequency, and the fitted response.
+    """Draw the ratio of IAU 2000A to rigid nutation amplitudes over frequency, and its fit.
 
     Parameters
     ----------

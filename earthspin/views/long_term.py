@@ -49,12 +49,12 @@ def _caption_of_climate(tree: Result) -> str:
 
 
 def in_order(of: xr.Dataset) -> xr.Dataset:
-    """Sort a dataset by epoch and remove repeated epochs."""
+    """Sort the epochs of a Dataset in ascending order, and remove repeated epochs."""
     return of.isel(epoch=np.unique(of.epoch.values, return_index=True)[1])
 
 
 def plot_climate(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw obliquity, eccentricity and climatic precession with error bands.
+    """Draw obliquity, eccentricity and climatic precession over time, with error bands.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def plot_climate(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the period of precession, in total and by perturber.
+    """Draw the period of precession over time, in total and for each perturber.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
 def _plot_curves(
     ax: Axes | None, curves: list[tuple[str, xr.DataArray, xr.DataArray]], height: float
 ) -> Axes:
-    """Draw curves with bands of their half-widths in panels, or the first curve on given axes."""
+    """Draw curves with error bands, one panel each, or only the first curve on given axes."""
     if ax is None:
         figure, rows = drawing.stacked(len(curves), height)
         figure.align_ylabels(rows)
@@ -125,7 +125,7 @@ def path_is_there(years: FloatArray) -> bool:
 
 
 def plot_pole(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the path of the pole among the stars, within half a turn of the present.
+    """Draw the path of the pole among the stars, up to half a turn before and after the present.
 
     The sky from inside, centred on the pole of the ecliptic of J2000.0, the present pole on top.
 

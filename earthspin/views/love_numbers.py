@@ -1,4 +1,4 @@
-"""Love numbers compared with published ones, and their dependence on the period."""
+"""Tables and figure of Love numbers: published values, and dependence on the tidal period."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def numbers(tree: Result) -> Table:
 
 
 def by_period(tree: Result) -> Table:
-    """Table of the real parts and phase lags of the Love numbers by period."""
+    """Table of the Love numbers for different tidal periods: real part and phase lag."""
     data = needed(tree, "by_period").isel(love_period=slice(None, None, EVERY))
 
     def real_part(name: str) -> Column:
@@ -70,7 +70,7 @@ TABLES = [("", numbers), ("by_period", by_period)]
 
 @style()
 def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Draw the excess of the Love numbers over the elastic ones, and their phase lag.
+    """Draw how much the Love numbers exceed the elastic ones, and their phase lag, by period.
 
     Parameters
     ----------

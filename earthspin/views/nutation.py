@@ -31,7 +31,7 @@ def _sizes(title: str, data: xr.Dataset, dim: str, note: str, prefix: str = "") 
 
 
 def ladder(tree: Result) -> Table:
-    """Table of predicted pole minus IAU 2000A, root mean square, for each step of the ladder."""
+    """Table of the rms of predicted pole minus IAU 2000A, for each model of the ladder."""
     return _sizes(
         "Nutation predicted from the layers",
         answer_of(tree),
@@ -44,7 +44,7 @@ def ladder(tree: Result) -> Table:
 
 
 def beside(tree: Result) -> Table:
-    """Table of predicted pole minus IAU 2000A, root mean square, for models outside the ladder."""
+    """Table of the rms of predicted pole minus IAU 2000A, for two models outside the ladder."""
     return _sizes(
         "Beside the ladder",
         needed(tree, "beside"),
@@ -56,7 +56,7 @@ def beside(tree: Result) -> Table:
 
 
 def modes(tree: Result) -> Table:
-    """Table of the free modes of each step of the ladder."""
+    """Table of the free modes (wobbles and nutations) of each model of the ladder."""
     columns = (
         *("mode_rung", "mode_name", "mode_period"),
         Column("mode_quality", lambda row: quality(row, "mode_quality", ".3g")),
@@ -71,7 +71,7 @@ def modes(tree: Result) -> Table:
 
 
 def terms(tree: Result) -> Table:
-    """Table of the largest circular nutation terms, of the ladder's last step and of the IAU."""
+    """Table of the largest circular nutation terms, of the most detailed model and of the IAU."""
     data = needed(tree, "terms")
 
     def predicted(phase: str, head: str) -> Column:
@@ -120,7 +120,7 @@ TABLES = [
 
 
 def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the root mean square of predicted pole minus IAU 2000A by model, on a logarithmic axis.
+    """Draw the rms of predicted pole minus IAU 2000A for each model, on a logarithmic axis.
 
     Parameters
     ----------
@@ -148,7 +148,7 @@ def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the transfer function of nutation near the resonance of the core, with the main terms.
+    """Draw the transfer function of nutation near the resonance of the core, and the main terms.
 
     Parameters
     ----------
@@ -187,7 +187,7 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
 
 @drawing.style()
 def plot_rung_residuals(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Draw the predicted pole minus that of the IAU in time, one panel for each step.
+    """Draw the predicted pole minus the IAU pole over time, one panel for each model.
 
     Parameters
     ----------

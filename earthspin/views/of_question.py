@@ -1,4 +1,4 @@
-"""Find the view module of a question, and make its tables, figures and pages."""
+"""Make the tables, figures and pages of a result, with the module for its question."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ ERRORS = ("accuracy", "Errors and run times")
 
 
 def tables_for(tree: Result) -> list[Table]:
-    """Tables of an answer and its sections, in reading order.
+    """Tables of a result and its sections, in reading order.
 
     Parameters
     ----------
@@ -56,23 +56,23 @@ def tables_for(tree: Result) -> list[Table]:
 
 
 def drawings_for(tree: Result) -> list[Drawing]:
-    """Figures of an answer and of its sections, with captions."""
+    """Draw all figures of a result and of its sections, with captions."""
     return [figure.drawn(tree) for figure in _figures(tree) if figure.is_there(tree)]
 
 
 def _figures(tree: Result) -> Sequence[PageFigure]:
-    """Declarations of the figures in the view module of an answer's question."""
+    """Descriptions of the figures for a result, from the view module of its question."""
     figures: Sequence[PageFigure] = getattr(_view(tree), "FIGURES", ())
     return figures
 
 
 def solids_for(tree: Result) -> list[Solid]:
-    """Three-dimensional pictures of an answer, some of which are animated."""
+    """Three-dimensional pictures of a result, some of which are animated."""
     return _made(tree, getattr(_view(tree), "SOLIDS", ()))
 
 
 def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> list[T]:
-    """Make the views (tables or figures) whose required sections the answer has."""
+    """Make those tables or pictures for which the result has all required sections."""
     return [
         make(tree)
         for sections, make in makers
@@ -81,7 +81,7 @@ def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> 
 
 
 def figures_of(answer: xr.Dataset) -> list[Figure]:
-    """Draw the figures that belong to the question of an answer.
+    """Draw the figures of a result, as the module for its question defines them.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
 
 
 def figures_of_fit(fit: xr.Dataset) -> list[Figure]:
-    """Draw the result of `fit_chandler`, which has no scene; return nothing for other datasets."""
+    """Draw the result of `fit_chandler`; for any other Dataset, return an empty list."""
     if "scene" in fit.attrs or not {"time", "chandler_amplitude"} <= set(fit.variables):
         return []
     from earthspin.views.polar_motion import plot_amplitude_and_phase
@@ -119,7 +119,7 @@ def figures_of_fit(fit: xr.Dataset) -> list[Figure]:
 
 
 def print_tables(tree: Result, *, with_plan: bool = False) -> None:
-    """Print the tables of an answer, with its run time or with the table of its parts."""
+    """Print the tables of a result, with its run time or a table of the computations that ran."""
     from earthspin.views.terminal import Terminal
 
     console = Terminal()
@@ -133,7 +133,7 @@ def print_tables(tree: Result, *, with_plan: bool = False) -> None:
 
 
 def scene_page(tree: Result) -> str:
-    """HTML page of an answer: tables, figures, solids, and the parts that ran.
+    """HTML page of one result: tables, figures, 3-D pictures, and the computations that ran.
 
     Returns
     -------
@@ -150,7 +150,7 @@ def page_of(
     drawings: Sequence[Drawing] | None = None,
     links: Sequence[tuple[str, str]] = (),
 ) -> str:
-    """HTML page of several answers.
+    """HTML page of one or more results.
 
     Parameters
     ----------
@@ -187,7 +187,7 @@ def page_of(
 
 
 def what_ran(*trees: Result) -> list[Table]:
-    """Table of the parts of the computation that ran, with run times.
+    """Table of the computations that ran for the results, with run times.
 
     For a single answer it includes the parts that were left out, with reasons.
 
@@ -211,19 +211,19 @@ def what_ran(*trees: Result) -> list[Table]:
 
 
 def _view(tree: Result) -> ModuleType:
-    """View module of an answer: that of its question, of ensembles, or the plain table."""
+    """Module for the views of a result: for its question, for ensembles, or the plain table."""
     return ensemble if is_ensemble(tree) else views_of(tree)
 
 
 def _explained(tree: Result) -> str:
-    """Sentence that names the pages of the documentation on the method and errors of an answer."""
+    """Sentence that names the documentation pages on the method and the errors of a result."""
     page = question.page if (question := question_of(tree)) else ""
     method = f'the method under "{PAGES[page]}" (docs/{page}.md), ' if page else ""
     return f'In the documentation: {method}the errors under "{ERRORS[1]}" (docs/{ERRORS[0]}.md).'
 
 
 def _accuracy(answer: xr.Dataset) -> Table:
-    """Table of requested error, estimated error, and chosen settings."""
+    """Table of the requested error, the estimated error, and the chosen settings of a result."""
     unit = answer.error_asked.attrs["units"]
     shown = "" if unit == "1" else f", {unit}"
     columns = (
@@ -237,7 +237,7 @@ def _accuracy(answer: xr.Dataset) -> Table:
 
 
 def _footer(answer: xr.Dataset) -> str:
-    """Sentence with the program version, kernel and sources of an answer."""
+    """Sentence that gives the program version, kernel and sources of a result."""
     attrs = answer.attrs
     words = f"{attrs['source']}."
     if "ephemeris" in attrs:

@@ -1,4 +1,4 @@
-"""HTML page in a single file, for light and dark screens, wide and narrow."""
+"""Build an HTML page as a single file, for light and dark screens, wide and narrow."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def page(
     last: Sequence[Table] = (),
     footer: str = "",
 ) -> str:
-    """HTML text of a page of figures, three-dimensional pictures and tables, in this order.
+    """HTML text of a page with figures, three-dimensional pictures and tables, in this order.
 
     Parameters
     ----------
@@ -70,12 +70,12 @@ def page(
 
 
 def rendered(template: str, **content: object) -> str:
-    """Fill a template with content and the common style sheet; return the HTML text."""
+    """Insert content and the common style sheet into a template; return the HTML text."""
     return environment().get_template(template).render(sheet=source("page.css"), **content)
 
 
 def write_texts(texts: Mapping[Path, str]) -> list[Path]:
-    """Write several text files, either all of them or, after an error, none."""
+    """Write several text files; if an error occurs, write none of them."""
     with ExitStack() as together:
         for path, text in texts.items():
             draft = together.enter_context(drafts.replacing(path))
@@ -85,7 +85,7 @@ def write_texts(texts: Mapping[Path, str]) -> list[Path]:
 
 @cache
 def environment() -> Environment:
-    """Jinja environment with the templates and the filters for text."""
+    """Jinja environment that loads the page templates and defines their text filters."""
     templates = Environment(
         loader=PackageLoader("earthspin.views"),
         autoescape=True,
@@ -98,7 +98,7 @@ def environment() -> Environment:
 
 
 def source(name: str) -> str:
-    """Text of a file beside the templates: a style sheet or a script."""
+    """Text of a file in the folder of the templates, such as a style sheet or a script."""
     loader = environment().loader
     assert loader is not None
     return loader.get_source(environment(), name)[0]

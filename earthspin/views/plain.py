@@ -1,4 +1,4 @@
-"""Plain table of an answer whose question has no view module."""
+"""Plain table for a result whose question has no module of tables and figures."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ ROWS = 40
 
 
 def numbers(tree: Result) -> Table:
-    """Table of an answer with a column for each variable."""
+    """Table of a result with one column for each variable."""
     answer = answer_of(tree)
     frame = answer.earthspin.to_frame()
     units = {name: variable.attrs.get("units", "") for name, variable in answer.variables.items()}

@@ -1,4 +1,4 @@
-"""Interactive pages, each a single file: an animated picture with sliders and numbers.
+"""Interactive HTML pages, one file each: an animated picture with sliders and numbers.
 
 Their words stand in ``templates/play_NAME.html.j2``; their formulas stand in
 ``templates/formulas.js`` and are compared with this library's; what they start from, the bodies'
@@ -31,7 +31,10 @@ EARTH_TURNS = float(np.asarray(EARTH.spin_period))
 
 
 def _sky() -> dict[str, object]:
-    """Data of Earth, Sun and Moon for the page, with distances that give the computed torques."""
+    """Data of Earth, Sun and Moon for the interactive page on precession.
+
+    The distances are such that the page's formula gives the computed precession rates.
+    """
     answer = run("precession")
     flattening, spin = EARTH.number("dynamical_flattening"), 2 * math.pi / EARTH_TURNS
     obliquity = math.radians(float(answer.obliquity))
@@ -58,7 +61,7 @@ def _sky() -> dict[str, object]:
 
 
 def _interior() -> dict[str, object]:
-    """Inputs of the non-rigid steps of the Earth's wobble ladder, and the observed period."""
+    """Data of the Earth's interior for the interactive page on the wobble, and observed period."""
     interior = INTERIORS["prem"]
     spin = Spin(gm=EARTH.gm, radius=EARTH.radius, period=EARTH.spin_period)
     figure = {"dynamical_flattening": EARTH.dynamical_flattening, "j2": EARTH.j2}
@@ -94,7 +97,7 @@ PLAYS: dict[str, Callable[[], dict[str, object]]] = {
 
 
 def play_page(name: str) -> str:
-    """HTML text of an interactive page: precession, rotor, top or wobble.
+    """HTML text of the interactive page on precession, on rotors, on tops or on the wobble.
 
     Parameters
     ----------
@@ -125,7 +128,7 @@ def play_page(name: str) -> str:
 
 
 def write_page(name: str, file: str | Path) -> Path:
-    """Write an interactive page.
+    """Write an interactive page to an HTML file.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Observed polar motion: the path of the pole, its spectra, and its free wobble."""
+"""Tables and figures of observed polar motion: path of the pole, spectra, and free wobble."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ JULIAN = 365.25  # d, the year of the axes
 
 
 def series(tree: Result) -> Table:
-    """Table of the smallest, largest and last observed coordinates of the pole."""
+    """Table of the smallest, the largest and the last observed coordinate of the pole."""
     answer = answer_of(tree)
     first, last, end = date(answer.time[0]), date(answer.time[-1]), answer.isel(time=-1)
     rows = [
@@ -66,7 +66,7 @@ def observed(tree: Result) -> Table:
 
 
 def statements(tree: Result) -> Table:
-    """Table that compares statements of the source text on the wobble with observation."""
+    """Table that compares what the source text states about the wobble with observations."""
     fit, metres = needed(tree, "chandler"), _metres(answer_of(tree))
     period, error = float(fit.chandler_period), float(fit.chandler_period_error)
     size = fit.chandler_amplitude
@@ -92,12 +92,12 @@ TABLES = [("", series), ("chandler", observed), ("chandler", statements)]
 
 
 def _metres(answer: xr.Dataset) -> float:
-    """Distance on the ground, in m, per milliarcsecond; 0 if the polar radius is not known."""
+    """Distance on the ground, m, that corresponds to 1 mas of polar motion; 0 if not known."""
     return float(answer.polar_radius) * MAS if "polar_radius" in answer else 0.0
 
 
 def _years_near(amplitude: xr.DataArray, size: float) -> str:
-    """First and last year in which a wobble amplitude is within a quarter of a value, as text.
+    """First and last year, as text, in which the wobble amplitude is within 25 % of a value.
 
     The share of the time is added; the text is "never" if there is no such year.
     """
@@ -112,7 +112,7 @@ def _years_near(amplitude: xr.DataArray, size: float) -> str:
 
 
 def plot_amplitude_and_phase(tree: Result) -> Figure:
-    """Draw amplitude and phase of the free wobble, and amplitude of the annual one, in time.
+    """Draw amplitude and phase of the free wobble and amplitude of the annual wobble over time.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ def _caption_of_amplitude(tree: Result) -> str:
 
 
 def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None = None) -> Axes:
-    """Draw the path of the pole in milliarcseconds, and in metres on the opposite axes.
+    """Draw the path of the pole, with scales in milliarcseconds and in metres.
 
     The prime meridian points up and 90 degrees west to the right: the ground as seen from
     above, where the spin and the free wobble turn counter-clockwise.
@@ -204,7 +204,7 @@ def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the amplitudes of the free wobble, with its 95 % band, and of the annual one.
+    """Draw the amplitude of the free wobble with its 95 % band, and that of the annual wobble.
 
     Parameters
     ----------
@@ -226,7 +226,7 @@ def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_modelled(observed: xr.Dataset, modelled: xr.Dataset, *, ax: Axes | None = None) -> Axes:
-    """Draw the amplitudes of the observed free wobble and of one driven by an excitation.
+    """Draw the observed amplitude of the free wobble, and the amplitude driven by an excitation.
 
     Parameters
     ----------
@@ -245,7 +245,7 @@ def plot_modelled(observed: xr.Dataset, modelled: xr.Dataset, *, ax: Axes | None
 
 
 def plot_phase(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the phase of the free wobble relative to a sinusoid of the fitted period.
+    """Draw the phase of the free wobble relative to a sinusoid of the fitted period, over time.
 
     Where the amplitude is below twice its error the phase is drawn faintly.
 
@@ -266,7 +266,7 @@ def plot_phase(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def _fit(result: Result) -> tuple[xr.Dataset, FloatArray]:
-    """Return the dataset of the fitted free wobble, and the mid-times of its sliding windows."""
+    """Return the Dataset of the fitted free wobble, and the mid-times of the sliding windows."""
     fit = result if "chandler_amplitude" in result else needed(result, "chandler")
     assert isinstance(fit, xr.Dataset)
     return fit, fit[fit.chandler_amplitude.dims[0]].values
@@ -275,7 +275,7 @@ def _fit(result: Result) -> tuple[xr.Dataset, FloatArray]:
 def _plot_free_wobble(
     ax: Axes, result: Result, colour: str, words: str
 ) -> tuple[xr.Dataset, FloatArray]:
-    """Draw the amplitude of the free wobble with its 95 % band."""
+    """Draw the amplitude of the free wobble over time, with its 95 % band."""
     fit, time = _fit(result)
     size, error = fit.chandler_amplitude.values, fit.chandler_amplitude_error.values
     drawing.band(ax, time, size, error, colour, alpha=0.2, lowest=0.0, lw=1.4, label=words)
@@ -283,7 +283,7 @@ def _plot_free_wobble(
 
 
 def _times(factor: float) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
-    """Functions that multiply and divide by a factor, for a second axis in other units."""
+    """Return functions that multiply and divide by a factor, for a second axis in other units."""
     return lambda v: v * factor, lambda v: v / factor
 
 

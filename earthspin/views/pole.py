@@ -1,4 +1,4 @@
-"""Table and figure of the path of the axes."""
+"""Table and figure of the directions of a body's axes over time."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from earthspin.views.table import Column, Table, date, table_along
 
 
 def ends(tree: Result) -> Table:
-    """Table of the directions of the axes at the first and the last epoch of the path."""
+    """Table of the directions of the body's axes at the first and the last date."""
     answer = answer_of(tree)
     ends = answer.isel(time=[0, -1]).stack(place=("time", "axis"), create_index=False)
 
@@ -37,7 +37,7 @@ TABLES = [("", ends)]
 
 
 def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = None) -> Axes:
-    """Draw the nutation of an axis relative to its mean precession, psi sin(eps) against eps.
+    """Draw the nutation of an axis: psi sin(eps) against eps, without its mean precession.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Observed celestial pole offsets: the series, and the free core nutation in it."""
+"""Tables and figures of observed celestial pole offsets and of their free core nutation."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ ONE_IN = 24
 
 
 def series(tree: Result) -> Table:
-    """Table of root mean square, range and last value of the observed celestial pole offsets."""
+    """Table of rms, range and last value of the observed celestial pole offsets dX and dY."""
     answer = answer_of(tree)
     end = answer.isel(time=-1)
     rows = [
@@ -83,7 +83,7 @@ TABLES = [("", series), ("core_nutation", core_nutation), ("period", period)]
 
 
 def plot_offsets(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Draw the observed dX and dY in time, with 95 % half-widths as grey bands.
+    """Draw the observed celestial pole offsets dX and dY over time, with 95 % error bands.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ def plot_offsets(result: Result, *, figure: Figure | None = None) -> Figure:
 
 
 def plot_core_nutation(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the amplitude of the free core nutation in time, with 95 % band and detection limit.
+    """Draw the amplitude of the free core nutation over time, with 95 % band and detection limit.
 
     The line is faint where nothing is detected.
 

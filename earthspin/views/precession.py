@@ -1,4 +1,4 @@
-"""Tables and figures of precession."""
+"""Tables and figures of the rate and period of precession, and of their consequences."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ PASSED = 2.0
 
 
 def lead(tree: Result) -> str:
-    """First sentence of the page on precession."""
+    """First sentence of the page on precession, with the period of precession."""
     answer, known = answer_of(tree), section(tree, "iau_2006")
     alone = measured(answer.isel(perturber=-1), "precession_period", "years")
     pull = f"the pull of {reading.perturbers_of(answer)} on the equatorial bulge"
@@ -44,7 +44,7 @@ def lead(tree: Result) -> str:
 
 
 def _with_known_effects(known: xr.Dataset) -> tuple[float, float]:
-    """Precession period with all published effects, and its half-width, yr."""
+    """Precession period that includes all published effects, and its 95 % half-width, yr."""
     rate = float(known.iau_rate + known.closure)
     return FULL_TURN / rate, float(known.closure_error) * FULL_TURN / rate**2
 
@@ -53,7 +53,7 @@ def _with_known_effects(known: xr.Dataset) -> tuple[float, float]:
 
 
 def periods(tree: Result) -> Table:
-    """Table of the precession period in three definitions, with a recommendation."""
+    """Table of the precession period in three definitions, with the one to use."""
     answer, known, seasons = answer_of(tree), needed(tree, "iau_2006"), needed(tree, "seasons")
     total, iau = answer.isel(perturber=-1), FULL_TURN / float(known.iau_rate)
     period, error = _with_known_effects(known)
@@ -89,7 +89,7 @@ def periods(tree: Result) -> Table:
 
 
 def _millionths(known: xr.Dataset) -> str:
-    """Unexplained difference from the rate of IAU 2006, in millionths of that rate, as text."""
+    """Unexplained part of the precession rate, in millionths of the IAU 2006 rate, as text."""
     return f"{abs(float(known.closure / known.iau_rate)) * 1e6:.1f}"
 
 
@@ -125,7 +125,7 @@ def rates(tree: Result) -> Table:
 
 
 def _largest_left_out(answer: xr.Dataset) -> str:
-    """Size and name of the largest effect on the precession rate that is not modelled."""
+    """Name and size, as text, of the largest effect on the precession rate that is not modelled."""
     name, _, rest = answer.attrs["neglected"].partition(": ")
     size, unit, more = rest.partition(" arcsec/yr")
     return f"{size} ({name})" if unit and "unknown size" not in more else "size unknown"
@@ -173,7 +173,7 @@ _MODELS = {
 
 
 def models(tree: Result) -> Table:
-    """Table of precession and free wobble for three models of H."""
+    """Table of precession and free wobble for three models of the dynamical flattening H."""
     figure = needed(tree, "figure_models")
     columns = (
         Column("earth_model", lambda row: _MODELS[row.earth_model.item()], "model"),
@@ -190,7 +190,7 @@ def models(tree: Result) -> Table:
 
 
 def free_wobble(tree: Result) -> Table:
-    """Table of the period of the rigid wobble, and of the observed one if it exists."""
+    """Table of the free wobble period of the rigid body, and the observed period if known."""
     wobble = needed(tree, "free_wobble")
     notes = ["The formula holds for a rigid body; a real body deforms."]
     rigid, rows = measured(wobble, "free_wobble_period"), []
@@ -210,7 +210,7 @@ def free_wobble(tree: Result) -> Table:
 
 
 def iau(tree: Result) -> Table:
-    """Table of the computed rate compared with the rate of IAU 2006."""
+    """Table of the computed precession rate compared with that of IAU 2006."""
     known, left_out, answer = needed(tree, "iau_2006"), section(tree, "neglected"), answer_of(tree)
     effects = () if left_out is None else table.along(left_out, "effect")
     rows = [
@@ -235,7 +235,7 @@ def iau(tree: Result) -> Table:
 
 
 def standstills(tree: Result) -> Table:
-    """Table of lunar standstills: dates and extreme declinations."""
+    """Table of lunar standstills: dates, and declinations of the Moon."""
     extremes, text = needed(tree, "standstills"), {"major": "28.58", "minor": "18.30"}
     error = float(extremes.standstill_declination_error.values.max(initial=0.0))
     columns = (
@@ -267,7 +267,7 @@ TABLES = [
 
 
 def chain(tree: Result, year: Result) -> drawing.Drawing:
-    """Figure of the method, with caption: declination, torque, averaged rate and period."""
+    """Figure, with caption, of the steps from declination and torque to the precession rate."""
     return PageFigure(
         "From declination to the period of precession",
         "Top: declination of each perturber through a year, at the mean equator of date. Middle: "
@@ -279,7 +279,7 @@ def chain(tree: Result, year: Result) -> drawing.Drawing:
 
 
 def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) -> Figure:
-    """Draw declination and torque in time, the averaged rate, and the precession period.
+    """Draw declination and torque over time, the averaged rate, and the precession period.
 
     Parameters
     ----------
@@ -310,7 +310,7 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
 
 
 def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw averaged minus adopted precession rate against the length of the window.
+    """Draw averaged minus adopted precession rate over the length of the averaging window.
 
     Parameters
     ----------
@@ -335,7 +335,7 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def _caption_of_circle(tree: Result) -> str:
-    """Caption of the figure of the pole's circle, with the bright stars that the pole passes."""
+    """Caption for the figure of the pole's circle; it names bright stars near the path."""
     total = answer_of(tree).isel(perturber=-1)
     years = np.arange(-9900, 14001, 100)
     path = _circle(total, years)
@@ -355,7 +355,7 @@ def _caption_of_circle(tree: Result) -> str:
 
 
 def _circle(total: xr.Dataset, years: ArrayLike) -> FloatArray:
-    """Positions of the celestial pole on the chart in given years, for uniform precession."""
+    """Positions of the celestial pole on the star chart in given years, at a constant rate."""
     radius, rate = float(total.obliquity), float(si(total.precession_rate))
     back = rate * (np.asarray(years) - 2000) * JULIAN_YEAR  # its longitude falls: to the left
     return np.stack([-radius * np.sin(back), radius * np.cos(back)], axis=-1)
@@ -390,7 +390,7 @@ def _plot_circle_on_page(tree: Result, ax: Axes | None = None) -> Axes:
 
 
 def _precesses(tree: Result) -> bool:
-    """Return True if the axis precesses; that of a sphere does not."""
+    """Return True if the body's axis precesses, which a sphere's axis does not."""
     return bool(np.isfinite(answer_of(tree).precession_period[-1]))
 
 

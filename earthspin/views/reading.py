@@ -1,4 +1,4 @@
-"""Functions that extract answer, sections, body and perturbers from a result, for views."""
+"""Read the Dataset, sections, body and perturbers from a result, for tables and figures."""
 
 from __future__ import annotations
 
@@ -17,31 +17,31 @@ Result = xr.Dataset | xr.DataTree
 
 
 def answer_of(result: Result) -> xr.Dataset:
-    """Dataset of the answer in a result; if it has many bodies or starts, that of the first."""
+    """Return the main Dataset of a result; for many bodies or starts, select the first."""
     whole = result.to_dataset() if isinstance(result, xr.DataTree) else result
     return _first(whole, whole.attrs)
 
 
 def question_of(result: Result) -> type[Question] | None:
-    """Class of the question of an answer; None if it is not one of the package."""
+    """Return the class of the question that gave a result; None if it is not in this package."""
     return QUESTIONS.get(result.attrs["compute"])
 
 
 def views_of(result: Result) -> ModuleType:
-    """Module that makes the tables and figures of an answer; by default the plain table."""
+    """Return the module with the tables and figures for a result; by default the plain table."""
     question = question_of(result)
     return import_module(f"earthspin.views.{question.views if question else 'plain'}")
 
 
 def section(result: Result, name: str) -> xr.Dataset | None:
-    """Section of a result by name; None if the result does not have it."""
+    """Return the section (Dataset) of a result with the given name, or None if there is none."""
     if not isinstance(result, xr.DataTree) or name not in result.children:
         return None
     return _first(result[name].to_dataset(), result.attrs)
 
 
 def needed(result: Result, name: str) -> xr.Dataset:
-    """Section of a result by name; it is computed if the result does not have it.
+    """Return the section (Dataset) of a result with the given name; compute it if it is missing.
 
     Raises
     ------
@@ -56,7 +56,7 @@ def needed(result: Result, name: str) -> xr.Dataset:
 
 
 def body_of(answer: xr.Dataset) -> str:
-    """Name of the body of an answer, followed by the properties that the user changed.
+    """Name of the body of a result, followed by its properties that the user changed.
 
     ``"Mars"``, ``"the Earth with spin_period = 43200.0 s"``.
     """
@@ -65,13 +65,13 @@ def body_of(answer: xr.Dataset) -> str:
 
 
 def perturbers_of(answer: xr.Dataset) -> str:
-    """Names of the perturbers in a sentence: ``"the Sun, the Moon and Jupiter"``."""
+    """List the perturbers of a result in words: ``"the Sun, the Moon and Jupiter"``."""
     *others, last = map(in_a_sentence, answer.attrs["perturbers"].split())
     return f"{', '.join(others)} and {last}" if others else last
 
 
 def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:
-    """Sentences that list the changed properties of bodies, one for each key of the question.
+    """Sentences that list which properties of the body and the perturbers the user changed.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:
 
 
 def _first(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
-    """Select the first of many bodies or initial states.
+    """Select the first body or initial state from a Dataset with many of them.
 
     That is, the first along dimensions that no part of the question declares.
     """

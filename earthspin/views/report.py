@@ -1,4 +1,4 @@
-"""Reports on precession and on the wobble."""
+"""Reports with pages and data, one on precession and one on the wobble."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ ADDED = {
 def write_report(
     folder: str | Path, *, ephemeris: str | PathLike[str] = "de421", figures: bool = True
 ) -> tuple[xr.DataTree, list[Path]]:
-    """Run the scenes of the precession report and write the pages and the data.
+    """Run all computations of the precession report, and write its pages and data.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def write_report(
 
 
 def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]:
-    """Figures of torques through a year and through a period of the Moon's node."""
+    """Draw torques over one year and over one period of the Moon's node."""
     epoch = np.datetime64(answer_of(tree).reference_epoch.values, "D")
     keys = load_scene(tree).keys()
     positions = {"ephemeris": keys["ephemeris"], "source": keys["source"]}
@@ -102,7 +102,7 @@ def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]
 
 
 def gallery() -> list[Solid]:
-    """Three-dimensional pictures for the page of rotors and tops."""
+    """List of the three-dimensional pictures for the page of rotors and tops."""
     prolate = SymmetricRotor(equatorial=1.0, difference=-0.6, speed=1.0, alpha=0.35)
     oblate = SymmetricRotor(equatorial=1.0, difference=0.8, speed=1.0, alpha=0.6)
     tops = ("top-wave", "top-cusp", "top-loop")
@@ -115,7 +115,7 @@ def gallery() -> list[Solid]:
 
 
 def gallery_page() -> str:
-    """HTML page of rotors and tops, a part of the report."""
+    """HTML page with three-dimensional pictures of rotors and tops, a part of the report."""
     return page(
         "Rotors and tops",
         solids=gallery(),
@@ -129,7 +129,7 @@ def gallery_page() -> str:
 def write_wobble_report(
     folder: str | Path, *, file: str = "c04", method: str = "burg", figures: bool = True
 ) -> tuple[list[xr.DataTree], list[Path]]:
-    """Run the scenes ``wobble`` and ``polar-motion`` and write a page and the data.
+    """Run all computations of the wobble report, and write its page and data.
 
     Parameters
     ----------
@@ -173,7 +173,7 @@ def write_wobble_report(
 
 
 def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
-    """Sentence that compares computed and observed period of the free wobble, for the report."""
+    """Sentence that compares the computed and the observed period of the free wobble."""
     answer = answer_of(ladder)
     rigid, top = measured(answer.sel(rung="rigid"), "period_solar", "days"), answer.isel(rung=-1)
     last = beside_observed(
@@ -188,7 +188,7 @@ def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
 
 
 def _write_data(place: Path, data: Mapping[str, xr.DataTree]) -> list[Path]:
-    """Write several results to NetCDF files, either all of them or, after an error, none."""
+    """Write several results to NetCDF files; if an error occurs, write none of them."""
     with ExitStack() as together:
         for name, tree in data.items():
             store.write_netcdf(tree, together.enter_context(drafts.replacing(place / name)))

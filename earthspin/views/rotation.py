@@ -1,4 +1,4 @@
-"""Tables, figures and solid of the attitude of a rigid body."""
+"""Tables, figures and animated picture of the attitude of a rigid body."""
 
 from __future__ import annotations
 
@@ -21,14 +21,17 @@ POSES = 481
 
 
 def known_until(answer: xr.Dataset) -> np.datetime64 | None:
-    """First date at which the attitude error, position errors excluded, reaches 90 degrees."""
+    """First date when the attitude error reaches 90 degrees; None if it does not.
+
+    The error does not include position errors of the perturbers.
+    """
     error = np.hypot(answer.attitude_error_method, answer.attitude_error_input).values
     lost = np.flatnonzero(error >= LOST)
     return answer.time.values[lost[0]] if lost.size else None
 
 
 def attitude(tree: Result) -> Table:
-    """Table of attitude and spin at the first and the last time."""
+    """Table of the attitude and spin of the body at the first and the last time."""
     answer = answer_of(tree)
     columns = (
         Column("", lambda row: date(row.time, "s"), "TDB"),
@@ -48,7 +51,7 @@ def attitude(tree: Result) -> Table:
 
 
 def divergence(tree: Result) -> Table:
-    """Table of the growth of a small deviation, and the Lyapunov time."""
+    """Table of the growth of a small change of the rotation, with the Lyapunov time."""
     neighbour = needed(tree, "divergence")
     rate, spread = (float(neighbour[f"growth_rate{end}"]) * DAY for end in ("", "_error"))
     rows = [
@@ -84,7 +87,7 @@ def _label(ax: Axes, words: str) -> Axes:
 
 
 def plot_spin(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the angular velocity along the principal axes in time.
+    """Draw the components of angular velocity along the principal axes over time.
 
     Parameters
     ----------
@@ -120,7 +123,7 @@ def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the logarithm of a small deviation, and its mean rate.
+    """Draw the logarithm of a small, growing change of the rotation, and its mean growth rate.
 
     Parameters
     ----------
@@ -166,7 +169,7 @@ SHAPE = (1.0, 0.8, 0.6)
 
 
 def turning_body(tree: Result) -> Solid:
-    """Animated ellipsoid with the principal moments of the body."""
+    """Animated three-dimensional ellipsoid with the principal moments of the body."""
     few = answer_of(tree).isel(time=slice(0, POSES))
     attitude, momentum = few.attitude.values, few.angular_momentum.values
     omega = rotate(attitude, few.omega.values)
@@ -190,7 +193,7 @@ def turning_body(tree: Result) -> Solid:
 
 
 def _largest(vectors: FloatArray) -> float:
-    """Largest length of several vectors; 1 if all vectors are zero."""
+    """Length of the longest of several vectors; 1 if all vectors are zero."""
     return float(np.max(np.linalg.norm(vectors, axis=1))) or 1.0
 
 

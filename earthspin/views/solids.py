@@ -24,7 +24,7 @@ Item = dict[str, Any]
 
 @dataclass(frozen=True)
 class Solid:
-    """A three-dimensional picture.
+    """Three-dimensional picture with title and caption, still or animated.
 
     Attributes
     ----------
@@ -53,7 +53,7 @@ class Solid:
     tilt: float = 0.35
 
     def json(self) -> str:
-        """Picture as JSON for the script of the page, with numbers to five digits.
+        """Convert the picture to JSON for the page's script, with numbers rounded to five digits.
 
         Nothing in it can end the element of the page that holds it: ``<`` is written as an escape.
         """
@@ -71,25 +71,28 @@ _WORDS = ("title", "caption")
 
 
 def mesh(points: FloatArray, colour: str, *, opacity: float = 0.15, frame: str = "space") -> Item:
-    """A surface through a grid of points, shape (m, n, 3)."""
+    """Surface through a grid of points, shape (m, n, 3), as an item of a 3-D picture."""
     return {"kind": "mesh", "points": points, "colour": colour, "opacity": opacity, "frame": frame}
 
 
 def line(
     points: FloatArray, colour: str, width: float, *, frame: str = "space", grows: bool = False
 ) -> Item:
-    """Line through points, shape (n, 3); a growing line is drawn up to the time shown."""
+    """Line through points, shape (n, 3), as an item of a 3-D picture.
+
+    A growing line ends at the point of the current time.
+    """
     item = {"kind": "line", "points": points, "colour": colour, "width": width, "frame": frame}
     return item | {"grows": grows}
 
 
 def arrow(tip: FloatArray, colour: str, label: str = "", *, frame: str = "space") -> Item:
-    """An arrow from the centre to a point, shape (3,)."""
+    """Arrow from the centre to a point, shape (3,), as an item of a 3-D picture."""
     return _arrow("tip", tip, colour, label) | {"frame": frame}
 
 
 def moving_arrow(track: FloatArray, colour: str, label: str = "") -> Item:
-    """Arrow whose tip moves, shape (n, 3), with one point for each time."""
+    """Arrow that moves in an animation; the positions of its tip have the shape (n, 3)."""
     return _arrow("track", track, colour, label) | {"frame": "space"}
 
 
@@ -107,14 +110,14 @@ def ellipsoid(semi_axes: Sequence[float], rows: int = 17, columns: int = 33) -> 
 
 
 def circle(angle: float, points: int = 91) -> FloatArray:
-    """Points of the unit sphere at an angle (rad) from the third axis, shape (points, 3)."""
+    """Points on the unit sphere at a given angle (rad) from the third axis, shape (points, 3)."""
     turn = np.linspace(0, 2 * np.pi, points)
     level = np.full(points, np.cos(angle))
     return np.stack([np.sin(angle) * np.cos(turn), np.sin(angle) * np.sin(turn), level], axis=-1)
 
 
 def cone(half_angle: float, length: float, columns: int = 41) -> FloatArray:
-    """Points on a cone about the third axis with its tip at the centre, shape (2, columns, 3).
+    """Points on a cone about the third axis, with its tip at the centre, shape (2, columns, 3).
 
     Parameters
     ----------
@@ -128,7 +131,7 @@ def cone(half_angle: float, length: float, columns: int = 41) -> FloatArray:
 
 
 def square(half: float, height: float, cells: int = 8) -> FloatArray:
-    """Points of a level square, shape (cells + 1, cells + 1, 3)."""
+    """Grid points of a horizontal square, shape (cells + 1, cells + 1, 3)."""
     side = np.linspace(-half, half, cells + 1)
     x, y = np.meshgrid(side, side, indexing="ij")
     return np.stack([x, y, np.full_like(x, height)], axis=-1)

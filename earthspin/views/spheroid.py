@@ -1,4 +1,4 @@
-"""Table of the field of a spheroid at points."""
+"""Table of the gravity field of a spheroid at given points."""
 
 from __future__ import annotations
 

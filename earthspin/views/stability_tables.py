@@ -1,4 +1,4 @@
-"""Tables of the numerical stability tests, in stiff and extreme cases, for the terminal."""
+"""Tables of the numerical stability tests, for the terminal."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def verdict_tables(result: xr.Dataset) -> list[Table]:
 
 
 def rows_by_part(result: xr.Dataset) -> Iterator[tuple[str, list[dict[str, Any]]]]:
-    """Yield each tested part of the package with its cases, numbers formatted as text.
+    """For each part of the package, yield the rows of its stability tests, with numbers as text.
 
     Parameters
     ----------
@@ -46,12 +46,12 @@ def rows_by_part(result: xr.Dataset) -> Iterator[tuple[str, list[dict[str, Any]]
 
 
 def tally(result: xr.Dataset) -> dict[str, int]:
-    """Count the cases with each verdict: "holds", "refused" and "fails"."""
+    """Count the stability tests by verdict: "holds", "refused" and "fails"."""
     return {word: int((result.verdict == word).sum()) for word in ("holds", "refused", "fails")}
 
 
 def tally_line(result: xr.Dataset) -> str:
-    """Sentence with the numbers of cases that hold, are refused, and fail."""
+    """Sentence with the number of stability tests for each verdict."""
     count = tally(result)
     must = int(result.must_hold.sum())
     return (
@@ -62,7 +62,7 @@ def tally_line(result: xr.Dataset) -> str:
 
 
 def print_verdicts(result: xr.Dataset) -> None:
-    """Print the tables, the reasons of failures, and the tally.
+    """Print the tables of stability tests, the reasons of failures, and the counts.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Chart of the northern sky around the pole of the ecliptic, with paths of the celestial pole."""
+"""Chart of the northern sky around the pole of the ecliptic, with the celestial pole's path."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, 1), (1, -1), (-1, -1))
 
 
 class Label(NamedTuple):
-    """Label of a point of the chart (degrees), and its colour."""
+    """Text label for a point of the star chart (position in degrees), with its colour."""
 
     text: str
     at: tuple[float, float]
@@ -33,25 +33,25 @@ class Label(NamedTuple):
 
 
 def year_words(year: int) -> str:
-    """Write an astronomical year number in the way of historians."""
+    """Write an astronomical year number as historians do, such as "44 BC" for -43."""
     if year > 0:
         return f"{year}" if year >= 1000 else f"AD {year}"
     return f"{1 - year} BC"
 
 
 def year_labels(years: Iterable[int], places: FloatArray) -> list[Label]:
-    """Labels with the year for points of the pole's path."""
+    """Labels with the year for points on the path of the celestial pole."""
     pairs = zip(years, places.tolist(), strict=True)
     return [Label(year_words(year), (x, y), RED) for year, (x, y) in pairs]
 
 
 def star_vectors() -> FloatArray:
-    """Directions of the stars at J2000.0, ICRF, shape (n, 3)."""
+    """Unit vectors of the stars at J2000.0 in the ICRF, shape (n, 3)."""
     return directions(np.zeros(1))[:, 0]
 
 
 def on_the_chart(vectors: FloatArray, obliquity: float) -> FloatArray:
-    """Positions of unit vectors on the chart, in degrees, by azimuthal equidistant projection.
+    """Positions of unit vectors on the star chart, degrees, by azimuthal equidistant projection.
 
     The sky is seen from inside, with the pole of J2000.0 on top.
 
@@ -105,7 +105,7 @@ def plot_path(
 
 
 def _put(ax: Axes, labels: list[Label], path: FloatArray) -> None:
-    """Place the labels on the chart one after another, each where its overlap is smallest."""
+    """Place labels on the chart one after another, each where it overlaps least."""
     window = ax.get_window_extent()
     points = min(window.width, window.height) * 72 / ax.figure.dpi / (2 * REACH)
     line, dots = _even(path * points), np.array([label.at for label in labels]) * points
@@ -121,7 +121,10 @@ def _put(ax: Axes, labels: list[Label], path: FloatArray) -> None:
 
 
 def _even(path: FloatArray) -> FloatArray:
-    """Resample a path at even steps of about two typographic points, to measure its length."""
+    """Resample a path at steps of about two typographic points.
+
+    The path's overlap with a label can then be counted.
+    """
     along = np.append(0.0, np.cumsum(np.hypot(*np.diff(path, axis=0).T)))
     even = np.arange(0.0, along[-1], 2.0)
     return np.stack([np.interp(even, along, axis) for axis in path.T], axis=-1)

@@ -1,4 +1,4 @@
-"""Tables with their text, for the terminal and for pages."""
+"""Tables of text, for the terminal and for HTML pages."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Column:
-    """Column of a table: variable, number format and header.
+    """Description of a table column: name of the variable, number format and header.
 
     In a table of quantities it is a row.
 
@@ -75,11 +75,11 @@ class Column:
     head: str = ""
 
     def header(self, data: xr.Dataset) -> str:
-        """Header of the column, or label of the row."""
+        """Header of the column; in a table of quantities, this text is the label of the row."""
         return self.head or label(data[self.name])
 
     def text(self, row: xr.Dataset) -> str:
-        """Text of the cell for the data of one row."""
+        """Text of one table cell, from the data of one row."""
         if callable(self.shown):
             return self.shown(row)
         if row[self.name].dtype.kind in "UO":
@@ -90,7 +90,7 @@ class Column:
 
 
 def label(variable: xr.DataArray) -> str:
-    """Short label of a variable, or else its name, followed by its unit."""
+    """Label of a variable for tables: its short label or its name, followed by the unit."""
     words, unit = variable.attrs.get("short", ""), variable.attrs.get("units", "")
     words = words or str(variable.name).replace("_", " ")
     return words if unit in ("", "1") else f"{words}, {unit}"
@@ -107,7 +107,7 @@ def table_along(
     words: Collection[int] = (0,),
     more: Sequence[tuple[str, ...]] = (),
 ) -> Table:
-    """Build a table with a row for each label of a dimension.
+    """Build a table with one row for each label along a dimension of the data.
 
     Parameters
     ----------
@@ -134,7 +134,7 @@ def table_along(
 
 
 def beside_published(known: xr.Dataset | None, dim: str, value: str) -> tuple[list[Column], str]:
-    """Columns of published numbers, and of the differences from them in per cent.
+    """Columns with published values, and with the difference of computed values in per cent.
 
     Parameters
     ----------
@@ -164,12 +164,12 @@ def beside_published(known: xr.Dataset | None, dim: str, value: str) -> tuple[li
 
 
 def quantities(data: xr.Dataset, *rows: Column | str) -> list[tuple[str, str]]:
-    """Rows for a table with one quantity per row: label and value as text, from given columns."""
+    """Rows of a table with one quantity in each row: its label, and its value as text."""
     return [(row.header(data), row.text(data)) for row in map(_column, rows)]
 
 
 def _column(column: Column | str) -> Column:
-    """Return a column, which may be given as text: variable name, colon, number format."""
+    """Convert a text such as "energy:.3g" to a table column; return a column unchanged."""
     return Column(*column.split(":")) if isinstance(column, str) else column
 
 
@@ -199,29 +199,29 @@ def with_error(value: SupportsFloat, error: SupportsFloat, unit: str = "") -> st
 
 
 def _in_brackets(value: float, error: float) -> str:
-    """Format a value with two digits of its error in brackets, and rounded to the same place."""
+    """Format a value followed by two digits of its error in brackets, like ``50.40(33)``."""
     digits = max(0, 1 - math.floor(math.log10(error)))
     half = f"{error:.{digits}f}"
     return f"{value:.{digits}f}({half.removeprefix('0.').lstrip('0') if error < 1 else half})"
 
 
 def short_exponents(text: str) -> str:
-    """Shorten exponents in text, without plus sign and leading zeros: 2.6e35, 1.2e-5."""
+    """Shorten the exponents of numbers in a text: 2.6e35 instead of 2.6e+35."""
     return re.sub(r"(?<=\d)e(-?)\+?0*(?=\d)", r"e\1", text)
 
 
 def two_digits(value: SupportsFloat) -> str:
-    """Format a number to two digits, without an exponent from 0.0001 to 999999."""
+    """Format a number to two digits; exponents are used below 0.0001 and above 999999."""
     return short_exponents(f"{float(f'{float(value):.2g}'):g}")
 
 
 def quality(row: xr.Dataset, name: str = "quality_factor", shown: str = ".0f") -> str:
-    """Format a quality factor; empty if it is infinite."""
+    """Format a quality factor as text; the text is empty if the factor is infinite."""
     return f"{float(row[name]):{shown}}" if math.isfinite(row[name]) else ""
 
 
 def beside(value: SupportsFloat, published: SupportsFloat | None) -> tuple[str, str]:
-    """Format a published number, and in per cent the difference of a value from it."""
+    """Format a published number, and the difference of a computed value from it in per cent."""
     if published is None:
         return "", ""
     known = float(published)
@@ -232,7 +232,7 @@ def beside(value: SupportsFloat, published: SupportsFloat | None) -> tuple[str, 
 def beside_observed(
     value: SupportsFloat, error: SupportsFloat, left_out: xr.Dataset | None, unit: str = ""
 ) -> str:
-    """Format a computed value for comparison with an observation, with all known errors.
+    """Format a computed value with all its known errors, for comparison with an observation.
 
     Parameters
     ----------
@@ -251,26 +251,26 @@ def beside_observed(
 
 
 def some_unknown(left_out: xr.Dataset) -> bool:
-    """Return True if the section `neglected` names effects of unknown size."""
+    """Return True if a result's section `neglected` names effects of unknown size."""
     return bool(left_out.neglected_effect.attrs.get("of_unknown_size"))
 
 
 def measured(data: xr.Dataset, name: str, unit: str = "") -> str:
-    """Format a variable of a dataset with two digits of its half-width."""
+    """Format a variable of a Dataset, with two digits of its half-width in brackets."""
     return with_error(data[name], data[f"{name}_error"], unit)
 
 
 def listed(values: Iterable[SupportsFloat]) -> str:
-    """Format numbers as text, separated by commas."""
+    """Format several numbers as one text, separated by commas."""
     return ", ".join(f"{float(value):.6g}" for value in values)
 
 
 def date(time: xr.DataArray | np.datetime64, to: Literal["Y", "D", "m", "s"] = "D") -> str:
-    """Format a date to the year, day, minute or second."""
+    """Format a date as text, to the year, day, minute or second."""
     return str(np.asarray(time).astype(f"datetime64[{to}]"))
 
 
 def along(data: xr.Dataset, dim: str) -> Iterator[tuple[str, xr.Dataset]]:
-    """Yield each label of a dimension as text, with the dataset selected at that label."""
+    """For each label of a dimension, yield its text and the data at that label."""
     for number, label in enumerate(data[dim].values):
         yield str(label), data.isel({dim: number})

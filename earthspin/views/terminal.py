@@ -1,4 +1,4 @@
-"""Print tables to the terminal, also if the pipe is closed."""
+"""Print tables to the terminal; stop quietly if the reader of the output has ended."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ WIDTH = 100
 
 
 class Terminal(Console):
-    """Console that reports a closed pipe to the command line."""
+    """Console for tables; it raises an error if the pipe that reads stdout is closed."""
 
     def __init__(self, width: int = WIDTH) -> None:
         super().__init__(width=None if sys.stdout.isatty() else width, highlight=False)
 
     def on_broken_pipe(self) -> None:
-        """Raise BrokenPipeError if the reader of stdout has closed it."""
+        """Raise BrokenPipeError, as the program that reads stdout has closed the pipe."""
         raise BrokenPipeError
 
     def print_table(self, table: Table) -> None:
-        """Print a table, its note and its run time."""
+        """Print a table with its note and its run time."""
         shown = RichTable(
             title=_plain(table.title), title_justify="left", title_style="bold", box=box.SIMPLE_HEAD
         )
@@ -45,5 +45,5 @@ class Terminal(Console):
 
 
 def _plain(words: str) -> Text:
-    """Text without markup and without control characters."""
+    """Convert text for the terminal: markup is not interpreted, control characters are escaped."""
     return Text("\n".join(map(printable, words.split("\n"))))

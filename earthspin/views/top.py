@@ -1,4 +1,4 @@
-"""Tables, figures and solid of a heavy top."""
+"""Tables, figures and three-dimensional picture of a heavy top."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from earthspin.views.table import Table, quantities
 
 
 def motion(tree: Result) -> Table:
-    """Table of pattern, period and mean rate of a heavy top."""
+    """Table of a heavy top's motion: shape of the path, nutation period, and precession rate."""
     answer, turning = answer_of(tree), section(tree, "turning")
     rows = quantities(answer, "pattern", "nutation_period:.10g", "mean_precession_rate:.10g")
     if turning is not None:
@@ -33,7 +33,7 @@ def _plot_potential_and_nutation(tree: Result) -> Figure:
 
 
 def plot_effective_potential(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the effective potential of a top over its inclination, with the level of its energy.
+    """Draw a top's effective potential over the inclination of its axis, and its energy level.
 
     Parameters
     ----------
@@ -70,7 +70,10 @@ FIGURES = [
 
 
 def path_of_top(tree: Result) -> solids.Solid:
-    """Solid of the path of the top's axis on a sphere, between its turning angles (I.7.19)."""
+    """Three-dimensional picture of the path of the top's axis on a sphere.
+
+    The path lies between two turning angles (source text, I.7.19).
+    """
     answer = answer_of(tree)
     theta, phi = answer.theta.values, answer.phi.values
     tip = np.stack(

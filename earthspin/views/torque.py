@@ -1,4 +1,4 @@
-"""Tables and figures of torques in time."""
+"""Tables and figures of the torques of perturbers over time."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MANY_SWINGS = 200
 
 
 def extremes(tree: Result) -> Table:
-    """Table of the extremes of declination, distance and torque, by perturber."""
+    """Table of the smallest and largest declination, distance and torque, by perturber."""
     answer = answer_of(tree)
     first, last = date(answer.time[0], "s"), date(answer.time[-1], "s")
 
@@ -44,13 +44,13 @@ TABLES = [("", extremes)]
 
 
 def through(tree: Result, title: str, smooth_days: float) -> drawing.Drawing:
-    """Figure of declination and torque over years; fast oscillations are drawn as bands."""
+    """Figure of declination and torque over time; fast oscillations are drawn as bands."""
     plot, caption = partial(_plot_both, smooth_days=smooth_days), _caption(tree, smooth_days)
     return PageFigure(title, caption, plot).drawn(tree)
 
 
 def _plot_both(tree: Result, smooth_days: float | None = None) -> Figure:
-    """Draw declination of the perturbers in an upper panel and torque in a lower one."""
+    """Draw the declination of the perturbers in an upper panel and their torque in a lower one."""
     figure, (upper, lower) = drawing.stacked(2, 4.6)
     plot_declination(tree, smooth_days=smooth_days, ax=upper)
     plot_torque(tree, smooth_days=smooth_days, ax=lower)
@@ -106,7 +106,7 @@ def plot_declination(
 def plot_torque(
     result: Result, *, smooth_days: float | None = None, ax: Axes | None = None
 ) -> Axes:
-    """Draw the component of the torque towards the equinox, which causes precession.
+    """Draw the torque component towards the equinox, which causes precession, over time.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def _line_or_band(
     colour: str,
     smooth_days: float | None,
 ) -> None:
-    """Draw a time series as a line, or as a band between its extremes if it oscillates fast."""
+    """Draw a time series as a line; if it oscillates fast, as a band between its extremes."""
     swings = int((np.diff(np.sign(np.diff(series.values))) != 0).sum())
     if not smooth_days or swings < MANY_SWINGS:
         ax.plot(series.time, series, color=colour, lw=0.8, zorder=3 - 0.1 * number, label=label)
@@ -156,7 +156,7 @@ def _line_or_band(
 
 
 def _samples(series: xr.Dataset | xr.DataArray, days: float) -> int:
-    """Number of samples of an evenly sampled series in a given number of days."""
+    """Number of samples in a given number of days, for an evenly sampled time series."""
     step = float((series.time[1] - series.time[0]) / np.timedelta64(1, "D"))
     return max(1, round(days / step))
 

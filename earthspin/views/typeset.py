@@ -23,7 +23,7 @@ _GREEK = {"psi": "\u03c8", "omega": "\u03c9", "eps": "\u03b5", "chi": "\u03c7", 
 
 
 def typeset(words: str) -> Markup:
-    """Text of a table or a caption as HTML.
+    """Convert the text of a table or a caption to HTML, with proper signs, powers and units.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ _COLOURS |= {"#e69f00": "orange", "#56b4e9": "sky"}
 
 
 def figure_on_page(svg: str, name: str, words: str, width: str) -> Markup:
-    """HTML of a figure for light and dark pages, usable with a screen reader.
+    """HTML for a figure on a page with light and dark mode, readable by a screen reader.
 
     Parameters
     ----------
@@ -101,5 +101,5 @@ def _mixture(found: re.Match[str]) -> str:
 
 
 def anchor(title: str) -> str:
-    """Name of a section for links within a page: its title in small letters, with hyphens."""
+    """Name of a page section for links: its title in lower case, with hyphens."""
     return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")

@@ -1,4 +1,4 @@
-"""Tables and figure of the wobble ladder."""
+"""Tables and figure of the free wobble period from models of increasing detail."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ CHIEF = ("period_solar",)
 
 
 def ladder(tree: Result) -> Table:
-    """Table of the period of the free wobble for each step of the ladder."""
+    """Table of the free wobble period for each model of the ladder, from rigid to deformable."""
     answer, observed = answer_of(tree), section(tree, "observed")
 
     def period(row: xr.Dataset) -> str:
@@ -55,7 +55,7 @@ def ladder(tree: Result) -> Table:
 
 
 def sensitivity(tree: Result) -> Table:
-    """Table of the change of the ladder's last period with each input."""
+    """Table of the derivatives of the last model's wobble period with respect to each input."""
     inputs, roots = needed(tree, "sensitivity"), section(tree, "core_nutation")
     columns = (
         "input",
@@ -90,7 +90,7 @@ def _caption(tree: Result) -> str:
 
 
 def plot_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the period of each step in days, and the observed period as a band.
+    """Draw the wobble period of each model in days, and the observed period as a band.
 
     Parameters
     ----------

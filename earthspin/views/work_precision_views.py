@@ -1,4 +1,4 @@
-"""Tables, figures and pages of error against run time."""
+"""Tables, figures and pages that compare the error and run time of methods."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">")
 
 
 def accuracy_table(result: xr.Dataset) -> Table:
-    """Table of error and run time of every measured setting of every method.
+    """Table of the error and run time of all methods, with a row for each tested accuracy.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def accuracy_table(result: xr.Dataset) -> Table:
 
 
 def _note(result: xr.Dataset) -> str:
-    """Note below a table: problem, reference solution, methods whose errors exceed bounds."""
+    """Note below a table: the problem, the reference solution, and methods that exceed bounds."""
     unit = _unit(result)
     words = [
         f"{_capital(result.attrs['problem'])}.",
@@ -76,12 +76,12 @@ def _capital(words: str) -> str:
 
 
 def _unit(result: xr.Dataset) -> str:
-    """Unit of the measured error, preceded by a space."""
+    """Unit of the measured error with a space before it, as text."""
     return shown_unit(str(result.error.attrs["units"]))
 
 
 def print_accuracy(results: Sequence[xr.Dataset]) -> None:
-    """Print the table and the recommendation for each quantity to the terminal."""
+    """Print the table of error and run time, and the recommended method, for each quantity."""
     console = Terminal(WIDTH + 10)
     for result in results:
         console.print_table(accuracy_table(result))
@@ -92,7 +92,7 @@ def print_accuracy(results: Sequence[xr.Dataset]) -> None:
 
 
 def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
-    """Draw error against run time on log axes; filled markers are methods of this package.
+    """Draw error over run time on logarithmic axes; filled markers are methods of this package.
 
     The broad line is the front, each task with its own. A bar is half the range of the run times.
     The thin line of a method joins those of its settings for which no other setting is both faster
@@ -138,7 +138,7 @@ def plot_accuracy(result: xr.Dataset, *, ax: Axes | None = None) -> Axes:
 
 
 def _front(time: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Select the results for which no other is both faster and more accurate (Pareto front)."""
+    """Select the measurements that no other beats in both run time and error (Pareto front)."""
     order = np.lexsort((error, time))
     time, error = time[order], error[order]
     kept = error < np.concatenate([[np.inf], np.minimum.accumulate(error)[:-1]])
@@ -146,7 +146,7 @@ def _front(time: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArray]
 
 
 def _draw_fronts(result: xr.Dataset, ax: Axes) -> None:
-    """Draw as steps the Pareto front of error and run time, for each task."""
+    """Draw the best combinations of error and run time (Pareto front) as steps, for each task."""
     right, top = float(result.run_time.max()), float(result.error.max())
     label = "front (Pareto)"
     for task in dict.fromkeys(result.task.values.tolist()):
@@ -160,7 +160,7 @@ def _draw_fronts(result: xr.Dataset, ax: Axes) -> None:
 
 
 def svg_of(result: xr.Dataset) -> str:
-    """SVG text of the figure of error against run time for one quantity."""
+    """SVG text of the figure of error over run time for one quantity."""
     with style():
         ax = plot_accuracy(result)
         ax.set_title(_capital(result.attrs["quantity"].replace("-", " ")), loc="left")
@@ -171,7 +171,7 @@ def svg_of(result: xr.Dataset) -> str:
 
 
 def write_accuracy(results: Sequence[xr.Dataset], folder: str | Path) -> list[Path]:
-    """Write the data of each quantity, then its figure, and one page of all quantities.
+    """Write the data and the figure of each quantity, and one HTML page of all quantities.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ def write_accuracy(results: Sequence[xr.Dataset], folder: str | Path) -> list[Pa
 
 
 def store_accuracy(result: xr.Dataset, folder: str | Path) -> Path:
-    """Write the measurements of one quantity to ``accuracy-QUANTITY.nc``; return its path."""
+    """Write the measurements of one quantity to a NetCDF file, and return its path."""
     path = Path(folder) / f"accuracy-{result.attrs['quantity']}.nc"
     with drafts.replacing(path) as draft:
         store.write_netcdf(result, draft)
@@ -208,7 +208,7 @@ def store_accuracy(result: xr.Dataset, folder: str | Path) -> Path:
 
 
 def accuracy_page(results: Sequence[xr.Dataset], drawn: Sequence[str]) -> str:
-    """Page of all quantities: table, sentence, figure.
+    """HTML page of error and run time for all quantities: table, recommendation and figure each.
 
     Parameters
     ----------

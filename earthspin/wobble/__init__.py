@@ -1,1 +1,1 @@
-"""Models and observation of the free wobble."""
+"""Models of the free wobble, and its period and quality factor from observations."""

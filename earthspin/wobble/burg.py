@@ -1,4 +1,4 @@
-"""The free wobble as the pole of an autoregressive model, by Burg's method."""
+"""Fit of the free wobble by Burg's autoregressive method."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ DECAY_EXCESS = (2.1, 0.65)
 
 
 def burg(x: Complex, order: int) -> Complex:
-    """Compute the coefficients 1, a1, ... of the prediction-error filter of a complex series.
+    """Compute the prediction-error filter 1, a1, ... of a complex series, by Burg's method.
 
     The method is Burg's.
 
@@ -47,7 +47,7 @@ def burg(x: Complex, order: int) -> Complex:
 
 
 def fit_burg(time: Array, p: Complex) -> WobbleFit:
-    """Fit the free wobble by Burg's autoregressive model, to monthly means of polar motion.
+    """Fit the free wobble to monthly means of polar motion, by Burg's autoregressive method.
 
     Drift and seasonal terms are removed first.
     """
@@ -70,7 +70,7 @@ def fit_burg(time: Array, p: Complex) -> WobbleFit:
 
 
 def _decay_interval(decay: float, span: float) -> tuple[float, float]:
-    """95 % interval of the decay rate d, whose estimate scatters by sqrt(d/span)."""
+    """95 % interval of the wobble's decay rate d, from its estimate and the span of the data."""
     low, high = ((NORMAL_95 * excess) ** 2 / span for excess in DECAY_EXCESS)
     return (
         float(decay + low / 2 - np.sqrt(decay * low + low**2 / 4)),

@@ -1,4 +1,4 @@
-"""Polar motion driven by a known excitation, compared with the observed one."""
+"""Polar motion driven by a known excitation, fitted to observed polar motion."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from earthspin.wobble.resonance import polar_motion_from
 
 
 def fitted_start(time: Array, p: Complex, chi: Complex, s: complex) -> complex:
-    """Fit the initial value of driven polar motion to observed polar motion, by least squares.
+    """Fit the initial pole position of driven polar motion to observations, by least squares.
 
     Drift and seasonal terms, which models of the excitation hold least well, are fitted beside it
     and stay out of it.

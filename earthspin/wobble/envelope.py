@@ -1,4 +1,4 @@
-"""Amplitude and phase of the wobbles in time, from sliding windows."""
+"""Amplitude and phase of the free and annual wobbles over time, from sliding windows."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ AMPLITUDE_EXCESS = 1.3
 
 @dataclass(frozen=True)
 class Envelope:
-    """Amplitudes and phases of the free and annual wobbles in sliding windows.
+    """Amplitudes and phases of the free and annual wobbles in sliding time windows.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class Envelope:
 def envelope(
     time: Array, p: Complex, period: float, window: float | None = None, step: float = 30.0
 ) -> Envelope:
-    """Fit free wobble, annual wobble and a straight line in sliding windows.
+    """Fit free wobble, annual wobble and linear drift of the pole in sliding time windows.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def envelope(
 
 
 def _shortened(block: float, sample: float, period: float) -> float:
-    """Factor by which a mean over a block of even samples reduces a sinusoid.
+    """Factor by which the mean over a block of samples reduces the amplitude of a sinusoid.
 
     It is sin(pi B/T)/(m sin(pi B/(m T))) for m samples in a block B and the period T.
     """
@@ -105,7 +105,7 @@ def _shortened(block: float, sample: float, period: float) -> float:
 
 
 def _amplitude_error(left: Complex, spacing: float, rate: float) -> Array:
-    """Half-width of a wobble's amplitude in a window, from residuals with correlated noise.
+    """95 % half-width of wobble amplitudes in time windows, from residuals with correlated noise.
 
     Neighbouring months err alike: the noise is taken for an autoregressive one of first
     order, and its spectrum read off at the wobble's frequency.

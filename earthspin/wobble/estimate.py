@@ -1,4 +1,4 @@
-"""Result of a fit of the free wobble: period and quality factor."""
+"""Result of a fit of the free wobble: its period and quality factor."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from earthspin.errors import UndefinedError
 
 @dataclass(frozen=True)
 class WobbleFit:
-    """Period and quality factor of the free wobble.
+    """Period and quality factor of the free wobble, as fitted by one method.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class WobbleFit:
 
     @property
     def gives_quality(self) -> bool:
-        """Return True if the fit includes an estimate of Q."""
+        """Return True if the fit gives an estimate of the quality factor Q."""
         return self._quality is not None
 
     def _known(self) -> tuple[float, ...]:

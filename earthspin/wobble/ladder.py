@@ -1,4 +1,4 @@
-"""The wobble ladder: free wobble period for models from rigid to deformable.
+"""Free wobble period from a ladder of models, from rigid to deformable.
 
 Each rung (step) gives the period in rotations of the body. The effects of the rungs are factors
 and do not commute: the fluid core shortens the period by 34 days with a rigid mantle, and by 51
@@ -43,17 +43,23 @@ FORMULAS = {
 
 
 def turns_from_flattening(flattening: Numeric) -> Numeric:
-    """Wobble period, in rotations, by McCullough's formula with the flattening (I.9.52)."""
+    """Wobble period in rotations: 1/f from the flattening f, by McCullough's formula.
+
+    See the source text, I.9.52.
+    """
     return over(1.0, flattening)
 
 
 def turns_rigid(h: Numeric) -> Numeric:
-    """Wobble period, in rotations, of a rigid axisymmetric body, A/(C - A) (I.6.7)."""
+    """Wobble period in rotations of a rigid axisymmetric body: A/(C - A).
+
+    See the source text, I.6.7.
+    """
     return np.abs(over(1.0, ellipticity_from_h(h)))
 
 
 def turns_triaxial(h: Numeric, j2: Numeric, triaxiality: Numeric) -> Numeric:
-    """Wobble period, in rotations, of a rigid triaxial body at small amplitude.
+    """Wobble period in rotations of a rigid triaxial body, for small wobbles.
 
     sqrt(A B/((C - A)(C - B))), linearised Euler equations (I.4.4), from differences only.
 
@@ -91,7 +97,7 @@ def turns_triaxial(h: Numeric, j2: Numeric, triaxiality: Numeric) -> Numeric:
 def rigid_turns(
     flattening: Numeric, h: Numeric, j2: Numeric, triaxiality: Numeric
 ) -> dict[str, Numeric]:
-    """Wobble period, in rotations, of the rigid steps of the ladder, by name."""
+    """Wobble periods in rotations from the three rigid models of the ladder, by model name."""
     return {
         "flattening": turns_from_flattening(flattening),
         "rigid": turns_rigid(h),
@@ -100,7 +106,7 @@ def rigid_turns(
 
 
 def factors(turns: Numeric) -> Numeric:
-    """Ratio of each step's period to that of the step before it; 1 for the first step."""
+    """Ratio of each model's wobble period to that of the model before; 1 for the first model."""
     values = np.asarray(turns)
     below, above = values[:-1], values[1:]
     with np.errstate(invalid="ignore"):  # a sphere has every rung at infinity
@@ -113,7 +119,7 @@ def factors(turns: Numeric) -> Numeric:
 
 @dataclass(frozen=True)
 class Inputs:
-    """Parameters of figure and interior for the non-rigid steps; floats or arrays of one shape.
+    """Parameters of figure and interior for the non-rigid models; floats or arrays of one shape.
 
     Attributes
     ----------
@@ -143,7 +149,7 @@ class Inputs:
 
 @dataclass(frozen=True)
 class Spin:
-    """Mass, size and rotation period of a body, in SI.
+    """Mass, equatorial radius and rotation period of a body, in SI units.
 
     Attributes
     ----------
@@ -160,7 +166,9 @@ class Spin:
     period: Numeric
 
     def centrifugal(self, love_radius: Numeric) -> Numeric:
-        """Products of inertia that the centrifugal potential causes, over M a2, per radian and k2.
+        """Product of inertia from centrifugal deformation, per radian of wobble and per unit k2.
+
+        It is divided by M a2.
 
         They are Omega2 R5/(3 G M a2).
         """
@@ -174,7 +182,7 @@ def roots(
     compliance: tuple[Numeric, Numeric, Numeric, Numeric],
     ocean: Array | None = None,
 ) -> Roots:
-    """Solve the equations of mantle and core for the wobble and the free core nutation.
+    """Solve the equations of mantle and core for the wobble and core nutation frequencies.
 
     Parameters
     ----------
@@ -209,7 +217,7 @@ def roots(
 
 @dataclass(frozen=True)
 class Ladder:
-    """Wobble periods, quality factors and core nutation of the steps of the ladder.
+    """Wobble periods, quality factors and core nutation periods from all models of the ladder.
 
     Attributes
     ----------
@@ -236,7 +244,7 @@ def inputs_of(
     ocean: str = "real",
     exponent: Numeric = ANELASTIC_EXPONENT.value,
 ) -> Inputs:
-    """Collect the parameters of the non-rigid steps from the figure of a body and its interior.
+    """Collect the inputs of the non-rigid models: the figure of a body, its interior and ocean.
 
     Parameters
     ----------
@@ -271,12 +279,12 @@ def inputs_of(
 
 
 def love_radius(interior: Interior, spin: Spin) -> Numeric:
-    """Reference radius of k2: that of the layered sphere, or else the equatorial radius, m."""
+    """Radius to which k2 refers, m: that of the layers, or else the equatorial radius."""
     return spin.radius if interior.layers is None else interior.layers.radius
 
 
 def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -> Ladder:
-    """Compute wobble period and quality factor of the non-rigid steps of the ladder.
+    """Compute wobble period and quality factor from all non-rigid models of the ladder.
 
     Parameters
     ----------
@@ -336,7 +344,7 @@ def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -
 def _soften(
     inputs: Inputs, spin: Spin, interior: Interior, unit: Numeric, water: Any, turns: Array
 ) -> Roots:
-    """Compute the anelastic step by iteration: the shear modulus depends on the period."""
+    """Compute the wobble of the anelastic model by iteration, as rigidity depends on the period."""
     assert interior.layers is not None
     compliance = _compliance(interior, inputs)
     for _ in range(3):  # each pass shrinks the error by a factor of a thousand
@@ -351,7 +359,7 @@ def _soften(
 
 
 def _compliance(interior: Interior, inputs: Inputs) -> tuple[Numeric, ...]:
-    """Deformation of body and core by wobble and core pressure, scaled to the given k2."""
+    """Deformation coefficients of body and core under wobble and core pressure, for a given k2."""
     if interior.layers is None:
         return inputs.k2, 0.0, 0.0, 0.0
     love = elastic(interior.layers)
@@ -362,7 +370,7 @@ def _compliance(interior: Interior, inputs: Inputs) -> tuple[Numeric, ...]:
 
 
 def _water(interior: Interior, inputs: Inputs, unit: Numeric, ocean: str) -> Array | None:
-    """Products of inertia of the ocean per radian of wobble, divided by A, shape (..., 2, 2)."""
+    """Product of inertia that the ocean adds per radian of wobble, over A, shape (..., 2, 2)."""
     if interior.ocean is None or ocean == "none":
         return None
     shape = np.eye(2)

@@ -43,7 +43,7 @@ def over(numerator: Numeric, denominator: Numeric) -> Numeric:
 
 @dataclass(frozen=True)
 class Roots:
-    """Complex frequencies of the free wobble and the free core nutation.
+    """Complex frequencies of free wobble and free core nutation, per rotation of the body.
 
     Attributes
     ----------
@@ -58,12 +58,12 @@ class Roots:
 
     @property
     def turns(self) -> Array:
-        """Period of the wobble in rotations."""
+        """Period of the free wobble in rotations of the body."""
         return np.asarray(1 / self.wobble.real)
 
     @property
     def quality_factor(self) -> Array:
-        """Quality factor of the wobble, from its complex frequency; infinite without loss."""
+        """Quality factor of the free wobble; infinite without dissipation."""
         loss = self.wobble.imag
         return np.asarray(over(self.wobble.real, 2 * loss))
 
@@ -95,7 +95,7 @@ class Mantle:
     ocean: Array | None = None
 
     def traces_and_determinants(self) -> tuple[Numeric, Numeric, Numeric, Numeric]:
-        """Return traces and determinants of the mantle's matrices M and D (see the module).
+        """Return the traces and determinants of the matrices M and D in the mantle's equation.
 
         The order is tr M, |M|, tr D, |D|.
         """
@@ -132,7 +132,7 @@ class Core:
 
 
 def solve(mantle: Mantle, core: Core) -> Roots:
-    """Solve the equations of mantle and core for the free wobble and the core nutation.
+    """Solve the equations of mantle and core for the wobble and core nutation frequencies.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Damped oscillator driven by white and red noise: its modes and its covariance.
+"""Damped oscillator driven by white and red noise, as a model of polar motion.
 
 Polar motion obeys p' = i s (p - chi). An excitation chi with the correlation time tau adds
 a second mode of rate -1/tau to the free one of rate i s. With z the amplitudes of the two modes,
@@ -21,7 +21,7 @@ Complex = NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class DrivenOscillator:
-    """Model of polar motion: a damped wobble and a slow mode, both driven by noise.
+    """Model of polar motion: a damped wobble and a slowly varying part, driven by noise.
 
     Attributes
     ----------
@@ -45,12 +45,12 @@ class DrivenOscillator:
 
     @property
     def rates(self) -> Complex:
-        """Complex rates of the wobble and of the slow mode, 1/d."""
+        """Complex rates of the wobble and of the slowly varying part: d ln(amplitude)/dt, 1/d."""
         return np.array([1j * self.s, -1 / self.memory])
 
     @property
     def covariance(self) -> Complex:
-        """Stationary covariance of the amplitudes of wobble and slow mode, shape (2, 2)."""
+        """Stationary covariance of the wobble and the slowly varying part, shape (2, 2)."""
         rates = self.rates
         # chi' = -chi/tau + n puts c chi into the slow mode and leaves p - c chi to the free one.
         share = rates[0] / (rates[0] - rates[1])
@@ -60,7 +60,7 @@ class DrivenOscillator:
         return np.asarray(-noise / (rates[:, None] + rates.conj()))
 
     def of_means(self, length: float, reference: float) -> tuple[Complex, Complex]:
-        """Covariance between block means of polar motion, for three lags.
+        """Covariance of block means of polar motion in this model, for lags of 0, 1 and 2 blocks.
 
         The rotation at the reference frequency is removed first.
 
@@ -85,7 +85,7 @@ class DrivenOscillator:
         return factors, np.array([same, apart @ factors, apart @ factors**2])
 
     def sampled(self, count: int, step: float, generator: np.random.Generator) -> Complex:
-        """Simulate polar motion at even steps, shape (count,).
+        """Simulate polar motion at evenly spaced times, shape (count,), with random noise.
 
         The simulation starts from the stationary distribution.
         """
@@ -98,6 +98,6 @@ class DrivenOscillator:
 
 
 def _root(covariance: Complex) -> Complex:
-    """Factor R of a covariance matrix R R^H, which may be singular."""
+    """Square root R of a covariance matrix, such that R R^H is the matrix; it may be singular."""
     values, vectors = np.linalg.eigh(covariance)
     return np.asarray(vectors * np.sqrt(np.maximum(values, 0)))

@@ -1,4 +1,4 @@
-"""Test for a free wobble in a record: power near its frequency compared with neighbouring power.
+"""Test if a record of polar motion contains a free wobble, from its power spectrum.
 
 A model without a wobble has a smooth spectrum. What it would hold between the periods of `BAND` is
 taken from the bands on either side, as a power of the frequency, and the power there is compared
@@ -25,7 +25,7 @@ ROUNDING = 1e-9
 
 
 def need_wobble(time: Array, p: Complex) -> None:
-    """Refuse a record in which no free wobble stands out.
+    """Refuse a record of polar motion without a significant peak of the free wobble.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def need_wobble(time: Array, p: Complex) -> None:
 
 @dataclass(frozen=True)
 class Periodogram:
-    """Power of prograde polar motion by frequency, without the annual frequency.
+    """Power spectrum of prograde polar motion; the annual frequency is left out.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class Periodogram:
 
     @classmethod
     def of(cls, time: Array, rest: Complex) -> Periodogram:
-        """Compute the power by frequency of polar motion without drift and seasonal terms."""
+        """Compute the power spectrum of polar motion from which drift and seasons were removed."""
         length = (time[-1] - time[0]) * time.size / (time.size - 1)
         frequency = np.arange(1, int(length / FASTER[1]) + 1) / length
         frequency = frequency[abs(frequency - 1 / YEAR) > 1 / length]
@@ -80,12 +80,12 @@ class Periodogram:
         return cls(frequency, np.asarray(abs(sums) ** 2, dtype=float))
 
     def between(self, longest: float, shortest: float) -> Periodogram:
-        """Part of the periodogram between two periods in d."""
+        """Select the part of the power spectrum between two periods, d."""
         inside = (self.frequency >= 1 / longest) & (self.frequency <= 1 / shortest)
         return Periodogram(self.frequency[inside], self.power[inside])
 
     def ratio(self) -> tuple[float, float]:
-        """Ratio of the power in the wobble's band to that of noise, and the limit for noise alone.
+        """Mean power near the wobble frequency over that of noise, and the limit for pure noise.
 
         Noise alone exceeds the limit with a probability of `FALSE_ALARM`.
         """
@@ -99,6 +99,6 @@ class Periodogram:
         return float(band.power.mean() / expected), float(needed)
 
     def peak(self) -> float:
-        """Period of the largest power in the wobble's band and at shorter periods, d."""
+        """Period at which the power is largest, in the wobble band or at shorter periods, d."""
         part = self.between(BAND[1], FASTER[1])
         return float(1 / part.frequency[np.argmax(part.power)])

@@ -1,4 +1,4 @@
-"""Errors of the non-rigid steps by sampling, and derivatives with respect to the inputs.
+"""Errors of non-rigid wobble periods, by sampling uncertain inputs, and derivatives by inputs.
 
 The same draws of the inputs are used for every body, so that the error of a body does not depend
 on the other bodies of the computation. The ladder is not computed for every draw: the periods are
@@ -42,7 +42,7 @@ _EXPONENTS = 5
 
 @dataclass(frozen=True)
 class Drawn:
-    """Sampled values of the uncertain inputs of the ladder.
+    """Random values of the uncertain inputs of the wobble models.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class Drawn:
     exponent: Array
 
     def inputs(self, mean: Inputs, uncertainty: Mapping[str, float]) -> Inputs:
-        """Sampled inputs of one or more bodies; the samples lie along a new first axis."""
+        """Apply the random values to the inputs of one or more bodies, along a new first axis."""
         ndim = max(np.ndim(getattr(mean, one.name)) for one in fields(Inputs))
         changed = {
             name: getattr(mean, name) * (1 + uncertainty[name] * _column(z, ndim))
@@ -66,7 +66,7 @@ class Drawn:
 
 
 def draw(uncertainty: Mapping[str, float], draws: int = DRAWS, seed: int = SEED) -> Drawn:
-    """Draw the inputs within their uncertainties; the same draws for every body.
+    """Draw random values of the inputs from their uncertainties; all bodies use the same values.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def sampled_half_widths(
     interior: Interior,
     ocean: str = "real",
 ) -> dict[str, Numeric]:
-    """95 % half-widths of the rotations per wobble of the non-rigid steps, by sampling the inputs.
+    """95 % half-widths of the wobble periods in rotations, from random values of the inputs.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def _sampled(
     interior: Interior,
     ocean: str,
 ) -> dict[str, Array]:
-    """Wobble period of each step, in rotations, for all samples, shape (bodies, draws).
+    """Wobble period in rotations from each model, for all random inputs, shape (bodies, draws).
 
     It is interpolated quadratically.
     """
@@ -154,7 +154,7 @@ def _sampled(
 def _points(
     inputs: Inputs, names: list[str], uncertainty: Mapping[str, float], exponents: Array
 ) -> Inputs:
-    """Inputs at the nodes of the interpolation of the ladder, along a new first axis."""
+    """Inputs at which the models are computed, between which their results are interpolated."""
     count = 1 + 2 * len(names) + exponents.size
     exponent = np.concatenate(
         [
@@ -171,14 +171,14 @@ def _points(
 
 
 def _exponent_nodes() -> Array:
-    """Chebyshev points over the published range of the anelastic exponent."""
+    """Chebyshev nodes over the published range of the anelastic exponent."""
     low, high = EXPONENT_RANGE
     points = np.polynomial.chebyshev.chebpts1(_EXPONENTS)
     return np.asarray((low + high) / 2 + (high - low) / 2 * points)
 
 
 def _lagrange(nodes: Array, at: Array) -> Array:
-    """Lagrange polynomials of the nodes, shape (nodes, points)."""
+    """Values of the Lagrange polynomials of given nodes at given points, shape (nodes, points)."""
     others = [np.delete(nodes, i) for i in range(nodes.size)]
     return np.array(
         [
@@ -189,14 +189,14 @@ def _lagrange(nodes: Array, at: Array) -> Array:
 
 
 def _column(values: Array, ndim: int) -> Array:
-    """Reshape an array to lie along the first of several axes."""
+    """Reshape a one-dimensional array so that it lies along the first of several axes."""
     return values.reshape(-1, *(1,) * ndim)
 
 
 def half_widths(
     inputs: Inputs, uncertainty: Mapping[str, float], anelastic: bool
 ) -> dict[str, Array]:
-    """95 % half-widths of the inputs; for the anelastic exponent, half its published range.
+    """95 % half-widths of all inputs; for the anelastic exponent, half its published range.
 
     Parameters
     ----------
@@ -217,7 +217,7 @@ def half_widths(
 def sensitivities(
     inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real"
 ) -> dict[str, Numeric]:
-    """Change of the ladder's last period with each input, d per unit, by central differences.
+    """Derivative of the last model's wobble period with respect to each input, d per unit.
 
     Parameters
     ----------

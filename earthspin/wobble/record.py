@@ -1,4 +1,4 @@
-"""Records of polar motion: checks, drift and seasonal terms.
+"""Records of polar motion: check them, and remove drift and seasonal terms.
 
 Polar motion is complex, p = x - i y, so that the free wobble turns with exp(+i omega t).
 """
@@ -29,7 +29,7 @@ LONGEST_STEP = 37.0
 
 
 def shortest_span(period: float = NEAR) -> float:
-    """Shortest record, d, that separates free and annual wobble: one beat of the two."""
+    """Shortest record that separates free and annual wobble, d: one beat period of the two."""
     return 1 / (1 / YEAR - 1 / period)
 
 
@@ -68,19 +68,19 @@ def check(time: Array, p: Complex) -> None:
 
 
 def turning(time: Any, period: float) -> Complex:
-    """Complex exponential exp(2 pi i time/period) of a prograde motion."""
+    """Values of exp(2 pi i time/period), a prograde circular motion of unit amplitude."""
     return np.asarray(np.exp(2j * np.pi * time / period))
 
 
 def drift_terms(time: Array, degree: int = DRIFT) -> Complex:
-    """Powers of time, with time scaled to -1 to 1, one column each, shape (n, degree + 1)."""
+    """Powers of time scaled to -1 to 1, for a drift polynomial, shape (n, degree + 1)."""
     centre, half = (time[-1] + time[0]) / 2, (time[-1] - time[0]) / 2
     scaled = (time - centre) / half
     return np.column_stack([scaled**k for k in range(degree + 1)]).astype(complex)
 
 
 def known_terms(time: Array, drift: int = DRIFT) -> Complex:
-    """Values of drift and seasonal terms at given times, one column each, shape (n, drift + 5)."""
+    """Values of the drift and seasonal terms at given times, shape (n, drift + 5)."""
     seasons = [turning(time, period) for period in SEASONS]
     return np.column_stack([drift_terms(time, drift), *seasons])
 
@@ -92,7 +92,7 @@ def block_means(values: Any, size: int) -> Any:
 
 
 def in_blocks(time: Array, p: Complex, length: float) -> tuple[Array, Complex, float]:
-    """Block means of polar motion, with mean times and block length, d.
+    """Mean times and mean polar motion of consecutive blocks, and the block length, d.
 
     Blocks have about the given length in days.
 
@@ -104,12 +104,12 @@ def in_blocks(time: Array, p: Complex, length: float) -> tuple[Array, Complex, f
 
 
 def least_squares(columns: Complex, values: Complex) -> Complex:
-    """Fit a linear combination of given columns to a series; return the coefficients."""
+    """Fit a linear combination of given columns to a series; return its coefficients."""
     return np.asarray(np.linalg.lstsq(columns, values, rcond=None)[0])
 
 
 def without_known_terms(time: Array, p: Complex, period: float = NEAR) -> Complex:
-    """Return polar motion without drift and seasons, which are fitted together with the wobble."""
+    """Subtract drift and seasonal terms from polar motion; the fit includes the free wobble."""
     columns = known_terms(time)
     found = least_squares(np.column_stack([columns, turning(time, period)]), p)
     return np.asarray(p - columns @ found[:-1])

@@ -1,4 +1,4 @@
-"""Polar motion and its excitation, a linear equation that is exact for means over steps.
+"""Equation that relates polar motion to its excitation, exact for mean excitation per step.
 
     p + (i/s) dp/dt = chi,    p = x - i y,    s = (2 pi/T)(1 + i/(2 Q))
 
@@ -40,17 +40,17 @@ def excitation_of(chi1: Array, chi2: Array) -> Complex:
 
 
 def middles_of_steps(ends: Array) -> Array:
-    """Centres of the steps between even times, shape (n - 1,)."""
+    """Middles of the steps between consecutive times, shape (n - 1,)."""
     return np.asarray((ends[:-1] + ends[1:]) / 2)
 
 
 def ends_of_steps(middles: Array, step: float) -> Array:
-    """Ends of even steps from their centres, shape (n + 1,)."""
+    """Start and end times of equal steps, from the middles of the steps, shape (n + 1,)."""
     return np.asarray(middles[0] - step / 2 + step * np.arange(middles.size + 1))
 
 
 def chandler_frequency(period: float, quality_factor: float) -> complex:
-    """Complex frequency s = (2 pi/T)(1 + i/(2 Q)), rad per unit of T.
+    """Complex frequency of the free wobble, (2 pi/T)(1 + i/(2 Q)), from its period T and Q.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def chandler_frequency(period: float, quality_factor: float) -> complex:
 
 
 def excitation(p: Complex, step: float, s: complex) -> Complex:
-    """Mean excitation of each step between samples of polar motion, exactly.
+    """Mean excitation in each time step of a polar motion series, by an exact formula.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def excitation(p: Complex, step: float, s: complex) -> Complex:
 
 
 def polar_motion_from(chi: Complex, step: float, s: complex, start: complex = 0j) -> Complex:
-    """Compute the polar motion that a series of mean excitations produces, exactly.
+    """Polar motion driven by a series of mean excitations, by an exact formula.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def polar_motion_from(chi: Complex, step: float, s: complex, start: complex = 0j
 
 
 def _response(step: float, s: complex) -> tuple[complex, complex]:
-    """Factors of a free wobble of complex rate s over a step D: exp(i s D) and 1 - exp(i s D).
+    """Factors exp(i s D) and 1 - exp(i s D) of a wobble of complex frequency s, over a step D.
 
     They are computed without cancellation.
     """
@@ -141,12 +141,12 @@ def _response(step: float, s: complex) -> tuple[complex, complex]:
 
 
 def central_difference(p: Complex, step: float, s: complex) -> Complex:
-    """Excitation at the inner samples of polar motion, by central differences; shape (n - 2,)."""
+    """Excitation at inner samples of polar motion, by central differences, shape (n - 2,)."""
     return np.asarray(p[1:-1] + 1j / s * (p[2:] - p[:-2]) / (2 * step))
 
 
 def wilson_filter(p: Complex, step: float, s: complex) -> Complex:
-    """Excitation midway between samples by Wilson's filter, shape (n - 1,).
+    """Excitation midway between samples of polar motion, by Wilson's filter, shape (n - 1,).
 
     chi = i e^(-i pi F D)/(s D) (p1 - e^(i s D) p0) (Wilson 1985, Geophys. J. R. astr. Soc.
     80, 551): the exact relation but for terms of second order in s D.
@@ -156,7 +156,10 @@ def wilson_filter(p: Complex, step: float, s: complex) -> Complex:
 
 
 def euler_forward(chi: Complex, step: float, s: complex, start: complex = 0j) -> Complex:
-    """Polar motion by explicit Euler steps, shape (n + 1,); unstable, kept for comparison."""
+    """Polar motion driven by an excitation, in explicit Euler steps, shape (n + 1,).
+
+    The method is unstable; it serves for comparison.
+    """
     from scipy.signal import lfilter
 
     growth = 1 + 1j * s * step

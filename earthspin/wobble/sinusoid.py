@@ -22,14 +22,14 @@ EXCESS = 2.4
 
 
 def fit_least_squares(time: Array, p: Complex) -> WobbleFit:
-    """Fit the free wobble as a sinusoid, together with drift and seasons, by least squares."""
+    """Fit the free wobble as a sinusoid, with drift and seasonal terms, by least squares."""
     span = time[-1] - time[0]
     t, means, _ = in_blocks(time, p, BLOCK)
     columns = np.linalg.qr(known_terms(t))[0]
     rest = means - columns @ (columns.conj().T @ means)
 
     def explained(period: Array) -> Array:
-        """Power in a record of polar motion that sinusoids of given periods explain.
+        """Power in polar motion that sinusoids of given periods explain, for each period.
 
         Drift and seasonal terms are fitted as well, and not counted.
         """
