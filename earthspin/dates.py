@@ -195,7 +195,7 @@ def is_skyfield_time(value: object) -> bool:
 def _tables_at_hand() -> Iterator[None]:
     """Make astropy use its installed tables of leap seconds and UT1, without a download.
 
-    Without a largest age, nobody complains of theirs.
+    The age of these tables is not checked.
     """
     from astropy.utils import iers
 

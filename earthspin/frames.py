@@ -109,7 +109,7 @@ class Model:
 def _solved(model: Model, times: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
     """Rotation matrices from the ICRS, shape (n, 3, 3), and 95 % half-widths of the axes, rad.
 
-    The error is that of the pole or of the attitude.
+    The half-width is that of the pole or, for a rotation, of the attitude.
     """
     solvers = {"long-term": _long_term, "pole": _pole, "rotation": _rotation}
     return solvers[model.question.word](model, np.array(times))

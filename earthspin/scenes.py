@@ -402,7 +402,7 @@ def _series(question: Question) -> Series:
 def series_length(question: Question) -> int:
     """Number of times in the time series that a question computes.
 
-    It is 0 if the answer cannot be written in blocks.
+    It is 0 if the result cannot be written in blocks.
     """
     if not any(BY_BLOCK in part.uses for part in question.graph.parts.values()):
         return 0

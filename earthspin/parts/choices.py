@@ -60,9 +60,8 @@ def chosen_windows(
 ) -> list[Choice[PoleWindows]]:
     """Choose the cheapest window length of the axis integration within the requested accuracy.
 
-    The most accurate windows follow in the list.
-
-    The list is empty if no errors were measured for this sky.
+    The list also contains the most accurate window length. It is empty if no errors were measured
+    for these bodies and positions.
     """
     menu = available_windows(body, perturbers, effects, pulls, epochs)
     exact = body.relative_uncertainty.get("dynamical_flattening", 0.0) == 0
@@ -79,7 +78,7 @@ def chosen_average(
 ) -> Choice[Averaging] | None:
     """Choose the cheapest time window and sampling step of an average for the requested accuracy.
 
-    The result is None if no errors were measured for this sky.
+    The result is None if no errors were measured for these bodies and positions.
     """
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     # A single perturber may cause the whole rate, so use the largest uncertainty of any GM.

@@ -192,7 +192,7 @@ def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
 def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """If exact mean torques are possible, return why windowed means are left out; otherwise None.
 
-    They are possible if each perturber moves on an ellipse about the body.
+    Exact means are possible if each perturber moves on an ellipse about the body.
     """
     by_name = ellipse_chains(body, perturbers)
     single = all(chain.start is body and len(chain.ellipses) == 1 for chain in by_name.values())

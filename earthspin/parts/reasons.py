@@ -22,7 +22,7 @@ def no_iau_model(body: Body) -> str | None:
 def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """If body or perturbers do not fit, return why IAU comparisons are left out; otherwise None.
 
-    They need a body with an IAU precession model and only the Sun and the Moon as perturbers.
+    These need a body with an IAU precession model and only the Sun and the Moon as perturbers.
     """
     if no_iau_model(body):
         return no_iau_model(body)

@@ -133,7 +133,7 @@ class Epochs:
 
 
 def _laid_out(record: IntArray, place: FloatArray) -> _InOrder | _InAnyOrder:
-    """Arrange times for the evaluation of Chebyshev series, as a matrix if possible.
+    """Arrange times for Chebyshev series, as a matrix if they fill the kernel records evenly.
 
     Otherwise each time is evaluated by itself. A matrix also requires sorted times.
     """

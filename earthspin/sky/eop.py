@@ -51,8 +51,6 @@ _ERRORS = ("x_error", "y_error")
 class _Coordinates:
     """Columns, unit and limits of polar motion or of celestial pole offsets in the IERS tables.
 
-    The pair is polar motion or celestial pole offsets.
-
     Attributes
     ----------
     name, words : str

@@ -73,7 +73,7 @@ def style() -> Iterator[None]:
 def _matplotlib() -> Any:
     """Import matplotlib, even if the environment variable MPLBACKEND names a missing backend.
 
-    No window is opened here, and the library could not be imported.
+    No window is opened here, and a missing backend would make the import fail.
     """
     named = None if "matplotlib" in sys.modules else os.environ.pop("MPLBACKEND", None)
     try:

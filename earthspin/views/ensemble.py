@@ -249,7 +249,7 @@ def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
 
 
 def _chief(answer: xr.Dataset, name: str = "") -> Number:
-    """Main quantity of an ensemble, such as the total, or the value at the last time.
+    """Main quantity of an ensemble: the last element of the main variable.
 
     It is for example the total, or the value at the last time.
     """

@@ -189,7 +189,7 @@ def page_of(
 def what_ran(*trees: Result) -> list[Table]:
     """Table of the computations that ran for the results, with run times.
 
-    For a single answer it includes the parts that were left out, with reasons.
+    For a single result it also lists the computations that were left out, with reasons.
 
     Returns
     -------

@@ -53,7 +53,7 @@ def _with_known_effects(known: xr.Dataset) -> tuple[float, float]:
 
 
 def periods(tree: Result) -> Table:
-    """Table of the precession period in three definitions, with the one to use."""
+    """Table of the precession period in three definitions, and the use of each."""
     answer, known, seasons = answer_of(tree), needed(tree, "iau_2006"), needed(tree, "seasons")
     total, iau = answer.isel(perturber=-1), FULL_TURN / float(known.iau_rate)
     period, error = _with_known_effects(known)

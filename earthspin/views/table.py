@@ -57,7 +57,7 @@ class Table:
 class Column:
     """Description of a table column: name of the variable, number format and header.
 
-    In a table of quantities it is a row.
+    In a table of quantities it describes a row.
 
     Attributes
     ----------

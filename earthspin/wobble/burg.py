@@ -21,8 +21,6 @@ DECAY_EXCESS = (2.1, 0.65)
 def burg(x: Complex, order: int) -> Complex:
     """Compute the prediction-error filter 1, a1, ... of a complex series, by Burg's method.
 
-    The method is Burg's.
-
     Forward and backward errors are shortened by reflection coefficients of least mean
     error (Burg 1967; Marple 1987, Digital Spectral Analysis, sect. 8.5).
 

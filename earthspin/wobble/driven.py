@@ -11,8 +11,8 @@ from earthspin.wobble.resonance import polar_motion_from
 def fitted_start(time: Array, p: Complex, chi: Complex, s: complex) -> complex:
     """Fit the initial pole position of driven polar motion to observations, by least squares.
 
-    Drift and seasonal terms, which models of the excitation hold least well, are fitted beside it
-    and stay out of it.
+    Drift and seasonal terms, which are the least accurate part of excitation models, are fitted at
+    the same time and are not part of the result.
 
     Parameters
     ----------
