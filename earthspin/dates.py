@@ -293,7 +293,7 @@ class TimeGrid:
 
     @classmethod
     def over(cls, span: Span, step: float) -> TimeGrid:
-        """Make a grid of times that starts with a span and ends within it, with steps of `step` s.
+        """Make times from the start of a span to at most its end, `step` seconds apart.
 
         The last time is the end, or the last step before it.
         """

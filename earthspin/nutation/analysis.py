@@ -37,16 +37,16 @@ class Secular:
 
     @property
     def psi_rate(self) -> float:
-        """Rate of psi at J2000.0, rad/s."""
+        """Rate of the longitude psi of the mean pole at J2000.0, rad/s."""
         return float(self.psi[1]) / CENTURY
 
     @property
     def omega_rate(self) -> float:
-        """Rate of omega at J2000.0, rad/s."""
+        """Rate of the inclination omega of the mean pole at J2000.0, rad/s."""
         return float(self.omega[1]) / CENTURY
 
     def at(self, centuries: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Mean psi and omega at times in Julian centuries from J2000.0, rad."""
+        """Mean longitude psi and inclination omega, rad, at Julian centuries from J2000.0."""
         powers = centuries[:, np.newaxis] ** np.arange(len(self.psi))
         return powers @ self.psi, powers @ self.omega
 
@@ -74,7 +74,7 @@ class PoleAnalysis:
         self._sine = float(np.sin(EPSILON_0.value * ARCSEC))
 
     def secular(self, pole: FloatArray) -> Secular:
-        """Fit the secular part of longitude psi and inclination omega of a pole, shape (t, 3)."""
+        """Fit the secular longitude psi and inclination omega to pole vectors, shape (t, 3)."""
         psi, omega = on_fixed_ecliptic(pole, self.ecliptic).T
         slow = self._least_squares(psi * self._sine + 1j * omega).slow
         return Secular(slow.real / self._sine, slow.imag.copy())

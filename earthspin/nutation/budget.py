@@ -55,7 +55,7 @@ FIRST_ORDER = "first-order"
 
 
 def contributions(total: float, without: Mapping[str, float]) -> dict[str, float]:
-    """Contribution of each effect to a rate: rate with all effects minus rate without that effect.
+    """Contribution of each effect to a precession rate: rate with all minus rate without it.
 
     The remainder is the first-order rate.
 
@@ -71,7 +71,7 @@ def contributions(total: float, without: Mapping[str, float]) -> dict[str, float
 
 
 def published_contributions(effects: Sequence[str]) -> dict[str, float]:
-    """Published contribution of each effect to the rate of psi_A at J2000.0, rad/s; 0 if none."""
+    """Published contribution of each effect to the rate of psi_A, rad/s; 0 if none is published."""
     published = published_effects() | {
         FIRST_ORDER: (
             FIRST_ORDER_RATE.value * math.cos(EPSILON_0.value * ARCSEC) + J2_AND_TILT_RATE.value
@@ -150,7 +150,7 @@ def budget_of(
     psi_iau: float,
     u_h: float,
 ) -> Budget:
-    """Compute the budget of the rates from solutions in which each effect is switched off in turn.
+    """Compute the budget of precession rates, from solutions with each effect switched off in turn.
 
     Parameters
     ----------

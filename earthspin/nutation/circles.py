@@ -87,7 +87,7 @@ class Circles:
 
 
 def term_names(multiples: NDArray[np.int64]) -> list[str]:
-    """Names of terms from multiples of the Delaunay arguments, shape (k, 5)."""
+    """Names of nutation terms, from the multiples of their Delaunay arguments, shape (k, 5)."""
     return [" ".join(f"{m:+d}" for m in multiple) for multiple in multiples]
 
 
@@ -150,7 +150,7 @@ class FrequencyAnalysis:
         self._frequency = self._multiples @ rates
 
     def __call__(self, eta: ComplexArray) -> Circles:
-        """Fit the circular terms of a pole.
+        """Fit circular terms to the complex nutation of a pole, and return them.
 
         Parameters
         ----------

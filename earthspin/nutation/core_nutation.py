@@ -62,17 +62,17 @@ class CoreNutation:
 
     @property
     def detected(self) -> NDArray[np.bool_]:
-        """True for windows whose amplitude is above the detection limit, shape (w,)."""
+        """True for each time window whose amplitude exceeds the detection limit, shape (w,)."""
         return np.asarray(np.abs(self.amplitude) > self.limit)
 
     @property
     def phase_error(self) -> FloatArray:
-        """95 % half-width of the phase, rad; half a turn where nothing is detected."""
+        """95 % half-width of the phase, rad; half a turn for windows without detection."""
         ratio = self.error / np.abs(self.amplitude)
         return np.where(self.detected, np.arcsin(np.minimum(ratio, 1.0)), np.pi)
 
     def at(self, time: FloatArray) -> ComplexArray:
-        """Free core nutation at times, d, with the amplitude interpolated between window centres.
+        """Free core nutation at given days; its amplitude is interpolated between window centres.
 
         The amplitude of the first or last window is used before the first or after the last centre.
         """

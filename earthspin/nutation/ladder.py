@@ -246,7 +246,7 @@ def with_ocean(parts: Parts, setting: Setting, love: Yielding, sigma: Array) -> 
 
 
 def without_core(parts: Parts) -> Parts:
-    """Parameters of the body if its fluid core and inner core rotate with the mantle."""
+    """Change the parameters of a body so that its fluid and inner core rotate with the mantle."""
     return replace(parts, fluid=0.0, inner=0.0)
 
 
@@ -311,7 +311,7 @@ def at_observed_period(rung: Rung, spin_rate: float) -> Rung:
 
 
 def quality(mode: complex) -> float:
-    """Quality factor of a free mode, Re s/(2 Im s); infinite without dissipation."""
+    """Quality factor of a free mode with complex frequency s, Re s/(2 Im s); it may be infinite."""
     if abs(mode.imag) < 1e-12 * abs(mode):
         return float("inf")
     return abs(mode.real / (2 * mode.imag))

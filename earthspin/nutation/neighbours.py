@@ -67,7 +67,7 @@ class Neighbours(NamedTuple):
 def neighbours_of(
     multiples: NDArray[np.int64], frequency: FloatArray, rates: FloatArray, arguments: FloatArray
 ) -> Neighbours:
-    """Compute how much nutation terms that are not fitted change the fit of adjacent terms.
+    """Compute how much omitted nutation terms change fitted terms with almost equal frequency.
 
     The fitted interval is centred on J2000.0.
 

@@ -147,7 +147,7 @@ def fit_each_day(time: FloatArray, eta: ComplexArray, weight: FloatArray) -> Fit
 
 
 def half_width(fits: Fits, eta: ComplexArray, horizon: int) -> FloatArray:
-    """95 % half-widths of dX and dY, predicted for some days after the last data, shape (2,).
+    """95 % half-widths of dX and dY predicted a given number of days ahead, shape (2,).
 
     The root mean square of the errors of the same prediction from earlier days, whose targets were
     observed by the last day.

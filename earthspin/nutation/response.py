@@ -1,4 +1,4 @@
-r"""Transfer function from rigid to non-rigid nutation: the resonance form.
+r"""Resonance formula for the transfer function from rigid to non-rigid nutation.
 
 The ratio of the nutation of the real body to that of a rigid one, at frequency sigma in the
 rotating frame (in units of the spin; sigma = -1 is at rest in space), is (Mathews, Herring

@@ -213,7 +213,7 @@ def window_means(
     perturbers: tuple[Body, ...],
     chosen_average: Choice[Averaging] | None = None,
 ) -> MeanTorques:
-    """Mean torques by weighted means of samples over the time window, with errors.
+    """Mean torques, computed as weighted means of samples in a time window, with errors.
 
     Errors are measured ones, or estimates from neighbouring windows.
     """

@@ -33,7 +33,7 @@ class EllipseChain(NamedTuple):
 
 
 def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, EllipseChain]:
-    """Sequences of ellipses (chains) that lead to the perturbers with orbital elements, by name.
+    """Chains of ellipses that lead to the perturbers with orbital elements, by perturber name.
 
     A chain starts from the spinning body if possible, else from a body without elements.
 
@@ -77,7 +77,7 @@ def _add_chain(
 
 
 def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
-    """Name of the central body of the orbit of `member`; empty if it is not among the bodies."""
+    """Name of the body that `member` orbits; an empty text if that body is not in the list."""
     assert member.orbit is not None
     about = member.orbit.about
     if about:
@@ -147,7 +147,7 @@ def refuse_overlap(member: Body, centre: Body, a: float, advice: str = "") -> No
 
 
 def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
-    """Semi-major axis (m) and sidereal mean motion (rad/s), by Kepler's third law.
+    """Semi-major axis (m) and mean motion (rad/s) of an orbit, which follow Kepler's third law.
 
     Raises
     ------

@@ -150,7 +150,7 @@ def _insolation(
 
 
 def _angle(value: Any, name: str, most: float) -> xr.DataArray:
-    """Read an angle in rad; several angles are labelled in degrees along the dimension `name`."""
+    """Convert an input angle to rad; a list becomes an array labelled in degrees along `name`."""
     where = Where(name, _CALL)
     angle = quantity(value, "rad", where, "65 deg")
     if np.max(np.abs(np.asarray(angle))) > most * (1 + 1e-12):

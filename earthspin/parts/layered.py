@@ -51,7 +51,7 @@ def of_another_body(layers: LayeredBody, body: Body) -> str | None:
 
 
 def refuse_unknown(question: Question, body: Body) -> None:
-    """Refuse an unknown name of an interior.
+    """Refuse the name of an interior model that is not in the package.
 
     Raises
     ------
@@ -84,7 +84,7 @@ def not_layered(body: Body) -> str | None:
 
 
 def require_layers(question: Question, interior: LayeredBody | None, body: Body) -> None:
-    """Require a layered interior in the question or its body.
+    """Raise an error if neither the question nor its body has a layered interior.
 
     Raises
     ------

@@ -30,7 +30,7 @@ class OrbitChoice(FileName):
     content = "the table of an orbit"
 
     def read(self, value: object, where: Where) -> Any:
-        """Read the choice: "own", the path of a file, an `OrbitTable`, or the result of `write`."""
+        """Read the choice of orbit: "own", a file, an `OrbitTable`, or the result of `write`."""
         if isinstance(value, OrbitTable):
             return value
         if isinstance(value, Mapping):
@@ -45,7 +45,7 @@ class OrbitChoice(FileName):
         return {"name": value.name, "source": value.source, "sha256": value.sha256} | numbers
 
     def begins(self, head: bytes) -> bool:
-        """Return True if `head`, the first bytes of a file, begins a NumPy archive or a table."""
+        """Return True if the first bytes `head` begin a NumPy archive or a text table."""
         return head[:2] == b"PK" or is_table(head)
 
 

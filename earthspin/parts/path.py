@@ -1,4 +1,4 @@
-"""Paths of the three axes of a body, their errors, and the comparison with IAU models."""
+"""Paths of the angular momentum, rotation and figure axes, their errors, and IAU comparison."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ class Errors:
 
     @property
     def total(self) -> FloatArray:
-        """Root sum of squares of all errors."""
+        """Total error of the axis directions, rad: root sum of squares over all causes."""
         return np.asarray(
             np.sqrt(self.method**2 + self.given**2 + self.kernel**2 + self.response**2)
         )
@@ -169,7 +169,7 @@ class PathErrors:
 
     @property
     def total(self) -> float:
-        """Largest total error over the series, rad."""
+        """Largest total error of the axis directions over the series, rad."""
         return self.largest()["total"]
 
 
@@ -254,7 +254,7 @@ def _integrate(
     choice: Choice[PoleWindows] | None,
     start: FloatArray | None,
 ) -> AxisPath:
-    """Integrate the axes with chosen window lengths, by default the most accurate ones.
+    """Integrate the axes with time windows of the chosen length, by default the most accurate.
 
     The initial axis is that of the body, unless `start` is given.
     """
@@ -339,7 +339,7 @@ def path_over(
     start: FloatArray,
     days: FloatArray,
 ) -> AxisPath:
-    """Integrate the axes of the rigid body over a range of days.
+    """Integrate the motion of the rigid body's axes over a range of days.
 
     Positions of the perturbers are stored for the next run.
     """

@@ -39,7 +39,7 @@ class TableFile(FileName):
     content = "a table of polar motion"
 
     def begins(self, head: bytes) -> bool:
-        """Return True if `head`, the first bytes of a file, begins a table."""
+        """Return True if a file with the first bytes `head` may be a table of the pole."""
         return is_table(head)
 
 

@@ -48,7 +48,7 @@ class SideBySide:
         return cls(numbers, tuple(map(str, first.dims)), first.coords)
 
     def columns(self, *names: str) -> tuple[Any, ...]:
-        """Return the named numbers; arrays get an additional last axis of length 1."""
+        """Return the numbers with the given names; arrays get a new last axis of length 1."""
         index = (..., np.newaxis) if self.dims else ...
         return tuple(np.asarray(self.numbers[name])[index] for name in names)
 

@@ -1,4 +1,4 @@
-"""The sky of a question: the body, its perturbers, and the source of their positions."""
+"""The body of a question, its perturbers, and the source of their positions."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class KernelName(FileName):
     content = "an SPK kernel"
 
     def read(self, value: object, where: Where) -> Any:
-        """Read a name or a path; a Skyfield kernel is replaced by the path of its file."""
+        """Read an ephemeris, given by name, by path, or as a Skyfield kernel."""
         if hasattr(value, "spk") and hasattr(value, "path"):
             value = value.path
         if is_vector_function(value):
@@ -258,7 +258,7 @@ class Sky:
     def positions(
         self, days: FloatArray, targets: Mapping[str, Place] | None = None
     ) -> dict[str, FloatArray]:
-        """Positions relative to the body, m, shape (n, 3) each, at days from J2000.0 TDB.
+        """Positions of perturbers relative to the body, m, (n, 3) each, at days from J2000.0 TDB.
 
         Parameters
         ----------
@@ -278,7 +278,7 @@ class Sky:
         return positions
 
     def equator(self, body: Body, days: FloatArray) -> FloatArray:
-        """Matrices from the ICRF to the mean equator of date, shape (n, 3, 3) or (3, 3).
+        """Matrices from the ICRF to the body's mean equator of date, shape (n, 3, 3) or (3, 3).
 
         For the Earth, they are those of the source if it has its own equator.
         """
@@ -296,7 +296,7 @@ class Sky:
         true: bool = False,
         nutation: Nutation | None = None,
     ) -> dict[str, tuple[FloatArray, FloatArray, FloatArray]]:
-        """Right ascension, declination (rad) and distance (m) at the equator of date.
+        """Right ascension, declination (rad) and distance (m) of perturbers, equator of date.
 
         Parameters
         ----------

@@ -141,7 +141,7 @@ def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
 
 
 class States(Variables, along=("state",), no_error="it is so or not"):
-    """Obliquity, tilt and stability of each Cassini state of a body."""
+    """Obliquity, tilt to the mean orbit normal, and stability of each Cassini state of a body."""
 
     obliquity: Pair = measured("deg", "angle from the normal of the orbit to the axis")
     tilt: Pair = measured("deg", "angle from the pole of the orbit's plane to the axis")

@@ -1,4 +1,4 @@
-"""Compliances of the parts of a layered body, and its figure of hydrostatic equilibrium."""
+"""Compliances (deformation coefficients) of a layered body, and its hydrostatic figure."""
 
 from __future__ import annotations
 

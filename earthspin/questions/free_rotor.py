@@ -70,7 +70,7 @@ class Moments:
         return dict(zip(KEYS, numbers, strict=True)) if self.differences else numbers
 
     def of_many(self, starts: int) -> FloatArray | dict[str, FloatArray]:
-        """Return the moments of inertia as arrays over bodies, with trailing axes of length 1.
+        """Arrays of the moments of inertia, with extra axes of length 1 for the initial states.
 
         The argument `starts` is the number of these axes, one for each axis of initial states.
         """

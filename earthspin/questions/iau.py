@@ -110,7 +110,10 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
 def rates_by_effect(
     pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
 ) -> Budget:
-    """Compute each effect's contribution to the rates at J2000.0, by switching that effect off."""
+    """Compute the contribution of each effect to the precession rates at J2000.0.
+
+    Each effect is switched off in turn.
+    """
     from earthspin.sky.iau import precession_rates
 
     done, on = pole_analysis, rigid(effects)

@@ -117,7 +117,10 @@ class LongTerm(
     )
 
     def check(self) -> None:
-        """Require perturbers for a body that is not the Earth."""
+        """Set default perturbers, and refuse any other than the Sun and the Moon.
+
+        An accuracy can be requested only if the uncertainty of the body's pole is known.
+        """
         super().check()
         if "perturbers" not in self.given and no_iau_model(self.body):
             object.__setattr__(self, "perturbers", (SUN,))
@@ -309,7 +312,7 @@ def readings(solved: solutions.Solved, wanted: FloatArray, body: Body) -> readin
 
 
 class LongTermSeries(FromStart, along=("epoch",)):
-    """Angles, eccentricity, poles and precession rates at every epoch."""
+    """Obliquity, precession, eccentricity, poles and precession rates at every epoch."""
 
     obliquity: Pair = measured("deg", "angle from the orbit's normal to the spin axis")
     longitude_of_perihelion: Pair = measured(

@@ -97,7 +97,7 @@ class NutationLadder(
     )
 
     def check(self) -> None:
-        """Require the Earth with known layers."""
+        """Refuse bodies other than the Earth, and an Earth without known layers."""
         super().check()
         if self.body.labelled:
             raise self.error("body", self.body.name, "give single numbers here, no labelled arrays")

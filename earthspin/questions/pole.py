@@ -245,7 +245,7 @@ class Angles(Dated, along=("time", "axis"), error="direction_error"):
 
 @part(unless=no_longitude)
 def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> LongitudeCycles:
-    """Count whole turns of the longitude psi, from the first time of the series."""
+    """Count whole turns of the angular momentum's longitude psi, from the first time."""
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     return longitude_cycles(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
 

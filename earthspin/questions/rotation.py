@@ -117,7 +117,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
     may_be_alone = True
 
     def needed(self) -> tuple[str, ...]:
-        """Names of the required properties of the body.
+        """Names of the properties that the body must have for the computation.
 
         Pole and spin are not required if the initial attitude or angular velocity is given.
         """

@@ -68,7 +68,7 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
     needs = ("radius", "j2", "pole")
 
     def check(self) -> None:
-        """Require the Earth for the true equator, since it needs a nutation model."""
+        """Refuse the true equator of date for a body that has no nutation model."""
         super().check()
         if self.equator == "true" and no_iau_model(self.body):
             why = f"there is no nutation model for {in_a_sentence(self.body.name)}; use 'mean'"

@@ -178,14 +178,14 @@ class Inside:
         return self.spin, self.interior, self.ocean
 
     def label(self, value: Numeric) -> xr.DataArray:
-        """Convert an array over bodies to a DataArray, with the dimension names of the inputs."""
+        """Convert an array with one value per body to a DataArray like those of the inputs."""
         import xarray as xr
 
         array = np.asarray(value)
         return xr.DataArray(array, dims=self.dims[len(self.dims) - array.ndim :])
 
     def stack(self, values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
-        """Stack arrays over bodies along a new dimension, labelled by the names of the arrays."""
+        """Stack arrays with one value per body along a new dimension, labelled by name."""
         return _along({name: self.label(value) for name, value in values.items()}, dim)
 
 

@@ -103,7 +103,9 @@ def read_angular_momentum(
     *,
     daily: bool = False,
 ) -> AngularMomentum:
-    """Read effective angular momentum functions: join the files of each component, and add them.
+    """Read effective angular momentum functions from files, and add up all components.
+
+    The files of each component are joined first.
 
     Parameters
     ----------

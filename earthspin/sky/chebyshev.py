@@ -213,7 +213,7 @@ def _coefficients(series: FloatArray) -> FloatArray:
 
 
 def _clenshaw(series: FloatArray, place: FloatArray) -> FloatArray:
-    """Evaluate Chebyshev series at positions from -1 to 1, by Clenshaw's algorithm."""
+    """Evaluate Chebyshev series at arguments from -1 to 1, by Clenshaw's algorithm."""
     twice = 2 * place
     last = np.zeros((3, *place.shape))
     current = np.empty_like(last)

@@ -214,7 +214,7 @@ def _spline(nodes: FloatArray, values: FloatArray) -> Callable[[FloatArray], Flo
 
 
 def at_days(angles: Callable[[FloatArray], FloatArray], days: FloatArray) -> FloatArray:
-    """Evaluate nutation angles at given days; interpolate them if the days are dense.
+    """Evaluate nutation angles at given days; interpolate them if the days are closely spaced.
 
     Parameters
     ----------

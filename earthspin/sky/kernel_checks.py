@@ -163,7 +163,7 @@ class Records:
         return Table(series, self.start, self.length)
 
     def check(self, days: FloatArray) -> None:
-        """Check the records that contain given times, and their continuity with the records beside.
+        """Check the records that contain given times, and their continuity with adjacent records.
 
         Parameters
         ----------

@@ -61,7 +61,7 @@ def _sky() -> dict[str, object]:
 
 
 def _interior() -> dict[str, object]:
-    """Data of the Earth's interior for the interactive page on the wobble, and observed period."""
+    """Interior of the Earth and observed wobble period, as data for the page on the wobble."""
     interior = INTERIORS["prem"]
     spin = Spin(gm=EARTH.gm, radius=EARTH.radius, period=EARTH.spin_period)
     figure = {"dynamical_flattening": EARTH.dynamical_flattening, "j2": EARTH.j2}

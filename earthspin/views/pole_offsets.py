@@ -43,7 +43,7 @@ def series(tree: Result) -> Table:
 
 
 def core_nutation(tree: Result) -> Table:
-    """Table of the amplitude of the free core nutation, about every two years."""
+    """Table of the amplitude of the free core nutation, at dates about two years apart."""
     fit = needed(tree, "core_nutation")
     rows = [
         (

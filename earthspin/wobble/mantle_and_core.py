@@ -43,7 +43,7 @@ def over(numerator: Numeric, denominator: Numeric) -> Numeric:
 
 @dataclass(frozen=True)
 class Roots:
-    """Complex frequencies of free wobble and free core nutation, per rotation of the body.
+    """Complex frequencies of free wobble and free core nutation, in cycles per rotation.
 
     Attributes
     ----------
