@@ -101,7 +101,7 @@ class PerturbedBody(Question):
     many_pulls: ClassVar[bool] = False
 
     def check(self) -> None:
-        """Check that the body has a mass, and that its perturbers are valid and distinct."""
+        """Set default perturbers, and refuse a body or perturbers without required properties."""
         if "perturbers" not in self.given:
             object.__setattr__(self, "perturbers", pulled_by(self.body))
             object.__setattr__(self, "body", on_its_orbit(self.body))
@@ -141,7 +141,7 @@ class PerturbedBody(Question):
         return self.needs
 
     def check_spin(self) -> None:
-        """Refuse a spin above break-up, if the question needs the spin."""
+        """Refuse a spin so fast that the body would break up, if the question needs the spin."""
         if "spin_period" in self.needed():
             refuse_break_up(self.body)
 
@@ -175,7 +175,7 @@ class Places:
 
 @dataclass(frozen=True)
 class Sky:
-    """Open source of positions, with the code or trajectory by which it finds each body.
+    """Source of positions that has been opened, and the key by which it finds each body.
 
     Attributes
     ----------

@@ -64,7 +64,7 @@ class CassiniStates(
     )
 
     def check(self) -> None:
-        """Require a single body with known J2, H and spin, and a known orbit."""
+        """Refuse a body without known J2, H, spin or orbit, or with arrays as properties."""
         self.body.require(("j2", "dynamical_flattening", "spin_period"))
         if self.body.labelled:
             raise self.error("body", self.body.name, "give single numbers here, no labelled arrays")

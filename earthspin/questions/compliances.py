@@ -49,7 +49,7 @@ class Compliances(Question, word="compliances", call="compliances", positional=(
     body: Body = key(EARTH, doc="body with the spin and the dynamical flattening")
 
     def check(self) -> None:
-        """Require a spinning body with known layers."""
+        """Refuse a body without known layers, spin or H, or with arrays as properties."""
         require_layers(self, self.interior, self.body)
         self.body.require(("spin_period", "dynamical_flattening"))
         if self.body.labelled:

@@ -92,7 +92,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     views, page = "iau", "pole"
 
     def check(self) -> None:
-        """Require bodies whose position error is known, because the comparison gives error bars."""
+        """Refuse bodies whose position errors are unknown, as the comparison needs them."""
         super().check()
         problem = (
             "how far off its positions are was never measured, and the comparison with the IAU "

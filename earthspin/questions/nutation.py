@@ -1,4 +1,4 @@
-"""Nutation predicted from the Earth's layers by models of increasing detail, against IAU 2000A."""
+"""Nutation of increasingly detailed models of the Earth's interior, compared with IAU 2000A."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class NutationLadder(
     table="nutation",
     positional=("start", "stop", "step"),
 ):
-    """Nutation predicted from the layers of the Earth by a ladder of increasingly detailed models.
+    """Nutation from a ladder of increasingly detailed models of the Earth's interior.
 
     A ladder of models, each of which adds one thing to the model before, from a rigid Earth to
     the layers of the `interior` of the body. The dynamical flattening H is the observed one

@@ -84,7 +84,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
     accuracy: AngleError | None = key(None, doc=DIRECTION_DOC)
 
     def check(self) -> None:
-        """Require a known interior if the effect of the non-rigid interior is switched on."""
+        """Refuse the non-rigid effect for a body whose interior response is not known."""
         super().check()
         if NONRIGID.name not in self.effects:
             return

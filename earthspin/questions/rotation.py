@@ -126,14 +126,14 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
         return (*self.needs, *pole, *spin)
 
     def check_spin(self) -> None:
-        """Refuse a spin above break-up."""
+        """Refuse a spin so fast that the body would break up."""
         if self.start_omega is None:
             super().check_spin()
         else:
             refuse_break_up(_spinning(self.body.replace(spin_period=None), self.start_omega))
 
     def check(self) -> None:
-        """Require a rigid body with H other than zero, and a unit quaternion."""
+        """Refuse the non-rigid effect, H = 0, and an attitude that is not a unit quaternion."""
         super().check()
         if NONRIGID.name in self.effects:
             raise self.error("effects", NONRIGID.name, "the body is rigid here; leave it out")

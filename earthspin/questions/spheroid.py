@@ -59,7 +59,7 @@ class Spheroid(
     accuracy: Relative | None = key(None, doc="largest allowed relative error")
 
     def check(self) -> None:
-        """Require a body with a mass."""
+        """Refuse a body without mass, radius or flattening."""
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
         self.body.require(("radius", "flattening"))

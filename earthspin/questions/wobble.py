@@ -104,7 +104,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
     )
 
     def check(self) -> None:
-        """Require a body with a mass and a known interior."""
+        """Refuse a body without mass or figure, and inputs that do not fit its interior."""
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
         self.body.require(("radius", "j2", "dynamical_flattening", "flattening", "spin_period"))

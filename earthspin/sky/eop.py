@@ -473,7 +473,7 @@ def _check_jumps(file: Path, rows: list[_Row], pair: _Coordinates) -> None:
 
 
 def _in_order(file: Path, rows: list[_Row], repairs: list[str]) -> list[_Row]:
-    """Sort rows by date; merge equal rows of one date, and refuse different rows of one date."""
+    """Sort rows by date; remove repeated rows, and refuse different rows with the same date."""
     ordered = sorted(rows, key=lambda row: row.mjd)
     if ordered != rows:
         repairs.append("rows sorted by date")

@@ -55,7 +55,7 @@ Step: TypeAlias = "tuple[int, int] | Trajectory"
 
 
 class Ephemeris:
-    """Open ephemeris kernel that is read with jplephem, the default source of positions.
+    """Ephemeris kernel that is opened and read with jplephem, the default source of positions.
 
     Parameters
     ----------

@@ -208,7 +208,7 @@ def store_accuracy(result: xr.Dataset, folder: str | Path) -> Path:
 
 
 def accuracy_page(results: Sequence[xr.Dataset], drawn: Sequence[str]) -> str:
-    """HTML page of error and run time for all quantities: table, recommendation and figure each.
+    """HTML page with table, recommendation and figure of error and run time for each quantity.
 
     Parameters
     ----------

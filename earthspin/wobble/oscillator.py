@@ -45,12 +45,12 @@ class DrivenOscillator:
 
     @property
     def rates(self) -> Complex:
-        """Complex rates of the wobble and of the slowly varying part: d ln(amplitude)/dt, 1/d."""
+        """Complex rates (1/d) of the wobble and of the slowly varying part of polar motion."""
         return np.array([1j * self.s, -1 / self.memory])
 
     @property
     def covariance(self) -> Complex:
-        """Stationary covariance of the wobble and the slowly varying part, shape (2, 2)."""
+        """Stationary covariance of wobble and slowly varying part of polar motion, shape (2, 2)."""
         rates = self.rates
         # chi' = -chi/tau + n puts c chi into the slow mode and leaves p - c chi to the free one.
         share = rates[0] / (rates[0] - rates[1])

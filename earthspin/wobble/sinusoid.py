@@ -29,7 +29,7 @@ def fit_least_squares(time: Array, p: Complex) -> WobbleFit:
     rest = means - columns @ (columns.conj().T @ means)
 
     def explained(period: Array) -> Array:
-        """Power in polar motion that sinusoids of given periods explain, for each period.
+        """Power in polar motion that a sinusoid of each of the given periods explains.
 
         Drift and seasonal terms are fitted as well, and not counted.
         """
