@@ -105,12 +105,18 @@ def not_nonrigid(effects: tuple[str, ...]) -> str | None:
 
 
 def not_fitted(response: str) -> str | None:
-    """If the predicted response is requested, return why the fitted one is left out; else None."""
+    """If the predicted interior response is requested, return why the fitted one is left out.
+
+    Otherwise return None.
+    """
     return None if response == "fitted" else "the response is predicted"
 
 
 def not_predicted(response: str) -> str | None:
-    """If the fitted response is requested, return why the predicted one is left out; else None."""
+    """If the fitted interior response is requested, return why the predicted one is left out.
+
+    Otherwise return None.
+    """
     return None if response == "predicted" else "the response is fitted"
 
 

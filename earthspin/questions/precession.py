@@ -232,7 +232,10 @@ def convergence(torque_samples: Samples, body: Body) -> Convergence:
 
 
 def no_figure(body: Body) -> str | None:
-    """If data of the body are unsuitable, return why the figure models are left out; else None."""
+    """If data of the body are unsuitable, return why models of its figure are left out.
+
+    Otherwise return None.
+    """
     missing = [k for k in ("j2", "flattening", "radius") if getattr(body, k) is None]
     if missing:
         return f"{in_a_sentence(body.name)} has no {missing[0]}"

@@ -491,7 +491,7 @@ class Growth(Dated):
 
 
 def one_date(span: Span, times: TimeList | None) -> str | None:
-    """If only one date is requested, return why the divergence is left out; otherwise None."""
+    """For a single date, return why the divergence of rotations is left out; otherwise None."""
     first, last = span.days if times is None else times.span()
     return None if last > first else "neighbours part in time, and one date is asked for"
 
