@@ -8,12 +8,15 @@ where the slow part of the excitation has the correlation time `SLOW_MEMORY` and
 noise, unequal and correlated in the two coordinates, after two filters of first order. Circles of
 a year and of half a year, forward and backward, change their amplitudes at random, and so do the
 level and the slope of the slow pole. A Kalman filter follows all of it through the last 15 years.
+
+If part of the excitation is known (of air, water and ground), the pole that it drives is computed
+exactly, and the rest of the pole is forecast in the same way.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -23,7 +26,7 @@ import numpy as np
 from earthspin.errors import UndefinedError
 from earthspin.wobble.burg import burg
 from earthspin.wobble.record import YEAR
-from earthspin.wobble.resonance import chandler_frequency
+from earthspin.wobble.resonance import chandler_frequency, polar_motion_from
 from earthspin.wobble.state_space import Array, Complex, Filter, StateSpace
 
 #: Measured skill; `python -m data_tools forecast` writes it.
@@ -49,6 +52,13 @@ BEFORE = np.array([200.0, 50.0, 50.0, SLOW, 100.0, 100.0, 20.0, 20.0, 500.0, 0.0
 ORDER, FITTED_OVER, EXTRAPOLATED = 20, 3650, 40
 #: Days between observations in a fit of the fast excitation, and its largest number of iterations.
 THINNED, ITERATIONS = 10, 12
+#: White part of the excitation at which a fit starts, mas/sqrt(d), and its bounds.
+WHITE, WHITE_BOUNDS = 10.0, (0.5, 60.0)
+#: Weights of the running mean of a known excitation: from one day to the next, models of air and
+#: water vary more than the tables of the pole, which are smoothed.
+SMOOTHING = np.array([0.25, 0.5, 0.25])
+#: Smallest number of days that a known excitation covers up to the origin: ten years.
+SHORTEST_EXCITATION = 3653
 
 #: What is observed: free wobble, circles and level.
 _OBSERVED = np.array([[1, 0, 0, 0, 1, 1, 1, 1, 1, 0]], dtype=complex)
@@ -75,6 +85,8 @@ class FastExcitation:
         Noise that enters the first filter, mas/sqrt(d).
     correlation : float
         Of the noise in x and y.
+    white : float
+        White part of the excitation, which passes no filter, mas/sqrt(d).
     """
 
     first_decay: float
@@ -84,6 +96,7 @@ class FastExcitation:
     x: float
     y: float
     correlation: float
+    white: float = 0.0
 
     @property
     def density(self) -> Array:
@@ -96,13 +109,15 @@ class FastExcitation:
         """Parameters of the fast excitation, transformed to unbounded values for an optimiser."""
         logs = np.log([self.first_decay, self.second_decay, self.x, self.y])
         turns = [self.first_turn, self.second_turn, np.arctanh(self.correlation)]
-        return np.array([*logs, *turns])
+        return np.array([*logs, *turns, np.log(self.white)])
 
     @classmethod
     def from_free(cls, free: Array) -> FastExcitation:
         """Build the fast excitation from unbounded parameters, the inverse of `free`."""
-        first, second, x, y = map(float, np.exp(free[:4]))
-        return cls(first, float(free[4]), second, float(free[5]), x, y, float(np.tanh(free[6])))
+        first, second, x, y, white = map(float, np.exp(free[[0, 1, 2, 3, 7]]))
+        first_turn, second_turn = map(float, free[4:6])
+        correlation = float(np.tanh(free[6]))
+        return cls(first, first_turn, second, second_turn, x, y, correlation, white)
 
     def as_mapping(self) -> Mapping[str, float]:
         """Parameters of the fast excitation by name, for the attributes of an answer."""
@@ -130,7 +145,8 @@ def model(fast: FastExcitation = SHIPPED) -> StateSpace:
     rates[2, 1] = fast.second_decay
     rates[8, 9] = 1
     slow = SLOW * np.sqrt(2 / SLOW_MEMORY)
-    walks = [0, 0, 0, slow, ANNUAL_WALK, ANNUAL_WALK, SEMIANNUAL_WALK, SEMIANNUAL_WALK]
+    driven = abs(rate) * fast.white
+    walks = [driven, 0, 0, slow, ANNUAL_WALK, ANNUAL_WALK, SEMIANNUAL_WALK, SEMIANNUAL_WALK]
     size = len(BEFORE)
     density = np.diag(np.tile([*walks, LEVEL_WALK, SLOPE_WALK], 2) ** 2)
     density[np.ix_([1, 1 + size], [1, 1 + size])] = fast.density
@@ -244,17 +260,19 @@ def _extrapolated(innovations: Complex, days: int) -> Array:
     return np.column_stack([future.real, future.imag])
 
 
-def fit(p: Complex) -> FastExcitation:
+def fit(p: Complex, used: int = RECORD) -> FastExcitation:
     """Fit the fast excitation by maximum likelihood, from every tenth day of a record.
 
     Parameters
     ----------
     p : complex array, shape (n,)
         As of `forecast`.
+    used : int
+        Number of days at the end of the record that are used.
     """
     from scipy.optimize import minimize
 
-    record = last_of(p)[::-1][::THINNED][::-1]
+    record = last_of(p, used)[::-1][::THINNED][::-1]
     data = np.column_stack([record.real, record.imag])
 
     def height(free: Array) -> float:
@@ -262,9 +280,56 @@ def fit(p: Complex) -> FastExcitation:
         kalman = Filter.of(system, len(data))
         return kalman.minus_twice_log(kalman.run(data)[1])
 
-    start = SHIPPED.free
+    start = replace(SHIPPED, white=WHITE).free
+    bounds = [*((v - 1, v + 1) for v in start[:-1]), tuple(np.log(WHITE_BOUNDS))]
     options: dict[str, Any] = {"maxiter": ITERATIONS, "eps": 1e-4}
-    best = minimize(
-        height, start, method="L-BFGS-B", bounds=[(v - 1, v + 1) for v in start], options=options
-    )
+    best = minimize(height, start, method="L-BFGS-B", bounds=bounds, options=options)
     return FastExcitation.from_free(best.x)
+
+
+def forecast_with_excitation(p: Complex, chi: Complex, days: int) -> Forecast:
+    """Forecast polar motion from a record and from a known excitation that extends beyond it.
+
+    The pole that the known excitation drives is computed exactly up to a day before its end. The
+    rest of the record is forecast with parameters that are fitted to it, and so is the driven pole
+    beyond that day. The errors of both are taken as independent. The forecast is not separated
+    into components.
+
+    Parameters
+    ----------
+    p : complex array, shape (n,)
+        x - i y, mas, daily.
+    chi : complex array, shape (m,)
+        chi1 + i chi2, mas: means from each day of the record to the next, and as many beyond the
+        record as are known; m is at least n.
+    days : int
+        How many days ahead.
+
+    Raises
+    ------
+    UndefinedError
+        If the record or the excitation is too short.
+    """
+    if chi.size < p.size:
+        raise UndefinedError(
+            f"the excitation ends {p.size - chi.size} d too early; it must cover the day after "
+            "the origin"
+        )
+    if p.size < SHORTEST_EXCITATION:
+        raise UndefinedError(
+            f"pole and excitation have {p.size} days up to the origin in common; a forecast needs "
+            f"{SHORTEST_EXCITATION} ({SHORTEST_EXCITATION / YEAR:.0f} years)"
+        )
+    smooth = np.concatenate([chi[:1], np.convolve(chi, SMOOTHING, mode="valid")])
+    driven = polar_motion_from(smooth, 1.0, chandler_frequency(PERIOD, QUALITY))
+    known, used = driven[: p.size + days], min(p.size, RECORD)
+    ahead = known.size - p.size
+    rest = p - known[: p.size]
+    left = forecast(rest, days, fit(rest, used), used)
+    pole, covariance = left.pole.copy(), left.covariance.copy()
+    pole[:ahead] += known[p.size :]
+    if ahead < days:
+        later = forecast(known, days - ahead, fit(known, used), used)
+        pole[ahead:] += later.pole
+        covariance[ahead:] += later.covariance
+    return Forecast(pole, covariance, {}, {}, left.fast)
