@@ -1,4 +1,4 @@
-"""Bodies as data: the class, and one cited file for each world."""
+"""The class `Body` and the built-in bodies, with one module of cited numbers for each group."""
 
 from earthspin.bodies.body import BODIES, NUMBERS, Body, body
 from earthspin.bodies.earth import EARTH

@@ -15,7 +15,7 @@ DAYS = (1.0, 10.0, 30.0, 100.0, 365.0, 1000.0, 3650.0, 14000.0)
 
 @dataclass(frozen=True)
 class BeyondRigid:
-    """Sizes of unmodelled effects on the attitude of a body.
+    """Sizes of the effects on the attitude of a body that the rigid-body model neglects.
 
     Attributes
     ----------
@@ -29,7 +29,7 @@ class BeyondRigid:
     source: str
 
     def after(self, days: float) -> dict[str, float]:
-        """Sizes of the effects at a given number of days after the start, rad.
+        """Size of each neglected effect after a number of days from the initial epoch, rad.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""Bodies: named, cited, immutable records of SI floats or arrays with named dimensions.
+"""The class `Body`: an immutable record of a body's name and of its cited numbers in SI units.
 
 A body that spins needs its figure (`j2`, `dynamical_flattening`, `radius`), its `spin_period`
 and its `pole`; a body that only exerts a torque needs `gm` and `naif`. Each built-in body has a
@@ -193,7 +193,7 @@ class Body(FromMass):
             object.__setattr__(self, "pole", self._pole_at(obliquity))
 
     def _pole_at(self, value: object) -> Pole:
-        """Return a fixed pole with the given obliquity and with the same equinox as this body."""
+        """Return a fixed spin axis with the given obliquity and this body's equinox direction."""
         angle = _READ_AS["obliquity"].read(value, Where(f"{self.name}.obliquity"))
         if hasattr(angle, "dims") or not 0 <= angle <= math.pi:
             raise BodyError(self.name, "obliquity", value, "give one angle from 0 to 180 deg")
@@ -262,7 +262,7 @@ class Body(FromMass):
         return cited.source if cited is not None and is_same(cited.value, value) else ""
 
     def _in_words(self) -> list[tuple[str, str]]:
-        """Name, and value with unit, of every field that is set."""
+        """Return the name, and the value with its unit as text, of every field that is set."""
         rows = []
         for name in self.KINDS:
             value, unit = getattr(self, name), self.UNITS.get(name, "")
@@ -303,7 +303,7 @@ class Body(FromMass):
 
     @classmethod
     def read(cls, value: object, where: Where) -> Body:
-        """Read a body: a `Body`, a name, or a table of changes to a named body.
+        """Return a `Body` from a `Body`, a name, or a table of changes to a named body.
 
         Raises
         ------
@@ -338,7 +338,7 @@ class Body(FromMass):
             raise where.error(dict(table), str(error)) from None
 
     def write(self) -> Any:
-        """Form stored in scenes: a table of all fields that are set; `read` restores the body."""
+        """Convert the body to a table of its fields for a scene file; `read` restores it."""
         values = {name: getattr(self, name) for name in self.KINDS}
         table = {n: self.KINDS[n].write(value) for n, value in values.items() if value is not None}
         return {"from": NOTHING} | table
@@ -441,7 +441,7 @@ class Body(FromMass):
         return float(value)
 
     def magnitudes(self) -> dict[str, Magnitude]:
-        """Converters between text and SI, by field, for the mass and all numerical fields set."""
+        """Converters between text and SI values for the mass and each numerical field set."""
         kinds = {name: self.KINDS[name] for name in self.UNITS if getattr(self, name) is not None}
         return kinds | {"mass": _READ_AS["mass"]}
 
@@ -547,7 +547,7 @@ class Body(FromMass):
         return {"dynamical_flattening": self.needed("dynamical_flattening") * j2 / self.j2}
 
     def _is_another(self, changes: Mapping[str, Any]) -> bool:
-        """Return True if the changes make the free wobble that of a different body.
+        """Return True if the changes are so large that the observed wobble no longer applies.
 
         This is so if a field that affects the wobble differs by more than 1 % from this body.
 
@@ -558,7 +558,7 @@ class Body(FromMass):
 
     @property
     def are_as_named(self) -> Numeric:
-        """Test for each member whether figure and spin agree with the built-in body to 1 %."""
+        """Test for each ensemble member if figure and spin agree with the built-in body to 1 %."""
         named = BODIES.get(self.name)
         if named is None:
             return False
@@ -607,7 +607,7 @@ NUMBERS: dict[str, dict[str, c.Constant]] = {}
 
 
 def body(name: object, where: Where | None = None) -> Body:
-    """Look a body up by name.
+    """Return the built-in body with a given name.
 
     Parameters
     ----------

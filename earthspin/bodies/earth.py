@@ -1,4 +1,4 @@
-"""The Earth."""
+"""Numbers of the Earth with sources and uncertainties, and the built-in body made of them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Jupiter, Saturn, Uranus, Neptune.
+"""Numbers of Jupiter, Saturn, Uranus and Neptune with sources, and these built-in bodies.
 
 Jupiter and Saturn include the satellites that precess with them (`satellites`); these contribute
 more than the planet's own bulge. The polar moments of Uranus and Neptune are not known, so a
@@ -40,7 +40,7 @@ POLES = Tabulated("poles of the giant planets", IAU_2015, PCK11)
 
 
 def _moon(name: str, gm: float, a: float, days: float) -> Satellite:
-    """Satellite of a planet, from GM (km3 s-2), semi-major axis (km) and orbital period (d)."""
+    """Make a `Satellite` from GM (km3 s-2), semi-major axis (km) and orbital period (d)."""
     return Satellite(
         name,
         Constant(gm * 1e9, "m3 s-2", None, JPL, JPL_READ),
@@ -85,7 +85,7 @@ SATURN_CONSTANT = Constant(
 
 
 def _year(days: float) -> Constant:
-    """Constant with the sidereal orbital period of a planet in seconds, from days."""
+    """Return a sidereal orbital period, given in days, as a `Constant` in seconds with source."""
     return Constant(
         days * DAY,
         "s",
@@ -98,7 +98,7 @@ def _year(days: float) -> Constant:
 def _numbers(
     gm: float, radius: float, j2: Constant, spin: float, orbit: Constant
 ) -> dict[str, Constant]:
-    """Numerical fields of a giant planet, by name, with their sources.
+    """Return the numerical fields of a giant planet by field name, each with its source.
 
     GM is in km3 s-2, the radius in km and the spin in deg/d.
     """
@@ -113,7 +113,7 @@ def _numbers(
 
 
 def _orbit(a: float, e: float, i: float, node: float, perihelion: float, mean: float) -> Orbit:
-    """Mean elliptical orbit of a planet about the Sun, from a in au and angles in degrees."""
+    """Make the mean elliptical orbit of a planet, from a in au and angles in degrees."""
     return Orbit(
         a=a * AU,
         e=e,
@@ -137,7 +137,7 @@ ORBITS = {
 
 
 def _normal(planet: str) -> Direction:
-    """Normal of a planet's mean orbit."""
+    """Return the direction normal to a planet's mean orbit."""
     return Direction.across(ORBITS[planet].i, ORBITS[planet].node)
 
 

@@ -1,4 +1,4 @@
-"""Mercury and Venus."""
+"""Numbers of Mercury and Venus with sources, and the two built-in bodies made of them."""
 
 from __future__ import annotations
 

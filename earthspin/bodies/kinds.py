@@ -1,4 +1,4 @@
-"""Converters of the fields of a body: from text, tables and Quantities, and back exactly."""
+"""Classes that convert each field of a body from text, tables and Quantities, and back exactly."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Plain = Any
 
 @dataclass(frozen=True)
 class Magnitude:
-    """A number with a unit, or an array of numbers with named dimensions.
+    """Converter of a field that is a number with a unit, or an array of such numbers.
 
     Attributes
     ----------
@@ -43,14 +43,14 @@ class Magnitude:
         return f'"... {self.text.partition(" ")[2]}"' if self.unit else self.ratio
 
     def read(self, value: object, where: Where) -> Any:
-        """Convert text, a number, a Quantity, an array or a table of `write` to SI units."""
+        """Convert text, a number, a Quantity, an array or a table made by `write` to SI units."""
         if isinstance(value, Mapping):
             return _labelled(value, where)
 
         return quantity(value, self.unit, where, self.text)
 
     def write(self, value: Any) -> Plain:
-        """Form stored in scenes: a number with its unit, or an array as a table."""
+        """Convert the value for a scene file: a number with its unit, or an array as a table."""
         if hasattr(value, "dims"):
             table = pack(value.values) | {"dims": list(map(str, value.dims))}
             return table | {"labels": _labels_of(value)}
@@ -64,7 +64,7 @@ class Moments:
     words, hint = "three moments, the polar one last", "Sequence[float | str]"
 
     def read(self, value: object, where: Where) -> list[Any]:
-        """Read three moments of inertia."""
+        """Convert three principal moments of inertia to kg m2; refuse any other number of them."""
         if not isinstance(value, (list, tuple)) or len(value) != 3:
             raise where.error(value, "give three moments")
         return [quantity(moment, "kg m2", where, "8.03e37 kg m2") for moment in value]
@@ -72,24 +72,24 @@ class Moments:
 
 @dataclass(frozen=True)
 class Codes:
-    """Converter of the NAIF codes of a body."""
+    """Converter of the NAIF codes of a body: integers that identify the body in kernels."""
 
     words, hint = "whole numbers, like [499, 4]", "Sequence[int]"
 
     def read(self, value: object, where: Where) -> tuple[int, ...]:
-        """Return the codes as a tuple; refuse anything but integers."""
+        """Return the NAIF codes as a tuple; refuse anything but integers."""
         if not isinstance(value, (list, tuple)) or not all(type(code) is int for code in value):
             raise where.error(value, "give a list of whole numbers, like [499, 4]")
         return tuple(value)
 
     def write(self, value: tuple[int, ...]) -> Plain:
-        """Form stored in scenes: the codes as a list."""
+        """Return the NAIF codes as a list, which is the form stored in scene files."""
         return list(value)
 
 
 @dataclass(frozen=True)
 class Uncertainties:
-    """Converter of relative standard deviations, by field."""
+    """Converter of a table of relative standard deviations of the fields of a body."""
 
     words, hint = "standard deviation divided by value, by field", "Mapping[str, float]"
 
@@ -104,13 +104,13 @@ class Uncertainties:
         return {name: quantity(u, "", where.at(name), "1e-4") for name, u in value.items()}
 
     def write(self, value: Mapping[str, float]) -> Plain:
-        """Form stored in scenes: the relative standard deviations as a table by field name."""
+        """Return the relative standard deviations as a table by field name, for scene files."""
         return dict(value)
 
 
 @dataclass(frozen=True)
 class OneOf:
-    """Converter that accepts one of several words.
+    """Converter of a field whose value must be one of several allowed words.
 
     Attributes
     ----------
@@ -123,17 +123,17 @@ class OneOf:
 
     @property
     def words(self) -> str:
-        """The allowed words, for messages."""
+        """The allowed words as text, for error messages."""
         return " or ".join(f'"{word}"' for word in self.allowed)
 
     def read(self, value: object, where: Where) -> str:
-        """Return the word; refuse any that is not allowed."""
+        """Return the given word unchanged; refuse a word that is not allowed."""
         if not isinstance(value, str) or value not in self.allowed:
             raise where.error(value, nearest(value, self.allowed))
         return value
 
     def write(self, value: str) -> Plain:
-        """Form stored in scenes: the word unchanged."""
+        """Return the word unchanged, because scene files store it as text."""
         return value
 
 
@@ -166,7 +166,7 @@ class CitedPeriod:
             raise where.error(value, f"give a table of {names}") from None
 
     def write(self, value: Constant) -> Plain:
-        """Form stored in scenes: a table of those fields of the `Constant` that are set."""
+        """Convert the `Constant` to a table of all fields that are set, for scene files."""
         return {name: entry for name, entry in asdict(value).items() if entry not in (None, "")}
 
 
@@ -181,7 +181,7 @@ class OwnPlace:
 
 
 def _labelled(table: Mapping[str, Any], where: Where) -> Any:
-    """Labelled array from a table made by `Magnitude.write`.
+    """Restore an array with named dimensions from a table made by `Magnitude.write`.
 
     Raises
     ------
@@ -205,7 +205,7 @@ def _labelled(table: Mapping[str, Any], where: Where) -> Any:
 
 
 def _labels_of(array: Any) -> dict[str, Any]:
-    """Coordinate labels of an array as tables, with their dimensions and data types."""
+    """Convert the coordinate labels of an array to tables, with their dimensions and types."""
     tables: dict[str, Any] = {}
     for name, label in array.coords.items():
         floats = label.dtype.kind == "f" and label.size

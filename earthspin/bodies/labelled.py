@@ -1,4 +1,4 @@
-"""Floats and arrays with named dimensions: element-wise tests and comparison."""
+"""Element-wise tests and comparison of numbers and of arrays with named dimensions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ SAME_BODY = 0.01
 
 
 def all_of(condition: Any) -> bool:
-    """Return the truth of a bool, or of all elements of an array."""
+    """Return True if a bool is true, or if all elements of a boolean array are true."""
     return bool(condition.all()) if hasattr(condition, "all") else bool(condition)
 
 

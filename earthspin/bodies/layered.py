@@ -1,4 +1,4 @@
-"""Converters of the interior of a body: a name, a table of layers or samples, or a layered body."""
+"""Classes that convert a body's interior from a name, or a table of layers or samples, and back."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ COLUMNS = {"radius": "m", "density": "kg/m3", "vp": "m/s", "vs": "m/s", "shear_q
 
 
 class Layers:
-    """Converter of a layered body."""
+    """Converter of a field that holds a `LayeredBody`, from a name or a table."""
 
     words = (
         'the name of an interior with layers, like "prem", or a table: name, and either layers '
@@ -55,7 +55,7 @@ class Layers:
         return LayeredBody(name, layers, reference)
 
     def write(self, value: LayeredBody) -> dict[str, Any]:
-        """Form stored in scenes: a layered body as a table of its name, reference and layers."""
+        """Convert a layered body to a table of its name, reference and layers, for scene files."""
         return {
             "name": value.name,
             "reference": value.reference,
@@ -112,7 +112,7 @@ def _sampled(table: Any, name: str, reference: str, where: Where) -> LayeredBody
 
 
 class UnderTheSurface:
-    """Converter of the interior of a body, which is a name or a layered body."""
+    """Converter of the interior of a body: either a name or a `LayeredBody`."""
 
     words = (
         'a name, like "prem", or a table: name, and either layers (top, density, vp, vs, '
@@ -129,5 +129,5 @@ class UnderTheSurface:
         return Text().read(value, where)
 
     def write(self, value: str | LayeredBody) -> str | dict[str, Any]:
-        """Form stored in scenes: the name of the interior, or the table of a layered body."""
+        """Return the name of the interior, or a layered body as a table, for scene files."""
         return value if isinstance(value, str) else Layers().write(value)

@@ -1,4 +1,4 @@
-"""Limits of validity: no overlap of bodies, no spin above break-up, no fast precession.
+"""Refuse bodies that overlap, spin too fast to hold together, or precess too fast to be averaged.
 
 A body itself may be extreme. Each question applies the limits that its formulas need.
 """
@@ -41,7 +41,7 @@ def extent(body: Any) -> float:
 
 
 def overlap(distance: float, reach: float, name: str, centre: str) -> str | None:
-    """Message that two bodies overlap at a given distance of their centres; None if they do not.
+    """Return an error message if two bodies overlap at a given distance, otherwise None.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def overlap(distance: float, reach: float, name: str, centre: str) -> str | None
 
 
 def refuse_break_up(body: Any) -> None:
-    """Refuse a spin faster than both gravity and material strength can hold together.
+    """Raise an error if neither gravity nor material strength can hold a spinning body together.
 
     Parameters
     ----------

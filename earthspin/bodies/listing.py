@@ -1,4 +1,4 @@
-"""Lists of bodies and of their cited numbers as text, for the terminal."""
+"""Lists of the built-in bodies and of their cited numbers as text, for the terminal."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _ASKED = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
 
 
 def all_in_words() -> str:
-    """Table of all bodies: whether each can be a rotating body, and which numbers are missing."""
+    """Table of all built-in bodies as text: whether each can rotate, and which numbers it lacks."""
     width = max(map(len, BODIES))
     lines = []
     for name, world in BODIES.items():

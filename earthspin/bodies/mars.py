@@ -1,4 +1,4 @@
-"""Mars."""
+"""Numbers of Mars with sources and uncertainties, and the built-in body made of them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The Moon."""
+"""Numbers of the Moon with sources and uncertainties, and the built-in body made of them."""
 
 from __future__ import annotations
 

@@ -57,14 +57,14 @@ TITAN_OBLIQUITY_IF_SOLID = Constant(
 
 
 def _days(days: float, source: str, read_in: str) -> Constant:
-    """Sidereal period as a constant, from days."""
+    """Return a sidereal period, given in days, as a `Constant` in seconds with its source."""
     return Constant(days * DAY, "s", None, source, read_in)
 
 
 def _locked(
     gm: Constant, radius: float, period: Constant, source: str, read_in: str
 ) -> dict[str, Constant]:
-    """Constants of a moon in synchronous rotation, from GM, radius (km) and period."""
+    """Numerical fields of a moon in synchronous rotation, from GM, radius (km) and period."""
     return {
         "gm": gm,
         "radius": Constant(radius * 1e3, "m", None, source, read_in),

@@ -32,13 +32,13 @@ class Epoch:
         return microseconds(value, where) / MICROSECONDS_PER_DAY
 
     def write(self, value: float) -> Plain:
-        """Form stored in scenes: days from J2000.0 TDB, not rounded to the microsecond."""
+        """Return the date as days from J2000.0 TDB, without rounding, for scene files."""
         return value
 
 
 @dataclass(frozen=True, kw_only=True)
 class Orbit:
-    """Keplerian elements, used instead of a kernel.
+    """Keplerian elements of an orbit, from which positions are computed without a kernel.
 
     For a perturber this is its orbit about the spinning body, unless `about` names another centre.
     For the spinning body this is its own orbit. Thus either the Sun may have its apparent orbit, or
@@ -132,7 +132,7 @@ class Orbit:
         return cls(**_checked(value, where))
 
     def write(self) -> Plain:
-        """Form stored in scenes: the table of all elements that are set."""
+        """Convert the orbit to a table of all elements that are set, for scene files."""
         elements = {name: getattr(self, name) for name in _KINDS}
         return {n: _KINDS[n].write(v) for n, v in elements.items() if v not in (None, "")}
 

@@ -48,7 +48,7 @@ def pulled_by(body: Body) -> tuple[Body, ...]:
 
 
 def on_its_orbit(body: Body) -> Body:
-    """Give a giant planet without orbit and position its mean orbit; return others unchanged."""
+    """Set the mean orbit of a giant planet that has neither an orbit nor a position source."""
     placed = body.orbit is not None or body.position is not None
     if placed or body.name not in ORBITS:
         return body

@@ -168,7 +168,7 @@ def _check_labels(name: str, numbers: Fields) -> None:
 
 
 def as_direction(name: str, field: str, value: Any, read: Callable[[Any], Any]) -> Any:
-    """Read the pole or orbit normal of a body from a name, two angles or a direction.
+    """Convert a spin axis or orbit normal from a name, two angles or a direction.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Fields of a body computed from point masses, a density on a grid, a mesh or layers."""
+"""Compute the fields of a body from point masses, a density on a grid, a mesh or layers."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ Fields = dict[str, Any]
 
 
 def of_masses(masses: Any, positions: Any, radius: Any) -> Fields:
-    """Fields of a body made of point masses, kg, at positions, m."""
+    """Compute mass and figure of a body that consists of point masses (kg) at positions (m)."""
     from earthspin.mass.shape import Shape
 
     return _of(
@@ -48,7 +48,7 @@ def of_masses(masses: Any, positions: Any, radius: Any) -> Fields:
 
 
 def of_density(density: Any, edges: tuple[Any, Any, Any], radius: Any) -> Fields:
-    """Fields of a body made of uniform grid cells: density, kg m-3, and cell edges, m."""
+    """Compute mass and figure of a body from densities (kg m-3) of grid cells with edges (m)."""
     from earthspin.mass.shape import Shape
 
     x, y, z = (_si(edge, "m", axis, "1 km") for axis, edge in zip("xyz", edges, strict=True))
@@ -57,7 +57,7 @@ def of_density(density: Any, edges: tuple[Any, Any, Any], radius: Any) -> Fields
 
 
 def of_mesh(mesh: Any, unit: str, density: Any, mass: Any, radius: Any) -> Fields:
-    """Fields of a homogeneous body bounded by triangles, with vertices in the given unit."""
+    """Compute mass and figure of a homogeneous body bounded by triangles in the given unit."""
     from earthspin.mass.shape import Shape
 
     return _of(
@@ -84,12 +84,12 @@ def _of(shape: Shape) -> Fields:
 
 
 def _si(value: Any, unit: str, name: str, example: str) -> Any:
-    """Convert plain numbers, Quantities, or text with units to SI."""
+    """Convert plain numbers, Quantities, or text with units to numbers in SI units."""
     return quantity(value, unit, Where(name), example)
 
 
 def _single(value: Any, unit: str, name: str, example: str) -> float:
-    """Convert one number to SI units; refuse zero and anything but a single number."""
+    """Convert one nonzero number to SI units; refuse zero and arrays."""
     number = _si(value, unit, name, example)
     if not isinstance(number, float) or number == 0:
         raise Where(name).error(value, f"give one number other than zero, like '{example}'")
@@ -102,7 +102,7 @@ def _optional(value: Any, unit: str, name: str, example: str) -> float | None:
 
 
 def _mesh(mesh: Any, unit: str) -> tuple[FloatArray, NDArray[np.int64]]:
-    """Vertices (m) and faces of a mesh from a file, a Trimesh, or a pair of arrays.
+    """Return vertices (m) and faces of a mesh from a file, a Trimesh, or a pair of arrays.
 
     Raises
     ------
@@ -149,7 +149,7 @@ def _read(file: Path) -> Any:
 
 
 def of_layers(layers: LayeredBody | str | Mapping[str, Any], spin_period: Any) -> Fields:
-    """Fields of a layered body in hydrostatic equilibrium, to first order in the flattening.
+    """Compute mass and figure of layers in hydrostatic equilibrium, to first order in flattening.
 
     Parameters
     ----------

@@ -1,1 +1,1 @@
-"""Self-checks on request: error of methods against run time, and stiff or extreme test cases."""
+"""Self-checks that users can run: error against run time of methods, and extreme test cases."""

@@ -95,7 +95,7 @@ class Case:
 def holds(
     *, bound: float, unit: str = "1", slow: bool = False, long: bool = False
 ) -> Callable[[Measure], Case]:
-    """Make a case of a function that yields distances from a reference, at most `bound`.
+    """Make a `Case` of a function that yields differences from a reference, at most `bound`.
 
     The other arguments are those of `Case`.
     """
@@ -210,7 +210,7 @@ def relative_error(values: ArrayLike, reference: ArrayLike) -> float:
 
 @contextmanager
 def temporary(name: str) -> Iterator[Path]:
-    """Yield the path of a file in a temporary folder; messages name the file without the folder."""
+    """Yield the path of a file in a temporary folder; hide the folder in error messages."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / name
         try:

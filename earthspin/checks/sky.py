@@ -1,4 +1,4 @@
-"""Earth, Sun and Moon from DE421: the test problem of the ladders and cases."""
+"""Earth, Sun and Moon from the ephemeris DE421, as common test problem of the self-checks."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def kernel() -> Ephemeris:
 
 
 def positions(days: FloatArray) -> dict[str, FloatArray]:
-    """Positions of Sun and Moon from the body at days from J2000.0 TDB, m, shape (n, 3) each."""
+    """Positions of Sun and Moon relative to the Earth's centre at given days, m, shape (n, 3)."""
     return kernel().positions(CODES, CENTRE, days)
 
 
@@ -55,7 +55,7 @@ def unit_vectors(longitude: FloatArray, latitude: FloatArray) -> FloatArray:
 def eccentric_anomaly(
     mean: FloatArray, e: float, steps: int, start: FloatArray | None = None
 ) -> FloatArray:
-    """Eccentric anomaly (rad) from Kepler's equation, by a fixed number of plain Newton steps.
+    """Eccentric anomaly (rad) from Kepler's equation, by a fixed number of Newton steps.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def chebyshev_pieces(
 
 
 class Tide:
-    """Tidal tensor of Sun and Moon at any time, for step-by-step integrators.
+    """Tidal tensor of Sun and Moon at any time, for integrators that call it at each step.
 
     It is evaluated from Chebyshev series over pieces of two days, and shares no node, quadrature
     rule or formula with the windows of the axis solver.
@@ -128,7 +128,7 @@ class Tide:
         self._series = chebyshev_pieces(self._tensor, 0.0, self.PIECE, count, self.NODES)
 
     def _tensor(self, times: FloatArray) -> FloatArray:
-        """Sum of GM r r^T / r^5 from the kernel, s-2, shape (n, 3, 3)."""
+        """Tidal tensor: sum of GM r r^T / r^5 over Sun and Moon, s-2, shape (n, 3, 3)."""
         tensor = np.zeros((times.size, 3, 3))
         for name, r in positions(times / DAY).items():
             scale = self._gm[name] / np.linalg.norm(r, axis=1) ** 5

@@ -26,7 +26,7 @@ _UNIT = "in the unit of the case, see 'unit'"
 
 
 class Cases(Variables, along=("case",)):
-    """Variables of the dataset of stiff and extreme cases, with the outcome of each case."""
+    """Variables of the dataset that `stability` returns: the outcome of each test case."""
 
     measured: Value = words("distance from the reference", comment=_UNIT)
     bound: Value = words("largest allowed distance", comment=_UNIT)
@@ -42,7 +42,7 @@ class Cases(Variables, along=("case",)):
 
 
 def stability(*, quick: bool = False, only: str | None = None, long: bool = False) -> xr.Dataset:
-    """Run the stiff and extreme cases.
+    """Run the stiff and extreme test cases of the self-checks.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def stability(*, quick: bool = False, only: str | None = None, long: bool = Fals
 
 
 def all_cases() -> tuple[Case, ...]:
-    """Return all stiff and extreme cases, in the order of `PARTS` and of their definition."""
+    """Return all stiff and extreme test cases, ordered by part of the package."""
     modules = (import_module(f"earthspin.checks.cases.{part}") for part in PARTS)
     return tuple(c for module in modules for c in vars(module).values() if isinstance(c, Case))
 
@@ -91,7 +91,7 @@ def all_cases() -> tuple[Case, ...]:
 def chosen_cases(
     *, quick: bool = False, only: str | None = None, long: bool = False
 ) -> tuple[Case, ...]:
-    """Return the selected cases; see `stability` for the arguments.
+    """Return the test cases that the arguments `quick`, `only` and `long` select.
 
     Raises
     ------
@@ -124,7 +124,7 @@ def chosen_cases(
 
 
 def labelled(cases: Sequence[Case], outcomes: Sequence[Outcome]) -> xr.Dataset:
-    """Make a dataset of the cases and their outcomes, labelled by the name of the case."""
+    """Make a dataset of test cases and their outcomes, labelled by the name of the case."""
     # The later keys win: the bound of an outcome replaces that of its case.
     rows = [
         {"case_part": case.part, "must_hold": case.must_hold} | vars(case) | vars(outcome)

@@ -1,4 +1,4 @@
-"""Reference values with 32 digits, which are shipped with the package.
+"""Stored reference values with 32 digits, which are shipped with the package.
 
 Each number is an unevaluated sum of two floats, so that errors in the last digit of a float can be
 measured. `python -m data_tools references` computes the files again.
@@ -23,7 +23,7 @@ FOLDER = Path(__file__).parent / "references"
 
 
 def load(name: str, inputs: Mapping[str, Any]) -> dict[str, DoubleDouble]:
-    """Read stored reference values, and refuse them if they were computed for other inputs.
+    """Read stored reference values; raise an error if they were computed for other inputs.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def load(name: str, inputs: Mapping[str, Any]) -> dict[str, DoubleDouble]:
 
 
 def attitude_error(values: FloatArray, true: DoubleDouble) -> float:
-    """Largest angle between attitudes as unit quaternions, rad.
+    """Largest angle between computed and true attitudes, as unit quaternions, rad.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def attitude_error(values: FloatArray, true: DoubleDouble) -> float:
 def rotation_error(
     values: tuple[FloatArray, FloatArray], omega: DoubleDouble, attitude: DoubleDouble
 ) -> float:
-    """Larger of the relative error of the angular velocity and the attitude error in rad.
+    """Larger of two errors: relative error of angular velocity, and attitude error in rad.
 
     Parameters
     ----------

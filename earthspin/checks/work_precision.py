@@ -57,7 +57,7 @@ MOST_STEPS = 4
 
 @dataclass(frozen=True)
 class Setting:
-    """One setting of a computing method, such as a tolerance, with the function to run it.
+    """One setting of a method, such as a tolerance, with the function that runs the method.
 
     Attributes
     ----------
@@ -78,7 +78,7 @@ class Setting:
 
 @dataclass(frozen=True)
 class Method:
-    """A computing method, with all settings at which its error and run time are measured.
+    """A computing method in a comparison, with all settings whose error and time are measured.
 
     Attributes
     ----------
@@ -99,7 +99,7 @@ class Method:
 
     @property
     def ours(self) -> bool:
-        """Return True if the method belongs to this package."""
+        """Return True if the method belongs to this package, not to another library."""
         return math.isfinite(self.bound)
 
 
@@ -110,7 +110,7 @@ def method(
     values: Iterable[float] | None = None,
     bound: float = math.inf,
 ) -> Method:
-    """Make a `Method` whose settings differ in one number, such as a tolerance.
+    """Make a `Method` whose settings differ in one number, such as the tolerance.
 
     Parameters
     ----------
@@ -169,12 +169,12 @@ class Ladder:
 
     @property
     def rungs(self) -> int:
-        """Largest number of settings (rungs) that any method of the ladder has."""
+        """Largest number of settings of any method in the comparison."""
         return max(len(method.settings) for method in self.methods)
 
 
 class Timing(NamedTuple):
-    """Run time of a call.
+    """Run time of the first call of a function, and median and spread of later calls, s.
 
     Attributes
     ----------
@@ -194,7 +194,7 @@ class Timing(NamedTuple):
 
 @dataclass(frozen=True)
 class Point:
-    """Measured error (SI) and run times (s) of a setting; fields are named as in the result."""
+    """Measured error (SI) and run times (s) of one method at one setting."""
 
     setting: str
     error: float
@@ -235,7 +235,7 @@ def timed(run: Callable[[], Any]) -> Timing:
 
 
 def _seconds(run: Callable[[], Any], loops: int) -> tuple[float, Any]:
-    """Total run time of `loops` calls of a function, s, and the result of the last call."""
+    """Run a function `loops` times; return the total time, s, and the last result."""
     result = None
     begin = time.perf_counter()
     for _ in range(loops):
@@ -244,7 +244,7 @@ def _seconds(run: Callable[[], Any], loops: int) -> tuple[float, Any]:
 
 
 def measure(ladder: Ladder, advance: Advance = lambda amount: None) -> list[list[Point]]:
-    """Run and time every setting of a ladder.
+    """Run every setting of every method in a comparison, and measure error and run time.
 
     Parameters
     ----------
@@ -273,7 +273,7 @@ def measure(ladder: Ladder, advance: Advance = lambda amount: None) -> list[list
 
 
 def pareto_front(error: Any, run_time: Any) -> BoolArray:
-    """Return True for each point that no other point surpasses (Pareto front).
+    """Return True for each point that no other point beats in error and run time.
 
     Another point surpasses it if it is better in error or run time and not worse in the other.
 
@@ -334,7 +334,7 @@ def accuracy(quantity: str, *, quick: bool = False) -> xr.Dataset:
 
 
 def ladder_of(quantity: str, *, quick: bool = False) -> Ladder:
-    """Build the ladder of a quantity: its methods, their settings and the reference.
+    """Build the comparison of methods (`Ladder`) for a quantity, by its name.
 
     Raises
     ------
@@ -349,7 +349,7 @@ def ladder_of(quantity: str, *, quick: bool = False) -> Ladder:
 
 
 def dataset(ladder: Ladder, points: Sequence[Sequence[Point]], *, quick: bool) -> xr.Dataset:
-    """Make a dataset of measured errors and run times, labelled by method and setting.
+    """Make a Dataset of the measured errors and run times, labelled by method and setting.
 
     Parameters
     ----------
@@ -393,7 +393,7 @@ def dataset(ladder: Ladder, points: Sequence[Sequence[Point]], *, quick: bool) -
 
 
 def points_class(unit: str) -> type[Variables]:
-    """Make the class for the measured points of a ladder, with errors in `unit`."""
+    """Make the class that declares the measured errors (in `unit`) and run times of methods."""
     by_method = ("method",)
 
     class Points(Variables, along=("method", "rung")):
@@ -422,7 +422,7 @@ def points_class(unit: str) -> type[Variables]:
 
 
 def sentence(ladder: Ladder, points: Sequence[Sequence[Point]]) -> str:
-    """Summarize in a sentence which method is fastest for a few error levels.
+    """Write a sentence that names the fastest method for each of a few error levels.
 
     Parameters
     ----------
@@ -465,14 +465,14 @@ class _Row(NamedTuple):
 
 
 def _cheapest(rows: list[_Row]) -> _Row:
-    """Most accurate of the settings whose run time equals the shortest within its spread."""
+    """Fastest of the measured settings; if several are equally fast, the most accurate."""
     fastest = min(rows, key=lambda row: row.run_time)
     similar = [r for r in rows if r.run_time - fastest.run_time <= max(r.spread, fastest.spread)]
     return min(similar, key=lambda row: row.error)
 
 
 def _steps(rows: list[_Row]) -> list[tuple[float, _Row]]:
-    """Fastest setting that reaches each error level, for at most `MOST_STEPS` levels.
+    """Error levels, each with the fastest setting that reaches it, at most `MOST_STEPS`.
 
     A row that is fastest for several levels appears only with the smallest level.
     """
@@ -487,7 +487,7 @@ def _steps(rows: list[_Row]) -> list[tuple[float, _Row]]:
 
 
 def _levels(least: float, largest: float) -> list[float]:
-    """Descending error levels: powers of ten, with 2 and 5 if the errors span less than 100."""
+    """Error levels in descending order: powers of ten, with 2 and 5 for a narrow range."""
     between = (5.0, 2.0, 1.0) if largest < 100 * least else (1.0,)
     powers = range(math.floor(math.log10(largest)) + 1, math.floor(math.log10(least)) - 1, -1)
     levels = [float(f"{digit:g}e{power}") for power in powers for digit in between]

@@ -1,4 +1,4 @@
-"""Accuracy on request: choose the cheapest settings whose measured error is small enough.
+"""Choose for each method the cheapest settings whose measured error meets a requested accuracy.
 
 The errors of all settings were measured on positions and torques of the shipped bodies (`python -m
 data_tools error-models` writes `error_models.json`). The resulting errors of a body's axis follow

@@ -20,7 +20,7 @@ SAME_ORBIT = 1e-6
 
 @dataclass(frozen=True)
 class Averaging:
-    """Settings of an average over orbits, with their measured errors.
+    """Window length and sampling step of an average over orbits, with their measured errors.
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ class Averaging:
 def average_choices(
     body: Body, perturbers: tuple[Body, ...], first: float, last: float
 ) -> list[Choice[Averaging]]:
-    """Possible settings of an average over orbits, with relative errors of the precession rate.
+    """Possible windows and steps of an average over orbits, with relative errors of the rate.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Choice of the cheapest settings of a method whose measured error is small enough."""
+"""Choose the cheapest settings of a method whose measured error is small enough."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ S = TypeVar("S")
 
 @dataclass(frozen=True)
 class Choice(Generic[S]):
-    """Settings of a method, with their error and cost.
+    """One possible combination of settings of a method, with its error and cost.
 
     Attributes
     ----------
@@ -39,12 +39,12 @@ class Choice(Generic[S]):
 
 @lru_cache
 def models() -> dict[str, Any]:
-    """Read the measured errors of the settings of all methods from their data file."""
+    """Read the table of measured errors, for all settings of all methods, from its data file."""
     table: dict[str, Any] = json.loads(DATA.read_text(encoding="utf-8"))
     return table
 
 
 def cheapest(choices: Iterable[Choice[S]], allowed: float) -> Choice[S] | None:
-    """Choose the cheapest settings within the allowed error; among these, the most accurate."""
+    """Choose the cheapest settings with an error of at most `allowed`; None if there are none."""
     valid = [choice for choice in choices if choice.error <= allowed]
     return min(valid, key=lambda choice: (choice.evaluations, choice.error), default=None)

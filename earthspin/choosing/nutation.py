@@ -1,4 +1,4 @@
-"""Possible settings of the true equator: nutation series, and spacing of interpolation nodes."""
+"""Possible nutation series and interpolation steps for the true equator, with their errors."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class NutationNodes:
 
 
 def nutation_choices(first: float, last: float, size: int) -> list[Choice[NutationNodes | None]]:
-    """Possible settings of nutation for the true equator, each with its error.
+    """Possible nutation series and interpolation steps for the true equator, with errors.
 
     Parameters
     ----------

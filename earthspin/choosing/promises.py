@@ -17,7 +17,7 @@ MARGIN = 0.99
 
 
 class Report(Variables):
-    """Requested error, estimated error, and the chosen method.
+    """Report on accuracy: requested error, estimated error, and the chosen method.
 
     A subclass defines the unit of the errors and the quantity to which they apply.
     """
@@ -28,7 +28,7 @@ class Report(Variables):
     evaluations: Value = number("1", "evaluations of positions, or of terms of nutation")
 
     def __init_subclass__(cls, units: str, error_of: str) -> None:
-        """Set the unit of the errors in a subclass, and name the quantity that has these errors."""
+        """Set unit and quantity of the errors that a subclass of `Report` describes."""
         super().__init_subclass__()
         cls.schema = {
             name: replace(variable, units=units, long_name=f"{variable.long_name}, {error_of}")
@@ -46,7 +46,7 @@ class Report(Variables):
 
     @classmethod
     def of_series(cls, asked: float | None, error: xr.DataArray) -> Self:
-        """Report on a series: requested accuracy, largest estimated error, and method.
+        """Report the accuracy of a time series: requested error, largest error, and method.
 
         The attributes of the error name the method.
         """
@@ -59,7 +59,7 @@ class Report(Variables):
 
     @classmethod
     def closed_form(cls, asked: float | None, bound: float, method: str, evaluations: int) -> Self:
-        """Report the accuracy of a method without settings.
+        """Report the accuracy of a closed form, whose error has a fixed bound.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""Possible settings of the axis solver: length of its time windows, and nodes in each window."""
+"""Possible window lengths and node numbers of the axis solver, with their errors."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def window_choices(
     *,
     geodesic: float = 0.0,
 ) -> list[Choice[PoleWindows]]:
-    """Possible window lengths and node numbers of the axis solver, each pair with its error.
+    """Possible window lengths and node numbers of the axis solver, each with its error.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def window_choices(
 
 
 def _in_reach(rows: Any, reaches: list[float], reach: float) -> FloatArray:
-    """Errors of all settings of the axis solver over a time span (s), from tabulated log10 errors.
+    """Look up the tabulated errors of the axis solver's settings for a time span (s).
 
     Beyond the longest tabulated span, errors grow linearly with the span.
     """

@@ -1,1 +1,1 @@
-"""The stiff and extreme cases, by part of the package."""
+"""Stiff and extreme test cases of the self-checks, one module for each part of the package."""

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of ensembles: computing members together, drawing, statistics."""
+"""Stiff and extreme test cases of ensembles: joint computation, random draws and statistics."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ TIMES = (0.0, 7.0, 90.0)
 def _compared_with_members_alone(
     question: Question, names: Sequence[str], rows: ArrayLike, alone: Callable[..., xr.Dataset]
 ) -> Iterator[ArrayLike]:
-    """Yield True where members that are computed together differ from each member alone."""
+    """Yield True where ensemble members computed together differ from members computed alone."""
     values = np.array(rows, dtype=float).reshape(-1, len(names))
     members = xr.Dataset({n: (MEMBER, column) for n, column in zip(names, values.T, strict=True)})
     yield Ensemble(question.replace(members=members)).width == 1  # computed separately: fails
@@ -53,7 +53,7 @@ def _rotors(rows: ArrayLike) -> Iterator[ArrayLike]:
 
 @holds(bound=0.0)
 def _scales() -> Distances:
-    """free rotors twenty orders of magnitude apart, computed together
+    """free rotors with moments that differ by twenty orders of magnitude, computed together
 
     Hard because: scaling one rotor to the numbers of another would lose all digits
     Compared with: each rotor alone, bit for bit
@@ -65,7 +65,7 @@ def _scales() -> Distances:
 
 @holds(bound=0.0)
 def _degenerate_rotors() -> Distances:
-    """sphere and separatrix computed together with other rotors
+    """free rotation of a sphere and on the separatrix, computed together with other rotors
 
     Hard because: a sphere has no polhode and a separatrix no period, but arrays have no exceptions
     Compared with: each rotor alone, bit for bit
@@ -83,7 +83,7 @@ def _degenerate_rotors() -> Distances:
 
 @holds(bound=0.0)
 def _tops() -> Distances:
-    """upright, hanging and sleeping tops computed together with a looping one
+    """upright, hanging and sleeping tops computed together with a top that traces loops
 
     Hard because: the azimuth of vertical tops is undefined, and a sleeping top has no nutation
     Compared with: each top alone, bit for bit
@@ -98,7 +98,7 @@ def _tops() -> Distances:
 
 @holds(bound=0.0)
 def _spheroids() -> Distances:
-    """fields of a sphere, a disc and a needle computed together
+    """gravity fields of a sphere, a disc and a needle, computed together
 
     Hard because: each has its own closed form, and a series where that form loses digits
     Compared with: field of each body alone, bit for bit
@@ -133,7 +133,7 @@ def _discs() -> Distances:
 
 
 def _drawn(n: int, **settings: Any) -> dict[str, FloatArray]:
-    """Draw two standard normal numbers for each member."""
+    """Draw two standard normal numbers for each ensemble member, by name of the input."""
     normal = {"normal": [0.0, 1.0]}
     question = QUESTIONS["free-rotor"](moments=(1, 2, 2.8), omega=(0, 1, 0), times=TIMES)
     members = {"n": n, "omega.0": normal, "omega.1": normal, **settings}
@@ -142,7 +142,7 @@ def _drawn(n: int, **settings: Any) -> dict[str, FloatArray]:
 
 @holds(bound=0.0)
 def _last() -> Distances:
-    """the last of ten million members, alone
+    """random inputs of the last of ten million ensemble members, drawn alone
 
     Hard because: each member has its own generator, so the members before it must not be drawn
     Compared with: numbers of a separate generator, Philox with seed and member
@@ -156,7 +156,7 @@ def _last() -> Distances:
 
 @holds(bound=2e-13)
 def _correlated() -> Distances:
-    """inputs correlated by 0.999999
+    """random inputs of an ensemble with a correlation of 0.999999
 
     Hard because: 1 - r2 loses six digits, and the second input is nearly the first
     Compared with: r x + sqrt((1 - r) (1 + r)) y of two independent numbers
@@ -171,7 +171,7 @@ def _correlated() -> Distances:
 
 @refused("write them to a store")
 def _too_many() -> None:
-    """thirty thousand torque series of a decade in memory
+    """refusal of an ensemble of thirty thousand torque series that exceeds the memory
 
     Hard because: each series alone fits into memory, and so do all drawn numbers
     """
@@ -184,7 +184,7 @@ def _too_many() -> None:
 
 @holds(bound=0.0)
 def _one() -> Distances:
-    """ensemble of one member
+    """quantiles of an ensemble of one member
 
     Hard because: there is no spread, and the row of members is not full
     Compared with: single answer with the same numbers, and each quantile, bit for bit
@@ -197,7 +197,7 @@ def _one() -> Distances:
 
 @refused("need at least 3 members")
 def _one_slope() -> None:
-    """sensitivity from one member
+    """refusal of a sensitivity to an input from an ensemble of one member
 
     Hard because: any line passes through one point
     """
@@ -206,7 +206,7 @@ def _one_slope() -> None:
 
 @holds(bound=0.0)
 def _no_spread() -> Distances:
-    """inputs with a spread below their last bit
+    """sensitivity to an ensemble input whose spread is smaller than its last bit
 
     Hard because: shares of zero variance are 0/0
     Compared with: zero slope, zero share and nothing unexplained
@@ -218,7 +218,7 @@ def _no_spread() -> Distances:
 
 @holds(bound=2e-14)
 def _additive() -> Distances:
-    """sum of inputs twenty-four orders of magnitude apart
+    """sensitivity of a sum of inputs that differ by twenty-four orders of magnitude
 
     Hard because: a fit in the original units would ignore the small inputs
     Compared with: coefficient of each input, relative, and shares with a sum of 1

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of mass distributions and their fields."""
+"""Stiff and extreme test cases of mass distributions and their gravity fields."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def _one_ulp() -> Distances:
 
 @holds(bound=5e-15)
 def _flat() -> Distances:
-    """flat body with C = A + B exactly
+    """principal moments of a flat body with C = A + B exactly
 
     Hard because: the triangle inequality of the moments holds with equality
     Compared with: A + B - C = 0, relative to C
@@ -53,7 +53,7 @@ def _flat() -> Distances:
 
 @refused("none may exceed the sum of the other two")
 def _triangle() -> None:
-    """inertia tensor that violates the triangle inequality
+    """refusal of an inertia tensor that violates the triangle inequality
 
     Hard because: no body has C above A + B, but every formula would give numbers
     """
@@ -62,7 +62,7 @@ def _triangle() -> None:
 
 @holds(bound=5e-15)
 def _scales() -> Distances:
-    """bodies of 1e-30 kg and 1e40 kg
+    """moments of inertia of bodies of 1e-30 kg and 1e40 kg
 
     Hard because: one formula has to cover seventy orders of magnitude
     Compared with: moments proportional to the mass
@@ -94,7 +94,7 @@ def _nearly_round() -> Distances:
 
 @holds(bound=5e-15)
 def _far_field() -> Distances:
-    """potential of a spheroid from its surface to a million radii
+    """gravitational potential of a spheroid from its surface to a million radii
 
     Hard because: the potential falls by 6 orders of magnitude, and its quadrupole part by 18
     Compared with: zonal series of a homogeneous spheroid, J2 to J20
@@ -125,7 +125,7 @@ def _centre() -> Distances:
 
 @holds(bound=5e-15)
 def _mass_inside() -> Distances:
-    """torque of a mass inside a spheroid
+    """torque on a spheroid by a point mass inside it
 
     Hard because: no series in the inverse distance converges there
     Compared with: torque proportional to z x, because A3 - A1 is constant inside, relative
@@ -137,7 +137,7 @@ def _mass_inside() -> Distances:
 
 @holds(bound=5e-15)
 def _far_multipoles() -> Distances:
-    """multipole potential a billion radii away
+    """gravitational potential by multipoles at a distance of a billion radii
 
     Hard because: each degree is nine orders of magnitude smaller, down to 1e-100 and below
     Compared with: MacCullagh's potential, relative
@@ -153,7 +153,7 @@ def _far_multipoles() -> Distances:
 
 @holds(bound=1.0)
 def _hardly_converging() -> Distances:
-    """series of 1/R to degree 300 where it converges slowly
+    """expansion of an inverse distance to degree 300 where it converges slowly
 
     Hard because: the distances of the two points differ by 10 per cent, so 300 terms have similar
         sizes
@@ -179,7 +179,7 @@ def _legendre() -> Distances:
 
 @holds(bound=5e-15)
 def _layers() -> Distances:
-    """body of 1000 layers with the same density
+    """mass and moments of a body of 1000 layers with the same density
 
     Hard because: mass and moments are sums of small differences
     Compared with: homogeneous spheroid

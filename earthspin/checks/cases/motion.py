@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of the Earth's axes: three solvers and the averaged rate.
+"""Stiff and extreme test cases of the motion of the Earth's axes in time.
 
 The spin is 10^7 times faster than the precession. The averaged rate does not depend on the phase of
 the spin, the axis solver uses windows of several days, and the two other solvers resolve every
@@ -46,12 +46,12 @@ def _angle(a: FloatArray, b: FloatArray) -> float:
 
 
 def _momentum(path: AxisPath) -> FloatArray:
-    """Angular momentum at the start in units of C Omega, shape (3,)."""
+    """Initial angular momentum of a path, in units of C Omega, shape (3,)."""
     return path.windows.evaluate(path.momentum, np.zeros(1))[:, 0]
 
 
 def _pole_against_exact(days: float, forces: Forces = FORCES) -> float:
-    """Largest angle between figure axes of the axis solver and of the integrated (L, F), uas."""
+    """Largest angle between the figure axes of the axis solver and of a direct integration, uas."""
     times, body = np.linspace(0.0, days * DAY, 40), forces.figure
     path = axis_path(forces, NORTH, 0.0, (0.0, times[-1]))
     start, tide = path.at(times[:1])["figure"][0], Tide(days * DAY, forces.gm)
@@ -60,12 +60,12 @@ def _pole_against_exact(days: float, forces: Forces = FORCES) -> float:
 
 
 def _exact(start: FloatArray, tide: Tide, times: FloatArray) -> FloatArray:
-    """Figure axis of the axisymmetric body by integration of (L, F)."""
+    """Figure axis of an axisymmetric Earth, integrated together with its angular momentum."""
     return axisymmetric_motion(tide, H, SPIN, start, NORTH, times)[1]
 
 
 def _attitude(start: FloatArray, tide: Tide, times: FloatArray) -> FloatArray:
-    """Figure axis of the axisymmetric body by integration of the full attitude."""
+    """Integrate the full attitude of an axisymmetric Earth, and return its figure axis."""
     attitude = attitude_about(NORTH, 0.3)
     return figure_axis(attitude_motion(tide, H, 0.0, SPIN, start, attitude, times)[1])
 
@@ -131,7 +131,7 @@ def _average_and_pole() -> Distances:
 
 
 def _samples(cycles: float | None = None) -> Samples:
-    """Daily torques of Sun and Moon over some periods of the node, or over the whole kernel."""
+    """Daily torques of Sun and Moon over some periods of the Moon's node, or the whole kernel."""
     both = BODY, (SUN, MOON)
     above = sky("de421", places(*both), "jplephem")
     if cycles is None:
@@ -145,7 +145,7 @@ def _psi(vectors: FloatArray) -> FloatArray:
 
 
 def _exponent(count: Callable[[float], int], spans: Sequence[float]) -> float:
-    """Difference from 1 of the exponent of the cost as a function of the span."""
+    """Fit the evaluation count as a power of the time span; return the exponent minus 1."""
     counts = [count(span) for span in spans]
     return float(np.polyfit(np.log(spans), np.log(counts), 1)[0]) - 1
 
@@ -153,7 +153,7 @@ def _exponent(count: Callable[[float], int], spans: Sequence[float]) -> float:
 def _cost(
     solver: Callable[[FloatArray, Tide, FloatArray], FloatArray], spans: Sequence[float]
 ) -> float:
-    """Difference from 1 of the exponent of a solver's evaluations of the tide; spans in d."""
+    """Exponent, minus 1, with which a solver's calls of the tidal tensor grow with the span (d)."""
     start = _momentum(_path(8.0))
 
     def count(days: float) -> int:
@@ -166,7 +166,7 @@ def _cost(
 
 @holds(bound=3e-4)
 def _cost_of_average() -> Distances:
-    """cost of the averaged rate as the span grows
+    """growth with the span of the cost of the averaged precession rate
 
     Hard because: a cost that grows faster than the span would prevent long spans
     Compared with: exponent 1 of the number of epochs, over 3 to 5 periods of the node
@@ -176,7 +176,7 @@ def _cost_of_average() -> Distances:
 
 @holds(bound=0.02)
 def _cost_of_pole() -> Distances:
-    """cost of the axis solver as the span grows
+    """growth with the span of the cost of the axis solver
 
     Hard because: each iteration covers all windows, and more iterations would increase the exponent
     Compared with: exponent 1 of windows times iterations, over 2 to 48 years
@@ -191,7 +191,7 @@ def _cost_of_pole() -> Distances:
 
 @holds(bound=0.1)
 def _cost_of_exact() -> Distances:
-    """cost of integrating (L, F) as the span grows
+    """growth with the span of the cost of integrating momentum and figure axis
 
     Hard because: the step is limited by the rotation of the body
     Compared with: exponent 1 of the number of evaluations, over 8 to 64 d
@@ -201,7 +201,7 @@ def _cost_of_exact() -> Distances:
 
 @holds(bound=0.1, slow=True)
 def _cost_of_attitude() -> Distances:
-    """cost of integrating the full attitude as the span grows
+    """growth with the span of the cost of integrating the full attitude
 
     Hard because: the step is limited by the rotation of the body
     Compared with: exponent 1 of the number of evaluations, over 8 to 32 d
@@ -211,7 +211,7 @@ def _cost_of_attitude() -> Distances:
 
 @holds(bound=0.01, unit="uas")
 def _retrograde() -> Distances:
-    """pole of a retrograde Earth
+    """pole of an Earth that rotates in the opposite sense
 
     Hard because: the free mode has the opposite sense, and A/(C Omega) is negative
     Compared with: integration of (L, F) over 20 d
@@ -232,7 +232,7 @@ def _thousandfold() -> Distances:
 
 @holds(bound=5e-7)
 def _fast_spin() -> Distances:
-    """pole of an Earth that rotates in ten seconds
+    """pole of an Earth with a rotation period of ten seconds
 
     Hard because: the period of the free mode and the window differ by a factor of 70,000
     Compared with: half the displacement at half the spin rate, because precession is proportional
@@ -261,7 +261,7 @@ def _tiny_h() -> Distances:
 
 @holds(bound=0.02, unit="uas")
 def _there_and_back() -> Distances:
-    """Earth's pole 20 years forward and back
+    """Earth's pole integrated 20 years forward and back
 
     Hard because: the figure axis at the end contains the tilt of that day, which enters the new
         start
@@ -277,7 +277,7 @@ def _there_and_back() -> Distances:
 
 @holds(bound=1e-4, unit="uas")
 def _backwards() -> Distances:
-    """Earth's pole with the positions in reversed time
+    """Earth's pole with the positions of Sun and Moon in reversed time
 
     Hard because: time and spin are both reversed, so every odd term must change sign
     Compared with: axis before the epoch in the original time
@@ -292,7 +292,7 @@ def _backwards() -> Distances:
 
 @holds(bound=0.01, unit="uas")
 def _resonant_windows() -> Distances:
-    """windows in resonance with the free mode
+    """Earth's pole by integration windows in resonance with the free wobble
 
     Hard because: windows of 0.5, 1, 2 and 3 rotations alias the free motion
     Compared with: windows of 8 d over 60 d
@@ -324,7 +324,7 @@ def _whole_kernel() -> Distances:
 
 @holds(bound=5e-15)
 def _obliquities() -> Distances:
-    """obliquities of 0, 90 and 180 degrees in a time integration
+    """motion of the pole at obliquities of 0, 90 and 180 degrees
 
     Hard because: longitudes are undefined at 0 and 180 degrees, but vectors are not
     Compared with: unit vectors, and zero torque on a body with its axis normal to a circular orbit
@@ -373,7 +373,7 @@ def _geodesic_alone() -> Distances:
 
 @holds(bound=4e-18)
 def _three_axes() -> Distances:
-    """rotation axis between the figure axis and the angular momentum
+    """position of the rotation axis between the figure axis and the angular momentum
 
     Hard because: the three axes are a few milliarcseconds apart on one great circle
     Compared with: L = A w + (C - A)(w . F) F: component of L perpendicular to (1 - H) w + H F
@@ -390,7 +390,7 @@ def _three_axes() -> Distances:
 
 @holds(bound=0.03)
 def _slow_bulge() -> Distances:
-    """J2 that changes by three parts in a million per century
+    """motion of the pole with a J2 that changes by 3e-6 of its value per century
 
     Hard because: in 40 years it moves the pole by two milliarcseconds, compared with thirty
         arcminutes of precession

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of `numerics`."""
+"""Stiff and extreme test cases of numerical methods: products of quaternions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from earthspin.numerics import quaternion
 
 @holds(bound=2e-11, slow=True)
 def _products() -> Distances:
-    """quaternion after 10^5 products
+    """norm of a quaternion after 10^5 products
 
     Hard because: each product is rounded, and the quaternion is never normalized
     Compared with: rotation by 10^5 times the angle

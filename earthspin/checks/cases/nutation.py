@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of precession angles, nutation terms and responses."""
+"""Stiff and extreme test cases of precession angles, nutation terms and the Earth's response."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ DAYS = np.arange(-18000.0, 18000.0, 9.7)
 
 @holds(bound=5e-15)
 def _angles_at_the_pole() -> Distances:
-    """angles of a pole 1e-12 rad from the ecliptic pole
+    """longitude and inclination of a pole 1e-12 rad from the ecliptic pole
 
     Hard because: the longitude is that of a vector of length 1e-12; an arc cosine would give zero
     Compared with: original longitude and inclination, relative, from 0 to 180 degrees
@@ -40,7 +40,7 @@ def _angles_at_the_pole() -> Distances:
 
 @holds(bound=2e-4, unit="uas")
 def _still_ecliptic() -> Distances:
-    """precession angles with a fixed ecliptic
+    """precession angles with respect to an ecliptic that does not move
 
     Hard because: chi_A and p_A are angles between equal directions
     Compared with: eps_A = omega_A, chi_A = 0, p_A = psi_A
@@ -67,7 +67,7 @@ def _angles_of_eleven_centuries() -> Distances:
 
 @holds(bound=1e-7, slow=True)
 def _faint_line() -> Distances:
-    """nutation term of 1e-9 of the largest term
+    """fit of a nutation term with 1e-9 of the amplitude of the largest term
 
     Hard because: 153 terms are fitted together, and some have neighbours that a century hardly
         separates
@@ -82,7 +82,7 @@ def _faint_line() -> Distances:
 
 @holds(bound=1e-9, unit="d")
 def _resonance() -> Distances:
-    """free core nutation period close to the annual term
+    """fit of a free core nutation period close to that of the annual nutation term
 
     Hard because: a term at a relative distance of 3e-4 from the resonance is amplified a
         thousandfold
@@ -100,7 +100,7 @@ def _resonance() -> Distances:
 
 @holds(bound=5e-15)
 def _budget() -> Distances:
-    """budget whose contributions cancel
+    """budget of the precession rate in which large contributions cancel
 
     Hard because: effects of both signs are a million times larger than their sum
     Compared with: the rate as the sum of all contributions, relative to the largest one
@@ -111,7 +111,7 @@ def _budget() -> Distances:
 
 @holds(bound=0.0)
 def _at_rest() -> Distances:
-    """derived periods without precession
+    """periods derived from the precession rate of an Earth without precession
 
     Hard because: periods are infinite, and ratios are 0/0
     Compared with: infinite period and error, ratio 1, tropical year equal to the sidereal year
@@ -126,7 +126,7 @@ def _at_rest() -> Distances:
 
 @holds(bound=5e-7)
 def _near_resonance() -> Distances:
-    """transfer function at 1e-8 of the spin rate from a resonance
+    """transfer function of nutation at 1e-8 of the spin rate from a resonance
 
     Hard because: four modes that each grow without limit must be separated
     Compared with: sum of the partial fractions of the system, relative
@@ -143,7 +143,7 @@ def _near_resonance() -> Distances:
 
 @holds(bound=1e-3)
 def _soft_mantle() -> Distances:
-    """mantle with a rigidity ten thousand times smaller than its pressure
+    """Love number with a mantle rigidity ten thousand times smaller than the pressure
 
     Hard because: boundary layers form at the core and the surface, and shear stress carries no load
     Compared with: Love number of a liquid, relative
@@ -155,7 +155,7 @@ def _soft_mantle() -> Distances:
 
 @refused("has 2 liquids with solids between")
 def _two_liquids() -> None:
-    """ocean under ice above rock with a liquid core
+    """refusal of an interior with two liquid layers that are separated by rock
 
     Hard because: the solid between two liquids rotates independently, which no equation in the
         package describes

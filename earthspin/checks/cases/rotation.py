@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of the full attitude in time."""
+"""Stiff and extreme test cases of the full attitude of a body in time."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
 
 
 def _body(a: float, b: float, unit: float = 1.0) -> Rigid:
-    """Rigid body with the principal moments a, b and 1."""
+    """Make a rigid body whose principal moments of inertia are a, b and 1."""
     one = np.ones(1)
     return Rigid(c_minus_a=(1 - a) * one, c_minus_b=(1 - b) * one, tide=one, unit=unit)
 
 
 def _free(moments: tuple[float, float], omega: tuple[float, ...], end: float) -> float:
-    """Largest angle between a free rotation and Jacobi's closed form, rad."""
+    """Largest angle between an integrated free rotation and Jacobi's closed form, rad."""
     times = np.linspace(0.0, end, 50)
     body, alone = _body(*moments), Masses(gm={}, positions=lambda times: {})
     result = Motion(body, alone, start_of(body, UPRIGHT, np.array(omega)), end).at(times)
@@ -43,7 +43,7 @@ def _angle(a: FloatArray, b: FloatArray) -> float:
 
 @holds(bound=1e-11, unit="rad")
 def _nearly_round() -> Distances:
-    """a thousand rotations of a nearly spherical body
+    """attitude of a nearly spherical body over a thousand rotations
 
     Hard because: the moments agree to 1e-12, so the pole moves once around in 1e12 rotations
     Compared with: Jacobi's closed form
@@ -63,7 +63,7 @@ def _racket() -> Distances:
 
 @holds(bound=1e-8, unit="rad")
 def _rod() -> Distances:
-    """attitude of a tumbling rod
+    """attitude of a thin tumbling rod
 
     Hard because: one moment is 1e-4 of the others, and the spin about its axis is fast
     Compared with: Jacobi's closed form
@@ -85,7 +85,7 @@ def _tumbling() -> Distances:
 
 @holds(bound=1.0)
 def _close_passage() -> Distances:
-    """attitude during a passage at a hundredth of the mean distance
+    """attitude while the perturber passes at a hundredth of its mean distance
 
     Hard because: the tide grows a million times within a thousandth of the orbit, and decreases
         again
@@ -121,7 +121,7 @@ TOP = Body(
 
 @holds(bound=0.0, unit="rad")
 def _at_rest() -> Distances:
-    """attitude of a body at rest
+    """attitude of a body without initial rotation
 
     Hard because: there is no angular velocity to set a unit of time or the length of the first
         window

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of torque-free rotation."""
+"""Stiff and extreme test cases of torque-free rotation."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ START = [0.7, -0.4, 0.2]
 
 
 def _many_periods(periods: float) -> FreeRotation:
-    """Motion of a tumbling body at the start and at random times over many periods."""
+    """Torque-free rotation of a triaxial body at time 0 and at random times over many periods."""
     span = periods * float(jacobi_motion(MOMENTS, START).period)
     times = np.random.default_rng(5).uniform(0.0, span, 2000)
     return free_rotation(MOMENTS, START, np.concatenate([[0.0], times]))
 
 
 def _as_triaxial(rotor: SymmetricRotor, times: FloatArray) -> FreeRotation:
-    """Motion of a symmetric rotor with A = 1, computed by the triaxial closed form."""
+    """Rotation of an axisymmetric rotor with A = 1, computed by the triaxial closed form."""
     moments = {"A": 1.0, "B-A": 0.0, "C-A": float(rotor.difference)}
     return free_rotation(moments, rotor.omega_body(np.zeros(1))[0], times)
 
@@ -95,7 +95,7 @@ def _prolate() -> Distances:
 
 @holds(bound=5e-15)
 def _leaf() -> Distances:
-    """thin plate with I3 = 2 I1 exactly
+    """precession of a thin plate with I3 = 2 I1 exactly
 
     Hard because: it is the limiting case of possible bodies (Feynman's plate)
     Compared with: precession at twice the spin rate in the limit of a small cone, relative
@@ -124,7 +124,7 @@ def _separatrix() -> Distances:
 
 @holds(bound=1e-14)
 def _near_separatrix() -> Distances:
-    """free rotor one unit in the last place from the separatrix
+    """period of a free rotor one unit in the last place from the separatrix
 
     Hard because: k' is 1e-8 and follows from the difference of two nearly equal numbers
     Compared with: period 4 ln(4/k')/lambda with k' in exact fractions, relative
@@ -144,7 +144,7 @@ def _near_separatrix() -> Distances:
 
 @holds(bound=5e-9, slow=True)
 def _racket() -> Distances:
-    """tennis racket through five flips of the intermediate axis
+    """free rotor (tennis racket) over five flips about its intermediate axis
 
     Hard because: a perturbation of 1e-3 grows a thousandfold before each flip, and errors grow
         equally
@@ -159,7 +159,7 @@ def _racket() -> Distances:
 
 @holds(bound=1e-14)
 def _energy() -> Distances:
-    """energy of a free rotor over 10^4 periods
+    """conservation of the energy of a free rotor over 10^4 periods
 
     Hard because: errors that grow with time would become visible
     Compared with: energy at the start, relative
@@ -170,7 +170,7 @@ def _energy() -> Distances:
 
 @holds(bound=1e-14)
 def _momentum() -> Distances:
-    """size of the angular momentum of a free rotor over 10^4 periods
+    """conservation of the size of the angular momentum of a free rotor over 10^4 periods
 
     Hard because: errors that grow with time would become visible
     Compared with: size at the start, relative
@@ -181,7 +181,7 @@ def _momentum() -> Distances:
 
 @holds(bound=1e-14)
 def _direction() -> Distances:
-    """direction of the angular momentum of a free rotor over 10^4 periods
+    """conservation of the direction of the angular momentum over 10^4 periods
 
     Hard because: errors of attitude and angular velocity would have to cancel
     Compared with: L in space at the start, relative to its size
@@ -222,7 +222,7 @@ def _polhode() -> Distances:
 
 @holds(bound=5e-15)
 def _tiny_cones() -> Distances:
-    """body cone of one microarcsecond
+    """free rotor whose body cone has a half-angle of one microarcsecond
 
     Hard because: the body cone is 5e-12 rad and the space cone 300 times smaller, too small for
         cosines
@@ -235,7 +235,7 @@ def _tiny_cones() -> Distances:
 
 @holds(bound=5e-15)
 def _batch() -> Distances:
-    """ten thousand free rotors in one array
+    """ten thousand free rotors computed in one array
 
     Hard because: the array contains tumbling rotors, a separatrix, a sphere and a thin plate
     Compared with: fifty of the rotors computed alone; only the last bit may differ
@@ -255,7 +255,7 @@ def _batch() -> Distances:
 
 @refused("may exceed the sum of the other two")
 def _triangle() -> None:
-    """principal moments with C above A + B by one part in 10^9
+    """refusal of principal moments with C above A + B by one part in 10^9
 
     Hard because: no such body exists, but the closed form gives numbers
     """

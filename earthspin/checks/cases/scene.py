@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of scenes and of long series."""
+"""Stiff and extreme test cases of scenes (input files) and of long time series."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ print(peak({span!r}, {step!r}) - short)
 
 
 def _memory_growth(span: tuple[str, str], step: str) -> float:
-    """Extra peak memory of a torque series in blocks, compared with 10^5 epochs, MB."""
+    """Peak memory (MB) of a torque series computed in blocks, minus that of 10^5 epochs."""
     program = _GROWTH.format(span=span, step=step)
     process = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     if process.returncode != 0:
@@ -54,7 +54,7 @@ def _memory_growth(span: tuple[str, str], step: str) -> float:
 
 @holds(bound=80.0, unit="MB", slow=True)
 def _million() -> Distances:
-    """10^6 epochs in bounded memory
+    """memory needed for a torque series of 10^6 epochs
 
     Hard because: they would take 120 MB if all were stored
     Compared with: peak of resident memory with 10^5 epochs, in a separate process
@@ -64,7 +64,7 @@ def _million() -> Distances:
 
 @holds(bound=80.0, unit="MB", slow=True, long=True)
 def _hundred_million() -> Distances:
-    """10^8 epochs in bounded memory
+    """memory needed for a torque series of 10^8 epochs
 
     Hard because: they would take 12 GB if all were stored, and their index alone 0.8 GB
     Compared with: peak of resident memory with 10^5 epochs, in a separate process
@@ -74,7 +74,7 @@ def _hundred_million() -> Distances:
 
 @holds(bound=0.0)
 def _twice() -> Distances:
-    """torques computed twice, and in reverse order
+    """torque series computed twice, and with its times in reverse order
 
     Hard because: effects of caches, orders of summation and shared arrays would become visible
     Compared with: the same numbers, bit for bit
@@ -88,7 +88,7 @@ def _twice() -> Distances:
 
 @holds(bound=1e-14)
 def _rotor_without_period() -> Distances:
-    """free rotors on the separatrix, about a principal axis, and with equal moments
+    """free rotors without a period: separatrix, principal axis, equal moments
 
     Hard because: the polhode has no period, and the herpolhode no advance
     Compared with: energy at the start, relative, in a result without NaN
@@ -104,7 +104,7 @@ def _rotor_without_period() -> Distances:
 
 @holds(bound=0.0)
 def _still_top() -> Distances:
-    """top at rest without weight
+    """heavy top that is at rest and has no weight
 
     Hard because: there is no spin, weight or push, so every rate and its scale are zero
     Compared with: initial angles, bit for bit
@@ -118,7 +118,7 @@ def _still_top() -> Distances:
 
 @refused("did you mean 'torque'")
 def _unknown_question() -> None:
-    """question that does not exist
+    """refusal of a scene (input file) that asks for an unknown quantity
 
     Hard because: a misspelled name must not select the nearest one
     """
@@ -127,7 +127,7 @@ def _unknown_question() -> None:
 
 @refused("at most 0.5")
 def _too_flat() -> None:
-    """dynamical flattening above that of a disc
+    """refusal of a dynamical flattening larger than that of a disc
 
     Hard because: no body has C above A + B, but all formulas give numbers
     """

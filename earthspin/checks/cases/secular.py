@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of the axis over millennia to millions of years."""
+"""Stiff and extreme test cases of the spin axis over millennia to millions of years."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ STRENGTH = Strength(
 
 
 class _FixedOrbit:
-    """A constant circular orbit."""
+    """A circular orbit that does not change in time."""
 
     edges = MYR / 50 * np.arange(-60.0, 61.0)
     coverage = float(edges[0]), float(edges[-1])
@@ -39,7 +39,7 @@ class _FixedOrbit:
 
 
 def _axis_at(obliquity: float, normal: FloatArray = NORTH) -> FloatArray:
-    """Unit vector at an obliquity from the orbit normal, in an arbitrary direction."""
+    """Unit vector of a spin axis with a given obliquity from the orbit normal."""
     across = np.cross(normal, [1.0, 0.3, 0.2])
     across /= np.linalg.norm(across)
     return math.cos(obliquity) * normal + math.sin(obliquity) * across
@@ -47,7 +47,7 @@ def _axis_at(obliquity: float, normal: FloatArray = NORTH) -> FloatArray:
 
 @holds(bound=3e-7, unit="arcsec")
 def _near_upright() -> Distances:
-    """axes within 8 degrees of the orbit normal and of its opposite
+    """spin axis within 8 degrees of the orbit normal and of its opposite
 
     Hard because: the longitude about the normal is undefined there, so another reference axis is
         used
@@ -69,7 +69,7 @@ def _near_upright() -> Distances:
 
 
 def _both(span: tuple[float, float], axis: FloatArray, step: float) -> Distances:
-    """Yield angles between the two solvers on the shipped orbit, arcsec."""
+    """Solve for the spin axis by two solvers, and yield the angles between the results, arcsec."""
     times = np.linspace(*span, 51)
     path = solve(STRENGTH, orbit(), axis, (min(span[0], 0.0), max(span[1], 0.0)), pieces=2)
     many = solve_many(STRENGTH, orbit(), axis[:, np.newaxis], times, step)
@@ -78,7 +78,7 @@ def _both(span: tuple[float, float], axis: FloatArray, step: float) -> Distances
 
 @holds(bound=2e-6, unit="arcsec")
 def _lying() -> Distances:
-    """axis with a mean obliquity of 90 degrees
+    """spin axis with a mean obliquity of 90 degrees
 
     Hard because: the mean precession is zero and reverses with the inclination of the orbit
     Compared with: the other solver over a million years
@@ -89,7 +89,7 @@ def _lying() -> Distances:
 
 @holds(bound=0.05, unit="arcsec", slow=True)
 def _ends() -> Distances:
-    """axis over ten million years to both ends of the orbit table
+    """spin axis over ten million years, to both ends of the orbit table
 
     Hard because: the axis precesses four hundred times in fifty blocks, and the last window has no
         neighbour
@@ -102,7 +102,7 @@ def _ends() -> Distances:
 
 @holds(bound=1e-9, unit="arcsec")
 def _now() -> Distances:
-    """axis at J2000.0 only
+    """spin axis at J2000.0 only
 
     Hard because: the span has zero length, so no window would be solved
     Compared with: initial axis
@@ -114,7 +114,7 @@ def _now() -> Distances:
 
 @holds(bound=0.0, unit="deg")
 def _coarse() -> Distances:
-    """two epochs a million years apart
+    """spin axis at only two epochs, a million years apart
 
     Hard because: forty precession cycles lie between the two epochs, which do not show their number
     Compared with: the same epochs in a series of a thousand
@@ -126,7 +126,7 @@ def _coarse() -> Distances:
 
 @holds(bound=2e-4, unit="deg", slow=True)
 def _all_but_round() -> Distances:
-    """perihelia of a nearly circular orbit
+    """longitude of perihelion of a nearly circular orbit
 
     Hard because: at an eccentricity of 1.6e-4 a perihelion moves by a radian in two hundred years
     Compared with: windows of half the length: contribution of the method to the error
@@ -137,7 +137,7 @@ def _all_but_round() -> Distances:
 
 @refused("was asked for")
 def _too_accurate() -> None:
-    """accuracy that the uncertainty of the body does not allow
+    """refusal of an accuracy that the uncertainty of the body does not allow
 
     Hard because: the solver itself would reach it
     """

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of kernels, equators and nutation."""
+"""Stiff and extreme test cases of ephemeris kernels, equators and nutation."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def _torque_at_the_ends() -> Distances:
 
 @refused("jumps")
 def _metre_off() -> None:
-    """kernel with an error of one metre in one coefficient of the Moon
+    """refusal of a kernel with an error of one metre in a coefficient of the Moon
 
     Hard because: one record of 14080 is wrong by 3e-9 of the distance
     """
@@ -72,7 +72,7 @@ def _metre_off() -> None:
 
 @holds(bound=1e-11, unit="rad")
 def _nutation_ends() -> Distances:
-    """interpolated nutation near both ends of a span
+    """interpolated nutation near both ends of a time span
 
     Hard because: a spline is least accurate at its ends
     Compared with: ERFA's pnm06a at epochs within an hour of the first and the last node
@@ -85,7 +85,7 @@ def _nutation_ends() -> Distances:
 
 @holds(bound=5e-15)
 def _no_equinox() -> Distances:
-    """equator of an axis normal to its orbit
+    """axes of the equator of a body whose spin axis is normal to its orbit
 
     Hard because: there is no equinox, because the node is a zero vector
     Compared with: right-handed orthonormal axes, the third along the spin axis
@@ -99,7 +99,7 @@ def _no_equinox() -> Distances:
 
 @holds(bound=5e-15, unit="rad")
 def _beside_the_pole() -> Distances:
-    """declinations near the celestial poles
+    """declination of directions near the celestial poles
 
     Hard because: an arc sine has only half the digits there
     Compared with: original distance from the pole
@@ -128,7 +128,7 @@ def _both_ways() -> Distances:
 
 @holds(bound=1e-14)
 def _legs() -> Distances:
-    """position of the Moon by two paths of segments
+    """position of the Moon from the Earth by two chains of kernel segments
 
     Hard because: the barycentre of Earth and Moon lies inside the Earth
     Compared with: position of the Sun minus that of the Sun from the Moon, relative to the distance
@@ -141,7 +141,7 @@ def _legs() -> Distances:
 
 @holds(bound=0.0)
 def _no_standstill() -> Distances:
-    """lunar standstills in a span too short for one
+    """search for lunar standstills in a span too short to contain one
 
     Hard because: an empty search must not return a result
     Compared with: none in a month, and none in a span of zero length

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of results on disk."""
+"""Stiff and extreme test cases of results on disk."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ def _small(value: float = 1.0) -> xr.Dataset:
 
 
 class _InterruptionError(Exception):
-    """Raised to interrupt a write."""
+    """Error raised by a test case to interrupt the writing of a file."""
 
 
 @holds(bound=0.0)
 def _odd_numbers() -> Distances:
-    """infinity and extreme floats in a file
+    """writing and reading of infinity and extreme floats
 
     Hard because: files mark missing values by fill values, and some of these are such numbers
     Compared with: the written number, bit for bit
@@ -40,7 +40,7 @@ def _odd_numbers() -> Distances:
 
 @holds(bound=0.0)
 def _half_netcdf() -> Distances:
-    """write to netCDF that fails halfway
+    """writing of a netCDF file that fails halfway
 
     Hard because: half a file looks like a file
     Compared with: the complete old result, and no other file in the folder
@@ -56,7 +56,7 @@ def _half_netcdf() -> Distances:
 
 @holds(bound=0.0)
 def _half_zarr() -> Distances:
-    """write to a Zarr store that fails halfway
+    """writing of a Zarr store that fails halfway
 
     Hard because: a store consists of many files, which are replaced together
     Compared with: the old files, and no other file in the folder

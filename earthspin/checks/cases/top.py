@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of the heavy symmetric top."""
+"""Stiff and extreme test cases of the heavy symmetric top."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def _top(**changes: Any) -> HeavyTop:
 
 
 def _energy_drift(top: HeavyTop, times: FloatArray) -> FloatArray:
-    """Relative change of the energy without that of the spin."""
+    """Relative change of a top's energy in time, without the constant energy of its spin."""
     motion = heavy_top_motion(top, times)
     p, q, _ = np.moveaxis(motion.omega_body, -1, 0)
     kinetic = top.transverse_moment * (p * p + q * q) / 2
@@ -137,7 +137,7 @@ def _fast_top() -> Distances:
 
 @holds(bound=1e-14)
 def _fast_top_for_a_day() -> Distances:
-    """fast top after a day, with 10^10 rotations
+    """top that spins fast, after a day with 10^10 rotations
 
     Hard because: phi and psi grow to 10^11 rad, and their sum must keep the precession
     Compared with: energy without that of the spin, and vertical angular momentum, relative
@@ -154,7 +154,7 @@ def _fast_top_for_a_day() -> Distances:
 
 @holds(bound=1e-14)
 def _inverted_pendulum() -> Distances:
-    """pendulum that starts 1e-9 rad from its upright position
+    """top without spin (pendulum) that starts 1e-9 rad from its upright position
 
     Hard because: the spin is zero, and k differs from 1 by 1e-19
     Compared with: period 4 K/omega of the pendulum by scipy's ellipkm1, relative
@@ -167,7 +167,7 @@ def _inverted_pendulum() -> Distances:
 
 @holds(bound=1e-14)
 def _grazing() -> Distances:
-    """axis that misses the upward vertical by 1e-12 rad
+    """top whose axis passes the upward vertical at a distance of 1e-12 rad
 
     Hard because: phi changes by half a revolution within a picosecond
     Compared with: energy at 2001 times, relative
@@ -192,7 +192,7 @@ def _cusp() -> Distances:
 
 @holds(bound=1e-14)
 def _hanging() -> Distances:
-    """top that hangs exactly downward, and an inverted copy of a top
+    """top that hangs exactly downward, and a top described upside down
 
     Hard because: no float equals pi, and the inverted top is described by the opposite end of its
         axis
@@ -207,7 +207,7 @@ def _hanging() -> Distances:
 
 @holds(bound=1e-14)
 def _shapes() -> Distances:
-    """needle-shaped and disc-shaped tops
+    """energy of needle-shaped and disc-shaped tops
 
     Hard because: I3 is 1e-12 I1 for the needle, and the largest possible value 2 I1 for the disc
     Compared with: energy over 100 s, relative
@@ -219,7 +219,7 @@ def _shapes() -> Distances:
 
 @refused("no body has more than twice its transverse moment")
 def _impossible() -> None:
-    """top with I3 above 2 I1
+    """refusal of a top with a moment I3 above 2 I1
 
     Hard because: no such body exists, but all formulas give numbers
     """

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of torques, at an instant and averaged."""
+"""Stiff and extreme test cases of torques, at an instant and averaged over orbits."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ NORTH = np.array([0.0, 0.0, 1.0])
 
 
 def _rate(body: Body = BODY, perturber: Body = SUN) -> xr.Dataset:
-    """Averaged rates under one perturber."""
+    """Precession rate and mean torque of a body under one perturber."""
     return precession(body=body, perturbers=[perturber], source="jplephem")
 
 
 @holds(bound=0.0)
 def _no_mass() -> Distances:
-    """perturber without mass
+    """torque and precession rate by a perturber without mass
 
     Hard because: rates are zero and periods infinite, so every ratio may become 0/0
     Compared with: zero torque, zero rate and infinite period, and no NaN
@@ -75,7 +75,7 @@ def _nearly_upright() -> Distances:
 
 @holds(bound=5e-15)
 def _over_the_pole() -> Distances:
-    """perturber above the pole
+    """torque by a perturber above the pole of the body
 
     Hard because: the right ascension is undefined at a declination of 90 degrees
     Compared with: vector form, which vanishes there, relative to the largest torque at that
@@ -91,7 +91,7 @@ def _over_the_pole() -> Distances:
 
 @holds(bound=5e-15)
 def _far() -> Distances:
-    """perturber at distances of a million au to 10^90 m
+    """torque by a perturber at distances of a million au to 10^90 m
 
     Hard because: r5 overflows, and the torque falls to 10^-271
     Compared with: torque proportional to 1/b3 at distances of 2^57, 2^203 and 2^299, relative
@@ -108,7 +108,7 @@ SWOLLEN = 5e8  # m, beyond the Moon
 
 @refused("valid only outside")
 def _inside_a_series() -> None:
-    """torque series with a perturber inside the body
+    """refusal of a torque series with a perturber inside the body
 
     Hard because: the formula gives a plausible wrong number inside the body
     """
@@ -117,7 +117,7 @@ def _inside_a_series() -> None:
 
 @refused("valid only outside")
 def _inside_an_average() -> None:
-    """averaged torque of a perturber inside the body
+    """refusal of an averaged torque of a perturber inside the body
 
     Hard because: the formula gives a plausible wrong number inside the body
     """
@@ -126,7 +126,7 @@ def _inside_an_average() -> None:
 
 @refused("valid only outside")
 def _inside_the_pole() -> None:
-    """pole of a body with a perturber inside it
+    """refusal of pole motion of a body with a perturber inside it
 
     Hard because: the formula gives a plausible wrong number inside the body
     """
@@ -135,7 +135,7 @@ def _inside_the_pole() -> None:
 
 @holds(bound=5e-15)
 def _three_forms() -> Distances:
-    """three formulas for the torque with masses of 1e-30 kg and 1e40 kg
+    """torque by three formulas, with perturbers of 1e-30 kg and 1e40 kg
 
     Hard because: one tensor sums terms that differ by seventy orders of magnitude
     Compared with: formulas with declination, position and tidal tensor with one another, relative
@@ -155,7 +155,7 @@ def _three_forms() -> Distances:
 
 @holds(bound=1e-13)
 def _harmonics() -> Distances:
-    """torque of degree 30 with the mass on the surface
+    """torque on a zonal harmonic of degree 30 by a mass on the surface
 
     Hard because: P_30 has coefficients of 10^8 that nearly cancel
     Compared with: n (P_(n-1) - u P_n)/(1 - u2) by scipy's recurrence, relative to the largest slope
@@ -170,7 +170,7 @@ def _harmonics() -> Distances:
 
 @holds(bound=2e-13)
 def _weights() -> Distances:
-    """averages with steps in resonance with the month and the node
+    """weighted mean with sampling steps in resonance with the month and the Moon's node
 
     Hard because: there are few samples, and some of them are exactly at the edge of the window
     Compared with: mean of a constant with every taper, relative
@@ -184,7 +184,7 @@ def _weights() -> Distances:
 
 @refused("needs three turns of the slowest cycle")
 def _too_short() -> None:
-    """average over fewer than three cycles
+    """refusal of an average over fewer than three of the slowest cycles
 
     Hard because: two cycles do not show how large the error of the mean is
     """
@@ -193,7 +193,7 @@ def _too_short() -> None:
 
 @refused("needs three turns of the slowest cycle")
 def _short_span() -> None:
-    """average over a requested span of 30 years
+    """refusal of an averaged precession rate over a span of only 30 years
 
     Hard because: the span covers only one and a half periods of the Moon's node
     """
@@ -202,7 +202,7 @@ def _short_span() -> None:
 
 @refused("was asked for")
 def _too_accurate() -> None:
-    """accuracy that no kernel allows
+    """refusal of an accuracy of the precession rate that no kernel allows
 
     Hard because: the returned number would look the same
     """
@@ -211,7 +211,7 @@ def _too_accurate() -> None:
 
 @holds(bound=0.0, slow=True)
 def _ten_thousand() -> Distances:
-    """averaged rates of ten thousand bodies in one call
+    """averaged precession rates of ten thousand bodies in one call
 
     Hard because: prolate, spherical, retrograde and slowly rotating bodies are in the same arrays
     Compared with: six of the bodies computed alone, bit for bit
@@ -233,7 +233,7 @@ def _ten_thousand() -> Distances:
 
 @holds(bound=5e-15)
 def _sky_poles() -> Distances:
-    """directions at the celestial poles
+    """unit vectors to the celestial poles
 
     Hard because: at a declination of exactly 90 degrees the cosine is 6e-17
     Compared with: unit vectors along the third axis
@@ -244,7 +244,7 @@ def _sky_poles() -> Distances:
 
 @holds(bound=1e-14)
 def _next_to_a_parabola() -> Distances:
-    """Sun on a nearly parabolic ellipse
+    """averaged torque of the Sun on a nearly parabolic ellipse
 
     Hard because: e is 1 - 1e-9, so almost the whole torque acts near the pericentre
     Compared with: closed form of the mean over the orbit, relative

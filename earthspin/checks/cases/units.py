@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of dates, calendars and units."""
+"""Stiff and extreme test cases of dates, calendars and units."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def _days(times: object) -> FloatArray:
 
 
 def _grid(first: object, last: object, step: object) -> dates.TimeGrid:
-    """Evenly spaced times between two dates, from values as a user would type them."""
+    """Make evenly spaced times between two dates, from values as a user would type them."""
     span = dates.Span.read([first, last], Where("span"))
     return dates.TimeGrid.over(span, dates.Spacing().read(step, Where("step")))
 
@@ -59,7 +59,7 @@ def _all_leap_seconds() -> Distances:
 
 @holds(bound=0.0, unit="d")
 def _reform() -> Distances:
-    """Gregorian calendar reform, 4 and 15 October 1582
+    """day count across the Gregorian calendar reform, 4 and 15 October 1582
 
     Hard because: the civil calendar omits ten days there, but a count of days must not
     Compared with: Python's proleptic ordinals, years 1 to 9999
@@ -72,7 +72,7 @@ def _reform() -> Distances:
 
 @holds(bound=0.0, unit="d")
 def _leap_day() -> Distances:
-    """29 February of 1600, 2000 and 2400
+    """day count at 29 February of 1600, 2000 and 2400
 
     Hard because: these centuries are leap years, unlike 1900 and 2100
     Compared with: the day between 28 February and 1 March
@@ -84,7 +84,7 @@ def _leap_day() -> Distances:
 
 @refused("there is no such date")
 def _no_leap_day() -> None:
-    """29 February 1900
+    """refusal of the date 29 February 1900
 
     Hard because: the day does not exist; date arithmetic would make it 1 March
     """
@@ -93,7 +93,7 @@ def _no_leap_day() -> None:
 
 @refused("years run from 1 to 9999")
 def _year_zero() -> None:
-    """year 0
+    """refusal of a date in the year 0
 
     Hard because: astronomers use the year 0, but calendars do not have it and files cannot hold it
     """
@@ -102,7 +102,7 @@ def _year_zero() -> None:
 
 @holds(bound=0.0)
 def _one_time() -> Distances:
-    """span of zero length, and a step longer than the span
+    """evenly spaced times over a span of zero length, or with a step longer than the span
 
     Hard because: the number of steps is zero
     Compared with: a single time, the first
@@ -120,7 +120,7 @@ _RACKET = {"moments": [1.0, 2.0, 2.5], "omega": [0.1, 1.0, 0.1]}
 
 @holds(bound=0.0)
 def _hours() -> Distances:
-    """times of a free rotor in hours
+    """times of a free rotor given in hours
 
     Hard because: an array with a unit is also an array, so 1 h might be read as 1 s
     Compared with: the same times in seconds, bit for bit
@@ -134,7 +134,7 @@ def _hours() -> Distances:
 
 @holds(bound=0.0, unit="arcsec")
 def _years() -> Distances:
-    """wobble period of 1.2 years
+    """wobble period given as 1.2 years
 
     Hard because: the value is plausible, but a number without unit means days
     Compared with: wobble of 438.3 d over five years, bit for bit
@@ -147,7 +147,7 @@ def _years() -> Distances:
 
 @refused("required: ")
 def _no_top() -> None:
-    """heavy top without its required numbers
+    """refusal of a heavy top without its required numbers
 
     Hard because: a default value would give an answer to a different question
     """
@@ -156,7 +156,7 @@ def _no_top() -> None:
 
 @refused("they differ from those of j2")
 def _not_aligned() -> None:
-    """body fields with different labels along `member`
+    """refusal of body fields whose labels along `member` differ
 
     Hard because: arrays without a common label multiply to an empty array, after all checks
     """

@@ -1,4 +1,4 @@
-"""Stiff and extreme cases of the free wobble and its excitation."""
+"""Stiff and extreme test cases of the free wobble and its excitation."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ DAYS = 64 * 365 + 16
 def _round_trip(
     quality_factor: float, step: float = 1.0, size: int = DAYS
 ) -> Iterator[NDArray[np.complex128]]:
-    """Yield errors of excitation and pole after computing each from the other, mas.
+    """Compute polar motion from excitation and back, and yield the errors of both, mas.
 
     The original excitation is white noise of 30 mas.
     """
@@ -57,7 +57,7 @@ def _all_loss() -> Distances:
 
 @holds(bound=5e-12, unit="mas")
 def _resonant_step() -> Distances:
-    """time step of exactly one free period
+    """excitation of polar motion with time steps of exactly one free period
 
     Hard because: the pole returns to its position except for damping of 3 per cent, which
         determines the excitation
@@ -68,7 +68,7 @@ def _resonant_step() -> Distances:
 
 @holds(bound=1e-6, unit="mas")
 def _tiny_steps() -> Distances:
-    """time steps of one second
+    """excitation of polar motion with time steps of one second
 
     Hard because: the pole moves by only 1e-7 of its distance in each step
     Compared with: excitation that produced the polar motion; the bound is rounding of the pole
@@ -79,7 +79,7 @@ def _tiny_steps() -> Distances:
 
 @refused("a gap of 21.0 d")
 def _gap() -> None:
-    """observed polar motion with a gap of twenty days
+    """refusal of observed polar motion with a gap of twenty days
 
     Hard because: interpolated values in the gap would be mistaken for data
     """
@@ -93,7 +93,7 @@ def _gap() -> None:
 
 @refused("even")
 def _uneven() -> None:
-    """excitation from unevenly spaced times
+    """refusal of excitation from polar motion at unevenly spaced times
 
     Hard because: each step has its own response; a common one would be wrong by per cents
     """
@@ -102,7 +102,7 @@ def _uneven() -> None:
 
 @holds(bound=0.0)
 def _sphere() -> Distances:
-    """free wobble of a sphere
+    """free wobble period of a sphere
 
     Hard because: (C - A)/A is zero and appears in a denominator
     Compared with: infinite period, and no NaN
@@ -113,7 +113,7 @@ def _sphere() -> Distances:
 
 @holds(bound=5e-15)
 def _prolate() -> Distances:
-    """free wobble of prolate and oblate bodies
+    """free wobble periods of prolate and oblate bodies
 
     Hard because: the wobble of a prolate body is retrograde, but its period is positive
     Compared with: A/(C - A) rotations, relative, down to H = 1e-15
@@ -125,7 +125,7 @@ def _prolate() -> Distances:
 
 @holds(bound=2e-14)
 def _microarcsecond() -> Distances:
-    """free wobble with an amplitude of one microarcsecond
+    """excitation from a free wobble with an amplitude of one microarcsecond
 
     Hard because: it is the smallest amplitude that is ever resolved, in a pole given in arcseconds
     Compared with: excitation that produced the polar motion, relative to its size

@@ -1,1 +1,1 @@
-"""Ladders: for each quantity, the methods to compare, their settings and a reference solution."""
+"""Comparisons of methods (ladders): their settings and a reference solution, for each quantity."""

@@ -44,13 +44,13 @@ def arguments(times: FloatArray) -> FloatArray:
 
 
 def node_period() -> float:
-    """Period of the Moon's node, s."""
+    """Period of the Moon's node on the ecliptic, s."""
     node_rate = RATES[3] - RATES[0] - RATES[1]  # F - (D + l'): rate of the node's regression
     return float(360.0 / node_rate * DAYS_PER_CENTURY * DAY)
 
 
 def moon(angles: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Longitude (rad), latitude (rad) and distance (m) of the Moon.
+    """Ecliptic longitude (rad), latitude (rad) and distance (m) of the Moon in the model sky.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def moon(angles: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
 
 
 def sun(anomaly: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Longitude (rad) and distance (m) of the Sun from its mean anomaly (rad)."""
+    """Ecliptic longitude (rad) and distance (m) of the Sun from its mean anomaly (rad)."""
     e, eccentric = ECCENTRICITY, eccentric_anomaly(anomaly, ECCENTRICITY, steps=8)
     true = 2 * np.arctan2(
         np.sqrt(1 + e) * np.sin(eccentric / 2), np.sqrt(1 - e) * np.cos(eccentric / 2)
@@ -77,7 +77,7 @@ def sun(anomaly: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def positions(angles: FloatArray) -> dict[str, FloatArray]:
-    """Positions of Sun and Moon in axes of ecliptic and equinox, m, shape (n, 3) each."""
+    """Positions of Sun and Moon in ecliptic axes, m, shape (n, 3) each."""
     longitude, distance = sun(angles[1])
     sun_position = distance[:, np.newaxis] * unit_vectors(longitude, 0 * longitude)
     longitude, latitude, distance = moon(angles)
@@ -88,7 +88,7 @@ def positions(angles: FloatArray) -> dict[str, FloatArray]:
 
 
 def precessing(angles: FloatArray) -> FloatArray:
-    """Component of the torque of Sun and Moon that causes precession, shape (n,), s-2.
+    """Torque component of Sun and Moon that causes precession, per C - A, s-2, shape (n,).
 
     It is the torque per unit of C - A.
     """
@@ -98,12 +98,12 @@ def precessing(angles: FloatArray) -> FloatArray:
 
 
 def precessing_at(times: FloatArray) -> FloatArray:
-    """Torque component that causes precession, s-2, at times in s; see `precessing`."""
+    """Torque component that causes precession, per C - A, at times in s from J2000.0, s-2."""
     return precessing(arguments(times))
 
 
 def torus_mean(counts: tuple[int, int, int, int]) -> float:
-    """Mean of `precessing` over all values of the Delaunay arguments, by the trapezoid rule, s-2.
+    """Mean of the torque of `precessing` over all values of the Delaunay arguments, s-2.
 
     Parameters
     ----------

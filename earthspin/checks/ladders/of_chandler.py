@@ -1,4 +1,4 @@
-"""Error against run time for the period of the free wobble.
+"""Compare methods for the period of the free wobble by error and run time.
 
 Methods: fits to polar motion, and the peak of a spectrum.
 """
@@ -33,7 +33,7 @@ QUICK_EXCESS = 2.0  # a few records determine a scatter to one third
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return methods for the period of the free wobble, their settings and the reference."""
+    """Return the comparison (`Ladder`) of methods for the period of the free wobble."""
     years, records = (QUICK_YEARS, FEW_RECORDS) if quick else (YEARS, RECORDS)
     excess, scatter = QUICK_EXCESS if quick else 1.0, best_scatter(years[-1])
     bounds = {name: EXCESS[name] * excess * scatter * DAY for name in METHODS}
@@ -61,7 +61,7 @@ def ladder(quick: bool) -> Ladder:
 
 
 def best_scatter(years: float) -> float:
-    """Smallest possible scatter of a wobble period estimated from a record of given length, d.
+    """Smallest scatter of a wobble period that is estimated from some years of data, d.
 
     It is T sqrt(T/(4 pi Q L)) for the period T, the quality factor Q and the length L.
     """
@@ -70,7 +70,7 @@ def best_scatter(years: float) -> float:
 
 @cache
 def record(years: float, seed: int) -> Record:
-    """Simulate polar motion (mas) with a known free wobble, and return it with its times (d)."""
+    """Simulate polar motion with a known free wobble; return the times (d) and the pole (mas)."""
     return simulate(years, PERIOD, QUALITY, seed=seed)
 
 
@@ -91,7 +91,7 @@ def _period_by_fit(name: str, record: Record) -> float:
 
 
 def _peak(record: Record) -> Any:
-    """Period of the highest line, within the wobble's band, in the spectrum of a record, d."""
+    """Period of the highest peak in the spectrum of simulated polar motion, near the wobble, d."""
     time, p = record
     p = p - np.polyval(np.polyfit(time, p, 1), time)
     frequency = np.fft.fftfreq(time.size, time[1] - time[0])

@@ -1,4 +1,4 @@
-"""Error against run time for the compliances of a layered Earth.
+"""Compare methods for the compliances of a layered Earth by error and run time.
 
 Methods: collocation and step-by-step integrators.
 
@@ -45,7 +45,7 @@ BOUND = 1e-11
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return methods for the compliances of PREM, their settings and the reference."""
+    """Return the comparison (`Ladder`) of methods for the compliances of PREM."""
     true = load("compliances", INPUTS)["answers"]
     fine = (1e-4, 1e-7) if quick else (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-12)
     coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
@@ -85,7 +85,7 @@ def ladder(quick: bool) -> Ladder:
 
 
 def scaled_error(true: DoubleDouble, result: Array) -> float:
-    """Largest scaled error of all elements of the compliance matrix.
+    """Largest error of the elements of the compliance matrix, each scaled by its diagonal.
 
     The error of element (i, j) is divided by the geometric mean of elements (i, i) and (j, j).
     """
@@ -94,7 +94,7 @@ def scaled_error(true: DoubleDouble, result: Array) -> float:
 
 
 def _run(carry: Callable[..., Array], setting: float) -> Result:
-    """Compliances of PREM, and number of radii at which the equations were evaluated."""
+    """Compliances of PREM by one integrator, and the number of radii that it evaluated."""
     radii = 0
 
     def counted(
@@ -113,7 +113,7 @@ def _run(carry: Callable[..., Array], setting: float) -> Result:
 
 
 def _by_scipy(name: str, matrix: Matrix, start: float, stop: float, y: Array, rtol: float) -> Array:
-    """Integrate all columns of the solution together, as one system of equations, with SciPy."""
+    """Integrate all solution columns along the radius with SciPy, as one system of equations."""
 
     def slope(r: float, flat: Array) -> Array:
         return np.asarray(_at(matrix, r) @ flat.reshape(y.shape)).ravel()
@@ -138,7 +138,7 @@ def _runge_kutta(matrix: Matrix, start: float, stop: float, y: Array, step: floa
 
 
 def _even_layers(matrix: Matrix, start: float, stop: float, y: Array, step: float) -> Array:
-    """Integrate by thin homogeneous layers: multiply by the matrix exponential of each layer.
+    """Integrate through thin homogeneous layers by the matrix exponential of each layer.
 
     The exponents are r M in the middle of each layer in ln r, times its thickness in ln r.
     """
@@ -154,5 +154,5 @@ def _edges(start: float, stop: float, step: float) -> Array:
 
 
 def _at(matrix: Matrix, r: float) -> Array:
-    """Matrix M of the equations dy/dr = M y at one radius."""
+    """Matrix M of the elastic-gravitational equations dy/dr = M y at one radius."""
     return np.asarray(matrix(np.array([r]))[..., 0, :, :])

@@ -1,4 +1,4 @@
-r"""Error against run time for positions on orbits by elements.
+r"""Compare methods for positions on orbits from orbital elements by error and run time.
 
 Methods: the package, textbook methods and Skyfield.
 
@@ -60,7 +60,7 @@ ROUNDING = 1e-28
 
 
 def days() -> FloatArray:
-    """Times at which positions are compared, d, rounded to 1/16 d.
+    """Times at which the positions are compared, d, rounded to 1/16 d.
 
     Rounding makes them the same on every machine.
     """
@@ -69,7 +69,7 @@ def days() -> FloatArray:
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return methods for positions on orbits by elements, their settings and the reference."""
+    """Return the comparison (`Ladder`) of methods for positions from orbital elements."""
     true = load("elements", INPUTS)["places"]
     wanted = np.arange(TIMES)[1::2] if quick else np.arange(TIMES)
     t = days()[wanted]
@@ -114,7 +114,7 @@ def _by_elements(t: FloatArray) -> Result:
 
 
 def _on_all_orbits(run: InPlane, t: FloatArray, setting: float) -> Result:
-    """Positions on all test orbits by one method, with the number of its calls.
+    """Positions on all test orbits by one method, and number of its function evaluations.
 
     The method computes positions in the plane of an orbit.
     """
@@ -137,7 +137,7 @@ def _in_space(orbit: Ellipse, t: FloatArray, x: FloatArray, y: FloatArray) -> Fl
 
 
 def _on_ellipse(orbit: Ellipse, cosine: FloatArray, sine: FloatArray, calls: float) -> Planar:
-    """Coordinates in the orbital plane from the eccentric anomaly, with the number of calls."""
+    """Coordinates in the orbital plane from cosine and sine of the eccentric anomaly."""
     return orbit.a * (cosine - orbit.e), orbit.a * math.sqrt(1 - orbit.e**2) * sine, int(calls)
 
 
@@ -156,7 +156,7 @@ def _newton(
 
 
 def _danby(orbit: Ellipse, mean: FloatArray, steps: float) -> Planar:
-    """Newton's method from Danby's first estimate M + 0.85 e sign(sin M) (Danby 1988)."""
+    """Solve Kepler's equation by Newton's method from Danby's first estimate (Danby 1988)."""
     return _newton(orbit, mean, steps, mean + 0.85 * orbit.e * np.sign(np.sin(mean)))
 
 
@@ -192,7 +192,7 @@ def _integrated(orbit: Ellipse, mean: FloatArray, rtol: float) -> Planar:
 
 
 def _skyfield(orbit: Ellipse, mean: FloatArray, setting: float) -> Planar:
-    """Skyfield's propagator for comets, which follows SPICE."""
+    """Coordinates in the orbital plane by Skyfield's two-body propagator for comets."""
     from skyfield.keplerlib import propagate
 
     position, velocity, gm = _start(orbit)

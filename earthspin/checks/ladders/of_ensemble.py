@@ -1,4 +1,4 @@
-"""Error against run time for the uncertainty of the precession period due to H.
+"""Compare methods for the uncertainty of the precession period due to H by error and run time.
 
 Methods: ensembles and linear errors.
 
@@ -38,7 +38,7 @@ EXCESS, QUICK_EXCESS = 1.5, 2.0
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return methods for the half-width of the precession period due to H, with a reference."""
+    """Return the comparison (`Ladder`) of methods for the precession period's uncertainty."""
     seeds = FEW_SEEDS if quick else SEEDS
     members = QUICK_MEMBERS if quick else MEMBERS
     scatter = (QUICK_EXCESS if quick else EXCESS) * expected_scatter(members[-1])
@@ -68,7 +68,7 @@ def ladder(quick: bool) -> Ladder:
 
 
 def expected_scatter(members: int) -> float:
-    """Expected relative scatter of a half-width that is estimated from random members.
+    """Expected relative standard deviation of a half-width estimated from random members.
 
     A quantile of n draws has the standard deviation sqrt(p (1 - p)/n) divided by the density, and
     the two ends have the correlation p/(1 - p).
@@ -95,7 +95,7 @@ def _from_draws(members: int, seed: int) -> Result:
 
 
 def _from_even_members(members: int) -> Result:
-    """Half-width of the precession period from evenly spaced quantiles of H.
+    """Half-width of the precession period from quantiles of H at even probabilities.
 
     The number of members is returned with it.
     """
@@ -104,7 +104,7 @@ def _from_even_members(members: int) -> Result:
 
 
 def _half_width(members: Mapping[str, Any], seed: int = 0) -> FloatArray:
-    """Half-width of the period in an ensemble, divided by the period without uncertainty."""
+    """Half-width of the precession period in an ensemble, divided by the nominal period."""
     answer = ensemble("precession", members, seed=seed)
     low, high = quantiles(answer, ENDS).precession_period.sel(TOTAL).values
     return np.atleast_1d((high - low) / 2 / _period())

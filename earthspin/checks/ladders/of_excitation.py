@@ -1,4 +1,4 @@
-r"""Error against run time for polar motion and its excitation.
+r"""Compare methods for polar motion and its excitation by error and run time.
 
 Methods: the exact schemes and approximate ones.
 
@@ -39,7 +39,7 @@ TO, FROM = "excitation from polar motion", "polar motion from excitation"
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return methods for the excitation of polar motion, their settings and the reference."""
+    """Return the comparison (`Ladder`) of methods for polar motion and its excitation."""
     span = SHORT_SPAN if quick else SPAN
     steps = (10.0, 1.0) if quick else STEPS
     to, back = partial(_excitation_setting, span=span), partial(_polar_motion_setting, span=span)
@@ -83,7 +83,7 @@ def true_polar_motion(t: FloatArray) -> Complex:
 
 
 def true_mean(begin: FloatArray, length: float) -> Complex:
-    """Exact mean excitation of the test problem over intervals of equal length, mas."""
+    """Exact mean excitation of the test problem over successive equal intervals, mas."""
     middle = begin + length / 2
     chi = np.zeros(begin.shape, dtype=complex)
     for size, period in WAVES:
@@ -94,7 +94,7 @@ def true_mean(begin: FloatArray, length: float) -> Complex:
 
 
 def weighting_error(step: float, *, resonant: bool) -> float:
-    """Bound on the error from replacing the weighted mean over an interval by the plain mean, mas.
+    """Bound on the error from replacing a weighted mean over an interval by the plain mean, mas.
 
     The plain mean of c exp(i w t) over an interval of length D differs from the mean with the
     weights of the response by c s w D^2/12. The polar motion differs by s/(s - w) times as much,
@@ -119,7 +119,7 @@ def weighting_error(step: float, *, resonant: bool) -> float:
 def _method(
     name: str, task: str, steps: tuple[float, ...], setting: Callable[[float], Setting]
 ) -> Method:
-    """Make the `Method` of one numerical scheme, with one setting for each time step.
+    """Make the `Method` of one numerical scheme, with a setting for each time step.
 
     Only exact schemes have a finite error bound.
     """
@@ -129,7 +129,7 @@ def _method(
 
 
 def _excitation_setting(scheme: str, step: float, span: float) -> Setting:
-    """Make a setting that computes excitation from polar motion.
+    """Make a setting whose run computes excitation from polar motion at one time step.
 
     It returns the computed excitation, and the exact mean excitation over the same intervals.
     """
@@ -140,7 +140,7 @@ def _excitation_setting(scheme: str, step: float, span: float) -> Setting:
 
 
 def _polar_motion_setting(scheme: str, step: float, span: float) -> Setting:
-    """Make a setting that computes polar motion from excitation.
+    """Make a setting whose run computes polar motion from excitation at one time step.
 
     It returns the computed polar motion, and the exact polar motion at the same times.
     """

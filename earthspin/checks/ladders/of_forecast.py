@@ -1,4 +1,4 @@
-"""Error against run time for a forecast of the pole, by this package and by common methods."""
+"""Compare forecasts of polar motion by this package and by common methods: error and run time."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ USUAL_ORDER = 40
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return methods that forecast the pole, their settings and the reference."""
+    """Return the comparison (`Ladder`) of methods that forecast polar motion."""
     ends = origins()[:: QUICK if quick else 1]
     methods: list[Method] = []
     for days, bound in BOUNDS.items():
@@ -115,7 +115,7 @@ def origins() -> NDArray[np.intp]:
 
 @cache
 def _fitted_once() -> FastExcitation:
-    """Fit the excitation model, for use in all forecasts, to the data before the first one."""
+    """Fit the excitation model to the data before the first forecast; all forecasts use it."""
     return fit(_observed()[1][: origins()[0]])
 
 

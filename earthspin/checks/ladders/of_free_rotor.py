@@ -1,4 +1,4 @@
-"""Error against run time for a free triaxial rotor.
+"""Compare methods for a free triaxial rotor by error and run time.
 
 Methods: Jacobi's closed form and numerical integrators.
 """
@@ -22,7 +22,7 @@ INPUTS = {"moments": MOMENTS, "omega": OMEGA}
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return methods for a free triaxial rotor, their settings and the reference."""
+    """Return the comparison (`Ladder`) of methods for a free triaxial rotor."""
     coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
     stiff = (1e-3, 1e-4) if quick else (1e-3, 1e-4, 1e-5)
     true = load("free-rotor", INPUTS)
@@ -54,7 +54,7 @@ def _integrated(t: FloatArray, rtol: float) -> Result:
 
 
 def _by_scipy(method: str, t: FloatArray, rtol: float) -> Result:
-    """Integrate Euler's equations and the quaternion with SciPy."""
+    """Integrate Euler's equations and the attitude quaternion of a free rotor with SciPy."""
     a, b, c = MOMENTS
 
     def rates(_: float, state: FloatArray) -> list[float]:

@@ -1,4 +1,4 @@
-"""Error against run time for the spin axis over a million years."""
+"""Compare methods for the Earth's spin axis over a million years by error and run time."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ BOUND = 0.02 * ARCSEC
 
 @lru_cache
 def orbit() -> OrbitTable:
-    """Shipped orbit table of the Earth."""
+    """Table of the Earth's orbit that is shipped with the package."""
     result = shipped(BODY.name)
     if result is None:
         raise LookupError(BODY.name)
@@ -54,7 +54,7 @@ def orbit() -> OrbitTable:
 
 
 def inputs() -> dict[str, Any]:
-    """Inputs that determine the stored reference, including the checksum of the orbit table."""
+    """Inputs of the stored reference solution, including the checksum of the orbit table."""
     return {
         "orbit": orbit().sha256,
         "strength": asdict(STRENGTH),
@@ -69,7 +69,7 @@ def times(span: float) -> FloatArray:
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return methods for the spin axis over a million years, their settings and the reference."""
+    """Return the comparison (`Ladder`) of methods for the spin axis over a million years."""
     true = load("long-term", inputs())["quick" if quick else "axes"]
     start, t = true.hi[:, -1], times(FEW if quick else SPAN)
     fitted = FittedSlope(t[0])
@@ -125,7 +125,7 @@ Slope = Callable[[float, FloatArray], FloatArray]
 
 
 def orbit_slope(time: float, s: FloatArray) -> FloatArray:
-    """Rate of change of the spin axis, s-1, with the orbit table evaluated in every call."""
+    """Rate of change of the spin axis, s-1; each call evaluates the orbit table."""
     times = np.array([time])
     torque = pull(STRENGTH, orbit().at(times), times)
     m = torque.axis[:, 0]
@@ -133,7 +133,7 @@ def orbit_slope(time: float, s: FloatArray) -> FloatArray:
 
 
 class FittedSlope:
-    """Rate of change of the spin axis, from polynomials fitted to the orbit table.
+    """Rate of change of the spin axis, with torques from polynomials fitted to the orbit table.
 
     There is one polynomial for each window of the table.
     """
@@ -173,7 +173,7 @@ def _scipy(slope: Slope, start: FloatArray, t: FloatArray, rtol: float) -> Resul
 
 
 def _runge_kutta(slope: Slope, start: FloatArray, times: FloatArray, kyr: float) -> Result:
-    """Integrate by the classical Runge-Kutta method in equal steps that include the times."""
+    """Integrate the spin axis by the classical Runge-Kutta method in equal steps (kyr)."""
     each = max(round(-times[0] / (TIMES - 1) / (kyr * KYR)), 1)
     step = times[0] / (TIMES - 1) / each
     s, axes = start, [start]

@@ -1,4 +1,4 @@
-"""Error against run time for the mean torque of an orbit by elements.
+"""Compare methods for the mean torque over an orbit given by elements: error and run time.
 
 Methods: closed form, windowed averages and sums.
 
@@ -32,7 +32,7 @@ NORMAL = np.array([0.0, 0.0, 1.0])
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return methods for the mean torque of an orbit, their settings and the reference."""
+    """Return the comparison (`Ladder`) of methods for the mean torque over an orbit."""
     true = load("mean-orbit", INPUTS)["mean"]
     cycle = 2 * math.pi / abs(ORBIT.node_rate)
     counts = (8, 32) if quick else (8, 16, 32, 64, 120)
@@ -81,7 +81,7 @@ def _by_window(turns: float, cycle: float, taper: str = "plain", step: float = 1
 
 
 def _by_sum(count: float) -> Result:
-    """Mean precessing torque by a sum over mean anomalies on four orbits.
+    """Mean precessing torque by a sum over mean anomalies, for four positions of the node.
 
     The nodes of the four orbits are 90 degrees apart.
     """

@@ -1,4 +1,4 @@
-"""Error against run time for the figure axis under Sun and Moon.
+"""Compare methods for the figure axis under the torques of Sun and Moon by error and run time.
 
 Methods: Picard iteration and step-by-step integrators.
 """
@@ -51,7 +51,7 @@ REFERENCE_ERROR = 1e-19
 
 
 def days() -> FloatArray:
-    """Times of the reference solution, d from J2000.0; some are in the first `FEW_DAYS` days.
+    """Times at which figure axes are compared, d from J2000.0, early ones and later ones.
 
     They are multiples of 1/4 d.
     """
@@ -82,7 +82,7 @@ class Motion:
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return methods for the motion of the figure axis, their settings and the reference."""
+    """Return the comparison (`Ladder`) of methods for the motion of the figure axis."""
     true = load("pole", INPUTS)
     wanted = slice(0, FEW_TIMES if quick else TIMES)
     span = FEW_DAYS if quick else DAYS
@@ -156,7 +156,7 @@ def _attitude(motion: Motion) -> Result:
 
 
 def _peer(motion: Motion, tolerance: float) -> Result:
-    """Taylor series of angular momentum and figure axis by heyoka."""
+    """Figure axis from a Taylor-series integration with the library heyoka."""
     days = motion.times / DAY
     return taylor.figure_axis(
         motion.momentum, motion.start, days, h=H, spin_rate=SPIN, tolerance=tolerance
@@ -164,7 +164,7 @@ def _peer(motion: Motion, tolerance: float) -> Result:
 
 
 def _by_scipy(method: str, motion: Motion, rtol: float) -> Result:
-    """Figure axis from an integration of the angular momentum by SciPy.
+    """Figure axis from an integration of the angular momentum with SciPy.
 
     The torque is computed as if figure axis and angular momentum were parallel; the angle between
     them, to first order, is added last.

@@ -1,4 +1,4 @@
-"""Error against run time for the mean precession rate from torques.
+"""Compare methods for the mean precession rate from torques by error and run time.
 
 Methods: tapers, window lengths, steps, plain means.
 """
@@ -32,7 +32,7 @@ QUICK_BOUND = 1e-3
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return methods for the mean precession rate, their settings and the reference."""
+    """Return the comparison (`Ladder`) of methods for the mean precession rate."""
     epochs = EPOCHS[::4] if quick else EPOCHS
     true, cycle = model_sky.torus_mean(TORUS), model_sky.node_period()
     windows, years = (QUICK_WINDOWS, PLAIN_YEARS[1:3]) if quick else (WINDOWS, PLAIN_YEARS)
@@ -68,7 +68,7 @@ def ladder(quick: bool) -> Ladder:
 
 
 def _setting(words: str, taper: str, length: float, step: int, epochs: FloatArray) -> Setting:
-    """Make a setting whose run time is measured at one epoch, and its error at all epochs."""
+    """Make a setting: run time from an average about one epoch, error from many epochs."""
 
     def mean_about(
         epoch: float, torque: Callable[[FloatArray], FloatArray] = _daily_torque
@@ -85,14 +85,14 @@ def _setting(words: str, taper: str, length: float, step: int, epochs: FloatArra
 
 
 def _daily_torque(times: FloatArray) -> FloatArray:
-    """Precessing torque at whole days, taken from a daily series that is computed once."""
+    """Precessing torque at whole days, looked up in a stored daily series."""
     first, series = _series()
     return np.asarray(series[np.rint(times / DAY).astype(int) - first])
 
 
 @cache
 def _series() -> tuple[int, FloatArray]:
-    """First day and values of a daily series of torques that covers all epochs and windows."""
+    """Compute a daily series of precessing torques; return its first day and the values."""
     longest = max(turns for turns, _ in WINDOWS) * model_sky.node_period() / DAY
     reach = int(max(longest, max(PLAIN_YEARS) * 365.25) / 2 + np.max(np.abs(EPOCHS))) + 2
     return -reach, model_sky.precessing_at(np.arange(-reach, reach + 1.0) * DAY)

@@ -1,4 +1,4 @@
-"""Error against run time for the attitude of a tumbling moon.
+"""Compare methods for the attitude of a tumbling moon by error and run time.
 
 Methods: Gauss windows and step-by-step integrators.
 """
@@ -42,12 +42,12 @@ REFERENCE_ERROR = 5e-17
 
 
 def times() -> FloatArray:
-    """Evenly spaced times of the reference solution, multiplied by the orbital mean motion."""
+    """Evenly spaced times of the reference solution, in units of the inverse mean motion."""
     return np.linspace(0.0, SPAN, TIMES + 1)[1:]
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return methods for the attitude of a tumbling moon, their settings and the reference."""
+    """Return the comparison (`Ladder`) of methods for the attitude of a tumbling moon."""
     t = times()[: FEW if quick else TIMES]
     tolerances = (1e-6, 3e-7) if quick else (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
     fine = (1e-6, 1e-9) if quick else (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
@@ -74,14 +74,14 @@ def ladder(quick: bool) -> Ladder:
 
 
 def _places(t: FloatArray) -> FloatArray:
-    """Positions of the perturber on its ellipse, in units of the semi-major axis, shape (n, 3)."""
+    """Positions of the perturber on its ellipse, divided by the semi-major axis, shape (n, 3)."""
     anomaly = eccentric_anomaly(t, ECCENTRICITY, steps=6)
     across = math.sqrt(1 - ECCENTRICITY**2) * np.sin(anomaly)
     return np.stack([np.cos(anomaly) - ECCENTRICITY, across, 0 * anomaly], axis=-1)
 
 
 def _windows(t: FloatArray, tolerance: float) -> Result:
-    """Angular velocity and attitude by the package's solver on Gauss windows."""
+    """Angular velocity and attitude of the tumbling moon by the package's own solver."""
     body = Rigid(
         c_minus_a=np.array([H + TRIAXIALITY / 2]),
         c_minus_b=np.array([H - TRIAXIALITY / 2]),
@@ -96,7 +96,7 @@ def _windows(t: FloatArray, tolerance: float) -> Result:
 
 
 def _attitude(t: FloatArray, rtol: float) -> Result:
-    """Angular velocity and attitude by the solver in `earthspin.checks.solvers.attitude`."""
+    """Angular velocity and attitude of the tumbling moon by the independent solver."""
     calls = 0
 
     def tide(time: float) -> FloatArray:
@@ -115,7 +115,7 @@ def _attitude(t: FloatArray, rtol: float) -> Result:
 
 
 def _by_scipy(method: str, t: FloatArray, rtol: float) -> Result:
-    """Integrate Euler's equations and the quaternion with SciPy; positions by Kepler's equation."""
+    """Angular velocity and attitude of the tumbling moon, integrated with SciPy."""
     a, b, c = 1 - H - TRIAXIALITY / 2, 1 - H + TRIAXIALITY / 2, 1.0
     shrink = math.sqrt(1 - ECCENTRICITY**2)
 

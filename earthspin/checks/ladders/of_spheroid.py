@@ -1,4 +1,4 @@
-"""Error against run time for attraction and torque of a homogeneous spheroid.
+"""Compare methods for attraction and torque of a homogeneous spheroid by error and run time.
 
 Methods: exact form, series and sums.
 """
@@ -43,7 +43,7 @@ def points() -> FloatArray:
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return methods for attraction and torque of a spheroid, their settings and the reference."""
+    """Return the comparison (`Ladder`) of methods for attraction and torque of a spheroid."""
     positions = points()
     true = load("spheroid", {"flattening": FLATTENING, "points": positions.tolist()})
     degrees = (2, 6, 20) if quick else tuple(range(2, 22, 2))
@@ -99,7 +99,7 @@ def _exact(r: FloatArray) -> tuple[Any, Any]:
 
 
 def _torque(push: Any, r: Any) -> Any:
-    """Torque on the spheroid: `push` times cross product of position `r` and symmetry axis z."""
+    """Torque on the spheroid: a scalar `push` times the cross product of r and the z axis."""
     return np.stack([push * r[:, 1], -push * r[:, 0], np.zeros_like(push)], axis=-1)
 
 
@@ -121,7 +121,7 @@ def _series(n_max: int, r: FloatArray) -> tuple[Any, Any]:
 
 
 def _maccullagh(r: FloatArray) -> tuple[Any, Any]:
-    """Attraction and torque of the monopole and C - A (I.9.31, I.9.32)."""
+    """Attraction and torque from the monopole and the moment difference C - A (I.9.31, I.9.32)."""
     bulge = (1 - (1 - FLATTENING) ** 2) / 5
     square = np.sum(r * r, axis=1)
     distance = np.sqrt(square)
@@ -148,7 +148,7 @@ def _arctangents(r: Any) -> tuple[Any, Any]:
 
 
 def _sum(cells: int, r: FloatArray) -> tuple[Any, Any]:
-    """Attraction and torque by a sum over Gauss points in radius and latitude."""
+    """Attraction and torque by numerical integration over Gauss points of the body's volume."""
     node, weight = np.polynomial.legendre.leggauss(cells)
     size, size_weight = (1 + node) / 2, weight / 2
     longitude = 2 * np.pi * (np.arange(2 * cells) + 0.5) / (2 * cells)

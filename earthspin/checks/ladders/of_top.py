@@ -1,4 +1,4 @@
-"""Error against run time for a heavy symmetric top: the closed form and numerical integrators."""
+"""Compare the closed form of a heavy top with integrators by error and run time."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ TOP = {
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return methods for the motion of a heavy top, their settings and the reference."""
+    """Return the comparison (`Ladder`) of methods for the motion of a heavy top."""
     coarse = (1e-3, 1e-5) if quick else (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
     true = load("top", TOP)
     t, count, fine, bound = periods(true, quick)

@@ -1,4 +1,4 @@
-"""Error against run time for Sun and Moon at the true equator, by treatments of nutation.
+"""Compare methods for directions to Sun and Moon at the true equator by error and run time.
 
 Nutation is interpolated, exact, or neglected.
 """
@@ -43,7 +43,7 @@ SCALE_2006, J2_RATE_2006 = 0.4697e-6, -2.7774e-6
 
 
 def ladder(quick: bool) -> Ladder:
-    """Return methods for Sun and Moon at the true equator, their settings and the reference."""
+    """Return the comparison (`Ladder`) of methods for Sun and Moon at the true equator."""
     days = START + np.linspace(0.0, YEAR, FEW_EPOCHS if quick else EPOCHS)
     ends = float(days[0]), float(days[-1])
     true = reference(days)
@@ -146,7 +146,7 @@ def _arcsec() -> Any:
 
 
 def _about(axis: int, angle: LongArray) -> LongArray:
-    """Matrices that rotate the frame by given angles about a coordinate axis, shape (n, 3, 3)."""
+    """Rotation matrices of the frame about a coordinate axis, shape (n, 3, 3)."""
     c, s = np.cos(angle), np.sin(angle)
     first, second = (axis + 1) % 3, (axis + 2) % 3
     matrix = np.zeros((angle.size, 3, 3), dtype=np.longdouble)
@@ -157,14 +157,14 @@ def _about(axis: int, angle: LongArray) -> LongArray:
 
 
 def _directions(matrix: FloatArray, days: FloatArray) -> FloatArray:
-    """Unit vectors to Sun and Moon, rotated by one matrix for each day, shape (2, n, 3)."""
+    """Unit vectors to Sun and Moon in the frame of one matrix per day, shape (2, n, 3)."""
     result = positions(days)
     vectors = np.stack([rotate(matrix, result[name]) for name in CODES])
     return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
 
 
 def _skyfield_source(days: FloatArray) -> Callable[[], Result]:
-    """Directions from the source "skyfield" of the package."""
+    """Make a function that returns directions from the package's own Skyfield source."""
     source = Skyfield(kernel())
 
     def run() -> Result:
@@ -180,7 +180,7 @@ def _skyfield_kernel() -> Any:
 
 
 def _skyfield(days: FloatArray) -> Callable[[], Result]:
-    """Directions from Skyfield's own functions, with new time objects in each run."""
+    """Make a function that returns directions from calls of Skyfield itself."""
     scale = load.timescale(builtin=True)
 
     def run() -> Result:

@@ -1,4 +1,4 @@
-"""Common functions of the ladders for rotations: free rotor, top and tumbling moon."""
+"""Functions shared by the method comparisons of free rotor, heavy top and tumbling moon."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def ladder_of_rotation(
     reference: str,
     reference_error: float = ROUNDING,
 ) -> Ladder:
-    """Make the ladder of a rotating body from its stored reference angular velocity and attitude.
+    """Make the `Ladder` of a rotation with stored reference angular velocity and attitude.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def ladder_of_rotation(
 def periods(
     true: Mapping[str, DoubleDouble], quick: bool
 ) -> tuple[FloatArray, str, tuple[float, ...], float]:
-    """Choose the times and integrator tolerances of a comparison of rotations, full or quick.
+    """Choose the times, and the tolerances of integrators, for a full or quick comparison.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Figure axis by the Taylor integrator heyoka, if it is installed.
+"""Integrate the figure axis by Taylor series with the library heyoka, if it is installed.
 
 The equations are those of `earthspin.checks.solvers.momentum_and_figure`. The positions of Sun and
 Moon are polynomials over pieces of four days, as in the kernel. Their coefficients are parameters,
@@ -37,7 +37,7 @@ def figure_axis(
     spin_rate: float,
     tolerance: float,
 ) -> tuple[FloatArray, int]:
-    """Figure axis at ascending days from J2000.0, shape (n, 3), and number of integration steps.
+    """Integrate the figure axis with heyoka; return axes, shape (n, 3), and number of steps.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def _pieces(end: float) -> FloatArray:
 
 @cache
 def _compiled(h: float, spin_rate: float, tolerance: float) -> Any:
-    """Compile the equations of motion into a heyoka integrator.
+    """Compile the equations of figure axis and angular momentum into a heyoka integrator.
 
     Its parameters are the coefficients of the positions and the middle of the time interval.
     """
@@ -111,7 +111,7 @@ def _compiled(h: float, spin_rate: float, tolerance: float) -> Any:
 
 
 def _polynomial(hy: Any, x: Any, first: int) -> Any:
-    """Symbolic polynomial in x; its coefficients are the parameters from index `first` on."""
+    """Symbolic polynomial in x with heyoka parameters, from index `first`, as coefficients."""
     value = hy.par[first + DEGREE]
     for n in range(DEGREE - 1, -1, -1):
         value = value * x + hy.par[first + n]

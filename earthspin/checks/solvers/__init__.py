@@ -1,1 +1,1 @@
-"""Solvers that share no method with the package, as references for cases, ladders and tests."""
+"""Independent solvers, used as references by self-checks and tests of the package's solvers."""

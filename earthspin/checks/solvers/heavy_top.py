@@ -75,7 +75,7 @@ def state_of_angles(
     theta_rate: FloatArray,
     spin: ArrayLike,
 ) -> tuple[FloatArray, FloatArray]:
-    """Angular velocity in body axes (I.7.3) and attitude of a top, from Euler angles and rates.
+    """Angular velocity (I.7.3) and attitude of a top, from Euler angles and their rates.
 
     The attitude is Rz(phi) Rx(theta) Rz(psi).
 

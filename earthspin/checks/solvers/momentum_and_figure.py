@@ -61,7 +61,7 @@ def axisymmetric_motion(
 
 
 def slopes(state: Any, pull: Any, h: float, spin_rate: float) -> list[Any]:
-    """Rates of change of angular momentum and figure axis, s-1, as numbers or as symbols.
+    """Rates of change of angular momentum and figure axis, s-1, for numbers or symbols.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Simulated polar motion with known parameters, for tests of the methods."""
+"""Simulated polar motion with a known free wobble, for tests of estimation methods."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def simulate(
     memory: float = RED_MEMORY,
     seed: int | None = None,
 ) -> tuple[Array, Complex]:
-    """Simulate a driven free wobble with seasonal terms, drift and background.
+    """Simulate polar motion: free wobble driven by noise, with seasonal terms and a trend.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def simulate(
     time = np.arange(0.0, years * 365.25, step)
 
     def process(rate: complex, size: float) -> Complex:
-        """Draw stationary complex noise of rms `size` with autocorrelation exp(rate |time lag|)."""
+        """Draw complex noise of rms `size` whose autocorrelation is exp(rate |time lag|)."""
         kick = generator.standard_normal((time.size, 2)) @ np.array([1, 1j]) / np.sqrt(2)
         keep = np.exp(rate * step)
         kick[1:] *= np.sqrt(1 - abs(keep) ** 2)
@@ -75,7 +75,7 @@ def simulate(
 def red_size(
     period: float, quality_factor: float, share: float, memory: float, amplitude: float = 128.0
 ) -> float:
-    """Root mean square (mas) of the red noise in an excitation, from its share of the power.
+    """Rms (mas) of red noise in an excitation, from its share of the power at the wobble.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Step-by-step integration with SciPy, and the rate of a quaternion."""
+"""Step-by-step integration with SciPy, and the time derivative of an attitude quaternion."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def integrate(
 
 
 def quaternion_rate(quaternion: Iterable[Any], omega: Iterable[Any]) -> list[Any]:
-    """Rate of change (1/2) q omega of an attitude quaternion q, scalar first.
+    """Time derivative (1/2) q omega of an attitude quaternion q, scalar component first.
 
     Parameters
     ----------
