@@ -1,1 +1,1 @@
-"""Framework without physics: questions, parts, plans, runs, labels and files."""
+"""Framework without physics: it runs the functions behind each question and stores the results."""

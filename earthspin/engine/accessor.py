@@ -1,4 +1,4 @@
-"""Accessor `ds.earthspin` of answers; it is registered when the first answer is made.
+"""Accessor `ds.earthspin` of result Datasets; it is registered when the first result is made.
 
 ``import earthspin.engine.accessor`` registers it without an answer.
 """
@@ -35,7 +35,7 @@ _NO_VECTOR = "the answer has no vector in the GCRS"
 @xr.register_datatree_accessor("earthspin")  # type: ignore[no-untyped-call]
 @xr.register_dataset_accessor("earthspin")  # type: ignore[no-untyped-call]
 class Answer:
-    """Accessor of an answer: its question, plan, tables, statistics and figures.
+    """Accessor `ds.earthspin` of a result Dataset: its question, plan, statistics and figures.
 
     Attributes
     ----------
@@ -58,13 +58,13 @@ class Answer:
 
     @property
     def scene(self) -> Question:
-        """Question that was answered, with the values of all its keys, read from the answer."""
+        """Question that this Dataset answers, with the values of all its input parameters."""
         question: Question = earthspin.load_scene(self._dataset)
         return question
 
     @property
     def plan(self) -> Plan:
-        """Plan of the run: parts that ran, and parts that were left out, with reasons."""
+        """Plan of the run: functions that ran, and functions left out, with the reasons."""
         seconds = seconds_of(scene_of(self._dataset))
         return replace(plan_parts(self.scene), seconds=dict(seconds))
 
@@ -149,7 +149,7 @@ class Answer:
         return coordinates
 
     def to_iers_table(self) -> IERS_A:
-        """Return an astropy table of Earth orientation from an answer of `forecast`.
+        """Convert a forecast to an astropy table of Earth orientation parameters.
 
         Polar motion and celestial pole offsets are observed up to the origin and forecast after
         it, day by day and without errors. UT1 - UTC is that of finals2000A. Dates outside the table
@@ -182,7 +182,7 @@ class Answer:
         return forecast.iers_table(question)
 
     def quantiles(self, shares: Sequence[float] = (0.025, 0.5, 0.975)) -> xr.Dataset:
-        """Quantiles of an ensemble.
+        """Return quantiles over the ensemble members of every result that depends on them.
 
         Parameters
         ----------
@@ -241,7 +241,7 @@ class Answer:
         return sensitivity(self._dataset)
 
     def plot(self) -> Any:
-        """Draw the figures that belong to the question of this answer.
+        """Draw the standard figures of this result.
 
         Returns
         -------
@@ -271,7 +271,7 @@ class Answer:
 
 
 def _spread(dataset: xr.Dataset) -> xr.Dataset:
-    """Make all variables of a dataset have the same dimensions, as columns of a table need.
+    """Convert a Dataset so that all its variables have the same dimensions, as a table needs.
 
     A variable with further dimensions becomes one variable for each of their labels.
     """

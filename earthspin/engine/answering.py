@@ -1,4 +1,4 @@
-"""Answer a question: once, for ensemble members, or with errors from random members."""
+"""Compute the answer to a question: once, for each ensemble member, or with sampled errors."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _ENDS = (0.025, 0.975)
 
 
 def answer(question: Question) -> xr.Dataset:
-    """Answer a question.
+    """Compute the answer to a question, as a Dataset.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def answer(question: Question) -> xr.Dataset:
 
 
 def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.DataTree:
-    """Answer a question, and return the answer as a tree with the requested sections.
+    """Compute the answer to a question, and return it with the requested sections as a DataTree.
 
     An ensemble has only the sections `plan` and `neglected`.
 
@@ -85,7 +85,7 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
 
 
 def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
-    """Add to an answer errors that are estimated from an ensemble of random members.
+    """Add error estimates from an ensemble of random members to the answer to a question.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ ENDS = ("start", "stop")
 
 
 def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
-    """Make the public Python function of a question; its arguments are the keys of the question.
+    """Make the public Python function that answers a question of the given class.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
 
 
 def _with_span(question: type[Question], values: dict[str, Any]) -> dict[str, Any]:
-    """Replace the arguments `start` and `stop` by `span`; refuse one without the other."""
+    """Replace the arguments `start` and `stop` by `span`; raise an error if one is missing."""
     if "start" not in question.positional:
         return values
     ends = {end: values.pop(end, None) for end in ENDS}
@@ -57,7 +57,7 @@ def _with_span(question: type[Question], values: dict[str, Any]) -> dict[str, An
 
 
 def arguments_of(question: type[Question]) -> dict[str, Key | None]:
-    """Names of the arguments of the public function of a question, in order, with their keys.
+    """Argument names of the public function of a question, each with its `Key` or None.
 
     The arguments `start` and `stop` are not keys; they map to None.
     """
@@ -68,7 +68,7 @@ def arguments_of(question: type[Question]) -> dict[str, Key | None]:
 
 
 def signature_of(question: type[Question]) -> inspect.Signature:
-    """Signature of the public Python function of a question."""
+    """Signature (argument names, types and defaults) of the public function of a question."""
     parameters = []
     for name, entry in arguments_of(question).items():
         free = name in question.positional
@@ -81,14 +81,14 @@ def signature_of(question: type[Question]) -> inspect.Signature:
 
 
 def _as_written(value: Any) -> Any:
-    """Return a default value as a user would type it, with bodies by their names."""
+    """Convert a default value to the form that a user would type, with bodies by name."""
     if isinstance(value, tuple):
         return tuple(_as_written(item) for item in value)
     return getattr(value, "name", value)
 
 
 def docstring_of(question: type[Question]) -> str:
-    """Docstring of the public function of a question: the class docstring and all arguments."""
+    """Make the docstring of a question's public function from its class and its arguments."""
     head, _, rest = inspect.cleandoc(question.__doc__ or "").partition("\n")
     lines = [head, "", "Parameters", "----------"]
     for name, entry in arguments_of(question).items():
@@ -123,7 +123,7 @@ _END = {
 
 
 def script_of(question: type[Question]) -> str:
-    """Write the graph of a question as a Python script that calls every part in order.
+    """Write a Python script that calls all functions (parts) behind a question, in order.
 
     Parameters
     ----------

@@ -52,7 +52,7 @@ _ENTRY = re.compile(r"([0-9a-f]{64})  (.+)")
 
 
 def append_line(path: Path) -> None:
-    """Append a last line to a complete file, with the checksum of all bytes before it."""
+    """Append a line to a complete file, with the checksum of all bytes before this line."""
     with path.open("r+b") as file:
         size = file.seek(0, os.SEEK_END)
         line = _line(file, size)
@@ -61,7 +61,7 @@ def append_line(path: Path) -> None:
 
 
 def line_holds(path: Path) -> bool | None:
-    """Return True if the last line of a file matches the bytes before it.
+    """Return True if the checksum in the last line of a file matches the bytes before it.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def line_holds(path: Path) -> bool | None:
 
 
 def _line(file: BinaryIO, size: int) -> bytes:
-    """Make the line of text that holds the checksum of the first `size` bytes of a file."""
+    """Make the line of text with the checksum of the first `size` bytes of a file."""
     total = hashlib.sha256()
     file.seek(0)
     while size and (piece := file.read(min(size, _AT_ONCE))):
@@ -97,13 +97,13 @@ def _line(file: BinaryIO, size: int) -> bytes:
 
 
 def files_in(store: Path) -> list[str]:
-    """Sorted relative paths of all files in a Zarr store, except its file of checksums (ledger)."""
+    """Sorted relative paths of all files in a Zarr store, except its list of checksums."""
     files = (path for path in store.rglob("*") if path.is_file() and path.name != LEDGER)
     return sorted(path.relative_to(store).as_posix() for path in files)
 
 
 def of_files(store: Path, names: Iterable[str]) -> dict[str, str]:
-    """SHA-256 of files in a Zarr store by their paths; empty text for a missing file."""
+    """SHA-256 of files in a Zarr store, by path; empty text for a missing file."""
     sums = dict.fromkeys(names, "")
     for name in sums:
         with suppress(FileNotFoundError, NotADirectoryError), (store / name).open("rb") as file:
@@ -112,32 +112,32 @@ def of_files(store: Path, names: Iterable[str]) -> dict[str, str]:
 
 
 def entries(sums: Mapping[str, str]) -> bytes:
-    """Format the checksums of files as the lines of a ledger, one line for each file."""
+    """Format checksums of files as text, one line for each file."""
     lines = "".join(f"{digest}  {path}\n" for path, digest in sums.items())
     return lines.encode("utf-8", "surrogateescape")
 
 
 def read_entries(ledger: Path) -> dict[str, str]:
-    """Read the SHA-256 of each file from a ledger, by path; the last line for a file is used."""
+    """Read the SHA-256 of each file from lines of checksums; later lines replace earlier ones."""
     lines = ledger.read_bytes().decode("utf-8", "surrogateescape").split("\n")
     return {entry[2]: entry[1] for entry in filter(None, map(_ENTRY.fullmatch, lines))}
 
 
 def ledger_of(store: Path) -> dict[str, str] | None:
-    """SHA-256 of each file of a Zarr store from its ledger; None if there is no ledger."""
+    """Read the SHA-256 of each file of a Zarr store from its list; None if it has no list."""
     ledger = min(store.rglob(LEDGER), default=None)
     return None if ledger is None else read_entries(ledger)
 
 
 def write_ledger(store: Path, sums: Mapping[str, str]) -> None:
-    """Write the ledger of a complete store into the folder of its first array."""
+    """Write the list of checksums of a complete Zarr store into the folder of its first array."""
     first = min(store.rglob(".zarray"), default=None)
     if first is not None:
         first.with_name(LEDGER).write_bytes(entries(dict(sorted(sums.items()))))
 
 
 def check_file(store: Path, name: str, digest: str, ledger: Mapping[str, str]) -> None:
-    """Raise an error if a file of a Zarr store does not match the ledger.
+    """Raise an error if a file of a Zarr store does not match its checksum in the list.
 
     Parameters
     ----------
@@ -171,7 +171,7 @@ def mismatch_error(path: Path, what: str) -> OutputError:
 
 
 def of_content(groups: Mapping[str, xr.Dataset]) -> str:
-    """SHA-256 of the content of a file, which is the same before writing and after reading.
+    """SHA-256 of the values and attributes of a result, the same before writing and after reading.
 
     Parameters
     ----------
@@ -189,7 +189,7 @@ def of_content(groups: Mapping[str, xr.Dataset]) -> str:
 
 
 def _add(total: Any, *pieces: str | bytes) -> None:
-    """Add pieces of text or bytes to a hash, preceded by their number and each by its length."""
+    """Add pieces of text or bytes to a hash, together with their number and lengths."""
     total.update(b"%d;" % len(pieces))
     for piece in pieces:
         coded = piece if isinstance(piece, bytes) else piece.encode("utf-8", "surrogatepass")
@@ -198,7 +198,7 @@ def _add(total: Any, *pieces: str | bytes) -> None:
 
 
 def _attributes(attrs: Mapping[Any, Any]) -> Iterator[str]:
-    """Yield a line of text for each attribute, sorted by name.
+    """Yield each attribute of a variable or Dataset as a line of text, sorted by name.
 
     A number gives the same line as a list of length one, which netCDF reads as a number.
     """

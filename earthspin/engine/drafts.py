@@ -1,4 +1,4 @@
-"""Atomic writes: results are written to a draft, which then replaces the target.
+"""Atomic writes: a result is written to a temporary draft, which then replaces the target file.
 
 A reader always finds the complete old file or the complete new file, even if the writer is ended by
 an exception, a kill or a power failure. When `replacing` returns, the new file is on the disk, if
@@ -60,7 +60,7 @@ def as_path(path: object) -> Path:
 
 
 def check_writable(folder: str | Path) -> Path:
-    """Check that a folder can be written to or created, before a result is computed.
+    """Raise an error if a folder cannot be written to or created; else return its path.
 
     Raises
     ------
@@ -79,7 +79,7 @@ def check_writable(folder: str | Path) -> Path:
 
 
 def refuse_what_does_not_fit(path: Path, size: float, what: str) -> None:
-    """Refuse a result that is too large for the disk, before it is written.
+    """Raise an error if a result is too large for the free space on the disk.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def refuse_what_does_not_fit(path: Path, size: float, what: str) -> None:
 
 @contextmanager
 def replacing(path: str | Path) -> Iterator[Path]:
-    """Yield the path of a draft for a result; replace `path` by the draft if no error occurs.
+    """Yield a temporary path for a result; if no error occurs, move the result to `path`.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
 
 
 def prepared(path: str | Path) -> Path:
-    """Resolve links in the path of a target, and create its parent folder.
+    """Resolve links in the path of a file to be written, and create its parent folder.
 
     Raises
     ------
@@ -147,7 +147,7 @@ def prepared(path: str | Path) -> Path:
 
 @contextmanager
 def output_errors(path: str | Path, remedy: str = "") -> Iterator[None]:
-    """Convert errors of the operating system to an `OutputError` with one line.
+    """Convert errors of the operating system to a one-line `OutputError`; a context manager.
 
     Raises
     ------
@@ -166,7 +166,7 @@ def output_errors(path: str | Path, remedy: str = "") -> Iterator[None]:
 
 @contextmanager
 def box_of(target: Path) -> Iterator[Path]:
-    """Yield a new locked hidden folder for a draft, next to the target.
+    """Yield a new locked hidden folder for a temporary draft, next to the target file.
 
     Abandoned drafts are removed first.
     """
@@ -183,7 +183,7 @@ def box_of(target: Path) -> Iterator[Path]:
 
 
 def put_back(path: str | Path) -> None:
-    """Restore a folder if its writer was killed after it had moved the folder aside.
+    """Restore a folder if a process was killed while it was replacing the folder.
 
     Parameters
     ----------
@@ -201,7 +201,7 @@ def put_back(path: str | Path) -> None:
 
 
 def identity(path: Path) -> tuple[int, int, int] | None:
-    """Device, inode and modification time of a file or folder; None if it does not exist."""
+    """Device, inode and modification time, which identify a file; None if it does not exist."""
     try:
         status = path.stat()
     except OSError:
@@ -221,7 +221,7 @@ def check_identity(path: Path, opened: tuple[int, int, int] | None) -> None:
 
 
 def _clear_abandoned_drafts(target: Path, own: Path | None = None) -> None:
-    """Remove drafts whose owners have ended, and restore a target left in such a draft."""
+    """Remove the drafts of processes that have ended, and restore a target left in such a draft."""
     for box in _boxes(target):
         if box != own and _is_abandoned(box, own):
             _remove(box, target)
@@ -239,7 +239,7 @@ def _boxes(target: Path) -> Iterator[Path]:
 
 
 def _is_abandoned(box: Path, own: Path | None) -> bool:
-    """Return True if the owner of a draft has ended."""
+    """Return True if the process that made a draft has ended."""
     with suppress(OSError, NotImplementedError, Timeout):
         if not (box / _LOCK).exists():
             # The owner may be about to lock it. Both times are by the clock of the disk.
@@ -253,7 +253,7 @@ def _is_abandoned(box: Path, own: Path | None) -> bool:
 
 
 def put_in_place(draft: Path, target: Path, box: Path) -> None:
-    """Sync the draft to the disk, replace the target by it, and sync the parent folder.
+    """Replace the target by the draft, with both safely on the disk.
 
     If the draft cannot be moved, the end of `box_of` restores the old target.
     """
@@ -266,7 +266,7 @@ def put_in_place(draft: Path, target: Path, box: Path) -> None:
 
 
 def _exchange(draft: Path, target: Path) -> bool:
-    """Exchange two folders in one step; return False if the system cannot."""
+    """Exchange two folders in one step; return False if the system does not support it."""
     here, swap = -100, 2  # AT_FDCWD; RENAME_EXCHANGE of Linux and RENAME_SWAP of macOS
     names = os.fsencode(draft), os.fsencode(target)
     try:
@@ -279,13 +279,13 @@ def _exchange(draft: Path, target: Path) -> bool:
 
 
 def sync(path: Path) -> None:
-    """Sync a file, or a folder with all its contents, to the disk."""
+    """Write a file, or a folder with all its contents, from the cache to the disk."""
     for each in (*path.rglob("*"), path):
         sync_one(each)
 
 
 def sync_one(path: Path) -> None:
-    """Sync one file, or the list of names of one folder, to the disk."""
+    """Write one file, or the directory entry list of one folder, from the cache to the disk."""
     try:
         file = os.open(path, os.O_RDONLY)
     except OSError:

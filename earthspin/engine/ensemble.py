@@ -1,4 +1,4 @@
-"""Ensembles: members of a question are drawn, checked and computed in blocks along `member`.
+"""Ensembles: answer one question for many sets of inputs (members), block by block.
 
 If the parts of a question take arrays (`define_parts`, `together`), its members are computed
 together; otherwise separately. Members that are computed together are arranged in rows of `ROW`,
@@ -57,7 +57,7 @@ LISTED = 5
 
 
 class Ensemble:
-    """A question with members, computed in blocks.
+    """A question with many ensemble members, whose answers are computed in blocks.
 
     Parameters
     ----------
@@ -118,7 +118,7 @@ class Ensemble:
 
     @property
     def what(self) -> str:
-        """Name of the result, for the progress bar."""
+        """Name of the ensemble, shown in the progress bar."""
         return f"{self.question.word} members"
 
     @cached_property
@@ -128,18 +128,18 @@ class Ensemble:
 
     @cached_property
     def variants(self) -> Variants:
-        """Variants of the question, one for each combination of names that the members use."""
+        """Copies of the question, one for each combination of names (files) that members use."""
         keys = tuple(entry.key for entry in self.inputs.values() if entry.named)
         return Variants(self.question, keys, {entry.key for entry in self.numbers.values()})
 
     def names(self, index: int) -> Names:
-        """Names, such as files, that one member has for the inputs chosen by name."""
+        """Values of those inputs of one member that are names, such as files."""
         inputs = (name for name, entry in self.inputs.items() if entry.named)
         return tuple(str(self.values[name][index]) for name in inputs)
 
     @cached_property
     def groups(self) -> dict[Names, IntArray]:
-        """Ascending indices of the members that have equal names as inputs, by tuple of names."""
+        """Indices of the members that share the same input names, by tuple of these names."""
         if len(self.numbers) == len(self.inputs):
             return {(): np.arange(len(self.which))}
         indices: dict[Names, list[int]] = {}
@@ -149,7 +149,7 @@ class Ensemble:
 
     @cached_property
     def nominal(self) -> xr.Dataset:
-        """Answer to the question without members, with the input names of the first member."""
+        """Answer to the question without varied numbers, with the first member's input names."""
         return self.variants.nominal(next(iter(self.groups)))
 
     @cached_property
@@ -166,7 +166,7 @@ class Ensemble:
 
     @cached_property
     def layout(self) -> Layout:
-        """Division into blocks along `member`."""
+        """Division of the ensemble into blocks of members."""
         length = self._length
         if length is None:
             fits = BLOCK_BYTES // self.nominal.nbytes
@@ -176,15 +176,15 @@ class Ensemble:
 
     @cached_property
     def request(self) -> Mapping[str, str]:
-        """Record of the question with its members, the versions, and checksums of files."""
+        """Texts that identify the run: question, software versions and checksums of files."""
         return request_of(self.full_question, self.variants.provenance(self.groups))
 
     def plan_data(self) -> xr.Dataset:
-        """Plan of the first member as a Dataset."""
+        """Plan of the computation for the first member, as a Dataset."""
         return plan_data(self.variants[self.names(0)]().plan)
 
     def hold(self, client: object = None) -> xr.Dataset:
-        """Compute the ensemble in memory.
+        """Compute the ensemble and return it in memory.
 
         Raises
         ------
@@ -198,13 +198,13 @@ class Ensemble:
         return loop.hold(self, client=client)
 
     def write(self, path: str | Path, client: object = None) -> Path:
-        """Compute the ensemble into a store, or continue an unfinished store."""
+        """Compute the ensemble into a Zarr store, or continue an unfinished store."""
         return loop.write(self, path, client=client)
 
     # --- the members -----------------------------------------------------------------------------
 
     def _drop_impossible_members(self, drop: bool, n: int) -> None:
-        """Leave out members that cannot exist if `drop` is true; otherwise refuse them."""
+        """Omit members with impossible inputs if the user allowed it; else raise an error."""
         impossible = dict(sorted(self._impossible_members(), key=itemgetter(0)))
         if not impossible:
             return
@@ -220,7 +220,7 @@ class Ensemble:
         del self.groups
 
     def _impossible_members(self) -> Iterator[tuple[int, EarthspinError]]:
-        """Yield the indices of members that cannot exist, with the errors that they raise."""
+        """Yield the index and the error of each member whose inputs are impossible."""
         arrays = all(entry.field and entry.labelled for entry in self.numbers.values())
         for names, indices in self.groups.items():
             try:
@@ -250,7 +250,7 @@ class Ensemble:
         return self.variants.describe(self.make(0), self.groups).assign_attrs(attributes)
 
     def make(self, number: int) -> xr.Dataset:
-        """Make one block of members."""
+        """Compute one block of members, by its number."""
         first, last = self.layout.bounds(number)
         if self.width == 1:
             indices = [np.array([index]) for index in range(first, last)]
@@ -264,7 +264,7 @@ class Ensemble:
         return block.assign_coords(self._labels(slice(first, last), block))
 
     def _together(self, first: int, last: int) -> Iterator[tuple[IntArray, xr.Dataset]]:
-        """Compute members `first` to `last` - 1; those with the same names as inputs run together.
+        """Compute members `first` to `last` - 1, in groups that have the same input names.
 
         Yield their indices and answers.
 
@@ -297,7 +297,7 @@ class Ensemble:
         return _along_all_members(self._answer(self.names(index), values, which), 1)
 
     def _answer(self, names: Names, values: Mapping[str, Any], which: str) -> xr.Dataset:
-        """Compute the results of one member, or of several members with the same input names."""
+        """Compute the answer for one member, or for several members with the same names."""
         try:
             rerun = self.variants[names]
             answer = rerun(with_values(rerun.plan.question, self.numbers, values)).numbers()
@@ -312,11 +312,11 @@ class Ensemble:
 
     @property
     def _number_values(self) -> dict[str, NDArray[Any]]:
-        """Values for all members of each input that is a number, by name of the input."""
+        """Values of all members for each input that is a number, by input name."""
         return {name: self.values[name] for name in self.numbers}
 
     def _labels(self, which: slice, block: xr.Dataset) -> dict[str, Any]:
-        """Make the coordinates along `member`: member numbers, and the input values of the members.
+        """Make the coordinates along `member`: member numbers and input values.
 
         An input with the name of a result, such as theta, is labelled ``<name>_given``.
         """
@@ -335,7 +335,7 @@ class Ensemble:
 
 
 def _list_of_numbers(numbers: list[int]) -> str:
-    """Write numbers of members as text, at most `LISTED` of them."""
+    """Write member numbers as text; list at most `LISTED`, and count the rest."""
     more = f" and {len(numbers) - LISTED} more" if len(numbers) > LISTED else ""
     return f"{', '.join(map(str, numbers[:LISTED]))}{more}"
 
@@ -347,7 +347,7 @@ def _as_slice(indices: IntArray) -> IntArray | slice:
 
 
 def _along_all_members(answer: xr.Dataset, count: int) -> xr.Dataset:
-    """Repeat those variables of an answer that lack the dimension `member` for `count` members."""
+    """Repeat variables without the dimension `member` once for each of `count` members."""
     repeated = {
         name: variable.expand_dims({MEMBER: count})
         for name, variable in answer.data_vars.items()
@@ -357,7 +357,7 @@ def _along_all_members(answer: xr.Dataset, count: int) -> xr.Dataset:
 
 
 def _concatenated(pieces: list[xr.Dataset]) -> xr.Dataset:
-    """Join datasets of members along `member`; copy other variables from the first dataset."""
+    """Join the Datasets of successive members along `member`."""
     import xarray as xr
 
     variables: dict[Any, Any] = {}
@@ -373,7 +373,7 @@ def _concatenated(pieces: list[xr.Dataset]) -> xr.Dataset:
 def with_members(
     question: Question, members: object, seed: int | None = None, **more: Any
 ) -> Question:
-    """Return a question with another specification of its ensemble members.
+    """Return a question with changed ensemble members: their number, seed or distributions.
 
     If `members` is None, those of the question are kept, and only the given fields are changed.
 

@@ -1,4 +1,4 @@
-"""Time spent in importing modules, which the run times of parts exclude.
+"""Measure the time spent in importing modules, to exclude it from measured run times.
 
 Parts import modules when they first run, so the first part of a process would include the import
 of libraries that all parts share. While a clock runs, import statements are timed. Statements
@@ -20,7 +20,7 @@ _import = builtins.__import__
 
 
 class _Clock(threading.local):
-    """Time spent in imports in this thread, s, and the depth of nested imports."""
+    """Total time spent in imports by this thread, s, and the depth of nested imports."""
 
     seconds = 0.0
     depth = 0
@@ -30,7 +30,7 @@ _CLOCK = _Clock()
 
 
 def _timed_import(*args: Any, **kwargs: Any) -> Any:
-    """Import as Python does, and add the run time of each outermost import to the clock."""
+    """Import a module as Python does, and add the time of an outermost import to the clock."""
     _CLOCK.depth += 1
     begun = time.perf_counter()
     try:

@@ -1,4 +1,4 @@
-"""Inputs in which the members of an ensemble may differ, by name.
+"""Inputs of a question that may differ between ensemble members, found by their names.
 
 ``"body.j2"`` is a number of the body, ``"moon.gm"`` one of a perturber, ``"spin"`` a key that is a
 number, and ``"moments.2"`` a number in a key that is a list of numbers. ``"orbit"`` is a key whose
@@ -29,7 +29,7 @@ _SYMBOLS = {"H": "body.dynamical_flattening", "J2": "body.j2", "J3": "body.j3", 
 
 @dataclass(frozen=True)
 class Input:
-    """Input of a question in which ensemble members may differ: one number, or a name.
+    """One input that may differ between ensemble members: a number, or a name such as a file.
 
     Attributes
     ----------
@@ -66,11 +66,11 @@ class Input:
 
     @property
     def label(self) -> str:
-        """Name of the input among the coordinates of an answer."""
+        """Name of the coordinate that holds the values of this input in a result."""
         return self.name.replace(".", "_")
 
     def checked(self, values: NDArray[Any], where: Where) -> NDArray[Any]:
-        """Return the values of all members for this input; refuse values of a wrong type.
+        """Return the values of this input for all members; raise an error for a wrong type.
 
         Raises
         ------
@@ -85,7 +85,7 @@ class Input:
 
 
 def inputs_of(question: Question, names: Iterable[str], where: Where) -> dict[str, Input]:
-    """Find inputs of a question by name.
+    """Return the inputs of a question that have the given names, as `Input` objects.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def inputs_of(question: Question, names: Iterable[str], where: Where) -> dict[st
 
 
 def _all_inputs(question: Question) -> Iterator[Input]:
-    """Yield every number of a question that has a value, and every key that takes a name."""
+    """Yield all inputs of a question: every number that is set, and every key that takes a name."""
     for key, entry in keys_of(question.__class__).items():
         value = getattr(question, key)
         if by_name(entry.kind) and key not in keys_of(Question):
@@ -147,7 +147,7 @@ def _all_inputs(question: Question) -> Iterator[Input]:
 
 
 def published(question: Question) -> dict[str, Distribution]:
-    """Distributions of all inputs that have a published uncertainty, by name of the input.
+    """Probability distributions of all inputs with a published uncertainty, by input name.
 
     Numbers of bodies have normal distributions; of a perturber, only the mass varies. The question
     adds distributions of its own keys. No correlations are published.
@@ -169,7 +169,7 @@ def published(question: Question) -> dict[str, Distribution]:
 def with_values(
     question: Question, inputs: Mapping[str, Input], values: Mapping[str, Any]
 ) -> Question:
-    """Return the question with the input values of one member or of several members.
+    """Return a copy of the question with the input values of one or several members.
 
     Parameters
     ----------
@@ -211,7 +211,7 @@ def _with_item(items: tuple[Any, ...], index: int, item: Any) -> tuple[Any, ...]
 
 
 def _with_number(sequence: Any, index: Any, value: Any) -> Any:
-    """Return a list of numbers with one number replaced, possibly by a value for each member."""
+    """Return a list with one number replaced, by a number or by one value for each member."""
     if hasattr(sequence, "numbers"):
         return replace(sequence, numbers=_with_item(sequence.numbers, index, value))
     labelled = hasattr(value, "dims")
@@ -224,7 +224,7 @@ def _with_number(sequence: Any, index: Any, value: Any) -> Any:
 
 
 def _along_members(values: NDArray[Any]) -> xr.DataArray:
-    """Make a labelled array whose first dimension is `member`."""
+    """Make an array of member values with named dimensions, of which the first is `member`."""
     import xarray as xr
 
     return xr.DataArray(values, dims=(MEMBER, *(f"{MEMBER}_{k}" for k in range(values.ndim - 1))))

@@ -1,4 +1,4 @@
-"""Units of results, their factors from SI, and their spelling in files."""
+"""Units of results: conversion factors from SI, and how units are spelled in files."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ IN_FILES: dict[str, str] = {
 
 
 def from_si(unit: str) -> float:
-    """Factor that converts a value from SI to a unit.
+    """Return the factor that converts a value from SI to a given unit.
 
     Raises
     ------
@@ -63,7 +63,7 @@ def from_si(unit: str) -> float:
 
 
 def si(array: xr.DataArray) -> xr.DataArray:
-    """Convert a variable of a result to SI units.
+    """Convert a variable of a result from its unit to SI.
 
     Raises
     ------

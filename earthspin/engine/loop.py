@@ -1,4 +1,4 @@
-"""Compute a long series or an ensemble block by block, in one process or on a cluster.
+"""Compute a long series or an ensemble in blocks, in this process or on several workers.
 
 A `Work` holds the request, the division of the result into blocks, and a method that makes a block.
 Blocks are independent, and an ended run can be resumed. Without a client, blocks are made one after
@@ -34,7 +34,7 @@ QUEUED = 3
 
 
 class Work(Protocol):
-    """A result that can be computed in blocks, also by workers on other machines."""
+    """Interface of a result that is computed in blocks, such as a long series or an ensemble."""
 
     @property
     def what(self) -> str:
@@ -46,7 +46,7 @@ class Work(Protocol):
 
     @property
     def request(self) -> Mapping[str, str]:
-        """Question and versions of the software, as texts by name, which determine the result."""
+        """Texts that determine the result: the question and the software versions, by name."""
 
     def first(self) -> xr.Dataset:
         """Compute the first block (number 0), with the attributes of the whole result."""
@@ -146,7 +146,7 @@ def hold(work: Work, *, client: object = None) -> xr.Dataset:
 
 
 def _complete(work: Work, store: Unfinished, target: Path, client: object) -> None:
-    """Make missing and damaged blocks until all blocks match the ledger, then finish the store."""
+    """Compute missing and damaged blocks until all match their checksums; then finish the store."""
     layout, own = work.layout, set[int]()
     try:
         store.drop_damaged()
@@ -172,7 +172,7 @@ def _complete(work: Work, store: Unfinished, target: Path, client: object) -> No
 def _blocks(
     work: Work, numbers: list[int], client: object, folder: Path | None = None
 ) -> Iterator[tuple[int, Any]]:
-    """Compute blocks; yield the number of each block with its data, or with checksums of its files.
+    """Compute blocks; yield each number with its data, or with checksums if written to a folder.
 
     Checksums are given if there is a folder into which the blocks are written.
     """
@@ -184,7 +184,7 @@ def _blocks(
 
 
 def _make_block(work: Work, number: int, folder: Path | None) -> tuple[int, Any]:
-    """Compute one block of the result, and write it if a folder is given; workers run this, too."""
+    """Compute one block of the result, and write it if a folder is given."""
     block = work.make(number)
     return number, block if folder is None else write_block(folder, work.layout, number, block)
 
@@ -213,7 +213,7 @@ def _blocks_from_cluster(
 
 @contextmanager
 def _cluster(client: object) -> Iterator[Client]:
-    """Yield a client of an existing cluster, or of a local cluster that is closed at the end."""
+    """Yield a client of a Dask cluster; a local cluster is started and closed if needed."""
     try:
         import dask
         import distributed
@@ -242,7 +242,7 @@ def _cluster(client: object) -> Iterator[Client]:
 
 
 def _check_client(client: object) -> None:
-    """Refuse a wrong type of `client` before anything is computed.
+    """Raise an error if `client` has a wrong type, before anything is computed.
 
     Raises
     ------
@@ -258,7 +258,7 @@ def _check_client(client: object) -> None:
 
 
 def _digest_of_store(target: Path) -> str | None:
-    """Digest of the request stored in a complete store; None if there is no store."""
+    """Hash that identifies the computation in a complete store; None without a store."""
     drafts.put_back(target)
     if not target.exists():
         return None

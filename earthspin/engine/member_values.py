@@ -1,4 +1,4 @@
-"""Read one value for each member of an ensemble from a Dataset, a file or a scene.
+"""Read the input values of ensemble members from a Dataset, a file or a scene (input file).
 
 The values are finite numbers, or names without gaps.
 """
@@ -24,7 +24,7 @@ MEMBER = "member"
 
 
 def read_file(path: Path) -> xr.Dataset:
-    """Read values of members from a file: a CSV table with a line of names, netCDF or Zarr.
+    """Read input values of ensemble members from a CSV, netCDF or Zarr file.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ _ZARR: dict[str, Any] = {"engine": "zarr", "consolidated": False}
 
 
 def values_from_dataset(dataset: Any, where: Where) -> dict[str, NDArray[Any]]:
-    """Input values of the members, by input name, from a Dataset along `member`.
+    """Return the input values of the members, by input name, from a Dataset along `member`.
 
     The Dataset may be the answer of an ensemble.
     """
@@ -83,14 +83,14 @@ def values_from_dataset(dataset: Any, where: Where) -> dict[str, NDArray[Any]]:
 
 
 def values_from_scene(values: Any, where: Where) -> NDArray[Any]:
-    """Read the values of one input for all members, as `Members.write` stores them in a scene."""
+    """Read the values of one input for all members from the table in a scene file."""
     if isinstance(values, Mapping):
         return unpack(values, where)
     return _names(np.array(values, dtype=object), where)
 
 
 def _checked(values: NDArray[Any], where: Where) -> NDArray[Any]:
-    """Return one input's values for all members; refuse all but finite numbers and names."""
+    """Return the values of one input for all members; refuse all but finite numbers and names."""
     if values.dtype.kind not in "fiu":
         return _names(values.astype(object), where)
     if not np.isfinite(values).all():

@@ -1,4 +1,4 @@
-"""Members of an ensemble: their varying inputs, and how these are drawn.
+"""Specify the members of an ensemble: which inputs vary, and how their values are drawn.
 
 An input is a number of a question, or a name in it: an orbit table, a kernel, a model.
 
@@ -40,7 +40,7 @@ _SETTINGS = ("n", "seed", "uncertainty", "impossible", "only", "correlations", "
 
 @dataclass(frozen=True)
 class Distribution:
-    """Distribution of one input, with its numbers as the user wrote them.
+    """Probability distribution or grid of one input, with the numbers as the user wrote them.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ class Distribution:
 
     @classmethod
     def read(cls, value: Mapping[str, Any], where: Where) -> Distribution:
-        """Read a table like ``{ normal = [0.00327, 2e-9] }``."""
+        """Read a distribution from a table like ``{ normal = [0.00327, 2e-9] }``."""
         if len(value) != 1 or next(iter(value)) not in _SHAPES:
             problem = f"give one of {', '.join(_SHAPES)}, like normal = [1, 2]"
             raise where.error(dict(value), problem)
@@ -67,7 +67,7 @@ class Distribution:
         return cls(shape, tuple(map(_scene_value, numbers)))
 
     def checked(self, kind: Any, where: Where) -> Distribution:
-        """Return the distribution with numbers in SI units; refuse what does not suit the input."""
+        """Return the distribution in SI units; raise an error if it does not suit the input."""
         if by_name(kind):
             if self.shape not in ("choice", "grid"):
                 problem = f"{self.shape} applies to numbers; for names give choice or grid"
@@ -83,7 +83,7 @@ class Distribution:
         return Distribution(self.shape, tuple(map(float, numbers)))
 
     def values(self, normal: FloatArray, index: FloatArray) -> NDArray[Any]:
-        """Transform standard normal numbers into values of the distribution.
+        """Transform standard normal numbers into values with this distribution.
 
         Parameters
         ----------
@@ -109,7 +109,7 @@ class Distribution:
 
 
 def checked_names(values: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
-    """Check names, such as files, that an ensemble chooses for an input.
+    """Return the names, such as files, given for an input; raise an error if one is invalid.
 
     Raises
     ------
@@ -126,7 +126,7 @@ def checked_names(values: Iterable[Any], kind: Any, where: Where) -> tuple[str, 
 
 
 def _scene_value(number: Any) -> Any:
-    """Convert a number, Quantity or path to the form in which a scene file stores it."""
+    """Convert a number, Quantity or path to the form in which scene files store it."""
     if isinstance(number, os.PathLike):
         return os.fspath(number)
     if hasattr(number, "to_value"):
@@ -135,7 +135,7 @@ def _scene_value(number: Any) -> Any:
 
 
 def standard_normal(seed: int, members: FloatArray, inputs: int) -> FloatArray:
-    """Draw standard normal numbers, with a separate generator for each member.
+    """Draw standard normal numbers, with a separate random generator for each member.
 
     Parameters
     ----------
@@ -157,7 +157,7 @@ def standard_normal(seed: int, members: FloatArray, inputs: int) -> FloatArray:
 
 @dataclass(frozen=True, eq=False)
 class Members:
-    """Specification of the members of an ensemble: their number, and the inputs that vary.
+    """Specification of an ensemble: the number of members, and the inputs that vary.
 
     Attributes
     ----------
@@ -193,7 +193,7 @@ class Members:
 
     @classmethod
     def read(cls, value: object, where: Where) -> Members:
-        """Read the number of members, a table, a Dataset, or the path of a file with a Dataset.
+        """Read a specification from a number of members, a table, a Dataset, or a file path.
 
         Raises
         ------
@@ -246,7 +246,7 @@ class Members:
         )
 
     def write(self) -> dict[str, Any]:
-        """Form stored in scenes: the `members` table; `read` restores all values."""
+        """Convert the specification to a table for a scene file; `read` restores all values."""
         table: dict[str, Any] = {"seed": self.seed, "impossible": self.impossible}
         options = {
             "n": self.n,
@@ -311,7 +311,7 @@ def _correlations(rows: Any, where: Where) -> Iterator[tuple[str, str, float]]:
 
 
 def count_of(members: Members, inputs: Mapping[str, Distribution], where: Where) -> int:
-    """Number of members, from `n`, the grids or the values.
+    """Number of members of an ensemble, from `n`, from its grids or from its listed values.
 
     Raises
     ------
@@ -368,7 +368,7 @@ def draw(
 
 
 def _correlated(normal: FloatArray, root: FloatArray) -> FloatArray:
-    """Correlate rows of normal numbers: multiply each row by the matrix `root`, without BLAS.
+    """Correlate standard normal numbers: multiply each row by the matrix `root`, without BLAS.
 
     The rounding of BLAS depends on the number of rows.
     """

@@ -1,4 +1,4 @@
-"""Effects that a model does not include, with their sizes, which are not part of the errors."""
+"""Sizes of the effects that a model neglects; they are not included in the errors of results."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Neglected:
 
     @classmethod
     def cited(cls, sizes: Mapping[str, Constant], what: str) -> Self:
-        """Make a `Neglected` from constants with the same unit, each with its own source."""
+        """Make a `Neglected` from sizes given as constants, each with its own source."""
         (unit,) = {size.unit for size in sizes.values()}
         return cls(
             {name: size.value / from_si(unit) for name, size in sizes.items()},
@@ -56,7 +56,7 @@ class Neglected:
 
     @property
     def largest(self) -> str:
-        """Name and size of the largest effect, for the attributes of an answer."""
+        """Describe the largest neglected effect, with its size, for the attributes of a result."""
         unknown = f"of unknown size: {self.unknown}" if self.unknown else ""
         if not self.sizes:
             return unknown or self.what
@@ -66,7 +66,7 @@ class Neglected:
         return f"{known}; {unknown}" if unknown else known
 
     def dataset(self, effects: Sequence[str] = ()) -> xr.Dataset:
-        """Return `neglected_effect` along `effect`, with the largest effect first.
+        """Return the sizes as a Dataset along `effect`, with the largest effect first.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""Parts: typed functions that each compute one result of a question.
+"""Parts: typed functions, each of which computes one piece of the answer to a question.
 
 The inputs of a part follow from its signature: each parameter is a key of the question or the
 result of another part, by name. A parameter whose default is None is optional. A part with only
@@ -30,14 +30,14 @@ BLOCK = "block"
 
 @dataclass(frozen=True)
 class Block:
-    """Range of epochs of a long series: indices from `first` to `last` - 1."""
+    """One block of a long series: the epochs with indices from `first` to `last` - 1."""
 
     first: int
     last: int
 
 
 class Part(Generic[P, R]):
-    """A typed function that computes one result; it is called like an ordinary function.
+    """A typed function that computes one piece of an answer; it can be called as usual.
 
     Attributes
     ----------
@@ -76,7 +76,7 @@ class Part(Generic[P, R]):
         update_wrapper(self, function)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
-        """Call the function of the part."""
+        """Call the wrapped function."""
         return self.function(*args, **kwargs)
 
     def __reduce__(self) -> str:
@@ -88,7 +88,7 @@ class Part(Generic[P, R]):
 
     @property
     def title(self) -> str:
-        """Name of the part in plans."""
+        """Name of this part (function) in the table of a plan."""
         return self.name.replace("_", "-")
 
     @cached_property
@@ -102,7 +102,7 @@ class Part(Generic[P, R]):
         return _parameters(self.function, None)
 
     def reason(self, keys: dict[str, Any]) -> str | None:
-        """Return the reason to leave out this part for given keys; None if the part runs."""
+        """Return the reason why this part is left out for given inputs; None if it runs."""
         for condition in self.unless:
             why = condition(**_arguments(condition, keys))
             if why is not None:
@@ -110,7 +110,7 @@ class Part(Generic[P, R]):
         return None
 
     def description(self, keys: dict[str, Any]) -> str:
-        """Describe for the plan what the part does, given the values of the question's keys."""
+        """Describe what this part does for the given inputs, for the table of a plan."""
         return (
             self.does if self.describe is None else self.describe(**_arguments(self.describe, keys))
         )
@@ -133,7 +133,7 @@ def part(
     chooses: bool = False,
     describe: Describer | None = None,
 ) -> Part[P, R] | Callable[[Callable[P, R]], Part[P, R]]:
-    """Make a part from a typed function.
+    """Make a `Part` from a typed function; a decorator.
 
     Parameters
     ----------
@@ -155,12 +155,12 @@ def part(
 
 
 def _arguments(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any]:
-    """Select, from the keys of a question, those that are parameters of a function."""
+    """Select, from the inputs of a question, those that a function takes as arguments."""
     return {name: keys[name] for name in _parameters(function, inspect.Parameter.empty)}
 
 
 def _schema_of(function: Callable[..., Any]) -> Mapping[str, Variable]:
-    """Variables that a function returns; empty if its return type is not a `Variables` class."""
+    """Declared variables that a function returns, by name; empty for other return types."""
     returned = function.__annotations__.get("return")
     if isinstance(returned, str):
         returned = function.__globals__.get(returned)

@@ -1,4 +1,4 @@
-"""Plan of a run: parts that a question needs, in order, and parts left out, with reasons."""
+"""Plan of a run: functions (parts) that a question needs, in order, and those left out."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SCENE = "scene"
 
 
 def scene_of(answer: Any) -> str:
-    """Text of the scene of an answer; empty if there is none.
+    """Text of the scene (input file) that a result stores; empty if there is none.
 
     A netCDF file holds the scene as a variable, so that ``ncdump -h`` stays readable.
     """
@@ -39,7 +39,7 @@ _SECONDS: OrderedDict[str, Mapping[str, float]] = OrderedDict()
 
 @dataclass(frozen=True)
 class Row:
-    """Row of the table of a plan: part, status, reason or description, and run time in s."""
+    """One row in the table of a plan: part (function), status, reason and run time in s."""
 
     part: str
     status: str
@@ -48,13 +48,13 @@ class Row:
 
     @property
     def run_time(self) -> str:
-        """Run time as text; empty before the run."""
+        """Run time of the part as text; empty before the run."""
         return "" if self.seconds is None else f"{self.seconds * 1e3:.1f} ms"
 
 
 @dataclass(frozen=True)
 class Plan:
-    """Plan of a run: parts that run, and parts that are left out, with reasons.
+    """Plan of a run: functions (parts) that run, and those left out, with the reasons.
 
     Attributes
     ----------
@@ -78,7 +78,7 @@ class Plan:
 
     @property
     def rows(self) -> list[Row]:
-        """Rows of the plan: first the parts that run, then the parts left out."""
+        """Rows of the plan's table: first the parts that run, then those left out."""
         status, keys = "ran" if self.seconds else "runs", self.question.keys()
         rows = [
             Row(part.title, status, part.description(keys), self.seconds.get(part.name))
@@ -122,7 +122,7 @@ NOT_REQUESTED = "its section was not requested"
 
 
 def plan_parts(question: Question, sections: str | Iterable[str] = ()) -> Plan:
-    """Determine which parts a question needs, and in which order.
+    """Determine which parts (functions) a question needs, and in which order they run.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def plan_parts(question: Question, sections: str | Iterable[str] = ()) -> Plan:
     reasons: dict[str, str] = {}
 
     def choose(name: str) -> bool:
-        """Return True if a part can run; otherwise store the reason to leave it out.
+        """Return True if a part can run; otherwise store the reason why it cannot.
 
         For a part that can run, the names of its inputs are stored.
         """
@@ -189,7 +189,7 @@ def plan_parts(question: Question, sections: str | Iterable[str] = ()) -> Plan:
 
 
 def _named_sections(question: Question, sections: str | Iterable[str]) -> list[str]:
-    """Names of the requested sections without duplicates, in the order of the question."""
+    """Names of the requested result sections, without duplicates, in standard order."""
     known = question.graph.sections
     if isinstance(sections, str) and sections == ALL:
         return list(known)
@@ -204,7 +204,7 @@ def _named_sections(question: Question, sections: str | Iterable[str]) -> list[s
 
 
 def _refuse_taken_dimensions(question: Question) -> None:
-    """Refuse labelled arrays of a body along a dimension that results already have."""
+    """Raise an error if an array of a body uses a dimension name that results also use."""
     parts = question.graph.parts.values()
     taken = {dim for part in parts for declared in part.gives.values() for dim in declared.dims}
     taken |= {name for part in parts for name in part.gives}
@@ -220,7 +220,7 @@ def _refuse_taken_dimensions(question: Question) -> None:
 
 
 def remember_seconds(scene: str, seconds: Mapping[str, float]) -> None:
-    """Store the run time of each part of a scene in this process, s."""
+    """Store the run times, s, of the parts of a question, by the text of its scene."""
     _SECONDS[scene] = dict(seconds)
     _SECONDS.move_to_end(scene)
     if len(_SECONDS) > REMEMBERED:
@@ -228,5 +228,5 @@ def remember_seconds(scene: str, seconds: Mapping[str, float]) -> None:
 
 
 def seconds_of(scene: str) -> Mapping[str, float]:
-    """Run time of each part in the last run of a scene in this process, s; empty without a run."""
+    """Stored run time of each part in the last run of the same question, s; empty if none."""
     return _SECONDS.get(scene, {})

@@ -1,4 +1,4 @@
-"""Questions: classes whose fields are the possible inputs, each with a type that reads its value.
+"""Questions: classes that declare the inputs (keys) of each computation, with their types.
 
 The fields define the keys of a scene file, the names that ``--set`` takes, the signature and
 docstring of the public call, completion in the shell, and the page of keys.
@@ -23,7 +23,7 @@ NEGLECTED = "neglected"
 
 
 def key(default: Any = MISSING, *, doc: str) -> Any:
-    """Declare a key at the top level of a scene.
+    """Declare an input (key) that users write at the top level of a scene file.
 
     Parameters
     ----------
@@ -36,13 +36,13 @@ def key(default: Any = MISSING, *, doc: str) -> Any:
 
 
 def setting(default: Any = MISSING, *, doc: str) -> Any:
-    """Declare a key that scenes hold in the table named after the question."""
+    """Declare an input (key) that users write in the question's own table of a scene file."""
     return field(default=default, metadata={"doc": doc, "setting": True})
 
 
 @dataclass(frozen=True)
 class Key:
-    """One key of a question.
+    """One key (input parameter) of a question: name, type, meaning and default.
 
     Attributes
     ----------
@@ -73,12 +73,12 @@ class Key:
 
     @property
     def default_words(self) -> str:
-        """Default value as text; empty if there is none."""
+        """Default value of the key as text; empty if there is none."""
         return "" if self.required or self.shown in (None, "") else plain_words(self.shown)
 
 
 def _read(kind: Kind[Any], value: object, where: Where) -> Any:
-    """Read a value, and raise an `EarthspinError` for whatever cannot be read.
+    """Convert a value to the type of a key; turn any failure into an `EarthspinError`.
 
     The value may be any object. Errors from libraries or from its own class would not help a user.
     """
@@ -91,20 +91,20 @@ def _read(kind: Kind[Any], value: object, where: Where) -> Any:
 
 
 def _shown(value: Any, kind: Kind[Any]) -> Any:
-    """Write a value as a user would, with bodies by their names."""
+    """Convert a value to the form in which a user would write it, with bodies by name."""
     bodies = value if isinstance(value, tuple) else (value,)
     return plain_words(value) if hasattr(bodies[0], "reference") else kind.write(value)
 
 
 def plain_words(value: Any) -> str:
-    """Write a value on one line, with bodies by their names."""
+    """Convert a value to text on one line, with bodies by name."""
     if isinstance(value, (tuple, list)):
         return ", ".join(plain_words(item) for item in value)
     return str(getattr(value, "name", value))
 
 
 class Question:
-    """Base class of all questions; its fields are the keys that all questions share.
+    """Base class of all questions; its fields are the keys (inputs) that all questions share.
 
     Attributes
     ----------
@@ -169,7 +169,7 @@ class Question:
         in_scene: bool = False,
         typed: Collection[str] = (),
     ) -> Self:
-        """Read each key once, refuse unknown keys, and check the keys together.
+        """Convert the values of all keys, refuse unknown keys, and check their combination.
 
         Values in `known` were read before and are not read again.
         """
@@ -211,14 +211,14 @@ class Question:
             raise self.error("n", self.n, "it is only used with uncertainty = 'sample'")
 
     def check(self) -> None:
-        """Check that the keys fit together; questions override this method."""
+        """Raise an error if the values of the keys do not fit together; subclasses override it."""
 
     def where(self, name: str) -> Where:
-        """Return the key's name and the scene file, for messages."""
+        """Return the name of a key with the path of the scene file, for error messages."""
         return Where(name, self.read_from)
 
     def error(self, name: str, value: object, problem: str) -> SceneError:
-        """Make the error for a wrong value of a key."""
+        """Make the error for a wrong value of a key, without raising it."""
         return self.where(name).error(value, problem)
 
     given: ClassVar[frozenset[str]]
@@ -234,7 +234,7 @@ class Question:
         title: str = "",
         typed: Collection[str] = (),
     ) -> Self:
-        """Read a question from the table of a scene from which the key `compute` was removed.
+        """Make a question from the table of a scene file, without its key `compute`.
 
         Parameters
         ----------
@@ -267,7 +267,7 @@ class Question:
         return cls.__new__(cls)._fill(values, source=source, in_scene=True, typed=typed)
 
     def to_table(self, *, given: bool = False) -> dict[str, Any]:
-        """Return the scene as a table for TOML: every key with every number.
+        """Convert the question to a table for a scene file, with the values of all keys.
 
         Parameters
         ----------
@@ -284,7 +284,7 @@ class Question:
         return table | ({self.table: own} if own else {})
 
     def _superseded_keys(self) -> set[str]:
-        """Names of keys without effect, because the user gave keys that exclude them."""
+        """Names of keys that have no effect, because the user gave alternative keys."""
         used = next((group for group in self.exclusive if self.given & set(group)), None)
         if used is None:
             return set()
@@ -295,7 +295,7 @@ class Question:
         return {name: getattr(self, name) for name in keys_of(type(self))}
 
     def published_inputs(self) -> Mapping[str, tuple[str, tuple[float, float]]]:
-        """Published probability distributions of numerical keys of the question, by key name.
+        """Published probability distributions of numerical keys of the question, by key.
 
         An entry is ``("normal", (mean, standard deviation))`` or ``("uniform", (low, high))``.
         The distributions of numbers of bodies follow from the bodies themselves.
@@ -303,11 +303,11 @@ class Question:
         return {}
 
     def replace(self, **changes: Any) -> Self:
-        """Return the question with some keys changed, checked again."""
+        """Return a copy of the question with some keys changed; all checks are repeated."""
         return self._changed(changes, {})
 
     def holding(self, **arrays: Any) -> Self:
-        """Return the question with arrays of member values in some keys, without checks.
+        """Return a copy of the question with arrays of member values in some keys, unchecked.
 
         Parameters
         ----------
@@ -322,7 +322,7 @@ class Question:
         return question._fill(values, known=before | dict(arrays), source=self.read_from)
 
     def _repr_html_(self) -> str:
-        """Table of all keys with their values, origin (given or default) and meaning."""
+        """HTML table of all keys: their values, whether these were given, and their meaning."""
         rows = []
         for name, entry in keys_of(type(self)).items():
             value = getattr(self, name)
@@ -344,7 +344,7 @@ dataclass(frozen=True, init=False, eq=False, repr=False)(Question)
 
 
 def keys_of(question: type[Question]) -> dict[str, Key]:
-    """Keys of a question by name: the title, the question's own keys, then the shared keys."""
+    """Keys (inputs) of a question class by name: its own keys and those of all questions."""
     if "key_table" not in vars(question):
         hints = get_type_hints(question, include_extras=True)
         shared = [entry.name for entry in fields(Question) if entry.name != "title"]  # type: ignore[arg-type]
@@ -363,7 +363,7 @@ def keys_of(question: type[Question]) -> dict[str, Key]:
 
 
 def unknown_key(question: type[Question], name: str) -> str:
-    """Message for an unknown key, with the nearest known keys."""
+    """Return the error message for an unknown key, with the most similar known keys."""
     return f"compute = '{question.word}' has no such key; {nearest(name, keys_of(question))}"
 
 
@@ -372,7 +372,7 @@ def unknown_key(question: type[Question], name: str) -> str:
 
 @dataclass(frozen=True)
 class Graph:
-    """Parts of a question, with the names of those that give the answer and its sections.
+    """Parts (functions) behind a question, and names of those that make its answer and sections.
 
     Attributes
     ----------
@@ -412,7 +412,7 @@ def define_parts(
     together: tuple[str, ...] = (),
     widest: int = 1,
 ) -> None:
-    """Define the parts that answer a question, and check that they fit together.
+    """Define the parts (functions) that answer a question, and check that they fit together.
 
     Parameters
     ----------
@@ -466,7 +466,7 @@ def define_parts(
 
 
 def describe_keys(question: type[Question]) -> str:
-    """List the keys of a question: allowed values, meaning and default."""
+    """Describe all keys (inputs) of a question as text: allowed values, meaning, default."""
     lines = []
     for in_table in (False, True):
         chosen = [entry for entry in keys_of(question).values() if entry.setting is in_table]

@@ -1,4 +1,4 @@
-"""Run and time the parts of a plan in order, and merge their results into an answer."""
+"""Run the parts (functions) of a plan in order, and merge their results into an answer."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Run:
-    """A completed plan, with the results of its parts and the keys of its question by name."""
+    """A completed run: its plan, and the results of all parts (functions) by name."""
 
     plan: Plan
     results: dict[str, Any]
 
     @property
     def provenance(self) -> dict[str, str]:
-        """Sources of all results of the run: versions, and checksums of files, by name."""
+        """Software versions, and checksums of data files, behind all results of the run."""
         return _sources(self.results.values())
 
     def provenance_of(self, parts: Iterable[str]) -> dict[str, str]:
-        """Sources of the results of some parts: versions, and checksums of files, by name.
+        """Software versions, and checksums of data files, behind the results of some parts.
 
         Sources of the inputs of these parts and of the keys of the question are included.
         """
@@ -42,11 +42,11 @@ class Run:
         return _sources(value for name, value in self.results.items() if name not in others)
 
     def numbers(self) -> xr.Dataset:
-        """Merge the datasets of all parts of the answer, without attributes of the whole answer."""
+        """Merge the results of all parts of the answer into a Dataset without attributes."""
         return self._merged(self.plan.question.graph.answer)
 
     def answer(self) -> xr.Dataset:
-        """Return the answer with its attributes."""
+        """Return the answer as a Dataset, with title, references and other attributes."""
         import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
 
         result = self.numbers()
@@ -55,7 +55,7 @@ class Run:
         return result
 
     def tree(self) -> xr.DataTree:
-        """Return the answer at the root, a node for each section, and the node ``plan``."""
+        """Return a DataTree: the answer at the root, its sections, and the plan of the run."""
         import xarray as xr
 
         answer = self.answer()
@@ -68,7 +68,7 @@ class Run:
         return xr.DataTree.from_dict({"/": answer, **nodes, "plan": plan_data(self.plan)})
 
     def _merged(self, parts: Iterable[str], effects: Sequence[str] = ()) -> xr.Dataset:
-        """Merge the results of parts into one dataset; `effects` labels the neglected effects."""
+        """Merge the results of some parts into one Dataset."""
         results = [self.results[name] for name in parts if name in self.results]
         first, *others = (
             result.dataset(effects) if isinstance(result, Neglected) else result
@@ -80,7 +80,7 @@ class Run:
 
 
 def _sources(values: Iterable[Any]) -> dict[str, str]:
-    """Versions and checksums, by name, of the software and files behind some results or keys."""
+    """Collect software versions, and checksums of data files, from results or inputs."""
     sources: dict[str, str] = {}
     for value in values:
         sources |= getattr(value, "provenance", {})
@@ -88,7 +88,7 @@ def _sources(values: Iterable[Any]) -> dict[str, str]:
 
 
 def behind(plan: Plan, parts: Iterable[str]) -> set[str]:
-    """Names of some parts, and of everything on which they directly or indirectly depend."""
+    """Names of the given parts, and of all parts and inputs on which they depend."""
     names = {*parts}
     for part in reversed(plan.parts):
         if part.name in names:
@@ -97,7 +97,7 @@ def behind(plan: Plan, parts: Iterable[str]) -> set[str]:
 
 
 class Rerun:
-    """Run a question repeatedly with some keys changed; parts that do not depend on them run once.
+    """Run a question repeatedly with some inputs changed; recompute only what depends on them.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ class Rerun:
         self.fixed = run_parts(replace(self.plan, parts=fixed))
 
     def __call__(self, question: Question | None = None, **values: object) -> Run:
-        """Run the parts that depend on the changed keys, and reuse the results of all other parts.
+        """Run the parts that depend on the changed inputs, and reuse all other results.
 
         The question may differ from the original one in these keys.
         """
@@ -126,7 +126,7 @@ class Rerun:
 
 
 def run_choosing(question: Question) -> list[Any]:
-    """Run only the parts that choose settings for an accuracy, and return the settings.
+    """Run only the functions that choose numerical settings; return these settings.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ def run_choosing(question: Question) -> list[Any]:
 
 
 def run_parts(plan: Plan, before: Mapping[str, Any] | None = None) -> Run:
-    """Run the parts of a plan in order, except those whose results are in `before`."""
+    """Run the parts (functions) of a plan in order, except those with a result in `before`."""
     values = plan.question.keys() | dict(before or {})
     seconds: dict[str, float] = {}
     with import_clock() as imports:
@@ -161,7 +161,7 @@ def run_parts(plan: Plan, before: Mapping[str, Any] | None = None) -> Run:
 
 @contextmanager
 def in_range(what: str) -> Iterator[None]:
-    """Raise an error if numbers overflow; a context manager and decorator.
+    """Raise an error if numbers overflow in a block of code; context manager and decorator.
 
     Parameters
     ----------
@@ -188,7 +188,7 @@ def in_range(what: str) -> Iterator[None]:
 
 
 def plan_data(plan: Plan) -> xr.Dataset:
-    """Return the plan as a Dataset, with run times."""
+    """Return the plan of a run as a Dataset, with the run time of each part."""
     import xarray as xr
 
     rows = plan.rows
@@ -205,7 +205,7 @@ def plan_data(plan: Plan) -> xr.Dataset:
 
 
 def _attributes(run: Run) -> dict[str, str]:
-    """Global attributes of an answer: text that is the same in every run."""
+    """Global attributes of a result, such as title and references; equal in every run."""
     question = run.plan.question
     attributes = {
         "Conventions": CONVENTIONS,
@@ -242,7 +242,7 @@ def _attributes(run: Run) -> dict[str, str]:
 
 
 def scene_text(question: Question) -> str:
-    """Write a question with every number as the text of a scene file."""
+    """Write a question, with the values of all its inputs, as the text of a scene file."""
     import tomli_w
 
     packed: list[str] = []
@@ -257,7 +257,7 @@ _PACKED = "earthspin: packed array {}"
 
 
 def _without_bytes(value: Any, packed: list[str]) -> Any:
-    """Copy a table with its packed arrays replaced by placeholders; append them to `packed`."""
+    """Copy a table with encoded arrays replaced by placeholders; append the arrays to `packed`."""
     if isinstance(value, list):
         return [_without_bytes(item, packed) for item in value]
     if not isinstance(value, dict):

@@ -1,4 +1,4 @@
-"""Compute a long series in blocks of consecutive times."""
+"""Compute a long time series in blocks of consecutive times."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Series:
-    """A question with so many times that it is answered in blocks.
+    """A question with so many times that its answer is computed in blocks.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class Series:
 
     @property
     def layout(self) -> Layout:
-        """Division into blocks along `time`."""
+        """Division of the series into blocks of consecutive times."""
         return Layout("time", self.size, self.length)
 
     @cached_property
@@ -52,20 +52,20 @@ class Series:
 
     @cached_property
     def request(self) -> Mapping[str, str]:
-        """Record of the question, the versions and the kernel."""
+        """Texts that identify the run: question, software versions and checksums of files."""
         return request_of(self.question, self._rerun.fixed.provenance)
 
     def first(self) -> xr.Dataset:
-        """Answer the first block; its attributes are those of the whole series."""
+        """Compute the first block of times, with the attributes of the whole series."""
         return self.make(0)
 
     def make(self, number: int) -> xr.Dataset:
-        """Answer one block."""
+        """Compute one block of consecutive times, by its number."""
         return self._rerun(block=Block(*self.layout.bounds(number))).answer()
 
 
 def request_of(question: Question, provenance: Mapping[str, str]) -> dict[str, str]:
-    """Record of a question and of the versions, with which an unfinished store is compared.
+    """Texts that identify a run: the question and versions; an unfinished store must match.
 
     Parameters
     ----------

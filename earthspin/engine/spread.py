@@ -1,4 +1,4 @@
-"""Statistics of an ensemble: quantiles, and the contribution of each input to the variance."""
+"""Statistics of an ensemble: quantiles, and contribution of each input to the variance."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from earthspin.units import real_numbers
 
 
 def is_ensemble(answer: xr.Dataset | xr.DataTree) -> bool:
-    """Return True if an answer is an ensemble."""
+    """Return True if a result is an ensemble, that is, has the dimension `member`."""
     return MEMBER in answer.dims and any("input" in c.attrs for c in answer.coords.values())
 
 
 def quantiles(answer: xr.Dataset, shares: Sequence[float] = (0.025, 0.5, 0.975)) -> xr.Dataset:
-    """Quantiles of an ensemble; ``ds.earthspin.quantiles()``.
+    """Return quantiles over the members of every result in an ensemble.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def sensitivity(answer: xr.Dataset) -> xr.Dataset:
 
 
 def inputs_of(answer: xr.Dataset) -> dict[str, NDArray[Any]]:
-    """Input values of the members, by name of the input; inputs that are numbers come first.
+    """Input values of all members of an ensemble by input name; numbers come before names.
 
     An input of several numbers has one entry for each number.
     """
@@ -110,7 +110,7 @@ def inputs_of(answer: xr.Dataset) -> dict[str, NDArray[Any]]:
 
 
 def members_needed(answer: xr.Dataset) -> int:
-    """Smallest number of members for `sensitivity`.
+    """Smallest number of ensemble members from which `sensitivity` can be computed.
 
     It is 2, plus 1 for each input that is a number, plus k - 1 for each input with k names.
     """
@@ -121,7 +121,7 @@ def members_needed(answer: xr.Dataset) -> int:
 
 
 def _members(answer: xr.Dataset, what: str) -> dict[str, xr.DataArray]:
-    """Select the numerical variables along `member`, with `member` as first dimension."""
+    """Select the numerical variables that differ between members, with `member` first."""
     if not is_ensemble(answer):
         problem = "it is not an ensemble; earthspin.ensemble makes one"
         raise SceneError(what, answer.attrs.get("title", "a Dataset"), problem)

@@ -45,7 +45,7 @@ TIME_ENCODING = {
 
 
 def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
-    """Write an answer, alone or with its sections, to a netCDF file or Zarr store.
+    """Write a result, alone or with its sections, to a netCDF file or Zarr store.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
 
 
 def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
-    """Write an answer to a netCDF file without a draft; `write` is atomic.
+    """Write a result directly to a netCDF file, without the protection against interruptions.
 
     Raises
     ------
@@ -119,7 +119,7 @@ _NUMBERS = {"i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8"}
 
 
 def _refuse_attributes(result: xr.Dataset | xr.DataTree, path: Path) -> None:
-    """Refuse attributes that are neither text nor real numbers: no file can hold them."""
+    """Raise an error if an attribute is neither text nor real numbers, as no file can hold it."""
     for node in getattr(result, "subtree", (result,)):
         owners = {f"'{name}'": variable.attrs for name, variable in node.variables.items()}
         for owner, attrs in ({"the answer": node.attrs} | owners).items():
@@ -140,7 +140,7 @@ def _is_storable(value: object) -> bool:
 
 
 def _raise_system_error(path: Path, size: int) -> None:
-    """Write `size` zeros to a file, to raise the system's own error if they cannot be written.
+    """Write `size` zero bytes to a file, only to raise the system's error if this fails.
 
     Raises
     ------
@@ -162,7 +162,7 @@ def _raise_system_error(path: Path, size: int) -> None:
 
 
 def _groups(result: xr.Dataset | xr.DataTree) -> dict[str, xr.Dataset]:
-    """Datasets of an answer and its sections, by path in the file.
+    """Datasets of a result and of its sections, by the path of their group in the file.
 
     The date is added to the attribute `history`.
     """
@@ -185,7 +185,7 @@ UNITS, SHOWN = "units", "units_shown"
 
 
 def spelled(node: xr.Dataset) -> xr.Dataset:
-    """Return a dataset with units as written in files; `units_shown` has the spelling on screen."""
+    """Return a Dataset with units spelled as in files; `units_shown` has the screen spelling."""
     node = node.copy()
     for name, variable in node.variables.items():
         unit = variable.attrs.get(UNITS)
@@ -195,7 +195,7 @@ def spelled(node: xr.Dataset) -> xr.Dataset:
 
 
 def _write_zarr(result: xr.Dataset | xr.DataTree, path: Path) -> None:
-    """Write an answer with its sections to Zarr, a group for each node."""
+    """Write a result with its sections to a Zarr store, one group for each section."""
     with zarr_of().config.set({"threading.max_workers": 1}):
         for group, node in _groups(result).items():
             mode: Any = "w" if group == "/" else "a"
@@ -209,7 +209,7 @@ ZARR: dict[str, Any] = {"consolidated": False, "zarr_format": 2, "write_empty_ch
 
 
 def zarr_of() -> Any:
-    """Return the module `zarr`.
+    """Import and return the module `zarr`; raise an error if it is not installed.
 
     Raises
     ------
@@ -224,7 +224,7 @@ def zarr_of() -> Any:
 
 
 def open(path: str | Path) -> xr.Dataset | xr.DataTree:
-    """Read an answer, or an answer with its sections, exactly as it was written.
+    """Read a result, alone or with its sections, exactly as it was written.
 
     Parameters
     ----------
@@ -275,7 +275,7 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
 
 
 def verify(path: str | Path) -> Path:
-    """Read a complete file of earthspin and compare it with its checksums.
+    """Read a complete result file and compare it with the checksums that it stores.
 
     Parameters
     ----------
@@ -314,7 +314,7 @@ def verify(path: str | Path) -> Path:
 
 
 def _verify_files(store: Path) -> bool:
-    """Compare every file of a Zarr store with the ledger; return False if there is no ledger.
+    """Compare all files of a Zarr store with its list of checksums; False without a list.
 
     Raises
     ------
@@ -338,7 +338,7 @@ def _verify_files(store: Path) -> bool:
 
 
 def _read(path: Path) -> dict[str, xr.Dataset]:
-    """Read the nodes of a file by their paths, with units in the spelling of files.
+    """Read all groups of a file by their paths; units stay in the spelling of files.
 
     A netCDF file is compared with the checksum of its bytes, or of its content if it has no other.
     """
@@ -376,7 +376,7 @@ def _read(path: Path) -> dict[str, xr.Dataset]:
 
 
 def _unreadable(path: Path, error: Exception) -> OutputError:
-    """Make the error for a file that cannot be read, or return the `OutputError` that caused it."""
+    """Make the error for a file that cannot be read, or return the `OutputError` behind it."""
     cause: BaseException | None = error
     while cause is not None:
         if isinstance(cause, OutputError):
@@ -400,7 +400,7 @@ read = open
 def encoding_of(
     node: xr.Dataset, *, zarr: bool = True, chunked: str = ""
 ) -> dict[str, dict[str, Any]]:
-    """Return the encoding with which each variable is stored in a file, by name of the variable.
+    """Return, by variable name, the encoding with which each variable is stored in a file.
 
     The CF conventions require that coordinate variables are numeric, so text labels are stored as
     arrays of characters, which xarray reads back as text. The scene is stored as characters too,

@@ -1,4 +1,4 @@
-"""Unfinished Zarr stores: written in blocks, in any order, and resumed after any interruption.
+"""Unfinished Zarr stores: blocks are written in any order, and interrupted runs are resumed.
 
 While a store ``X.zarr`` is not complete, a folder ``X.zarr.partial`` next to it holds the store,
 whose arrays have their full length from the beginning; the request that it answers (`REQUEST`); and
@@ -44,7 +44,7 @@ STORE, REQUEST, OWNER, LEDGER, FRAME = "store", "asked.json", "owner", "ledger",
 
 @dataclass(frozen=True)
 class Layout:
-    """Division of a store into blocks.
+    """Division of a Zarr store into blocks along one dimension.
 
     Attributes
     ----------
@@ -66,17 +66,17 @@ class Layout:
         return -(-self.size // self.block)
 
     def bounds(self, number: int) -> tuple[int, int]:
-        """First index of a block along the divided dimension, and first index after the block."""
+        """Index at which a block begins, and index after its end, along the divided dimension."""
         return number * self.block, min((number + 1) * self.block, self.size)
 
     def length(self, number: int) -> int:
-        """Number of indices of a block along the divided dimension."""
+        """Length of a block along the divided dimension."""
         first, last = self.bounds(number)
         return last - first
 
 
 class Unfinished:
-    """An unfinished store that one process has locked.
+    """An unfinished Zarr store that one process has locked.
 
     Parameters
     ----------
@@ -116,17 +116,17 @@ class Unfinished:
 
     @property
     def length(self) -> int:
-        """Total number of indices in the finished blocks, along the divided dimension."""
+        """Number of finished epochs or members: total length of the finished blocks."""
         return sum(map(self.layout.length, self.done))
 
     def note(self, number: int, sums: Mapping[str, str]) -> None:
-        """Add a block that is on the disk to the ledger."""
+        """Record that a block is on the disk, with the checksums of its files."""
         if number not in self.done:
             self.done[number] = dict(sums)
             _append_to_ledger(self.folder / LEDGER, sums)
 
     def check_frame(self) -> None:
-        """Refuse a store if its files outside all blocks differ from those that `begin` wrote.
+        """Raise an error if files that belong to no block differ from those of `begin`.
 
         Raises
         ------
@@ -141,7 +141,7 @@ class Unfinished:
             raise _damaged(self.folder, "its names, sizes or attributes are")
 
     def drop_damaged(self) -> list[int]:
-        """Drop the blocks whose bytes do not match the ledger, and return their numbers.
+        """Discard blocks whose files do not match their checksums; return their numbers.
 
         Raises
         ------
@@ -160,7 +160,7 @@ class Unfinished:
         return damaged
 
     def finish(self, place: Path) -> None:
-        """Complete the store: write its ledger, move it to `place`, delete the working folder."""
+        """Complete the store: write its list of checksums, and move it to `place`."""
         for stray in self.store.rglob("*.partial"):  # a chunk whose writer was killed
             stray.unlink()
         sums = _frame_checksums(self.store, self.layout.along)
@@ -173,7 +173,7 @@ class Unfinished:
 
 
 def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) -> dict[str, str]:
-    """Write one block into an unfinished store, and wait until it is on the disk.
+    """Write one block into an unfinished store; return when it is safely on the disk.
 
     Parameters
     ----------
@@ -221,12 +221,12 @@ def _variables_in_blocks(store: Path, along: str) -> dict[str, int]:
 
 
 def _files(grown: Mapping[str, int], number: int) -> list[str]:
-    """Paths of the files of a block."""
+    """Paths of the files that hold one block, in an unfinished store."""
     return [f"{name}/{number}{'.0' * (dims - 1)}" for name, dims in grown.items()]
 
 
 def _frame_checksums(store: Path, along: str) -> dict[str, str]:
-    """SHA-256 of the files of a store that no block writes."""
+    """SHA-256 of those files of a store that do not belong to any block."""
     grown = _variables_in_blocks(store, along)
     paths = map(PurePosixPath, files_in(store))
     frame = [p for p in paths if p.name.startswith(".") or p.parent.name not in grown]
@@ -235,7 +235,7 @@ def _frame_checksums(store: Path, along: str) -> dict[str, str]:
 
 @contextmanager
 def locked_folder(place: Path, request: Mapping[str, str]) -> Iterator[Path | None]:
-    """Lock and yield the folder of the unfinished store that is to become the store at a path.
+    """Lock and yield the folder of the unfinished store for a path; None if there is none.
 
     Parameters
     ----------
@@ -272,7 +272,7 @@ def locked_folder(place: Path, request: Mapping[str, str]) -> Iterator[Path | No
 
 
 def _refuse_another(folder: Path, request: dict[str, str]) -> None:
-    """Refuse to continue an unfinished store if its question, versions or layout differ."""
+    """Raise an error if an unfinished store has another question, version or layout."""
     try:
         begun = json.loads((folder / REQUEST).read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):
@@ -334,12 +334,12 @@ def begin(place: Path, request: Mapping[str, str], layout: Layout, first: xr.Dat
 
 
 def digest(request: Mapping[str, str]) -> str:
-    """SHA-256 of a request, which a complete store holds as an attribute."""
+    """SHA-256 of the texts that identify a run; a complete store holds it as an attribute."""
     return hashlib.sha256(json.dumps(dict(request), sort_keys=True).encode()).hexdigest()
 
 
 def _append_to_ledger(ledger: Path, sums: Mapping[str, str]) -> None:
-    """Add the lines of a block to a ledger, and wait until they are on the disk."""
+    """Append the checksums of a block to the list of finished blocks, safely on the disk."""
     with ledger.open("ab") as file:
         file.write(entries(sums))
         file.flush()
@@ -347,7 +347,7 @@ def _append_to_ledger(ledger: Path, sums: Mapping[str, str]) -> None:
 
 
 def _read_ledger(ledger: Path) -> dict[str, str]:
-    """SHA-256 of the files in a ledger, by path.
+    """Read the SHA-256 of the finished files of an unfinished store, by path.
 
     A last line that is incomplete because its writer was ended is removed. Damaged lines are
     ignored, so their blocks are made again.

@@ -1,4 +1,4 @@
-"""Classes of variables: each is declared once, with its unit, meaning, dimensions and error.
+"""Classes that declare the variables of results, with unit, meaning, dimensions and error.
 
 A part returns an instance with values in SI units. `dataset` converts them to the units of the
 class and adds the attributes of the CF conventions. Values are plain floats, because a Quantity
@@ -42,7 +42,7 @@ _PHASES = {"_in_phase": "{}, in phase", "_out_of_phase": "{}, out of phase"}
 
 @dataclass(frozen=True)
 class Variable:
-    """Declaration of one variable of a result.
+    """Declaration of one variable of a result: unit, meaning, dimensions and error.
 
     Attributes
     ----------
@@ -71,7 +71,7 @@ class Variable:
     short: str = ""
 
     def attributes(self, name: str, others: Iterable[str]) -> dict[str, Any]:
-        """Attributes of the stored variable: meaning, unit, and names of its errors in `others`."""
+        """Attributes of this variable: unit, meaning, and the names of its error variables."""
         attributes = {"long_name": self.long_name}
         if self.units:
             attributes["units"] = self.units
@@ -84,7 +84,7 @@ class Variable:
 
 
 class SchemaError(Exception):
-    """Raised if a part returns variables that it does not declare: a defect of the program."""
+    """Error raised if a part returns variables that it does not declare (a program defect)."""
 
 
 @dataclass(frozen=True)
@@ -152,7 +152,7 @@ def number(units: str, long_name: str, **options: Any) -> Any:
 
 
 def measured(units: str, long_name: str, *, split: bool = False, **options: Any) -> Any:
-    """Declare a number together with its 95 % half-width, ``<name>_error``.
+    """Declare a number together with its 95 % half-width, the variable ``<name>_error``.
 
     The value is a pair of number and half-width, or an `Estimate`.
 
@@ -167,7 +167,7 @@ def measured(units: str, long_name: str, *, split: bool = False, **options: Any)
 
 
 def amplitude(units: str, long_name: str, **options: Any) -> Any:
-    """Declare a pair of amplitudes, in phase and out of phase, as the IERS tabulates them."""
+    """Declare a pair of variables: in-phase and out-of-phase amplitudes, as in IERS tables."""
     return _field(_PHASES, units, long_name, **options)
 
 
@@ -177,7 +177,7 @@ def words(long_name: str, **options: Any) -> Any:
 
 
 def labels(long_name: str = "", units: str = "", **options: Any) -> Any:
-    """Declare a field that holds the labels of the dimension of the same name.
+    """Declare a field that holds the coordinate labels of the dimension of the same name.
 
     Parameters
     ----------
@@ -196,7 +196,7 @@ def labels(long_name: str = "", units: str = "", **options: Any) -> Any:
     kw_only_default=True, field_specifiers=(number, measured, amplitude, words, labels)
 )
 class Variables:
-    """Variables that one part adds to an answer or section.
+    """Base class for the set of variables that one part (function) adds to a result.
 
     Options of a subclass apply to all of its fields: `along`, the dimensions; `error`, the variable
     that holds the error of every number without its own; or `no_error`, why these have no error.
@@ -213,7 +213,7 @@ class Variables:
     def __init_subclass__(
         cls, along: tuple[str, ...] | None = None, error: str = "", no_error: str = ""
     ) -> None:
-        """Collect the fields that the class declares."""
+        """Collect the fields that a subclass declares."""
         cls.dims = cls.dims if along is None else along
         own = {name: field for name, field in vars(cls).items() if isinstance(field, Field)}
         cls.fields, schema = {**cls.fields, **own}, dict(cls.schema)
@@ -242,7 +242,7 @@ class Variables:
         self._no_error = ""
 
     def with_attributes(self, *, no_error: str = "", **attributes: Mapping[str, object]) -> Self:
-        """Add attributes to the variables that are known only after the values are computed.
+        """Add attributes to variables that are known only after the computation.
 
         Parameters
         ----------
@@ -256,7 +256,7 @@ class Variables:
         return self
 
     def dataset(self) -> xr.Dataset:
-        """Convert the values to a Dataset, in the units and with the attributes of the class.
+        """Convert the values to a Dataset, with the declared units and attributes.
 
         Raises
         ------
@@ -298,7 +298,7 @@ class Variables:
         return result
 
     def _by_variable(self) -> tuple[dict[str, Any], dict[Any, Any]]:
-        """Values of the data variables, by variable name, and coordinate labels, by dimension."""
+        """Values by variable name, and coordinate labels by dimension, as two dicts."""
         values: dict[str, Any] = {}
         coords: dict[Any, Any] = {}
         for name, field in self.fields.items():

@@ -1,4 +1,4 @@
-"""Variants of a question: one for each combination of names among the members.
+"""Copies (variants) of a question, one for each combination of names that ensemble members use.
 
 Members that differ in the orbit, the kernel or a model belong to different questions. Members with
 the same names share one question; parts that do not depend on the numbers of members run once.
@@ -26,7 +26,7 @@ _WHOLE, _SOURCES = "/", "/sources"
 
 
 class Variants:
-    """Variants of a question that differ in the keys with a name as value, such as a file.
+    """Copies (variants) of a question with different names, such as files, as inputs.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ class Variants:
         self._descriptions: dict[Names, dict[str, Mapping[str, Any]]] = {}
 
     def question(self, names: Names) -> Question:
-        """Return the question with the given names as values of its varying keys.
+        """Return the copy of the question that has the given names as inputs.
 
         Raises
         ------
@@ -55,7 +55,7 @@ class Variants:
         return self._question.replace(**dict(zip(self._keys, names, strict=True)))
 
     def __getitem__(self, names: Names) -> Rerun:
-        """Return the stored `Rerun` of the question with the given names in its varying keys."""
+        """Return the stored `Rerun` of the copy that has the given names as inputs."""
         if names not in self._runs:
             self._runs[names] = Rerun(self.question(names), self._moving)
             if len(self._runs) > LARGEST_NUMBER_OF_RUNS:
@@ -64,7 +64,7 @@ class Variants:
         return self._runs[names]
 
     def nominal(self, names: Names) -> xr.Dataset:
-        """Answer the question without members, with the given names in its varying keys."""
+        """Compute the answer with the given names as inputs, but without varied numbers."""
         run = self[names]()
         answer = run.answer()
         self._descriptions[names] = {
@@ -75,7 +75,7 @@ class Variants:
         return answer
 
     def _attributes(self, groups: Iterable[Names], name: str) -> dict[Names, Mapping[str, Any]]:
-        """Attributes of one variable or of the whole answer in each variant where it exists."""
+        """Attributes of one variable, or of the whole answer, by the names in each variant."""
         for names in groups:
             if names not in self._descriptions:
                 self.nominal(names)
@@ -86,7 +86,7 @@ class Variants:
         }
 
     def provenance(self, groups: Iterable[Names]) -> dict[str, str]:
-        """Sources of the results of each variant; the names of the variant are part of each key."""
+        """Software versions and checksums of files behind the results of all variants."""
         return {
             f"{name} of {', '.join(names)}" if names else name: source
             for names, sources in self._attributes(groups, _SOURCES).items()
@@ -94,7 +94,7 @@ class Variants:
         }
 
     def describe(self, answer: xr.Dataset, groups: Iterable[Names]) -> xr.Dataset:
-        """Set the attributes of an answer to the combined attributes of all variants.
+        """Set the attributes of an ensemble to the combined attributes of all variants.
 
         Texts that differ are listed with the names of the variants.
         """
@@ -107,7 +107,7 @@ class Variants:
 
 
 def _joined(attributes: Mapping[Names, Mapping[str, Any]]) -> dict[str, Any]:
-    """Combine the attributes of variants: keep equal values, and list differing texts.
+    """Combine attributes of variants: keep equal values, and list texts that differ.
 
     Other differing attributes are dropped.
     """

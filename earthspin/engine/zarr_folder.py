@@ -1,4 +1,4 @@
-"""Zarr store in a folder that compares each file with the ledger when it is read.
+"""Read a Zarr store in a folder, and compare each file with its checksum.
 
 Zarr itself reads a missing chunk as the fill value, and mixes two stores without notice if a folder
 is replaced while it is read.
@@ -17,7 +17,7 @@ from earthspin.engine.drafts import check_identity, identity
 
 
 class ZarrFolder(LocalStore):
-    """A Zarr store that is opened for reading only and checks each file that is read.
+    """A read-only Zarr store that compares each file with its checksum when it is read.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ class ZarrFolder(LocalStore):
         self._opened, self._ledger = identity(root), checksums.ledger_of(root)
 
     async def get(self, key: str, prototype: Any = None, byte_range: Any = None) -> Any:
-        """Read a file of the store.
+        """Read a file of the store and compare it with its checksum.
 
         Raises
         ------
