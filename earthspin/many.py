@@ -1,4 +1,4 @@
-"""Ensembles: answers to one question for many members, which differ in its inputs."""
+"""Ensembles: answers to one question for many members (sets of inputs)."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def ensemble(
     block: int | None = None,
     impossible: Literal["refuse", "drop"] | None = None,
 ) -> xr.Dataset:
-    """Answer one question for many ensemble members, which differ in the inputs of the question.
+    """Answer one question for many members, which differ in one or more inputs.
 
     The random numbers of a member depend only on the seed and on the number of the member, not on
     blocks or workers.
@@ -95,7 +95,7 @@ def ensemble(
 
 
 def _seed_from(rng: int | np.random.Generator | np.random.SeedSequence) -> int:
-    """Integer seed from a NumPy generator or seed sequence; an integer is returned unchanged."""
+    """Return a given integer seed, or draw one from a NumPy generator or seed sequence."""
     if isinstance(rng, (np.random.Generator, np.random.SeedSequence)):
         return int(np.random.default_rng(rng).integers(2**32))
     return rng

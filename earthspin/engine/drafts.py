@@ -228,7 +228,7 @@ def _clear_abandoned_drafts(target: Path, own: Path | None = None) -> None:
 
 
 def _remove(box: Path, target: Path) -> None:
-    """Remove the folder of a draft; if the target is missing, first restore its old version."""
+    """Remove the hidden folder of a draft; if the target is missing, restore its old version."""
     if (box / _OLD).exists() and not target.exists():
         os.replace(box / _OLD, target)
     shutil.rmtree(box, ignore_errors=True)

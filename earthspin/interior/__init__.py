@@ -1,1 +1,1 @@
-"""Interior models: layers, Love numbers, hydrostatic figure and free modes."""
+"""Interior models: layers, Love numbers, hydrostatic figure and free rotational modes."""

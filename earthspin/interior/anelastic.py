@@ -13,7 +13,7 @@ ABSORPTION_BAND = 200.0
 
 
 def anelastic_strain(period: Numeric, exponent: Numeric) -> Numeric:
-    """Relative change of the shear modulus from a period of 1 s to a longer one.
+    """Relative change of the shear modulus from a period of 1 s to a long one, for Q = 1.
 
     The change is for a material of quality factor 1; for others, divide it by the quality factor.
 
@@ -42,6 +42,6 @@ def anelastic_strain(period: Numeric, exponent: Numeric) -> Numeric:
 
 
 def _expm1_over(exponent: Numeric, log: Numeric) -> Numeric:
-    """Compute (x^alpha - 1)/alpha from ln x and alpha; the result is wrong where alpha is 0."""
+    """Compute (x^alpha - 1)/alpha from ln x and alpha without cancellation; wrong at alpha = 0."""
     safe = np.where(np.equal(exponent, 0), 1.0, exponent)
     return np.expm1(safe * log) / safe

@@ -68,7 +68,7 @@ WAVES = {
 
 
 def wave_response(wave: Wave) -> complex:
-    """Change of the Love number due to the ocean tide of one diurnal wave.
+    """Change of the Love number k2 by the ocean tide at the frequency of one diurnal wave.
 
     The phase is that of exp(i sigma Omega t) with sigma near -1.
 
@@ -79,7 +79,7 @@ def wave_response(wave: Wave) -> complex:
 
 
 def diurnal_response(sigma: Array) -> Array:
-    """Change of the Love number due to the ocean, at body-fixed frequencies in cycles per rotation.
+    """Change of the Love number k2 by the ocean tide at body-fixed diurnal frequencies.
 
     Linear interpolation between the waves; constant beyond the first and the last.
 

@@ -1,4 +1,4 @@
-"""Static elastic-gravitational equations of degree two.
+"""Equations of the static deformation of a self-gravitating layered body, in degree two.
 
 In the notation of Takeuchi & Saito (1972, Methods in Computational Physics 11, eq. 82):
 
@@ -32,7 +32,7 @@ SMALLEST_CORE = 1e-2
 
 
 class Profile:
-    """Density, moduli and gravity of a body in normalised units, at one radius or many."""
+    """Density, elastic moduli and gravity of a layered body as functions of radius, normalised."""
 
     def __init__(self, body: LayeredBody) -> None:
         self.layers = body.layers
@@ -62,7 +62,7 @@ class Profile:
         return (self._mass[i](r) + self._below[i]) / r**2
 
     def moduli(self, i: int, r: Any, strain: Array) -> tuple[Array, Array]:
-        """Lame parameters lambda and mu of layer i, normalised, as two arrays of shape (strain, r).
+        """Lame parameters lambda and mu of layer i at radii r, normalised, shape (strain, r) each.
 
         There is one row for each value of `strain` and one column for each radius in `r`.
         """
@@ -81,7 +81,7 @@ def _horner(coefficients: tuple[float, ...], x: Any) -> Any:
 
 
 def solid(profile: Profile, i: int, strain: Array) -> Callable[[Array], Array]:
-    """Function of radii that gives M of dy/dr = M y in solid layer i, shape (strain, r, 6, 6).
+    """Function of r that returns the matrix M of the equations dy/dr = M y in solid layer i.
 
     The equations are those of degree two.
     """
@@ -109,7 +109,7 @@ def solid(profile: Profile, i: int, strain: Array) -> Callable[[Array], Array]:
 
 
 def liquid(profile: Profile, i: int) -> Callable[[Array], Array]:
-    """Function of radii that gives M of dy/dr = M y in liquid layer i, shape (r, 2, 2).
+    """Function of r that returns the matrix M of the equations dy/dr = M y in liquid layer i.
 
     The unknowns are y5 and y7 (Saito 1974, eq. 17).
     """
@@ -123,7 +123,7 @@ def liquid(profile: Profile, i: int) -> Callable[[Array], Array]:
 
 
 def solid_centre(profile: Profile, strain: Array) -> Array:
-    """Three regular solutions near the centre to leading order in r, shape (strain, 6, 3)."""
+    """Three regular solutions y near a solid centre, to leading order in r, (strain, 6, 3)."""
     r, i = START, profile.first
     lam, mu = (modulus[:, 0] for modulus in profile.moduli(i, np.array([r]), strain))
     rho = profile.density(i, r)
@@ -138,6 +138,6 @@ def solid_centre(profile: Profile, strain: Array) -> Array:
 
 
 def liquid_centre(profile: Profile, i: int, r: float = START) -> Array:
-    """Potential y5 and its derivative term y7 of the regular solution near a liquid centre."""
+    """Regular solution near a liquid centre: potential y5, and y7, which holds its derivative."""
     s = FOUR_PI_G * profile.density(i, r) / profile.gravity(i, r)
     return np.array([r**2, (5 / r - s) * r**2])

@@ -31,7 +31,7 @@ FASTEST = Constant(
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """Response of a liquid body with the same density profile to a potential of degree two.
+    """Response to a degree-two potential of a body that is liquid but has the same densities.
 
     Attributes
     ----------
@@ -61,7 +61,7 @@ class Equilibrium:
 
 @lru_cache(maxsize=32)
 def equilibrium(body: LayeredBody) -> Equilibrium:
-    """Response of a liquid body to a potential of degree two, by integration along the radius.
+    """Compute the response to a degree-two potential if the whole body were liquid.
 
     The equations are those of a static liquid, equivalent to Clairaut's equation.
     """
@@ -103,7 +103,7 @@ def hydrostatic_core(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
 
 @dataclass(frozen=True)
 class Figure:
-    """Ellipticities and relative moments of a body in hydrostatic equilibrium and of its regions.
+    """Ellipticities and moments of a body in hydrostatic equilibrium, and of its core regions.
 
     Attributes
     ----------
@@ -138,7 +138,7 @@ class Figure:
 
 @lru_cache(maxsize=32)
 def figure(layers: LayeredBody, spin_rate: float) -> Figure:
-    """Hydrostatic figure of a spinning layered body, from Clairaut's equation.
+    """Compute the hydrostatic figure of a rotating layered body from Clairaut's equation.
 
     Parameters
     ----------
@@ -215,5 +215,5 @@ def figure(layers: LayeredBody, spin_rate: float) -> Figure:
 
 
 def _over_equatorial(difference: float, mean: float) -> float:
-    """Ratio (C - A)/A from C - A and the mean moment (2 A + C)/3."""
+    """Ratio (C - A)/A from the difference C - A and the mean moment of inertia (2 A + C)/3."""
     return difference / (mean - difference / 3) if mean else 0.0

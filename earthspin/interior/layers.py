@@ -1,4 +1,4 @@
-"""Layered bodies: shells with polynomial profiles, and their mass and moments of inertia."""
+"""Layered bodies: shells with polynomial profiles, with their mass and moments of inertia."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Numeric = Any
 
 @dataclass(frozen=True)
 class Layer:
-    """One shell; profiles are polynomials in x = r/R, constant term first.
+    """One shell, whose density and velocities are polynomials in x = r/R, constant term first.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class Layer:
 
 @dataclass(frozen=True)
 class LayeredBody:
-    """A layered body: a solid mantle around an optional liquid core and optional solid inner core.
+    """A layered body: solid mantle, optional liquid core, and optional solid inner core.
 
     The core and the inner core may be absent.
 
@@ -57,7 +57,7 @@ class LayeredBody:
 
     @property
     def radius(self) -> float:
-        """Radius R, m."""
+        """Outer radius R of the body, m."""
         return self.layers[-1].top
 
     @property
@@ -73,7 +73,7 @@ class LayeredBody:
 
     @property
     def mass(self) -> float:
-        """Mass, kg."""
+        """Mass of the whole body, kg."""
         return float(4 * math.pi * self._radial_moment(2, self.radius))
 
     def moment_of_inertia(self, radius: float | None = None) -> float:
@@ -83,12 +83,12 @@ class LayeredBody:
 
     @property
     def moment_factor(self) -> float:
-        """Moment of inertia factor, I/(M R2)."""
+        """Moment of inertia factor I/(M R2) of the whole body."""
         return self.moment_of_inertia() / (self.mass * self.radius**2)
 
     @property
     def core_fraction(self) -> float:
-        """Moment of inertia of the core, inner core included, divided by that of the whole body."""
+        """Moment of inertia of the whole core (liquid and solid) divided by that of the body."""
         return self.moment_of_inertia(self.core_radius) / self.moment_of_inertia()
 
     def _radial_moment(self, power: int, radius: float) -> float:
@@ -102,7 +102,7 @@ class LayeredBody:
 
 
 def _primitive(density: tuple[float, ...], power: int, x: float) -> float:
-    """Integral of x^power rho(x) from the centre to x."""
+    """Integral of x^power rho(x) from 0 to x, for a polynomial density rho."""
     total = 0.0
     for n in reversed(range(len(density))):
         total = total * x + density[n] / (n + power + 1)
@@ -110,7 +110,7 @@ def _primitive(density: tuple[float, ...], power: int, x: float) -> float:
 
 
 def tidal_inertia(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
-    """Ratio Omega2 R5/(3 G A), which converts a Love number to a product of inertia over A.
+    """Ratio Omega2 R5/(3 G A): product of inertia over A for k2 = 1 and a wobble of 1 rad.
 
     It is the product of inertia divided by A for k2 = 1 and a wobble of 1 rad.
     """

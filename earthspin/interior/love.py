@@ -1,4 +1,4 @@
-"""Response of a layered body to tides, surface loads and relative rotation of its core."""
+"""Degree-two response of a layered body to tides, surface loads and rotation of its core."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ Array = NDArray[Any]
 
 
 class Carry(Protocol):
-    """Function that integrates the linear equations dy/dr = M(r) y from one radius to another.
+    """Interface of a function that integrates dy/dr = M(r) y from one radius to another.
 
     The solutions y are columns of an array of shape (..., n, columns).
     """
@@ -44,7 +44,7 @@ class Carry(Protocol):
         *,
         together: bool = False,
     ) -> Array:
-        """Integrate solution columns y from `start` to `stop`.
+        """Integrate the solutions y (columns of an array) from radius `start` to `stop`.
 
         `together` means that only linear combinations of the columns are needed.
         """
@@ -60,7 +60,7 @@ _LOAD = 3
 
 @dataclass(frozen=True)
 class Yielding:
-    """Love numbers and responses of a layered body in degree two.
+    """Degree-two Love numbers of a layered body, and responses of its core regions.
 
     Arrays have the shape of the given `strain`.
 
@@ -90,12 +90,12 @@ class Yielding:
 
     @property
     def core_k(self) -> Array:
-        """Part of the tidal Love number k that comes from displaced masses of the whole core."""
+        """Contribution of mass displacements in the whole core to the tidal Love number k."""
         return np.asarray(self.answers[..., 1:, 0].sum(axis=-1))
 
     @property
     def k_pressure(self) -> Array:
-        """Love number of the whole body for a potential that acts in the core only.
+        """Love number k of the whole body for a potential that acts on its core only.
 
         Such a potential is due to a tilt of the rotation axis of the core.
         """
@@ -103,12 +103,12 @@ class Yielding:
 
     @property
     def core_k_pressure(self) -> Array:
-        """Part of `k_pressure` that comes from displaced masses of the whole core."""
+        """Contribution of mass displacements in the whole core to `k_pressure`."""
         return np.asarray(self.answers[..., 1:, 1:].sum(axis=(-1, -2)))
 
 
 def yielding(body: LayeredBody, strain: Any = 0.0, carry: Carry = by_collocation) -> Yielding:
-    """Compute the Love numbers of a layered body, and the responses of its regions to potentials.
+    """Compute Love numbers of a layered body, and responses to potentials in each region.
 
     Parameters
     ----------
@@ -150,7 +150,7 @@ def yielding(body: LayeredBody, strain: Any = 0.0, carry: Carry = by_collocation
 
 @lru_cache(maxsize=32)
 def elastic(layers: LayeredBody) -> Yielding:
-    """Love numbers and responses of a layered body with elastic moduli."""
+    """Compute Love numbers and responses of a layered body with its elastic moduli."""
     return yielding(layers)
 
 
@@ -161,7 +161,7 @@ _STRAIN_NODES = 10
 
 @lru_cache(maxsize=8)
 def softening(layers: LayeredBody) -> tuple[np.polynomial.Chebyshev, ...]:
-    """Ratios of four anelastic Love numbers to their elastic values, as Chebyshev polynomials.
+    """Ratios of anelastic to elastic Love numbers as polynomials in the change of rigidity.
 
     The Love numbers are `k`, `core_k`, `k_pressure` and `core_k_pressure`.
 
@@ -191,7 +191,7 @@ def softening(layers: LayeredBody) -> tuple[np.polynomial.Chebyshev, ...]:
 
 
 def _solved(profile: Profile, body: LayeredBody, strain: Array, carry: Carry) -> tuple[Array, ...]:
-    """Solve the boundary and surface conditions for all applied potentials."""
+    """Solve the equations of all layers with their boundary conditions, for all potentials."""
     zero = np.zeros((strain.size, 3, 4))
     if not body.core_radius:
         y = _across(profile, profile.first, solid_centre(profile, strain), strain, carry)
@@ -237,7 +237,7 @@ def _inside(state: Array, r: float) -> Array:
 
 
 def _across(profile: Profile, first: int, y: Array, strain: Array, carry: Carry) -> Array:
-    """Integrate solution columns through solid layers, from layer `first` to the next liquid."""
+    """Integrate solutions through solid layers, from layer `first` to a liquid or the surface."""
     r = START if first == profile.first else profile.tops[first - 1]
     for i in range(first, len(profile.tops)):
         if not profile.layers[i].vs:
@@ -252,7 +252,7 @@ def _across(profile: Profile, first: int, y: Array, strain: Array, carry: Carry)
 def _through_inner_core(
     profile: Profile, body: LayeredBody, strain: Array, carry: Carry
 ) -> tuple[Array, Array | None, list[Array]]:
-    """Integrate from the centre through the inner core to the bottom of the liquid core.
+    """Integrate solutions from the centre through the inner core to the base of the liquid core.
 
     Return (y5, y7) in the liquid, the state at the top of the inner core, and conditions there.
     """
@@ -273,7 +273,7 @@ def _through_inner_core(
 
 
 def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
-    """Return the potential variables y5 and y6 just above the boundary of a region.
+    """Return y5 and y6 just above a boundary where the applied potential changes by `step`.
 
     There the applied potential changes by `step`, because it acts in one region only.
     """
@@ -286,7 +286,7 @@ def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
 def _through_liquid(
     profile: Profile, body: LayeredBody, pair: Array, carry: Carry
 ) -> tuple[Array, int]:
-    """Integrate (y5, y7) to the top of the liquid core, and return the index of the next layer."""
+    """Integrate y5 and y7 through the liquid core; return also the index of the next layer."""
     r = body.inner_core_radius / body.radius or START
     liquids = (n for n, layer in enumerate(profile.layers) if not layer.vs)
     i = max(next(liquids), profile.first)
@@ -297,7 +297,7 @@ def _through_liquid(
 
 
 def _onto_mantle(profile: Profile, body: LayeredBody, pair: Array) -> Array:
-    """Continue the solution columns from the liquid core to the bottom of the mantle.
+    """Convert the solutions from the top of the liquid core to the bottom of the mantle.
 
     Two columns are unit displacements of the mantle, which are free because the liquid may slip.
     """

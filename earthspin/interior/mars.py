@@ -55,7 +55,7 @@ MOMENT = (MARS_POLAR_MOMENT.value - 2 / 3 * MARS_J2.value) * (
 
 
 def four_layers(core_radius: float = CORE_RADIUS.value) -> LayeredBody:
-    """Four-layer model of Mars with a fluid core of a given radius.
+    """Make a four-layer model of Mars with a fluid core of a given radius.
 
     The densities of upper and lower mantle follow from the mass and the moment of inertia.
 

@@ -1,4 +1,4 @@
-r"""Coupled rotation of mantle, fluid core and inner core: one linear system.
+r"""Coupled rotation of mantle, fluid core and inner core as one linear system of equations.
 
 In a frame that rotates with the mantle at Omega (z + m), the fluid core rotates at Omega m_f, the
 inner core at Omega m_s, and the figure axis of the inner core is tilted by n. With complex
@@ -51,7 +51,7 @@ MODES = ("chandler_wobble", "free_core_nutation", "inner_core_nutation", "inner_
 
 @dataclass(frozen=True)
 class Parts:
-    """Parameters of the rotating system; floats, or arrays of one shape.
+    """Parameters of the coupled rotation of mantle and core; floats, or arrays of one shape.
 
     Attributes
     ----------
@@ -83,7 +83,7 @@ class Parts:
 
     @property
     def count(self) -> int:
-        """Number of unknowns: 4 with an inner core, 2 with a fluid core only, 1 without a core."""
+        """Number of unknown rotations: 4 with an inner core, 2 with a fluid core only, else 1."""
         return 4 if np.any(self.inner) else 2 if np.any(self.fluid) else 1
 
     @property
@@ -103,7 +103,7 @@ class Parts:
 
 
 def all_fluid(parts: Parts, e_core: Numeric) -> Parts:
-    """Parameters of the same body with its inner core treated as fluid: mantle and core only.
+    """Parameters of coupled rotation if the inner core is treated as part of the fluid core.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ def all_fluid(parts: Parts, e_core: Numeric) -> Parts:
 
 
 def system(parts: Parts) -> tuple[Array, Array, Array, Array]:
-    """Matrices P, Q and vectors p, q of the linear system for the rotation of all regions.
+    """Matrices P, Q and vectors p, q of the linear equations for the rotation of all regions.
 
     It is (sigma P + Q) x = (sigma p + q) phi with x = (m, m_f, m_s, n).
 
@@ -166,7 +166,7 @@ def system(parts: Parts) -> tuple[Array, Array, Array, Array]:
 
 
 def held_by_mantle(parts: Parts) -> Parts:
-    """Parameters of the same body with its inner core locked to the mantle."""
+    """Parameters of coupled rotation if the inner core is locked to the mantle."""
     answers = np.array(parts.answers)
     answers[..., 2, :] = answers[..., :, 2] = 0
     none = dict.fromkeys(("e_s", "inner", "a1", "a2", "a3"), 0.0)
@@ -174,7 +174,7 @@ def held_by_mantle(parts: Parts) -> Parts:
 
 
 def wobble_response(parts: Parts, sigma: Array) -> Array:
-    """Wobble m per unit tidal potential phi, at body-fixed frequencies in cycles per rotation."""
+    """Wobble m of the mantle per unit tidal potential, at frequencies in cycles per rotation."""
     p, q, right, left = system(parts)
     at = np.asarray(sigma)[..., None]
     solution = np.linalg.solve(at[..., None] * p + q, (at * right + left)[..., None])
@@ -182,7 +182,7 @@ def wobble_response(parts: Parts, sigma: Array) -> Array:
 
 
 def transfer(parts: Parts, sigma: Array, rigid_e: float) -> Array:
-    """Nutation amplitude relative to that of a rigid body, at body-fixed frequencies.
+    """Ratio of nutation amplitudes, actual to rigid body, at body-fixed frequencies.
 
     Parameters
     ----------
@@ -197,7 +197,7 @@ def transfer(parts: Parts, sigma: Array, rigid_e: float) -> Array:
 
 
 def free_modes(parts: Parts) -> dict[str, complex]:
-    """Body-fixed frequencies of the free modes, cycles per rotation; Im > 0 for decaying ones.
+    """Complex body-fixed frequencies of the free modes, cycles per rotation, by name.
 
     A mode whose region is absent is not included.
     """
@@ -220,7 +220,7 @@ def _first(pair: tuple[float, complex]) -> float:
 
 
 def parts_of(layers: LayeredBody, spin_rate: float, answers: Array, e: float) -> Parts:
-    """Parameters of a rotating layered body: hydrostatic inside, with the observed ellipticity e.
+    """Parameters of coupled rotation: hydrostatic core, observed ellipticity of the body.
 
     Parameters
     ----------
@@ -240,7 +240,7 @@ def parts_of(layers: LayeredBody, spin_rate: float, answers: Array, e: float) ->
 
 
 def chandler_by_core(layers: LayeredBody, e: float, spin_rate: float) -> dict[str, float]:
-    """Period of the free wobble, in rotations, for three treatments of the inner core.
+    """Free wobble period, in rotations, with inner core locked, fluid or free to move.
 
     Parameters
     ----------
@@ -286,6 +286,6 @@ def numbers_of(layers: LayeredBody, spin_rate: float) -> dict[str, float]:
 
 
 def mode_period(name: str, mode: complex, spin_rate: float) -> float:
-    """Period of a free mode, s: in space for a nutation, in the body for a wobble."""
+    """Period of a free mode, s: in space for a nutation, relative to the body for a wobble."""
     turns = 1 / (1 + mode.real) if name.endswith("nutation") else 1 / mode.real
     return float(turns * 2 * np.pi / abs(spin_rate))

@@ -1,4 +1,4 @@
-"""Named interiors: the inputs of a body's wobble besides its figure, with sources.
+"""Named interiors: Love number, core and ocean of a body, with sources.
 
 An interior is either a layered model, from which all numbers follow by integration, or a set of
 published numbers. A body without an interior is rigid.
@@ -50,7 +50,7 @@ ANELASTIC_EXPONENT = Constant(
 
 @dataclass(frozen=True)
 class Interior:
-    """Interior of a body: layers or published numbers, with the core's ellipticity and an ocean.
+    """Interior of a body: layers or published Love number and core moment, and an ocean.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ class Interior:
     neglected: Mapping[str, Constant] = field(default_factory=dict, hash=False)
 
     def values(self) -> tuple[float, float, float | None]:
-        """Love number k2, core fraction, and ellipticity of the core, computed or published.
+        """Love number k2, core's share of the moment of inertia, and core ellipticity.
 
         The ellipticity is None if it follows from layers and the spin; see
         `equilibrium.hydrostatic_core`.
@@ -97,7 +97,7 @@ class Interior:
 
 
 def with_layers(layers: LayeredBody, known: Interior | None = None) -> Interior:
-    """Make an interior from layers; take its ocean and uncertainties from a known interior.
+    """Make an interior from layers, with ocean and uncertainties of a known interior.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Contribution of an equilibrium ocean: published for the real ocean, computed for a global one."""
+"""Effect of an equilibrium ocean on the wobble: published for the Earth, or a global ocean."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SEA_WATER = Constant(1025.0, "kg m-3", None, "IERS Conventions (2010), sect. 6.5
 
 
 def ocean_matrix() -> tuple[tuple[float, float], tuple[float, float]]:
-    """Change (c13, c23) of the products of inertia by the real ocean, per radian of wobble.
+    """Products of inertia c13 and c23 of the Earth's ocean per radian of wobble, over M a2.
 
     The products are divided by M a2.
 
@@ -40,7 +40,7 @@ def ocean_matrix() -> tuple[tuple[float, float], tuple[float, float]]:
 
 
 def global_ocean(layers: LayeredBody, density: float = SEA_WATER.value) -> float:
-    """Contribution to k2 of an equilibrium ocean that covers the whole body.
+    """Contribution of an equilibrium ocean that covers the whole body to its Love number k2.
 
     The sea surface follows the potential of the wobble, of the deformed body, of the water and of
     the loading by the water. This is one equation of degree two, solved in closed form (Munk &

@@ -7,7 +7,7 @@ from earthspin.interior.layers import Layer, LayeredBody
 
 
 def _prem(*outermost: Layer) -> tuple[Layer, ...]:
-    """Isotropic layers of PREM below the uppermost crust, followed by the given upper layers."""
+    """Return the isotropic layers of PREM below the upper crust, followed by the given layers."""
     lower = (7956.5, -6476.1, 5528.3, -3080.7)
     lid = ((2691.0, 692.4), (4187.5, 3938.2), (2151.9, 2348.1))
     return (

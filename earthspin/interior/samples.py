@@ -19,7 +19,7 @@ def from_samples(
     shear_q: Sequence[float],
     reference: str = "",
 ) -> LayeredBody:
-    """Make a layered body from samples, with linear interpolation between them.
+    """Make a layered body from samples along the radius, linear between the samples.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Input checks shared by this package; each raises a one-line message."""
+"""Input checks for `earthspin.mass`; each raises an error with a one-line message."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def positive(body: str, field: str, value: ArrayLike) -> FloatArray:
 
 
 def vectors(name: str, value: ArrayLike) -> FloatArray:
-    """Return finite vectors as an array whose last axis is x, y, z."""
+    """Return vectors as an array whose last axis is x, y, z; refuse infinite and missing values."""
     values = np.asarray(value, dtype=float)
     if values.ndim == 0 or values.shape[-1] != 3:
         raise UndefinedError(
@@ -35,12 +35,12 @@ def vectors(name: str, value: ArrayLike) -> FloatArray:
 
 
 def degree(name: str, value: Any) -> int:
-    """Return a degree or order as an integer; refuse anything but a non-negative integer."""
+    """Return the degree or order of a harmonic as an integer; refuse negative and other values."""
     if not isinstance(value, int | np.integer) or value < 0:
         raise UndefinedError(f"{name} = {value!r} is not possible; give an integer of 0 or more")
     return int(value)
 
 
 def first(values: FloatArray, wrong: NDArray[np.bool_]) -> float:
-    """Return the first invalid value, for which `wrong` is true."""
+    """Return the first element of `values` for which `wrong` is true."""
     return float(values[wrong].flat[0])

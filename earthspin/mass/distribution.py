@@ -1,4 +1,4 @@
-"""Mass distributions: point masses, and gridded densities converted to point masses.
+"""Mass distributions: checked point masses, and point masses that represent a gridded density.
 
 A density that is constant in each cell is replaced by Gauss points inside the cells. With k
 points along each edge every polynomial up to degree 2k - 1 is integrated exactly: two points
@@ -66,7 +66,7 @@ def centre_of_mass(masses: ArrayLike, positions: ArrayLike) -> FloatArray:
 def grid_masses(
     density: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike, points: int = 2
 ) -> tuple[FloatArray, FloatArray]:
-    """Point masses that represent a density on a Cartesian grid.
+    """Point masses, with positions, that represent a density on a Cartesian grid.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def grid_masses(
 
 
 def _check_grid(rho: FloatArray, edges: list[FloatArray]) -> None:
-    """Refuse invalid densities and edges."""
+    """Raise an error if cell densities or cell edges are invalid, or their sizes do not match."""
     cells = tuple(e.size - 1 for e in edges)
     if rho.shape != cells:
         raise UndefinedError(

@@ -26,7 +26,7 @@ LEAST_FLATTENING = -1e6
 
 
 class Moments(NamedTuple):
-    """Principal moments of an axisymmetric body.
+    """Moments of inertia A, C and their difference C - A of an axisymmetric body.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class Moments(NamedTuple):
 
 
 def check_flattening(flattening: ArrayLike) -> FloatArray:
-    """Return flattenings as an array; refuse those that no body can have.
+    """Return flattenings as an array; refuse values outside -10^6 (needle) to 1 (disc).
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def eccentricity_squared(flattening: ArrayLike) -> FloatArray:
 
 
 def perimeter(radius: ArrayLike, flattening: ArrayLike, colatitude: ArrayLike) -> FloatArray:
-    """Exact radius of a spheroid's surface (perimeter) at a given colatitude (I.9.36), m.
+    """Exact radius of a spheroid's surface at a given colatitude (I.9.36), m.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ def perimeter_first_order(
 def perimeter_about_mean(
     mean_radius: ArrayLike, flattening: ArrayLike, colatitude: ArrayLike
 ) -> FloatArray:
-    """Radius of a spheroid's surface at a given colatitude, from the mean radius (I.9.43), m.
+    """Radius of a spheroid's surface from the mean radius, to first order in f (I.9.43), m.
 
     The formula is of first order in the flattening.
 
@@ -131,7 +131,7 @@ def perimeter_about_mean(
 
 
 def mean_radius(radius: ArrayLike, flattening: ArrayLike) -> FloatArray:
-    """Exact mean, over all directions, of the distance of the surface from the centre, m.
+    """Exact radius of a spheroid, averaged over all directions from the centre, m.
 
     The integral (I.9.40) is a asinh(k)/k with k2 = e2/(1 - f)2, or the arcsine form for negative
     k2; Carlson's R_C covers both cases.
@@ -142,7 +142,7 @@ def mean_radius(radius: ArrayLike, flattening: ArrayLike) -> FloatArray:
 
 
 def mean_radius_first_order(radius: ArrayLike, flattening: ArrayLike) -> FloatArray:
-    """Mean radius a (1 - f/3), to first order in f (I.9.42), m."""
+    """Mean radius a (1 - f/3) of a spheroid, to first order in the flattening f (I.9.42), m."""
     a = positive("spheroid", "radius", radius)
     return np.asarray(a * (1 - check_flattening(flattening) / 3))
 
@@ -158,7 +158,7 @@ def spheroid_mass(density: ArrayLike, radius: ArrayLike, flattening: ArrayLike) 
 
 
 def spheroid_moments(mass: ArrayLike, radius: ArrayLike, flattening: ArrayLike) -> Moments:
-    """Moments of a homogeneous spheroid, exact.
+    """Exact moments of inertia A, C and C - A of a homogeneous spheroid.
 
     A = (1/5) M (a2 + c2), C = (2/5) M a2, C - A = (1/5) M a2 f (2 - f).
 
@@ -192,7 +192,7 @@ def moment_difference_first_order(
 def moment_difference_from_density(
     density: ArrayLike, mean_radius: ArrayLike, flattening: ArrayLike
 ) -> FloatArray:
-    """C - A of a homogeneous spheroid to first order: (8 pi/15) f rho a5 (I.9.47), kg m2.
+    """C - A of a homogeneous spheroid from its density: (8 pi/15) f rho a5 (I.9.47), kg m2.
 
     Parameters
     ----------
@@ -218,7 +218,7 @@ def ellipticity_homogeneous(flattening: ArrayLike) -> FloatArray:
 
 
 def mccullough_error(flattening: ArrayLike) -> FloatArray:
-    """Exact error of McCullough's formula, (C - A)/A - f = f2 (1 - f)/(2 - e2), if homogeneous.
+    """Exact error of the approximation (C - A)/A = f for a homogeneous spheroid.
 
     It is about f2/2. For the effect of density variations, see `layered_moments`.
     """
@@ -229,7 +229,7 @@ def mccullough_error(flattening: ArrayLike) -> FloatArray:
 def layered_moments(
     radii: ArrayLike, densities: ArrayLike, flattenings: ArrayLike
 ) -> tuple[float, Moments]:
-    """Mass and moments of homogeneous layers between coaxial, concentric spheroids, exact.
+    """Exact mass and moments of homogeneous layers between concentric coaxial spheroids.
 
     If all layers have the same flattening, (C - A)/A = (a2 - c2)/(a2 + c2) for any density profile.
     If the core is rounder than the surface, as in the Earth, (C - A)/A is smaller than the
@@ -278,7 +278,7 @@ def layered_moments(
 
 
 def _check_nested(radii: FloatArray, flattenings: FloatArray) -> None:
-    """Refuse layers that intersect or touch, at the equator or at the pole."""
+    """Raise an error if layers intersect or touch, at the equator or at the pole."""
     for name, sizes in (("equatorial", radii), ("polar", radii * (1 - flattenings))):
         wrong = np.diff(sizes) <= 0
         if np.any(wrong):

@@ -31,12 +31,12 @@ def moment_difference(j2: Numeric, mass: Numeric, radius: Numeric) -> Numeric:
 
 
 def j2_from_moment_difference(difference: Numeric, mass: Numeric, radius: Numeric) -> Numeric:
-    """J2 from the difference C - A of the moments of inertia (I.9.30)."""
+    """Zonal coefficient J2 from the difference C - A of the moments of inertia (I.9.30)."""
     return difference / (mass * radius**2)
 
 
 def ellipticity_from_h(h: Numeric) -> Numeric:
-    """Dynamical ellipticity e = (C - A)/A, for wobble, from H = (C - A)/C, for precession."""
+    """Dynamical ellipticity e = (C - A)/A (of wobble) from H = (C - A)/C (of precession)."""
     return h / (1 - h)
 
 
@@ -46,7 +46,7 @@ def h_from_ellipticity(e: Numeric) -> Numeric:
 
 
 def h_mccullough(flattening: Numeric) -> Numeric:
-    """Dynamical flattening H if (C - A)/A is approximated by the geometric flattening (I.9.52).
+    """Dynamical flattening H from the geometric flattening f, assuming (C - A)/A = f (I.9.52).
 
     McCullough's formula holds for a homogeneous spheroid, to first order in the flattening.
     """
@@ -54,7 +54,7 @@ def h_mccullough(flattening: Numeric) -> Numeric:
 
 
 def h_homogeneous(j2: Numeric) -> Numeric:
-    """Dynamical flattening H from J2 for a homogeneous body, with C = 0.4 M a2 (I.9.49)."""
+    """Dynamical flattening H of a homogeneous body from its J2, with C = 0.4 M a2 (I.9.49)."""
     return j2 / 0.4
 
 
@@ -93,7 +93,7 @@ def polar_moment(j2: Numeric, h: Numeric, mass: Numeric, radius: Numeric) -> Num
 
 
 def inverse_polar_moment(j2: float, h: float) -> float:
-    """Inverse moment factor M a2/C = H/J2; 0 if H is 0.
+    """Inverse polar moment factor M a2/C = H/J2; 0 if H is 0.
 
     Raises
     ------

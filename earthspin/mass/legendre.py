@@ -1,4 +1,4 @@
-"""Legendre functions on [-1, 1]: projection, expansion, completeness (I.9.3, I.9.4).
+"""Legendre functions on [-1, 1]: projection on them and sums of their series (I.9.3, I.9.4).
 
 P_nm is the associated Legendre function with the phase (-1)^m, not normalised, as in the
 source and in `scipy.special.lpmv`:
@@ -42,12 +42,12 @@ def factorial_ratio(n: int, m: int) -> float:
 
 
 def legendre_norm(n: int, m: int = 0) -> float:
-    """Norm K_nm, the integral of P_nm squared over [-1, 1] (I.9.3)."""
+    """Squared norm K_nm: integral of P_nm squared over [-1, 1] (I.9.3)."""
     return factorial_ratio(n, m) / (n + 0.5)
 
 
 def orthonormal_functions(n_max: int, z: ArrayLike, m: int = 0) -> FloatArray:
-    """Normalised functions P_nm(z)/sqrt(K_nm) for n = m to n_max, by recurrence in the degree.
+    """Normalised Legendre functions P_nm(z)/sqrt(K_nm) for degrees n = m to n_max.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def legendre_coefficients(
     breaks: Sequence[float] = (),
     accuracy: float = 1e-12,
 ) -> FloatArray:
-    """Project a function onto Legendre functions (I.9.3; with m = 0 I.9.4).
+    """Coefficients of a function in Legendre functions of order m (I.9.3; m = 0: I.9.4).
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ def legendre_coefficients(
 
 
 def legendre_sum(coefficients: ArrayLike, z: ArrayLike, m: int = 0) -> FloatArray:
-    """Sum of a Legendre series from its coefficients g_nm: g_nm P_nm(z) over n (I.9.3, I.9.4).
+    """Sum over n of coefficients g_nm times Legendre functions P_nm(z) (I.9.3, I.9.4).
 
     The degree n runs from m on.
 
@@ -155,7 +155,7 @@ def legendre_sum(coefficients: ArrayLike, z: ArrayLike, m: int = 0) -> FloatArra
 
 
 def completeness_kernel(n_max: int, z: ArrayLike, other: ArrayLike, m: int = 0) -> FloatArray:
-    """Partial sum of P_nm(z) P_nm(z')/K_nm, which tends to delta(z - z') (I.9.3, I.9.4).
+    """Sum over n of P_nm(z) P_nm(z')/K_nm, which tends to delta(z - z') (I.9.3, I.9.4).
 
     Parameters
     ----------
@@ -178,7 +178,7 @@ def completeness_kernel(n_max: int, z: ArrayLike, other: ArrayLike, m: int = 0) 
 
 
 def _roots_of_norms(n_max: int, m: int) -> FloatArray:
-    """Square roots of K_nm for n = m to n_max."""
+    """Square roots of K_nm, the integrals of P_nm squared, for n = m to n_max."""
     _check_order(n_max, m)
     return np.sqrt([legendre_norm(n, m) for n in range(m, n_max + 1)])
 

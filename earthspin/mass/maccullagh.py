@@ -1,4 +1,4 @@
-"""MacCullagh's potential at a distant point, and torque by a distant mass (I.9.31, I.9.34).
+"""MacCullagh's potential of a body at a distant point, and torque of a distant mass on the body.
 
     V = -GM/r - G/(2 r3) (A + B + C - 3 I)      I = n . I n, about the line to the point
     N = 3 GM/r3 n x (I n)
@@ -19,7 +19,7 @@ from earthspin.mass._checks import FloatArray, positive, vectors
 
 
 def maccullagh_potential(mass: ArrayLike, tensor: ArrayLike, position: ArrayLike) -> FloatArray:
-    """Potential far from a body of any shape, to order 1/r3, m2 s-2.
+    """Gravitational potential far from a body of any shape, to order 1/r3, m2 s-2.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ def maccullagh_potential(mass: ArrayLike, tensor: ArrayLike, position: ArrayLike
 def maccullagh_potential_axisymmetric(
     mass: ArrayLike, moment_difference: ArrayLike, distance: ArrayLike, colatitude: ArrayLike
 ) -> FloatArray:
-    """Potential far from a body of revolution, to order 1/r3 (I.9.31), m2 s-2.
+    """Gravitational potential far from a body of revolution, to order 1/r3 (I.9.31), m2 s-2.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def _less_sphere(tensor: ArrayLike) -> FloatArray:
 
 
 def _direction(position: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Unit vectors and distances of positions; refuse the centre, which has no direction."""
+    """Unit vectors and lengths of position vectors; raise an error if a length is zero."""
     r = vectors("position", position)
     distance = np.asarray(np.sqrt(np.sum(r * r, axis=-1)))
     if np.any(distance == 0):

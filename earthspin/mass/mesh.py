@@ -1,4 +1,4 @@
-r"""Solids bounded by triangles, as weighted points that integrate polynomials exactly.
+r"""Weighted points in a solid bounded by triangles, which integrate polynomials exactly.
 
 A closed mesh is the sum of the signed tetrahedra from one point to each triangle. With r = u (p + v
 (q - p) + v w (s - q)) for the corners p, q, s,
@@ -28,7 +28,7 @@ _BODY = "mesh"
 
 
 def closed_mesh(vertices: ArrayLike, faces: ArrayLike) -> tuple[FloatArray, NDArray[np.int64]]:
-    """Check that a mesh encloses a solid, with triangles counter-clockwise seen from outside.
+    """Return vertices and faces of a mesh; refuse it unless it is closed and oriented outwards.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def closed_mesh(vertices: ArrayLike, faces: ArrayLike) -> tuple[FloatArray, NDAr
 
 
 def _refuse_open(faces: NDArray[np.integer]) -> None:
-    """Refuse an open mesh: each edge must occur exactly once in each direction."""
+    """Raise an error if a mesh is open: each edge must occur once in each direction."""
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)
     size = int(faces.max()) + 1
     forward, backward = np.sort(edges @ [size, 1]), np.sort(edges @ [1, size])
@@ -85,7 +85,7 @@ def _refuse_open(faces: NDArray[np.integer]) -> None:
 
 
 def _refuse_coincident(places: FloatArray, faces: NDArray[np.integer]) -> None:
-    """Refuse coincident triangles of the same orientation, whose volume would count twice."""
+    """Raise an error if two equally oriented triangles coincide and would count twice."""
     _, same = np.unique(places, axis=0, return_inverse=True)
     corners = same.reshape(-1)[faces]
     first = np.argmin(corners, axis=1)[:, np.newaxis]
@@ -100,7 +100,7 @@ def _refuse_coincident(places: FloatArray, faces: NDArray[np.integer]) -> None:
 
 @cache
 def _cone(degree: int) -> tuple[FloatArray, FloatArray]:
-    """Quadrature points in a tetrahedron (barycentric, shape (k, 3)), and their weights (k,)."""
+    """Quadrature points in a tetrahedron, in barycentric coordinates (k, 3), and weights (k,)."""
 
     def rule(power: int) -> tuple[FloatArray, FloatArray]:
         """Nodes and weights of Gauss quadrature on [0, 1] with the weight function x^power."""
@@ -116,7 +116,7 @@ def _cone(degree: int) -> tuple[FloatArray, FloatArray]:
 def solid_points(
     vertices: FloatArray, faces: NDArray[np.int64], degree: int
 ) -> Iterator[tuple[FloatArray, FloatArray]]:
-    """Yield quadrature points of a solid in blocks: signed volumes (m3) and positions (m).
+    """Yield quadrature points of a solid in batches: signed volumes (m3) and positions (m).
 
     Parameters
     ----------

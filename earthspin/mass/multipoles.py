@@ -1,4 +1,4 @@
-"""Multipole expansion in (n, m) of 1/R and of a body's potential (I.9.5 to I.9.21).
+"""Multipole expansion of 1/R and of the potential of a body, in degree n and order m.
 
 The harmonics are Racah's, with the phase (-1)^m,
 
@@ -34,7 +34,7 @@ ComplexArray = NDArray[np.complex128]
 
 
 def solid_harmonics(position: FloatArray, n_max: int) -> Iterator[tuple[int, int, ComplexArray]]:
-    """Yield degree n, order m and the solid harmonic r^n C_nm at a position, order by order.
+    """Yield degree n, order m and the solid harmonic r^n C_nm at given positions.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def solid_harmonics(position: FloatArray, n_max: int) -> Iterator[tuple[int, int
 
 
 def inverse_distance(position: ArrayLike, source: ArrayLike, n_max: int) -> FloatArray:
-    """Inverse distance 1/R of two points by its expansion up to degree n_max (I.9.10 to I.9.13).
+    """Inverse distance 1/R of two points by a multipole series to degree n_max (I.9.10 to I.9.13).
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def inverse_distance(position: ArrayLike, source: ArrayLike, n_max: int) -> Floa
 
 
 def inverse_distance_bound(position: ArrayLike, source: ArrayLike, n_max: int) -> FloatArray:
-    """Bound on the truncation error of `inverse_distance`, m-1.
+    """Bound on the truncation error of the series in `inverse_distance`, m-1.
 
     It is (r</r>)^(n_max + 1)/(r> - r<) for the smaller distance r< and the larger r>.
     """
@@ -101,7 +101,7 @@ def inverse_distance_bound(position: ArrayLike, source: ArrayLike, n_max: int) -
 
 @dataclass(frozen=True)
 class Multipoles:
-    """Multipole moments of a body, and the potential derived from them.
+    """Multipole moments of a body, from which its potential is computed.
 
     Attributes
     ----------
@@ -123,7 +123,7 @@ class Multipoles:
 
     @property
     def n_max(self) -> int:
-        """Highest degree of the moments."""
+        """Highest degree n of the stored multipole moments."""
         return len(self.moments) - 1
 
     @property
@@ -132,7 +132,7 @@ class Multipoles:
         return np.real(self.moments[:, 0])
 
     def moment(self, n: int, m: int) -> complex:
-        """Moment T_nm (I.9.20) with Racah's harmonics.
+        """Multipole moment T_nm of degree n and order m (I.9.20), with Racah's harmonics.
 
         The unit is kg m^n for exterior and kg m^(-n-1) for interior moments.
 
@@ -149,7 +149,7 @@ class Multipoles:
         return value * self.radius ** (n if self.side == "exterior" else -n - 1)
 
     def potential(self, position: ArrayLike) -> FloatArray:
-        """Gravitational potential by the series (I.9.15, I.9.21), m2 s-2.
+        """Gravitational potential of the body by the multipole series (I.9.15, I.9.21), m2 s-2.
 
         Parameters
         ----------
@@ -173,7 +173,7 @@ class Multipoles:
         return np.asarray(-G.value / self.radius * total)
 
     def truncation_bound(self, position: ArrayLike) -> FloatArray:
-        """Bound on the error from truncating the series at n_max, m2 s-2.
+        """Bound on the error of `potential` from the terms above degree n_max, m2 s-2.
 
         The bound is G M/|r - radius| q^(n_max + 1), where q < 1 is the ratio of r and radius.
         """
@@ -184,7 +184,7 @@ class Multipoles:
         return np.asarray(scale * ratio ** (self.n_max + 1) / (1 - ratio))
 
     def _converging(self, position: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Position divided by the reference radius, and convergence ratio of the series."""
+        """Return position over reference radius, and convergence ratio; refuse divergence."""
         scaled = vectors("position", position) / self.radius
         r = np.sqrt(np.sum(scaled**2, axis=-1))
         wrong = r <= 1 if self.side == "exterior" else r >= 1
@@ -201,7 +201,7 @@ class Multipoles:
 def exterior_multipoles(
     masses: ArrayLike, positions: ArrayLike, n_max: int, radius: float | None = None
 ) -> Multipoles:
-    """Multipole moments for the potential outside a body (I.9.20).
+    """Compute multipole moments for the potential outside a body (I.9.20).
 
     Parameters
     ----------
@@ -229,7 +229,7 @@ def exterior_multipoles(
 def interior_multipoles(
     masses: ArrayLike, positions: ArrayLike, n_max: int, radius: float | None = None
 ) -> Multipoles:
-    """Multipole moments for the potential in the cavity of a body (below I.9.21).
+    """Compute multipole moments for the potential in a cavity of a body (below I.9.21).
 
     Parameters
     ----------
@@ -252,7 +252,7 @@ def interior_multipoles(
 
 
 def _moments(masses: FloatArray, scaled: FloatArray, n_max: int) -> ComplexArray:
-    """Multipole moments by degree n and order m: sum of mass times conjugate solid harmonic."""
+    """Multipole moments by degree and order: sums of mass times conjugate solid harmonic."""
     moments = np.zeros((degree("n_max", n_max) + 1, n_max + 1), dtype=complex)
     for n, m, harmonic in solid_harmonics(scaled, n_max):
         moments[n, m] = np.dot(masses, np.conj(harmonic))
@@ -260,7 +260,7 @@ def _moments(masses: FloatArray, scaled: FloatArray, n_max: int) -> ComplexArray
 
 
 def _sources(masses: ArrayLike, positions: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Masses, positions, and distances from the origin, of a single body."""
+    """Check one body of point masses; return masses, positions and distances from the origin."""
     m, r = point_masses(masses, positions)
     if r.ndim != 2:
         raise UndefinedError(f"positions have the shape {r.shape}; give one body, (k, 3)")
@@ -270,7 +270,7 @@ def _sources(masses: ArrayLike, positions: ArrayLike) -> tuple[FloatArray, Float
 def _near_and_far(
     position: ArrayLike, source: ArrayLike
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Sort two points by distance from the origin: nearer point, farther point.
+    """Return two points, the one nearer to the origin first, with larger distance and difference.
 
     Return also the larger distance and the difference of the distances.
     """

@@ -1,4 +1,4 @@
-"""Principal axes and moments, including degenerate bodies (I.3).
+"""Principal axes and moments of inertia, also if moments are equal (I.3).
 
 If two moments are equal, their axes are arbitrary in their plane; if all three are equal, all axes
 are arbitrary. The choice made here is deterministic, and the result marks arbitrary axes. A regular
@@ -25,7 +25,7 @@ _EIGENVALUE_ERROR = 4 * np.finfo(float).eps
 
 @dataclass(frozen=True)
 class PrincipalAxes:
-    """Principal moments A <= B <= C and their axes.
+    """Principal moments A <= B <= C of a body, and unit vectors along their axes.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class PrincipalAxes:
 
 
 def principal_axes(tensor: ArrayLike, equal: float = EQUAL) -> PrincipalAxes:
-    """Diagonalize an inertia tensor (I.3.1).
+    """Compute principal moments and axes by diagonalizing an inertia tensor (I.3.1).
 
     Signs: the first component of each axis that exceeds 0.55 in absolute value is positive, and the
     third axis completes a right-handed set. Free axes: the first coordinate axis at a large angle
@@ -102,7 +102,7 @@ def principal_axes(tensor: ArrayLike, equal: float = EQUAL) -> PrincipalAxes:
 def _choose(
     axes: FloatArray, same_ab: bool, same_bc: bool
 ) -> tuple[FloatArray, str, tuple[bool, bool, bool]]:
-    """Choose the signs of principal axes, and the axes that equal moments leave arbitrary.
+    """Choose the signs of principal axes, and axes that are arbitrary because moments are equal.
 
     Return also the kind of body, and which axes are arbitrary.
     """
@@ -121,7 +121,7 @@ def _choose(
 
 
 def _signed(axis: FloatArray) -> FloatArray:
-    """Choose the sign of an axis: its first large component becomes positive.
+    """Return an axis with the sign that makes its first large component positive.
 
     A component is large if its absolute value exceeds 0.55.
     """
@@ -130,7 +130,7 @@ def _signed(axis: FloatArray) -> FloatArray:
 
 
 def _across(pole: FloatArray) -> FloatArray:
-    """Unit vector perpendicular to the pole: projection of a coordinate axis far from the pole."""
+    """Choose a unit vector perpendicular to a given axis, for axes that are arbitrary."""
     coordinate = np.eye(3)[np.argmax(np.abs(pole) < 0.6)]
     across = coordinate - pole * np.dot(coordinate, pole)
     return np.asarray(across / np.linalg.norm(across))

@@ -22,7 +22,7 @@ from earthspin.mass.distribution import centre_of_mass, point_masses
 def torque_on_masses(
     gm: float, position: ArrayLike, masses: ArrayLike, positions: ArrayLike
 ) -> FloatArray:
-    """Exact torque of one mass on rigidly connected point masses, about their centre of mass.
+    """Exact torque of a mass on rigidly connected point masses about their mass centre, N m.
 
     With s from the centre of mass to a mass m, and d to the distant mass,
     N = sum of GM m (s x d)/|d - s|^3. As the sum of m s is zero, 1/|d - s|^3 may be replaced by its
@@ -64,7 +64,7 @@ def torque_on_masses(
 
 
 def ring_positions(count: int, radius: float, angle: float = 0.0) -> FloatArray:
-    """Positions of masses evenly spaced on a circle in the xy plane (I.8.1), shape (count, 3), m.
+    """Positions of equal masses, evenly spaced on a circle in the xy plane (I.8.1), m.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def ring_positions(count: int, radius: float, angle: float = 0.0) -> FloatArray:
 def ellipse_positions(
     count: int, long_axis: float, short_axis: float, tilt: float = 0.0, start: float = 0.0
 ) -> FloatArray:
-    """Positions of masses on an ellipse in the xy plane, evenly spaced in eccentric angle (I.8.4).
+    """Positions of masses on an ellipse in the xy plane, at even eccentric angles (I.8.4), m.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ def ellipse_positions(
 def dumbbell_torque(
     gm: ArrayLike, distance: ArrayLike, mass: ArrayLike, radius: ArrayLike, angle: ArrayLike
 ) -> FloatArray:
-    """Torque on two masses m at +r and -r, to leading order (I.8.2), N m.
+    """Torque of a distant mass on two masses m at +r and -r, to leading order (I.8.2), N m.
 
     The torque is -6 GM m r2/b3 sin(angle) cos(angle). The torques on two dumbbells that are mirror
     images in the line to the distant mass cancel if their radii are equal (I.8.3); otherwise their
@@ -144,7 +144,7 @@ def ring_torque(
     count: int,
     angle: ArrayLike,
 ) -> FloatArray:
-    """Torque on N masses evenly spaced on a circle, to leading order, N m.
+    """Torque of a distant mass on N masses on a circle, to leading order, N m.
 
     It is zero to the order of (I.8.3) if N > 2. The leading torque comes from the potential of
     degree N, P_N(cos x) = 2 (2N)!/(2^N N!)^2 cos N x + ..., and is
@@ -178,7 +178,7 @@ def ellipse_torque(
     count: int,
     tilt: ArrayLike,
 ) -> FloatArray:
-    """Torque on N masses on an ellipse, evenly spaced in eccentric angle, leading order, N m.
+    """Torque of a distant mass on N masses on an ellipse, to leading order, N m.
 
     The sum over the dumbbells of (I.8.5) is -(3/2) N GM m (p2 - q2)/b3 sin(tilt) cos(tilt), for
     semi-axes p and q. It turns the long axis towards the distant mass.
@@ -203,13 +203,13 @@ def ellipse_torque(
 
 
 def _pull(gm: ArrayLike, mass: ArrayLike) -> FloatArray:
-    """Product of the distant mass's GM and one point mass m, N m2."""
+    """Product of the distant mass's GM and the mass m of one point, N m2."""
     mu = positive("point mass", "gm", gm)
     return np.asarray(mu * positive("point masses", "mass", mass))
 
 
 def _far(distance: ArrayLike, radius: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Distance b of the distant mass from the ring, and ratio of the ring's radius to b."""
+    """Check the distance b of the distant mass and the ring's radius a; return b and a/b."""
     b = positive("point mass", "distance", distance)
     return b, np.asarray(positive("point masses", "radius", radius) / b)
 
@@ -232,6 +232,6 @@ def _inverse_cube_excess(s: FloatArray, d: FloatArray, apart: FloatArray) -> Flo
 
 
 def _check_count(count: int, least: int) -> None:
-    """Refuse a number of masses below the minimum."""
+    """Raise an error if the number of masses is below the minimum."""
     if degree("count", count) < least:
         raise UndefinedError(f"count = {count} masses are too few; give {least} or more")

@@ -31,7 +31,7 @@ POINTS = 3
 
 @dataclass(frozen=True)
 class Shape:
-    """Mass, centre of mass and figure of a solid.
+    """Mass, centre of mass, principal axes, and J2 to J4 of a solid.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class Shape:
 
     @property
     def triaxiality(self) -> float:
-        """Triaxiality (B - A)/(M a2)."""
+        """Triaxiality (B - A)/(M a2) of the equatorial moments A and B."""
         return self.principal.b_minus_a / (self.mass * self.radius**2)
 
     @classmethod
@@ -170,7 +170,7 @@ class Shape:
 
     @classmethod
     def _of(cls, pieces: Pieces, outline: FloatArray, radius: float | None) -> Self:
-        """Make a `Shape` from weighted points; refuse overflow.
+        """Make a `Shape` from weighted points; raise an error if numbers overflow.
 
         `outline` holds the points among which the farthest from the centre is found.
         """

@@ -46,7 +46,7 @@ CLOSED_FORM_ERROR = 5e-14
 
 
 class AttractionIntegrals(NamedTuple):
-    """Integrals in the formulas for potential, attraction and torque.
+    """Integrals in the closed forms of potential, attraction and torque of a spheroid.
 
     Attributes
     ----------
@@ -65,7 +65,7 @@ class AttractionIntegrals(NamedTuple):
 
 
 def confocal_squares(flattening: ArrayLike, position: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Squared semi-axes of the confocal spheroid through a point outside the body.
+    """Squared semi-axes of the confocal spheroid whose surface passes through an outside point.
 
     For a point inside, they are those of the body.
 
@@ -95,7 +95,7 @@ def confocal_squares(flattening: ArrayLike, position: ArrayLike) -> tuple[FloatA
 
 
 def _quadratic(f: FloatArray, square: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Coefficients of the quadratic equation for the confocal spheroid through a point.
+    """Coefficients of the quadratic equation for the confocal spheroid through a given point.
 
     Return the squared focal distance, and p and w of s2 - p s - w = 0, where s is the smaller
     squared semi-axis.
@@ -107,7 +107,7 @@ def _quadratic(f: FloatArray, square: FloatArray) -> tuple[FloatArray, FloatArra
 
 
 def error_bound(flattening: ArrayLike, position: ArrayLike) -> FloatArray:
-    """Bound on the relative error of potential, attraction and torque, mainly from rounding.
+    """Bound on the relative error of a spheroid's potential, attraction and torque (rounding).
 
     Near the focal ring (the rim of a thin disc, the tips of a needle) the confocal coordinate
     amplifies the rounding error of the position, which limits every method. One unit in the last
@@ -139,7 +139,7 @@ def error_bound(flattening: ArrayLike, position: ArrayLike) -> FloatArray:
 def attraction_integrals(
     radius: ArrayLike, flattening: ArrayLike, position: ArrayLike
 ) -> AttractionIntegrals:
-    """Integrals I0, A1, A3 and A3 - A1 at a point inside, on or outside the spheroid.
+    """Integrals I0, A1, A3 and A3 - A1 of a spheroid's field at points inside or outside it.
 
     Parameters
     ----------
@@ -177,7 +177,7 @@ def attraction_integrals(
 def spheroid_potential(
     gm: ArrayLike, radius: ArrayLike, flattening: ArrayLike, position: ArrayLike
 ) -> FloatArray:
-    """Exact gravitational potential of a homogeneous spheroid, negative.
+    """Exact gravitational potential of a homogeneous spheroid (negative), m2 s-2.
 
     Parameters
     ----------
@@ -210,7 +210,7 @@ def spheroid_potential(
 def spheroid_attraction(
     gm: ArrayLike, radius: ArrayLike, flattening: ArrayLike, position: ArrayLike
 ) -> FloatArray:
-    """Exact gravitational acceleration due to a homogeneous spheroid.
+    """Exact gravitational acceleration by a homogeneous spheroid, m s-2.
 
     Parameters
     ----------
@@ -236,7 +236,7 @@ def spheroid_torque(
     point_mass: ArrayLike,
     position: ArrayLike,
 ) -> FloatArray:
-    """Exact torque on a homogeneous spheroid by a point mass, about the spheroid's centre.
+    """Exact torque of a point mass on a homogeneous spheroid, about its centre, N m.
 
     At large distance it tends to 3 G m (C - A) z (r x k)/r5 (I.9.34). It is exactly zero for a mass
     on the axis or in the plane of the equator, and for a sphere.

@@ -73,7 +73,7 @@ def spheroid_tensor(
 
 
 def tensor_about_point(tensor: ArrayLike, mass: ArrayLike, offset: ArrayLike) -> FloatArray:
-    """Move a tensor from the centre of mass to another point, by the parallel axis theorem.
+    """Inertia tensor about a point, from that about the centre of mass (parallel axis theorem).
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def tensor_about_point(tensor: ArrayLike, mass: ArrayLike, offset: ArrayLike) ->
 
 
 def tensor_about_centre(tensor: ArrayLike, mass: ArrayLike, offset: ArrayLike) -> FloatArray:
-    """Move a tensor to the centre of mass: inverse of `tensor_about_point`.
+    """Inertia tensor about the centre of mass, from that about another point.
 
     The result is a difference and loses more digits the farther the point is from the body.
     """
@@ -120,7 +120,7 @@ def kinetic_energy(tensor: ArrayLike, omega: ArrayLike) -> FloatArray:
 
 
 def moment_about_axis(tensor: ArrayLike, axis: ArrayLike) -> FloatArray:
-    """Moment of inertia about an axis, from the inertia tensor (I.1.10).
+    """Moment of inertia about a given axis, from the inertia tensor (I.1.10).
 
     Parameters
     ----------
@@ -143,7 +143,7 @@ def moment_about_axis(tensor: ArrayLike, axis: ArrayLike) -> FloatArray:
 
 
 def change_frame(tensor: ArrayLike, rotation: ArrayLike) -> FloatArray:
-    """Components of the same tensor in another frame, I' = R I R^T (below I.1.6).
+    """Components of an inertia tensor in a rotated frame, I' = R I R^T (below I.1.6).
 
     Parameters
     ----------
@@ -169,7 +169,7 @@ def change_frame(tensor: ArrayLike, rotation: ArrayLike) -> FloatArray:
 
 
 def check_inertia_tensor(tensor: ArrayLike) -> FloatArray:
-    """Return an inertia tensor as an array; refuse one that no body can have.
+    """Return an inertia tensor as an array; raise an error if no body can have it.
 
     One moment may be zero, for masses on a straight line.
 
@@ -212,20 +212,20 @@ def check_inertia_tensor(tensor: ArrayLike) -> FloatArray:
 
 
 def _refuse(wrong: FloatArray, field: str, value: FloatArray, allowed: str) -> None:
-    """Raise an error that shows the first body marked in `wrong`, if there is one."""
+    """Raise an error that shows the first value marked in `wrong`, if any is marked."""
     if np.any(wrong):
         raise BodyError(_BODY, field, value[wrong][0].tolist(), allowed)
 
 
 def _offset_tensor(mass: ArrayLike, offset: ArrayLike) -> FloatArray:
-    """Inertia tensor of a point mass about a point at the distance vector `offset` from it."""
+    """Inertia tensor of a point mass about a point at the vector `offset` from the mass."""
     m, d = positive(_BODY, "mass", mass), vectors("offset", offset)
     outer = np.asarray(d[..., :, np.newaxis] * d[..., np.newaxis, :])
     return tensor_of_second_moments(m[..., np.newaxis, np.newaxis] * outer)
 
 
 def tensor_of_second_moments(second: FloatArray) -> FloatArray:
-    """Inertia tensor from second moments: trace times unit matrix minus the moments.
+    """Inertia tensor from the second moments of mass (sum of m r r), kg m2.
 
     Each diagonal element is a sum of two squares, without cancellation.
 

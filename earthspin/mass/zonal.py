@@ -1,4 +1,4 @@
-"""Zonal moments of bodies of revolution (I.9.22 to I.9.30).
+"""Zonal moments of bodies of revolution, and the potential from them (I.9.22 to I.9.30).
 
 All follow from one kind of integral, in kg, with a reference radius s,
 
@@ -38,7 +38,7 @@ def zonal_integrals(
     radius: float,
     accuracy: float = 1e-12,
 ) -> FloatArray:
-    """Zonal integrals Z_n of the density of a star-shaped body of revolution (I.9.27).
+    """Zonal integrals Z_n of the density of a body of revolution, to degree n_max (I.9.27).
 
     The degree n goes from 0 to n_max; the integrals are computed by Gauss quadrature.
 
@@ -80,7 +80,7 @@ def zonal_integrals(
 def moments_of_density(
     density: DensityFunction, perimeter: PerimeterFunction, accuracy: float = 1e-12
 ) -> Moments:
-    """Moments A, C and C - A of a star-shaped body of revolution, by quadrature (I.9.28, I.9.29).
+    """Moments A, C and C - A of a body of revolution from its density (I.9.28, I.9.29), kg m2.
 
     C - A = -integral of rho r2 P2 is integrated directly, not computed as a difference.
 
@@ -121,7 +121,7 @@ def geodetic_zonals(integrals: ArrayLike) -> FloatArray:
 
 
 def spheroid_zonals(flattening: float, n_max: int) -> FloatArray:
-    """Exact zonal coefficients J_n of a homogeneous spheroid; they refer to its equatorial radius.
+    """Exact zonal coefficients J_n of a homogeneous spheroid, for its equatorial radius.
 
     J_2k = (-1)^(k+1) 3 e^2k/[(2k + 1)(2k + 3)], J0 = -1, and odd coefficients are zero.
     """
@@ -135,7 +135,7 @@ def spheroid_zonals(flattening: float, n_max: int) -> FloatArray:
 def zonal_potential(
     integrals: ArrayLike, radius: float, distance: ArrayLike, colatitude: ArrayLike
 ) -> FloatArray:
-    """Potential of a body of revolution by its zonal series (I.9.22, I.9.23), m2 s-2.
+    """Gravitational potential of a body of revolution by its zonal series (I.9.22), m2 s-2.
 
     Parameters
     ----------
@@ -164,7 +164,7 @@ def zonal_potential(
 
 
 def _polynomials(n_max: int, cosine: FloatArray) -> FloatArray:
-    """Legendre polynomials P_n for n = 0 to n_max, along a new first axis."""
+    """Legendre polynomials P_n at given cosines for n = 0 to n_max, along the first axis."""
     functions = orthonormal_functions(n_max, cosine)
     norms = np.sqrt(np.arange(n_max + 1) + 0.5)
     return np.asarray(functions / norms.reshape(-1, *[1] * cosine.ndim))
@@ -176,7 +176,7 @@ def _integrate(
     integrand: Callable[[FloatArray, FloatArray], FloatArray],
     accuracy: float,
 ) -> FloatArray:
-    """Integrals of density times each integrand over a body, by Gauss quadrature to `accuracy`."""
+    """Integrals over a body of the density times each integrand, by Gauss quadrature."""
     previous, error, size = None, np.inf, np.inf
     for points in _POINTS:
         node, weight = np.polynomial.legendre.leggauss(points)
