@@ -1,1 +1,1 @@
-"""Motion of the axes and of the attitude of a body in time, under torques."""
+"""Motion of a body's axes and of its full attitude in time, under external torques."""

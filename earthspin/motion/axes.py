@@ -1,4 +1,4 @@
-r"""Paths of the angular momentum, rotation and figure axes in time, in segments.
+r"""Paths of the angular momentum, rotation and figure axes in time, by numerical integration.
 
 In units of C Omega, with the figure axis F of an axisymmetric body,
 
@@ -39,7 +39,7 @@ SEGMENT_TURN = 0.2
 
 @dataclass(frozen=True)
 class AxisPath:
-    """Axes of a body over a span, which can be evaluated at any time in it.
+    """Integrated axes of a body over a time span, which can be evaluated at any time in it.
 
     Attributes
     ----------
@@ -78,7 +78,7 @@ class AxisPath:
 
     @property
     def error(self) -> float:
-        """Estimated numerical error of the directions of the axes, rad."""
+        """Estimated numerical error of the directions of the axes, as an angle in rad."""
         return self.interpolation_error + self.floor
 
     @property
@@ -88,11 +88,11 @@ class AxisPath:
 
     @property
     def span(self) -> tuple[float, float]:
-        """First and last time, s."""
+        """First and last time that the path covers, s from J2000.0 TDB."""
         return float(self.windows.edges[0]), float(self.windows.edges[-1])
 
     def at_starts(self) -> FloatArray:
-        """Unit vectors of the angular momentum at the start of each window, shape (w, 3).
+        """Unit vectors of the angular momentum at the starts of the time windows, shape (w, 3).
 
         The windows are those of the integration.
         """
@@ -126,7 +126,7 @@ class AxisPath:
         return dict(zip(AXES, np.moveaxis(axes, 1, 2), strict=True))
 
     def _fast_at(self, times: FloatArray, figure: FloatArray) -> FloatArray:
-        """Semidiurnal displacement of the three axes, shape (3, 3, t)."""
+        """Semidiurnal displacement of the three axes of a triaxial body, shape (3, 3, t)."""
         assert self.fast is not None
         phase = np.exp(2j * (self.spin_rate * times + self.meridian))
         move = self.windows.evaluate(self.fast, times) * phase
@@ -145,7 +145,7 @@ def axis_path(
     order: int = ORDER,
     advance: Callable[[int], None] | None = None,
 ) -> AxisPath:
-    """Integrate the axes of a body from an epoch over a span before or after it.
+    """Integrate the axes of a body from an epoch to both ends of a time span.
 
     Parameters
     ----------
@@ -206,13 +206,13 @@ def axis_path(
 
 
 def window_count(epoch: float, span: tuple[float, float], window: float = WINDOW) -> int:
-    """Number of windows to integrate from an epoch to both ends of a span, all in s."""
+    """Number of time windows in an integration from an epoch to both ends of a span."""
     forward, backward = (max(0.0, d) for d in (span[1] - epoch, epoch - span[0]))
     return int(np.ceil(forward / window) + np.ceil(backward / window)) or 1
 
 
 def error_of_input(path: AxisPath, figure: FloatArray, u_h: float) -> FloatArray:
-    """95 % half-width of a direction due to the uncertainty of H, rad, shape (t,).
+    """95 % half-width of the figure axis direction due to the uncertainty of H, rad.
 
     The displacement of the axis since the epoch is proportional to H.
 
@@ -230,7 +230,7 @@ def error_of_input(path: AxisPath, figure: FloatArray, u_h: float) -> FloatArray
 def error_of_sky(
     path: AxisPath, figure: FloatArray, drift: float, speed: float, begin: float
 ) -> FloatArray:
-    """95 % half-width of an axis direction due to errors of perturber positions, rad, shape (t,).
+    """95 % half-width of the figure axis direction due to errors of perturber positions, rad.
 
     It is proportional to the displacement of the axis, plus a constant for short periods.
 
@@ -250,7 +250,7 @@ def error_of_sky(
 
 
 def _displacement(path: AxisPath, figure: FloatArray) -> FloatArray:
-    """Angle between a figure axis and the figure axis at the epoch, rad, shape (t,)."""
+    """Angle between the figure axis at given times and at the epoch, rad, shape (t,)."""
     epoch = np.array([min(max(0.0, path.span[0]), path.span[1])])
     return np.asarray(np.linalg.norm(figure - path.at(epoch)["figure"], axis=1))
 
@@ -258,7 +258,7 @@ def _displacement(path: AxisPath, figure: FloatArray) -> FloatArray:
 def _directions(
     epoch: float, span: tuple[float, float], limits: tuple[float, float], window: float
 ) -> list[tuple[FloatArray, bool]]:
-    """Edges of the integration windows from the epoch forward, and from the epoch backward.
+    """Edges of the time windows from the epoch forward, and from the epoch backward.
 
     True marks the forward ones.
     """
@@ -285,7 +285,7 @@ def _one_window(
 
 
 def _segment_length(segments: list[Segment], left: int, window: float) -> int:
-    """Number of windows in the next segment of the integration, limited by the axis speed."""
+    """Number of time windows to integrate together next, limited by the speed of the axis."""
     if not segments:
         return min(left, 32)
     last = segments[-1]
@@ -299,5 +299,5 @@ def _concatenated(pieces: list[ComplexArray]) -> ComplexArray | None:
 
 
 def _rounding(segments: list[Segment]) -> float:
-    """Rounding error of the axes, rad, proportional to the square root of the window count."""
+    """Rounding error of the integrated axes, rad, from the number of time windows."""
     return float(np.finfo(float).eps * np.sqrt(sum(len(s.windows.half) for s in segments)))

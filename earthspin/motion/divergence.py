@@ -1,4 +1,4 @@
-r"""Divergence of neighbouring rotations: growth, Lyapunov exponent, and test for chaos.
+r"""Divergence of neighbouring rotations of a body: growth, Lyapunov exponent, test for chaos.
 
 A neighbour starts at a small distance and is moved back to this distance, in its current direction,
 at the end of each batch of windows (Benettin et al. 1976, 1980). The sum of the logarithms of the
@@ -37,7 +37,7 @@ CHAOTIC = 4.0
 
 @dataclass(frozen=True)
 class Divergence:
-    """Growth of the distance between neighbouring rotations.
+    """Growth of the distance between two initially close rotations of a body, in time.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class Divergence:
 
     @property
     def rate(self) -> tuple[float, float]:
-        """Mean growth rate over the span without its first part, and its 95 % half-width, 1/s."""
+        """Mean growth rate (Lyapunov exponent) of the distance, and its 95 % half-width, 1/s."""
         edges = np.linspace(self.times[0], self.times[-1], STRETCHES + 1)
         rates = np.diff(np.interp(edges, self.times, self.growth)) / np.diff(edges)
         late = rates[1:]
@@ -61,14 +61,14 @@ class Divergence:
 
     @property
     def is_chaotic(self) -> bool:
-        """Return True if the distance grows exponentially within the span."""
+        """Return True if the distance between the two rotations grows exponentially."""
         middle = (self.times[0] + self.times[-1]) / 2
         rate, spread = self.rate
         late = self.growth[-1] - np.interp(middle, self.times, self.growth)
         return bool(late > CHAOTIC and rate > spread)
 
     def at(self, times: FloatArray) -> FloatArray:
-        """Interpolate the growth of the distance at times in s from the start."""
+        """Logarithm of the growth of the distance, interpolated at times in s from the start."""
         return np.asarray(np.interp(times, self.times, self.growth))
 
 
@@ -112,7 +112,7 @@ def divergence(
 
 
 def _duplicated(body: Rigid) -> Rigid:
-    """Return a `Rigid` that has the first body twice."""
+    """Return the parameters of the first body twice, for two rotations of the same body."""
     first = body.first()
     return replace(
         first,
@@ -123,7 +123,7 @@ def _duplicated(body: Rigid) -> Rigid:
 
 
 def _neighbour_pair(state: FloatArray, rotation: FloatArray, momentum: FloatArray) -> FloatArray:
-    """State of a rotation, and a neighbouring state, as columns of an array, shape (7, 2).
+    """Return a state of rotation and a slightly different one, as columns, shape (7, 2).
 
     The neighbour has a small rotation and a relative change of the angular momentum.
     """
@@ -139,7 +139,7 @@ def _neighbour_pair(state: FloatArray, rotation: FloatArray, momentum: FloatArra
 
 
 def _distance(pair: FloatArray) -> tuple[FloatArray, FloatArray, float]:
-    """Difference of two states: rotation vector, relative change of angular momentum, and norm."""
+    """Difference of two states: rotation vector, relative change of momentum, and their norm."""
     state, other = pair[:, :1], pair[:, 1:]
     quaternion = 2 * rotations.times(other[3:], rotations.conjugate(state[3:]))
     rotation = quaternion[1:] * np.sign(quaternion[:1])

@@ -1,4 +1,4 @@
-r"""Euler's equations for the full attitude, in two forms, on the nodes of one window.
+r"""Euler's equations for the full attitude of rigid bodies in one time window, in two forms.
 
 With the angular momentum L in units of C u (u a unit of spin), the quaternion q from the body's
 axes to the sky's, its matrix R, and the torque n along the body's axes,
@@ -45,7 +45,7 @@ FLATTENING, TRIAXIALITY, PULL, ROUNDING = "flattening", "triaxiality", "pull", "
 
 @dataclass(frozen=True, kw_only=True)
 class Rigid:
-    """Parameters of rigid bodies with common perturbers; arrays have one column (lane) per body.
+    """Parameters of one or more rigid bodies under the same perturbers, one column per body.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class Rigid:
 
     @property
     def lanes(self) -> int:
-        """Number of rigid bodies, each of which has one column (lane) in arrays."""
+        """Number of rigid bodies, each of which has one column (lane) in all arrays."""
         return int(self.tide.size)
 
     def first(self) -> Rigid:
@@ -103,7 +103,7 @@ class Rigid:
         )
 
     def spin(self, state: FloatArray) -> FloatArray:
-        """Angular velocity of the only body, along its principal axes, rad/s, shape (3, t).
+        """Angular velocity of a single body along its principal axes, rad/s, shape (3, t).
 
         Parameters
         ----------
@@ -117,7 +117,7 @@ class Rigid:
 
 @dataclass(frozen=True)
 class Pull:
-    """GM of the perturbing masses, and their positions at the nodes of one window.
+    """GM of the perturbing masses, and their positions at the nodes of one time window.
 
     Attributes
     ----------
@@ -141,7 +141,7 @@ class Pull:
 
 
 class Equations:
-    """Equations of motion in one window; the unknowns are angular momentum and a quaternion p.
+    """Euler's equations in one time window, for angular momentum and an attitude quaternion.
 
     Arrays of unknowns and of rates have the shape (7, lanes * n).
 
@@ -182,15 +182,15 @@ class Equations:
         self._matrix_ahead = rotations.matrices(ahead)
 
     def _rows(self, values: FloatArray) -> FloatArray:
-        """Repeat the value of each body (lane) for all nodes of the window."""
+        """Repeat the value of each body (lane) for all nodes of the time window."""
         return np.repeat(values, self._nodes, axis=-1)
 
     def attitude(self, unknowns: FloatArray) -> FloatArray:
-        """Attitude quaternions from the unknowns, shape (4, lanes * n)."""
+        """Attitude quaternions of all bodies from the unknowns, shape (4, lanes * n)."""
         return np.asarray(np.einsum("abm,bm->am", self._ahead, unknowns[3:]))
 
     def unknowns(self, state: FloatArray) -> FloatArray:
-        """Unknowns of all lanes, from angular momentum along the sky's axes and attitude.
+        """Convert angular momentum and attitude to the unknowns of all bodies (lanes).
 
         `state` has the shape (7, n).
 
@@ -201,7 +201,7 @@ class Equations:
         return np.concatenate([np.tile(state[:3], self._lanes), p])
 
     def rates(self, unknowns: FloatArray) -> FloatArray:
-        """Time derivatives of all unknowns of the equations, s-1, shape (7, lanes * n)."""
+        """Time derivatives of the angular momentum and quaternion of all bodies, s-1."""
         momentum, q = unknowns[:3], self.attitude(unknowns)
         matrix = rotations.matrices(q)
         in_body = _into(matrix, momentum) if self._in_space else momentum
@@ -223,7 +223,7 @@ class Equations:
         return np.concatenate([rate, 0.5 * drift])
 
     def _torque(self, q: FloatArray, matrix: FloatArray, spin: FloatArray) -> FloatArray:
-        """Scaled torque, s-1, along the body axes: tidal torque on the bulge, and custom torque.
+        """Tidal torque on the bulge plus custom torque, over C u, along the body axes, s-1.
 
         The torque is divided by C u. C is the polar moment of inertia, and u the unit of spin.
         """
@@ -235,7 +235,7 @@ class Equations:
         return np.asarray(torque)
 
     def _further_torque(self, matrix: FloatArray, momentum: FloatArray) -> FloatArray:
-        """Scaled torque, s-1, along the sky axes: on zonal harmonics J_n, and from further effects.
+        """Torque on harmonics J_n and by further effects, over C u, along sky axes, s-1.
 
         The torque is divided by C u. C is the polar moment of inertia, and u the unit of spin.
         """

@@ -1,4 +1,4 @@
-r"""Figure axis as a function of the angular momentum, on the slow manifold without free motion.
+r"""Figure axis from the angular momentum of a body without free wobble.
 
 For an axisymmetric body whose spin about its figure axis F is Omega, with the angular
 momentum l in units of C Omega,
@@ -31,7 +31,7 @@ _ROUNDING = 1e-17
 def tilt_of_figure(
     windows: Windows, figure: FloatArray, rate: FloatArray, tau: float, rounds: int
 ) -> tuple[FloatArray, list[float]]:
-    """Small vector from figure axis to angular momentum in motion without free wobble, rad.
+    """Vector from figure axis to angular momentum in motion without free wobble, rad.
 
     It is tau F x F', where F is the unit figure axis and F' its rate.
 
@@ -70,7 +70,7 @@ def tilt_of_figure(
 
 
 def fastest_sweep(h: float, spin_rate: float, pulls: Iterable[tuple[float, float]]) -> float:
-    """Largest precession speed of an axis at any obliquity, reached at 45 degrees, rad/s.
+    """Largest speed of an axis in precession, over all obliquities (at 45 degrees), rad/s.
 
     (3/4) H/Omega times the sum of GM/r3: the rate of precession in longitude, (3/2) H/Omega GM/r3
     cos(eps), times sin(eps) (I.8.23).

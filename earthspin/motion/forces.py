@@ -1,4 +1,4 @@
-"""Rate of the angular momentum as a function of the axis, from all effects that are switched on.
+"""Rate of change of the angular momentum, from all perturbers and effects that are switched on.
 
 For an effect that is switched off, no positions and no torque are evaluated.
 """
@@ -29,7 +29,7 @@ Torque = Callable[["Forces", Windows, Places], RateLaw]
 
 @dataclass(frozen=True, kw_only=True)
 class Figure:
-    """Parameters of a rotating body that determine its motion.
+    """Parameters of a rotating body (H, spin, J_n) that determine the motion of its axes.
 
     Attributes
     ----------
@@ -63,13 +63,13 @@ class Figure:
 
     @property
     def tau(self) -> float:
-        """Time constant A/(C Omega) in the relation of figure axis and angular momentum, s."""
+        """Ratio A/(C Omega): tilt of the figure axis per speed of the axis, s."""
         return (1 - self.h) / self.spin_rate
 
 
 @dataclass(frozen=True, kw_only=True)
 class Forces:
-    """Perturbers of a body, and the effects that are switched on.
+    """Perturbers of a body, with all effects on its axes that are switched on.
 
     Attributes
     ----------
@@ -98,7 +98,7 @@ class Forces:
     mean_pole: Callable[[FloatArray], FloatArray] | None = None
 
     def over(self, windows: Windows) -> tuple[RateLaw, FloatArray]:
-        """Return a function for the rate of the angular momentum at the nodes of some windows.
+        """Return a function for the angular momentum's rate in time windows, and the tidal tensor.
 
         Return also the tidal tensor at these nodes.
 

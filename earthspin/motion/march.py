@@ -1,4 +1,4 @@
-r"""Integrate a rotation in successive windows of variable length.
+r"""Integrate the rotation of bodies in successive time windows of variable length.
 
 Each window has a few Gauss-Legendre nodes, at which Picard iteration solves for the unknowns of
 `earthspin.motion.equations`. The length of the windows is chosen such that the last Legendre terms
@@ -48,7 +48,7 @@ _RUNAWAY = 1e6
 
 @dataclass(frozen=True)
 class Masses:
-    """Perturbing masses with their positions at any time, and further effects.
+    """GM of perturbing masses, with functions for their positions and for further effects.
 
     Attributes
     ----------
@@ -69,7 +69,7 @@ class Masses:
     laws: Callable[[Windows, Mapping[str, FloatArray]], Sequence[SkyLaw]] | None = None
 
     def over(self, windows: Windows) -> list[Pull]:
-        """Make a `Pull` for each window, with positions of the masses at the window's nodes."""
+        """Make a `Pull` for each time window, with the positions of the masses at its nodes."""
         times, gm = windows.times, np.array(list(self.gm.values()))
         if not self.gm:
             nothing = np.zeros((3, 0, windows.order))
@@ -97,7 +97,7 @@ class Masses:
 
 @dataclass(frozen=True)
 class Piece:
-    """Numerical solution of a rotation over consecutive windows.
+    """Numerical solution for the rotation of bodies over some consecutive time windows.
 
     Attributes
     ----------
@@ -121,7 +121,7 @@ class Piece:
     end: FloatArray
 
     def at(self, times: FloatArray) -> FloatArray:
-        """Angular momentum and attitude, shape (7, lanes, t)."""
+        """Angular momentum and attitude quaternion of all bodies at times, shape (7, lanes, t)."""
         lanes = self.series.shape[1]
         windows = Windows(self.edges, self.series.shape[-1])
         flat = windows.evaluate(self.series.reshape(7 * lanes, len(windows.half), -1), times)
@@ -145,7 +145,7 @@ class Piece:
 
 @dataclass
 class Solver:
-    """Solver for the rotation of bodies, window by window, with one form of Euler's equations.
+    """Solver for the rotation of bodies in successive time windows, by Euler's equations.
 
     Attributes
     ----------
@@ -178,12 +178,12 @@ class Solver:
     evaluations: int = field(default=0)
 
     def begin_with(self, spin: FloatArray) -> None:
-        """Set the first and the shortest window length from a spin, rad/s, shape (3, lanes)."""
+        """Set the first and the shortest window length from the initial angular velocity."""
         fastest = max(float(np.max(np.sqrt(np.sum(spin**2, axis=0)))), abs(self.body.unit))
         self.window, self.shortest = FIRST_TURN / fastest, SHORTEST_TURN / fastest
 
     def next_edges(self, reached: float, end: float, count: int = BATCH) -> FloatArray:
-        """Edges of the next integration windows, s; no window extends beyond `end`.
+        """Edges of the next time windows to be solved, s; no window extends beyond `end`.
 
         Raises
         ------
@@ -201,7 +201,7 @@ class Solver:
         return np.asarray(edges)
 
     def through(self, edges: FloatArray, start: FloatArray, near: Piece | None = None) -> Piece:
-        """Solve consecutive windows, and stop before the first one that is too long to be accurate.
+        """Solve consecutive time windows; stop before one that is too long to be accurate.
 
         Parameters
         ----------
@@ -259,7 +259,7 @@ class Solver:
     def _solve(
         self, equations: Equations, start: FloatArray, half: float, guess: FloatArray | None
     ) -> tuple[FloatArray, float]:
-        """Solve one window; return the rates of the unknowns, and truncation error over tolerance.
+        """Solve one window; return the rates and the ratio of truncation error to tolerance.
 
         The error is estimated from the last two Legendre terms; the window fails if the ratio is
         above 1.
@@ -291,7 +291,7 @@ class Solver:
     def _end(
         self, rates: FloatArray, equations: Equations, start: FloatArray, half: float
     ) -> FloatArray:
-        """Angular momentum and attitude quaternion at the end of one window, shape (7, lanes)."""
+        """Angular momentum and attitude quaternion at the end of a window, shape (7, lanes)."""
         lanes = start.shape[1]
         whole = rates.reshape(7, lanes, self.order) @ rule(self.order).weights * half
         end = start + whole
@@ -300,7 +300,7 @@ class Solver:
         return np.concatenate([end[:3], q / np.sqrt(np.sum(q * q, axis=0))])
 
     def _resize(self, over: float, *, complete: bool) -> None:
-        """Set the length of the next window from the ratio of error to tolerance in `_solve`."""
+        """Set the length of the next window from the ratio of truncation error to tolerance."""
         if not np.isfinite(over):
             self.window *= 0.5
             return
@@ -312,5 +312,5 @@ class Solver:
 
 
 def half_windows(edges: FloatArray) -> FloatArray:
-    """Edges of the windows that result if each window is divided into two halves."""
+    """Divide each time window into two halves, and return the edges of the halves, s."""
     return np.sort(np.concatenate([edges, (edges[1:] + edges[:-1]) / 2]))

@@ -37,7 +37,7 @@ def rigid_bodies(
     epoch: float = 0.0,
     own: CustomTorque | None = None,
 ) -> tuple[Rigid, tuple[str, ...]]:
-    """Make a rigid body and its neighbours: copies in each of which one uncertain input is changed.
+    """Make a rigid body, and copies of it that each have one uncertain input changed.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def rigid_bodies(
 
 
 def masses(forces: Forces, epoch: float = 0.0) -> Masses:
-    """Convert `Forces` to the `Masses` of the attitude solver, whose time starts at `epoch`, s."""
+    """Convert `Forces` to the `Masses` of the attitude solver, with times counted from `epoch`."""
 
     def laws(window: Windows, places: Mapping[str, FloatArray]) -> Sequence[SkyLaw]:
         dated = Windows(window.edges + epoch, window.order)
@@ -103,7 +103,7 @@ def masses(forces: Forces, epoch: float = 0.0) -> Masses:
 
 
 def relative_tide_error(distance: float, distance_error: float, angle_error: float) -> float:
-    """Bound on the relative error of a tide, GM/r3, from errors of the position of a mass.
+    """Bound on the relative error of a tide GM/r3 due to the position error of its mass.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def relative_tide_error(distance: float, distance_error: float, angle_error: flo
 
 
 def upright(axis: FloatArray, angle: float) -> FloatArray:
-    """Attitude of a body from its third axis and an angle about it.
+    """Attitude quaternion of a body from its third axis and the rotation angle about this axis.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-r"""Bound on the error of an axis from sampling the positions of perturbers, for any body.
+r"""Bound on the error of an axis due to interpolation of the positions of perturbers.
 
 Torques on an oblate body are linear in the tidal tensor Q = sum GM r r^T/r5. With the error dQ of
 the interpolated Q, the error of the torque on a figure axis F is 3 (H/\Omega) (dQ F) x F. It is at
@@ -27,7 +27,7 @@ def angle_from_sampling(
     derivative: FloatArray,
     turned: float = 0.0,
 ) -> FloatArray:
-    """Bound on the axis error from interpolating the tidal tensor, rad.
+    """Bound on the error of an axis due to interpolation of the tidal tensor, rad.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def angle_from_sampling(
 
 
 def longest_path(figure: Figure, mean: float, length: float) -> float:
-    """Upper bound on the length of the path of an axis, rad.
+    """Upper bound on the length of the path of a precessing axis, rad.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-r"""Integrate angular momentum and figure axis over a segment by Picard iteration on Gauss windows.
+r"""Integrate angular momentum and figure axis over a segment of time windows by Picard iteration.
 
 The axis moves by arcseconds during an orbit of a perturber, so the torque hardly depends on this
 motion. Each iteration starts from an estimate of the figure axis F at the nodes of all windows. It
@@ -37,7 +37,7 @@ _ROUGH, _FEW, _ALL = 2, 2, 9
 
 @dataclass(frozen=True)
 class Start:
-    """Initial condition of a segment: figure axis or angular momentum, and an estimate of its rate.
+    """Initial axis of a segment of time windows, with an estimate of its rate of change.
 
     The mean rate of the last segment gives a first estimate that is ten times better than without.
     """
@@ -47,21 +47,21 @@ class Start:
     is_figure: bool
 
     def momentum_with(self, tilt: FloatArray) -> FloatArray:
-        """Angular momentum at the start of the segment, in units of C Omega.
+        """Angular momentum at the start; `tilt` is added if the initial axis is a figure axis.
 
         `tilt` is added to the start axis if that axis is a figure axis.
         """
         return self.axis + tilt if self.is_figure else self.axis
 
     def guess(self, windows: Windows, forward: bool) -> FloatArray:
-        """First estimate of the axis at the nodes, from its rate at the start, shape (3, w, n)."""
+        """First estimate of the axis at the nodes of all windows, from its rate, (3, w, n)."""
         since = windows.times - windows.edges[0 if forward else -1]
         return np.asarray(self.axis[:, None, None] + np.multiply.outer(self.rate, since))
 
 
 @dataclass(frozen=True)
 class Segment:
-    """Numerical solution for the axes over one segment of consecutive windows.
+    """Numerical solution for the axes of a body over a segment of consecutive time windows.
 
     Attributes
     ----------
@@ -92,24 +92,24 @@ class Segment:
     rounds: int
 
     def momentum_at_end(self, forward: bool) -> FloatArray:
-        """Angular momentum where this segment ends and the next one starts, in units of C Omega."""
+        """Angular momentum at the last time of this segment, in units of C Omega."""
         if forward:
             return np.asarray(self.momentum[:, -1].sum(axis=-1))
         return np.asarray(self.momentum[:, 0] @ signs(self.momentum.shape[-1]))
 
     def mean_rate(self) -> FloatArray:
-        """Mean rate of change of the angular momentum over the segment, s-1."""
+        """Mean rate of the angular momentum (in units of C Omega) over the segment, s-1."""
         change = self.momentum_at_end(True) - self.momentum_at_end(False)
         return np.asarray(change / (self.windows.edges[-1] - self.windows.edges[0]))
 
 
 def signs(terms: int) -> FloatArray:
-    """Values (1 and -1) of the Legendre polynomials at -1, the start of a window, by degree."""
+    """Values (-1)^n of the Legendre polynomials at -1, by degree n from 0."""
     return np.asarray((-1.0) ** np.arange(terms))
 
 
 def solve(forces: Forces, windows: Windows, start: Start, forward: bool) -> Segment:
-    """Integrate the axis through the windows of one segment.
+    """Integrate angular momentum and figure axis through the windows of one segment.
 
     Parameters
     ----------
@@ -165,7 +165,7 @@ def solve(forces: Forces, windows: Windows, start: Start, forward: bool) -> Segm
 
 
 def _remaining_change(change: float, previous: float) -> float:
-    """Estimated change of the axis by all later Picard rounds together, rad.
+    """Estimated further change of the axis if the Picard iteration were continued, rad.
 
     The changes are assumed to form a geometric series.
     """
@@ -177,7 +177,7 @@ def _remaining_change(change: float, previous: float) -> float:
 def _chain(
     windows: Windows, rate: FloatArray, begin: FloatArray, forward: bool
 ) -> tuple[FloatArray, FloatArray]:
-    """Integrate the rate of a vector over all windows; return it at window starts and at nodes."""
+    """Integrate the rate of a vector; return the vector at the window starts and at the nodes."""
     to_nodes, whole = windows.integral(rate)
     if forward:
         starts = begin[:, None] + np.cumsum(whole, axis=1) - whole
@@ -187,7 +187,7 @@ def _chain(
 
 
 def _at_edge(windows: Windows, values: FloatArray, forward: bool) -> FloatArray:
-    """Value of a function at the start of the segment, from its values at the nodes, shape (3,)."""
+    """Extrapolate a function from the nodes to the time at which the segment starts, (3,)."""
     series = windows.coefficients(values[:, :1] if forward else values[:, -1:])[:, 0]
     return np.asarray(series @ signs(series.shape[-1]) if forward else series.sum(axis=-1))
 
@@ -216,7 +216,7 @@ def _fast(
 
 
 def _fast_tail(fast: ComplexArray | None) -> float:
-    """Truncation error of semidiurnal amplitudes: sum of the last quarter of their series, rad.
+    """Truncation error of the semidiurnal amplitudes, from the last terms of their series, rad.
 
     Two of fourteen terms are too few: at a spin of 1.9 d their sum was half the measured error.
     """
@@ -227,7 +227,7 @@ def _fast_tail(fast: ComplexArray | None) -> float:
 
 
 def _tail(series: FloatArray, windows: Windows) -> float:
-    """Truncation error of the axis in a window, from the last two Legendre terms of its rate, rad.
+    """Truncation error of the axis in a time window, from the last Legendre terms of its rate, rad.
 
     The error at the ends of windows is much smaller, since Gauss's rule is exact to twice the
     degree.

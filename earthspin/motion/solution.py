@@ -1,4 +1,4 @@
-r"""Full attitude of a rigid body in time, with its error.
+r"""Full attitude of a rigid body in time, with its error, by numerical integration.
 
 Each motion is integrated twice, in two forms and with two window lengths: Euler's equations along
 the body's axes in long windows, and the angular momentum along the sky's axes in windows of half
@@ -48,7 +48,7 @@ KINDS = ("attitude", "omega", "angular_momentum")
 
 @dataclass(frozen=True)
 class State:
-    """State of rotation of several bodies at one time, with one column (lane) for each body.
+    """Angular momentum, attitude and spin of several bodies at one time, one column per body.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class State:
 
 @dataclass(frozen=True)
 class RotationSeries:
-    """Angular momentum, attitude and angular velocity of a body at some times, with errors.
+    """Angular momentum, attitude and angular velocity of a body at given times, with errors.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class RotationSeries:
 
 
 def start_of(body: Rigid, attitude: FloatArray, omega: FloatArray) -> State:
-    """Make the initial state of all bodies in `body`, with the same attitude and spin for each.
+    """Make the initial state of all bodies, with the same attitude and angular velocity.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def start_of(body: Rigid, attitude: FloatArray, omega: FloatArray) -> State:
 
 
 def tolerance_for(accuracy: float | None) -> float:
-    """Tolerance per window for a requested error of the attitude over many rotations.
+    """Tolerance of the integrator in each time window for a requested attitude error.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def tolerance_for(accuracy: float | None) -> float:
 
 
 class Motion:
-    """Numerical solution of a rotation over a span of any length; past windows are discarded.
+    """Numerical solution of a rotation; old time windows are discarded as it proceeds.
 
     Parameters
     ----------
@@ -169,16 +169,16 @@ class Motion:
 
     @property
     def order(self) -> int:
-        """Number of nodes in a window."""
+        """Number of nodes in a time window."""
         return self._order
 
     @property
     def evaluations(self) -> int:
-        """Number of nodes at which rates were evaluated so far, including those for the error."""
+        """Number of nodes at which rates were evaluated so far, with those for error estimates."""
         return self._order * (self._fine.evaluations + self._coarse.evaluations)
 
     def _march(self, fine: FloatArray, coarse: FloatArray) -> Iterator[tuple[Piece, Piece]]:
-        """Yield solutions with long windows and with half windows, in batches from start to end."""
+        """Yield two solutions of each batch of windows: with full and with half windows."""
         reached = 0.0
         while True:
             rough = self._coarse.through(self._coarse.next_edges(reached, self._end), coarse)
@@ -194,7 +194,7 @@ class Motion:
                 return
 
     def at(self, times: FloatArray, tell: Callable[[float], None] | None = None) -> RotationSeries:
-        """Angular momentum, attitude and angular velocity at some times, with errors.
+        """Angular momentum, attitude and angular velocity at given times, with errors.
 
         Parameters
         ----------
@@ -233,18 +233,18 @@ class Motion:
         )
 
     def _errors_at(self, times: FloatArray) -> FloatArray:
-        """Largest errors of the rotation from the start to each given time."""
+        """Largest error of the rotation between the start and each given time."""
         assert self._now is not None
         edges = self._now[0].edges
         before = self._errors_until(edges)[..., np.clip(np.searchsorted(edges, times) - 1, 0, None)]
         return np.maximum(before, self._errors(times))
 
     def _errors_until(self, edges: FloatArray) -> FloatArray:
-        """Largest errors of the rotation from the start to each edge of the current windows."""
+        """Largest error of the rotation between the start and each edge of the windows."""
         return np.maximum(np.maximum.accumulate(self._errors(edges), axis=2), self._worst)
 
     def _errors(self, times: FloatArray) -> FloatArray:
-        """Errors of attitude, spin and angular momentum at times in the current windows, by cause.
+        """Errors of attitude, spin and angular momentum at given times, for each cause.
 
         The shape is (lanes, kinds, t): the first lane has the error of the method, each other lane
         that of one uncertain input.
@@ -265,7 +265,7 @@ class Motion:
 def shares_of(
     series: RotationSeries, changed: Sequence[str], doubt: float
 ) -> dict[str, FloatArray]:
-    """Errors of a rotation by cause (method, input, kernel) and in total, each of shape (3, t).
+    """Errors of a rotation due to method, inputs and kernel, and in total, shape (3, t).
 
     Parameters
     ----------
@@ -294,7 +294,7 @@ def shares_of(
 
 
 def differences(body: Rigid, one: FloatArray, other: FloatArray) -> FloatArray:
-    """Differences of two rotations in attitude (an angle), spin and angular momentum (lengths).
+    """Differences of two rotations in attitude (angle), spin and angular momentum (norms).
 
     Parameters
     ----------

@@ -36,7 +36,7 @@ _ROUNDING = 1e-16
 
 
 def equatorial_basis(figure: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Two unit vectors that span the equator, the first along the x axis projected on it.
+    """Two unit vectors in the equator plane; the first is the projected x axis.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def semidiurnal_amplitudes(
     spin_rate: float,
     tau: float,
 ) -> ComplexArray:
-    """Complex amplitudes of the semidiurnal motion of the three axes at the nodes of windows.
+    """Complex amplitudes of the semidiurnal motion of a triaxial body's three axes.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ def semidiurnal_amplitudes(
 
 
 def _series(windows: Windows, first: ComplexArray, factor: complex) -> ComplexArray:
-    """Solve x = first + factor dx/dt for x by a series.
+    """Solve x = first + factor dx/dt for x, by repeated differentiation of `first`.
 
     Each term is `factor` times the derivative of the previous term.
     """
@@ -123,5 +123,5 @@ def _series(windows: Windows, first: ComplexArray, factor: complex) -> ComplexAr
 
 
 def _on_equator(vector: FloatArray, first: FloatArray, second: FloatArray) -> ComplexArray:
-    """Projections of vectors on the plane of the equator, as complex numbers in a given basis."""
+    """Projections of vectors on the equator plane, as complex numbers in a given basis."""
     return np.asarray(np.sum(vector * first, axis=0) + 1j * np.sum(vector * second, axis=0))

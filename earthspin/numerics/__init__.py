@@ -1,1 +1,1 @@
-"""Numerical methods: elliptic functions, double-double numbers, quaternions, Gauss windows."""
+"""Numerical methods: elliptic functions, 32-digit numbers, quaternions, Gauss quadrature."""

@@ -33,7 +33,7 @@ MOST_HALVINGS = 6
 
 
 def _rule(order: int) -> tuple[Array, Array, Array]:
-    """Gauss nodes and weights on [0, 1], and the matrix of integrals from 0 to each node."""
+    """Gauss nodes and weights on [0, 1], and the matrix that integrates from 0 to each node."""
     x, weights = legendre.leggauss(order)
     project = (legendre.legvander(x, order - 1) * weights[:, None]) * (np.arange(order) + 0.5)
     integrals = legendre.legval(x, legendre.legint(np.eye(order), lbnd=-1))
@@ -51,7 +51,7 @@ def carry(
     settled: float = SETTLED,
     together: bool = False,
 ) -> Array:
-    """Integrate solutions from one radius to another.
+    """Integrate solutions of dy/dr = M(r) y from one radius to another by Gauss collocation.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def carry(
 
 
 def _largest(change: Array, space: Array | None) -> float:
-    """Largest absolute change of solutions outside the span of the columns of `space`."""
+    """Largest absolute change of solutions, apart from recombinations of the columns of `space`."""
     if space is not None:
         change = change - space @ (np.linalg.pinv(space) @ change)
     return float(np.max(abs(change)))
@@ -104,7 +104,7 @@ def _largest(change: Array, space: Array | None) -> float:
 def _through(
     matrix: Callable[[Array], Array], start: float, stop: float, y: Array, count: int
 ) -> Array:
-    """Integrate solution columns from `start` to `stop` in `count` panels.
+    """Integrate the solutions y from `start` to `stop` in a given number of panels.
 
     The edges of the panels are in geometric progression.
     """

@@ -1,4 +1,4 @@
-"""Double-double numbers: an unevaluated sum of two floats, about 32 digits.
+"""Double-double numbers: unevaluated sums of two floats, with about 32 digits.
 
 The phases of a rotor may extend over 10^4 periods, and near the separatrix the period depends on
 the difference of two nearly equal numbers. The constants of a motion are therefore computed with
@@ -69,14 +69,14 @@ class DoubleDouble:
     __rmul__ = __mul__
 
     def sqrt(self) -> DoubleDouble:
-        """Square root of non-negative numbers."""
+        """Square root of this non-negative number, with about 32 digits."""
         root = np.sqrt(self.hi)
         square, error = two_product(root, root)
         rest = (self.hi - square) - error + self.lo
         return DoubleDouble(*_fast_two_sum(root, rest / (2 * np.where(root > 0, root, 1.0))))
 
     def scaled(self, power_of_two: Numeric) -> DoubleDouble:
-        """Return this number times a power of two, which is exact."""
+        """Return this number multiplied by a power of two, which is exact."""
         return DoubleDouble(self.hi * power_of_two, self.lo * power_of_two)
 
 

@@ -34,7 +34,7 @@ _CIRCULAR = 1e-8
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LandenDescent:
-    """Steps of the arithmetic-geometric mean of 1 and the complementary modulus k'.
+    """Successive arithmetic and geometric means from 1 and the complementary modulus k'.
 
     Attributes
     ----------
@@ -51,12 +51,12 @@ class LandenDescent:
 
     @property
     def quarter_period(self) -> DoubleDouble:
-        """Quarter period K(k); 0 marks the separatrix, where K is infinite."""
+        """Quarter period K(k) of the elliptic functions; 0 if K is infinite (separatrix, k = 1)."""
         return where(self.separatrix, 0.0, _HALF_PI / self.arithmetic[-1])
 
 
 class Jacobi(NamedTuple):
-    """Jacobi's functions sn, cn and dn of one argument."""
+    """Values of Jacobi's elliptic functions sn, cn and dn at one argument."""
 
     sn: FloatArray
     cn: FloatArray
@@ -64,7 +64,7 @@ class Jacobi(NamedTuple):
 
 
 def landen_descent(complementary_modulus: DoubleDouble) -> LandenDescent:
-    """Compute the arithmetic-geometric mean of 1 and k' to 32 digits.
+    """Compute arithmetic and geometric means, starting from 1 and k', to 32 digits.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def landen_descent(complementary_modulus: DoubleDouble) -> LandenDescent:
 
 
 def jacobi(u: FloatArray, descent: LandenDescent) -> tuple[Jacobi, Jacobi]:
-    """Jacobi's functions at a modulus, and at the smaller modulus of the next Landen step.
+    """Jacobi's elliptic functions at a modulus, and at the modulus after one Landen step.
 
     The transformation is in DLMF 22.7.
 
@@ -128,7 +128,7 @@ def jacobi(u: FloatArray, descent: LandenDescent) -> tuple[Jacobi, Jacobi]:
 
 
 def first_kind(sine: FloatArray, cosine: FloatArray, complementary: FloatArray) -> FloatArray:
-    """Integral of the first kind F from the sine and cosine of the angle (DLMF 19.25.5).
+    """Elliptic integral of the first kind F from sine and cosine of the angle (DLMF 19.25.5).
 
     The result is from -K to K.
 
@@ -149,7 +149,7 @@ def first_kind(sine: FloatArray, cosine: FloatArray, complementary: FloatArray) 
 
 
 def third_kind_mean(n: DoubleDouble, descent: LandenDescent) -> DoubleDouble:
-    """Mean over a period of sn^2/(1 + n sn^2), an integrand of the third kind (DLMF 19.8.7).
+    """Mean of sn^2/(1 + n sn^2) over a period, after one Landen step (DLMF 19.8.7).
 
     The modulus is k1 = (1 - k')/(1 + k'), the next one in the Landen descent.
 
@@ -216,7 +216,7 @@ def _choose(condition: NDArray[np.bool_], yes: Jacobi, no: Jacobi) -> Jacobi:
 def jacobi_sncndn(
     argument: FloatArray, complement: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Jacobi's functions sn, cn and dn, with full relative accuracy for arguments up to K/2.
+    """Jacobi's elliptic functions sn, cn, dn with full relative accuracy up to argument K/2.
 
     The method is the descending Gauss transformation, as a recurrence of positive terms (Bulirsch
     1965, Numer. Math. 7, 78).
@@ -267,7 +267,7 @@ def jacobi_sncndn(
 
 
 def complete_third_kind(complement: FloatArray, shape: FloatArray) -> FloatArray:
-    """Complete elliptic integral of the third kind, with a positive parameter `shape`.
+    """Complete elliptic integral of the third kind: sn^2/(cn^2 + shape sn^2), from 0 to K.
 
     The integrand is sn^2/(cn^2 + shape sn^2), from 0 to the quarter period K. The integral equals
     RJ(0, 1 - m, 1, shape)/3 and is computed by Landen steps with positive terms (Bulirsch 1969,

@@ -1,4 +1,4 @@
-"""A number with the contributions to its half-width."""
+"""A number with the contributions of method and inputs to its 95 % half-width."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Numeric = Any
 
 @dataclass(frozen=True)
 class Estimate:
-    """A number or array with its errors.
+    """A number or array, with its 95 % half-widths due to the method and to the inputs.
 
     Attributes
     ----------
@@ -28,5 +28,5 @@ class Estimate:
 
     @property
     def error(self) -> Numeric:
-        """Total 95 % half-width."""
+        """Total 95 % half-width, from method and inputs together."""
         return np.hypot(self.method, self.given)

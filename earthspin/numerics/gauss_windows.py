@@ -1,4 +1,4 @@
-"""Gauss-Legendre windows: consecutive time intervals with the same number of nodes in each.
+"""Gauss-Legendre windows: consecutive time intervals, each with the same number of nodes.
 
 Inside a window a function is the polynomial through its values at the nodes. Integrals,
 derivatives and interpolated values of all windows are products with small constant matrices.
@@ -22,7 +22,7 @@ _CHUNK = 1 << 15  # times evaluated in one call, so that the basis stays in the 
 
 
 class Windows:
-    """Consecutive windows with Gauss-Legendre nodes.
+    """Consecutive time windows with the same number of Gauss-Legendre nodes in each.
 
     Parameters
     ----------
@@ -46,17 +46,17 @@ class Windows:
         self.times = self.middle + self.half * rule(order).nodes
 
     def coefficients(self, values: _AnyArray) -> _AnyArray:
-        """Legendre coefficients of the polynomial through nodal values, shape (..., w, n)."""
+        """Legendre coefficients of the polynomials through values at the nodes, (..., w, n)."""
         result: _AnyArray = _apply(values, rule(self.order).project)
         return result
 
     def derivative(self, values: _AnyArray) -> _AnyArray:
-        """Derivative at the nodes of the polynomial through values at the nodes, per second."""
+        """Derivative, per s, at the nodes, of the polynomial through values at the nodes."""
         result: _AnyArray = _apply(values, rule(self.order).differentiate) / self.half
         return result
 
     def integral(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Integrals of a function, given at the nodes, from the start of each window to its nodes.
+        """Integrals of a function from the start of each window to its nodes and to its end.
 
         Returns
         -------
@@ -70,7 +70,7 @@ class Windows:
         return to_nodes, (values @ gauss.weights) * self.half[:, 0]
 
     def evaluate(self, coefficients: _AnyArray, times: FloatArray) -> _AnyArray:
-        """Values of a Legendre series at any times within the windows.
+        """Evaluate Legendre series of the windows at any times within the windows.
 
         Parameters
         ----------
@@ -109,7 +109,7 @@ def _apply(values: Any, matrix: FloatArray) -> Any:
 
 
 class Rule:
-    """Gauss-Legendre nodes on [-1, 1], and matrices that multiply nodal values from the right."""
+    """Gauss-Legendre nodes on [-1, 1], with matrices that integrate and differentiate values."""
 
     def __init__(self, order: int) -> None:
         self.nodes, self.weights = legendre.leggauss(order)
@@ -120,18 +120,18 @@ class Rule:
 
     @cached_property
     def integrate(self) -> FloatArray:
-        """Matrix from values at the nodes to integrals from -1 to the nodes."""
+        """Matrix that converts values at the nodes to integrals from -1 to the nodes."""
         integrals = legendre.legint(self._basis, lbnd=-1)
         return np.asarray(self.project @ legendre.legval(self.nodes, integrals, tensor=True))
 
     @cached_property
     def antiderivative(self) -> FloatArray:
-        """Matrix from the Legendre coefficients of a function to those of its integral from -1."""
+        """Matrix that converts Legendre coefficients of a function to those of its integral."""
         return np.asarray(legendre.legint(self._basis, lbnd=-1, axis=-1))
 
     @cached_property
     def differentiate(self) -> FloatArray:
-        """Matrix from values at the nodes to derivatives at the nodes."""
+        """Matrix that converts values at the nodes to derivatives at the nodes."""
         return np.asarray(
             self.project @ legendre.legval(self.nodes, legendre.legder(self._basis), tensor=True)
         )
@@ -139,12 +139,12 @@ class Rule:
 
 @lru_cache
 def rule(order: int) -> Rule:
-    """Return the stored `Rule` with a number of nodes."""
+    """Return the `Rule` with a given number of nodes; it is computed once and stored."""
     return Rule(order)
 
 
 def integrated(coefficients: FloatArray, half: FloatArray, start: FloatArray) -> FloatArray:
-    """Legendre coefficients, in each window, of a start value plus the integral of a rate.
+    """Legendre coefficients of a start value plus the integral of a rate, in each window.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ _TURN = 2 * np.pi
 
 
 def eccentric_anomaly(mean: FloatArray, e: FloatArray) -> FloatArray:
-    """Eccentric anomaly from Kepler's equation, rad, in the same revolution.
+    """Eccentric anomaly, rad, from the mean anomaly, in the same revolution.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def eccentric_anomaly(mean: FloatArray, e: FloatArray) -> FloatArray:
 
 
 def true_anomaly(mean: FloatArray, e: FloatArray) -> FloatArray:
-    """True anomaly from the mean anomaly, rad, in the same revolution."""
+    """True anomaly, rad, from the mean anomaly, in the same revolution."""
     eccentric = eccentric_anomaly(mean, e)
     # v - E, by a form without discontinuity
     ahead = np.arctan2(e * np.sin(eccentric), 1 + np.sqrt(1 - e * e) - e * np.cos(eccentric))
@@ -52,7 +52,7 @@ def true_anomaly(mean: FloatArray, e: FloatArray) -> FloatArray:
 
 
 def mean_anomaly(true: FloatArray, e: FloatArray) -> FloatArray:
-    """Mean anomaly from the true anomaly, rad, in the same revolution."""
+    """Mean anomaly, rad, from the true anomaly, in the same revolution."""
     behind = np.arctan2(e * np.sin(true), 1 + np.sqrt(1 - e * e) + e * np.cos(true))
     eccentric = true - 2 * behind
     turns = _TURN * np.rint(eccentric / _TURN)
@@ -60,7 +60,7 @@ def mean_anomaly(true: FloatArray, e: FloatArray) -> FloatArray:
 
 
 def _less_sine(angle: FloatArray) -> FloatArray:
-    """Angle minus its sine, by a series for small angles."""
+    """Difference x - sin(x) of an angle and its sine, by a series for small angles."""
     square = np.minimum(angle * angle, 1.0)
     series = np.ones_like(square)
     for n in range(18, 2, -2):

@@ -9,7 +9,7 @@ FloatArray = NDArray[np.float64]
 
 
 def multiply(p: FloatArray, q: FloatArray) -> FloatArray:
-    """Hamilton's product: rotation q followed by rotation p.
+    """Hamilton's product p q of unit quaternions: rotation by q, then rotation by p.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def multiply(p: FloatArray, q: FloatArray) -> FloatArray:
 
 
 def conjugate(q: FloatArray) -> FloatArray:
-    """Inverse of a unit quaternion.
+    """Conjugate of a unit quaternion, which is its inverse.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def conjugate(q: FloatArray) -> FloatArray:
 
 
 def rotate(q: FloatArray, v: FloatArray) -> FloatArray:
-    """Rotate vectors: from body axes to inertial axes, if q is an attitude.
+    """Rotate vectors by unit quaternions; attitudes rotate from body axes to inertial axes.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def rotate(q: FloatArray, v: FloatArray) -> FloatArray:
 
 
 def rotation_about_z(half_angle: FloatArray) -> FloatArray:
-    """Quaternion of a rotation about the z axis.
+    """Quaternion of a rotation about the z axis, from half the angle of rotation.
 
     Parameters
     ----------

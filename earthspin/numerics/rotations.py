@@ -1,4 +1,4 @@
-"""Unit quaternions (w, x, y, z) stored with the component on the first axis, for short arrays.
+"""Unit quaternions (w, x, y, z) whose components are the first array axis, for short arrays.
 
 `earthspin.numerics.quaternion` has the component on the last axis. A step-by-step solver uses
 arrays of sixteen quaternions, for which the number of numpy calls determines the run time.
@@ -39,7 +39,7 @@ _CROSS = np.ascontiguousarray(_PRODUCT[1:, 1:, 1:]).reshape(3, 9)
 
 
 def matrices(q: FloatArray) -> FloatArray:
-    """Rotation matrices of quaternions: from body to sky, if q are attitudes.
+    """Rotation matrices from quaternions; those of attitudes rotate from body to sky axes.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def matrices(q: FloatArray) -> FloatArray:
 
 
 def times(p: FloatArray, q: FloatArray) -> FloatArray:
-    """Hamilton's product: rotation q followed by rotation p; shapes (4, m).
+    """Hamilton's product p q of quaternions, shape (4, m): rotation by q, then rotation by p.
 
     It is computed element by element, so that the bits of a result do not depend on m.
     """
@@ -71,30 +71,30 @@ def times(p: FloatArray, q: FloatArray) -> FloatArray:
 
 
 def times_vector(p: FloatArray, v: FloatArray) -> FloatArray:
-    """Quaternion times the quaternion of a vector; shapes (4, m) and (3, m)."""
+    """Product of a quaternion (4, m) with the quaternion of a vector (3, m)."""
     m = p.shape[-1]
     return np.asarray(_WITH_VECTOR @ (p[:, np.newaxis] * v).reshape(12, m))
 
 
 def vector_times(v: FloatArray, p: FloatArray) -> FloatArray:
-    """Quaternion of a vector times a quaternion; shapes (3, m) and (4, m)."""
+    """Product of the quaternion of a vector (3, m) with a quaternion (4, m)."""
     m = p.shape[-1]
     return np.asarray(_VECTOR_WITH @ (v[:, np.newaxis] * p).reshape(12, m))
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Cross product; shapes (3, m)."""
+    """Cross product of two arrays of vectors, shape (3, m)."""
     m = a.shape[-1]
     return np.asarray(_CROSS @ (a[:, np.newaxis] * b).reshape(9, m))
 
 
 def conjugate(q: FloatArray) -> FloatArray:
-    """Inverses of unit quaternions; shape (4, m)."""
+    """Conjugates of unit quaternions, which are their inverses, shape (4, m)."""
     return np.asarray(q * _CONJUGATE[:, np.newaxis])
 
 
 def rotation_about(omega: FloatArray, time: FloatArray) -> FloatArray:
-    """Quaternions of rotations at constant angular velocities for given times.
+    """Quaternions of rotations with constant angular velocities over given times.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ def angle_between(p: FloatArray, q: FloatArray) -> FloatArray:
 
 
 def right(q: FloatArray) -> FloatArray:
-    """Matrices of multiplication by quaternions from the right: p q = right(q) p.
+    """Matrices right(q) for multiplication by q from the right: p q = right(q) p.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def right(q: FloatArray) -> FloatArray:
 
 
 def left(q: FloatArray) -> FloatArray:
-    """Matrices of multiplication by quaternions from the left: q p = left(q) p.
+    """Matrices left(q) for multiplication by q from the left: q p = left(q) p.
 
     The shape is (4, 4, m).
     """
@@ -143,7 +143,7 @@ def left(q: FloatArray) -> FloatArray:
 
 
 def rotated(q: FloatArray, v: FloatArray) -> FloatArray:
-    """Rotate vectors from body to sky; shapes (4, m) and (3, m).
+    """Rotate vectors (3, m) from body axes to sky axes, by attitude quaternions (4, m).
 
     It is computed element by element, like `times`.
     """

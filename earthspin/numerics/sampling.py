@@ -39,7 +39,7 @@ def quantiles(samples: FloatArray, shares: FloatArray) -> FloatArray:
 
 
 class Shares(NamedTuple):
-    """Linear dependence of outputs on inputs: slopes, and shares of the inputs in the variance.
+    """Linear fit of outputs by inputs: slopes, and contribution of each input to the variance.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class Shares(NamedTuple):
 
 
 def columns_of(labels: NDArray[Any]) -> FloatArray:
-    """Columns of 0 and 1 that indicate the label of each sample; the last label has no column.
+    """Indicator columns (0 or 1) for the label of each sample; the last label has none.
 
     The shape is (n, labels - 1).
 
@@ -72,7 +72,7 @@ def columns_of(labels: NDArray[Any]) -> FloatArray:
 def shares_of_variance(
     inputs: FloatArray, outputs: FloatArray, classes: Sequence[NDArray[Any]] = ()
 ) -> Shares:
-    """Fit outputs by a linear function of all inputs, and divide their variance among the inputs.
+    """Fit outputs by a linear function of all inputs; return slopes and shares of variance.
 
     The share of input j is b_j cov(x_j, y) / var(y), with the slopes b of the fit. For independent
     inputs it is the first-order sensitivity index. The shares and the unexplained part always have

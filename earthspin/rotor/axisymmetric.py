@@ -73,12 +73,12 @@ class SymmetricRotor:
 
     @property
     def polar(self) -> Numeric:
-        """Moment about the figure axis I3, kg m2."""
+        """Moment of inertia about the figure axis, I3, kg m2."""
         return self.equatorial + self.difference
 
     @property
     def wobble_rate(self) -> Numeric:
-        """Rate at which omega turns about the figure axis, in the body, rad/s (I.6.7).
+        """Rate of the angular velocity's motion about the figure axis in the body, rad/s (I.6.7).
 
         It is omega cos(alpha) (I3 - I1)/I1.
         """
@@ -86,7 +86,7 @@ class SymmetricRotor:
 
     @property
     def theta(self) -> Numeric:
-        """Angle from figure axis to angular momentum, rad.
+        """Angle from the figure axis to the angular momentum, rad (I.6.20).
 
         tan theta = (I1/I3) tan alpha (I.6.20).
         """
@@ -94,7 +94,7 @@ class SymmetricRotor:
 
     @property
     def tilt(self) -> Numeric:
-        """Angle from angular momentum to spin, positive away from the figure axis, rad.
+        """Angle from angular momentum to rotation axis, positive away from the figure axis, rad.
 
         The angle is alpha - theta.
 
@@ -108,12 +108,12 @@ class SymmetricRotor:
 
     @property
     def space_cone(self) -> Numeric:
-        """Half-angle of the space cone, rad: angle from angular momentum to spin axis (I.6.28)."""
+        """Half-angle of the space cone: from angular momentum to rotation axis, rad (I.6.28)."""
         return np.abs(self.tilt)
 
     @property
     def angular_momentum(self) -> Numeric:
-        """Angular momentum L, kg m2/s (I.6.9)."""
+        """Magnitude L of the angular momentum, kg m2/s (I.6.9)."""
         return self.speed * np.hypot(
             self.equatorial * np.sin(self.alpha), self.polar * np.cos(self.alpha)
         )
@@ -131,7 +131,7 @@ class SymmetricRotor:
 
     @property
     def rolling(self) -> NDArray[np.str_]:
-        """Side on which the body cone rolls on the space cone: ``outside``, ``inside``, ``not``.
+        """Side of the space cone on which the body cone rolls: ``outside``, ``inside``, ``not``.
 
         The body cone of a prolate body rolls on the outside of the space cone (I.6.30). That of an
         oblate body encloses the space cone and rolls on it with its inner surface (I.6.31).
@@ -241,7 +241,7 @@ class SymmetricRotor:
         )
 
     def _in_node_plane(self, length: Numeric, angle: Numeric, times: Numeric) -> FloatArray:
-        """Vector of given length and angle in the plane of angular momentum and figure axis.
+        """Vector at an angle from the angular momentum towards the figure axis, in inertial axes.
 
         Its components are along inertial axes.
 
@@ -303,7 +303,7 @@ def speed_and_cone(
 
 
 def wobble_rate_of_cones(speed: Numeric, alpha: Numeric, theta: Numeric) -> Numeric:
-    """Wobble rate from the spin rate and the angles of body cone and space cone, rad/s (I.6.27).
+    """Wobble rate from spin rate and half-angles of body and space cone, rad/s (I.6.27).
 
     It is Omega' = omega sin(alpha - theta)/sin(theta), with the spin rate omega.
 
@@ -330,7 +330,7 @@ def wobble_rate_of_cones(speed: Numeric, alpha: Numeric, theta: Numeric) -> Nume
 
 
 def free_wobble_period(ellipticity: Numeric, spin_period: Numeric) -> Numeric:
-    """Period of the free wobble of a rotor that spins nearly about its figure axis (I.6.7), s.
+    """Period of the free wobble of a body that rotates nearly about its figure axis (I.6.7), s.
 
     The angular velocity moves about the figure axis at Omega' = omega (I3 - I1)/I1; the denominator
     is the equatorial moment, not the polar one.
@@ -347,7 +347,7 @@ def free_wobble_period(ellipticity: Numeric, spin_period: Numeric) -> Numeric:
 
 
 def free_wobble_error(period: Numeric, h: Numeric, u_h: float) -> Numeric:
-    """95 % half-width of the free wobble's period, from the uncertainty of H.
+    """95 % half-width of the free wobble period due to the uncertainty of H, in its unit.
 
     Parameters
     ----------

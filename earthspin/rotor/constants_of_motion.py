@@ -1,4 +1,4 @@
-r"""Constants of a torque-free rotation in Jacobi's closed form.
+r"""Constants in Jacobi's closed form of a torque-free rotation.
 
 The principal axes are numbered so that the angular momentum m moves about axis 3 and axis 2 has the
 intermediate moment, and directed so that m1, m3 >= 0 at the start and 1, 2, 3 are right-handed.
@@ -53,7 +53,7 @@ _LEAST_ENERGY, _LARGEST_ENERGY = -960, 1000
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Precession:
-    """Rotation of the body about its angular momentum: mean rate and size of the periodic part.
+    """Rotation of a free body about its angular momentum: mean rate and periodic part.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class Precession:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class JacobiMotion:
-    """Constants of one torque-free motion, or of many along the leading axes.
+    """Constants of a torque-free rotation in Jacobi's closed form; arrays for many bodies.
 
     Attributes
     ----------
@@ -122,20 +122,20 @@ class JacobiMotion:
 
     @property
     def exact_period(self) -> DoubleDouble:
-        """Period of omega in the body, s, as double-double; 0 marks a motion without a period."""
+        """Period of the angular velocity in the body, s, to 32 digits; 0 if it is not periodic."""
         quarter = self.descent.quarter_period
         moves = self.rate.hi > _SLOWEST
         return where(moves, quarter.scaled(4.0) / where(moves, self.rate, 1.0), 0.0)
 
     @property
     def period(self) -> FloatArray:
-        """Period of omega in the body, s; infinite if it is not periodic."""
+        """Period of the angular velocity in the body, s; infinite if it is not periodic."""
         period = np.asarray(self.exact_period.hi)
         return np.where(period > 0, period, np.inf)
 
 
 class _Start(NamedTuple):
-    """Scaled moments, initial omega and constants of a motion, along the renumbered principal axes.
+    """Initial state of a free rotation, scaled, along renumbered principal axes.
 
     The axes 1, 2, 3 are in ascending or in descending order of their moments.
     """
@@ -155,7 +155,7 @@ class _Start(NamedTuple):
 
 
 def jacobi_motion(moments: Moments, omega: Any) -> JacobiMotion:
-    """Compute the constants of a torque-free motion from the moments and the initial omega.
+    """Compute the constants of a free rotation from moments and initial angular velocity.
 
     Parameters
     ----------
@@ -222,7 +222,7 @@ def _constants(
 def _precession(
     start: _Start, k_complementary: DoubleDouble, descent: LandenDescent, speed: FloatArray
 ) -> Precession:
-    """Compute mean rate and periodic part of the angle psi about the angular momentum.
+    """Compute mean rate and periodic part of the rotation about the angular momentum.
 
     It integrates psi' = G/I3 + D3 (I3 - I1)/(G I3) / (1 + b dn u), with b = a3 I3/G.
 
@@ -252,7 +252,7 @@ def _precession(
 
 
 def _numbered(unit: PrincipalMoments, spin: FloatArray) -> _Start:
-    """Number the principal axes so that the angular momentum circles axis 3.
+    """Renumber the principal axes so that the angular momentum moves around axis 3.
 
     Axis 2 has the intermediate moment.
     """
@@ -272,7 +272,7 @@ def _numbered(unit: PrincipalMoments, spin: FloatArray) -> _Start:
 
 
 def _along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _Start:
-    """Renumber the principal axes of moments and initial omega, and compute the scaled constants.
+    """Initial state of a free rotation with its principal axes in the given order.
 
     The argument `axes` lists the axes of the body in the new order.
     """
@@ -308,7 +308,7 @@ def _along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _Start:
 
 
 def _start_angle(amplitudes: FloatArray, spin: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Sine and cosine of the amplitude of the elliptic functions at the start.
+    """Sine and cosine of the initial amplitude (angle) of the elliptic functions.
 
     They are 0 and 1 for a rotation about axis 3.
     """

@@ -31,7 +31,7 @@ Torque = Callable[[float, FloatArray, FloatArray], FloatArray]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AxisStability:
-    """Stability of the rotation about each principal axis.
+    """Stability of the free rotation of a body about each of its principal axes.
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ class AxisStability:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class IntegratedRotation:
-    """A numerically integrated rotation.
+    """Angular velocity and attitude of a numerically integrated rotation.
 
     Attributes
     ----------
@@ -87,7 +87,7 @@ def euler_rates(moments: Moments, omega: Any, torque: Any = 0.0) -> FloatArray:
 
 
 def twice_energy(moments: Moments, omega: Any) -> FloatArray:
-    """First invariant, 2T = sum of I w^2, J (I.5.1).
+    """Twice the kinetic energy, 2T = sum of I w^2, J, invariant without torque (I.5.1).
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def twice_energy(moments: Moments, omega: Any) -> FloatArray:
 
 
 def angular_momentum_squared(moments: Moments, omega: Any) -> FloatArray:
-    """Second invariant, L2 = sum of (I w)^2, kg2 m4/s2 (I.5.1).
+    """Squared angular momentum L2 = sum of (I w)^2, kg2 m4/s2, invariant without torque.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ def angular_momentum_squared(moments: Moments, omega: Any) -> FloatArray:
 
 
 def axis_stability(moments: Moments, speed: Any) -> AxisStability:
-    """Frequency or growth rate of a small disturbance of the rotation about each axis.
+    """Frequency or growth rate of small disturbances of the rotation about principal axes.
 
     Linear in the disturbance, Euler's equations give w'' = -q w across axis i, with
     q = speed^2 (Ii - Ij)(Ii - Ik)/(Ij Ik): an oscillation about the largest and the smallest
@@ -140,7 +140,7 @@ def integrate_rotation(
     rtol: float = 1e-13,
     atol: float = 1e-15,
 ) -> IntegratedRotation:
-    """Integrate Euler's equations and the attitude numerically (I.4.3).
+    """Integrate Euler's equations and the attitude of a body numerically (I.4.3).
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Principal moments of a rotor, stored with their differences.
+"""Principal moments of inertia, stored with their differences in double-double precision.
 
 A torque-free motion depends on the differences of the moments. Computed from rounded moments, they
 lose five of sixteen digits for the Earth, so they may be given directly:
@@ -33,7 +33,7 @@ _LAMINA = 4 * np.finfo(float).eps
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PrincipalMoments:
-    """Principal moments and their differences, each stored in double-double precision.
+    """Principal moments of inertia and their differences, as double-double numbers.
 
     Attributes
     ----------
@@ -48,42 +48,42 @@ class PrincipalMoments:
 
     @property
     def values(self) -> FloatArray:
-        """Principal moments A, B, C as floats, shape (..., 3)."""
+        """Principal moments of inertia A, B, C as floats, kg m2, shape (..., 3)."""
         return np.asarray(self.moment.hi)
 
     @property
     def A(self) -> FloatArray:
-        """Moment about the x axis, kg m2."""
+        """Principal moment of inertia A about the x axis, kg m2."""
         return self.values[..., 0]
 
     @property
     def B(self) -> FloatArray:
-        """Moment about the y axis, kg m2."""
+        """Principal moment of inertia B about the y axis, kg m2."""
         return self.values[..., 1]
 
     @property
     def C(self) -> FloatArray:
-        """Moment about the z axis, kg m2."""
+        """Principal moment of inertia C about the z axis, kg m2."""
         return self.values[..., 2]
 
     @property
     def B_A(self) -> FloatArray:
-        """B - A, kg m2."""
+        """Difference B - A of principal moments of inertia, kg m2."""
         return np.asarray(self.difference.hi[..., 2])
 
     @property
     def C_A(self) -> FloatArray:
-        """C - A, kg m2."""
+        """Difference C - A of principal moments of inertia, kg m2."""
         return np.asarray(-self.difference.hi[..., 1])
 
     @property
     def C_B(self) -> FloatArray:
-        """C - B, kg m2."""
+        """Difference C - B of principal moments of inertia, kg m2."""
         return np.asarray(self.difference.hi[..., 0])
 
 
 def principal_moments(given: Moments) -> PrincipalMoments:
-    """Read principal moments and check that a body can have them.
+    """Read principal moments of inertia; raise an error if no body can have them.
 
     Parameters
     ----------

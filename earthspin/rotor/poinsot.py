@@ -31,7 +31,7 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Polhode:
-    """Path of the angular velocity in the body.
+    """Polhode: path of the angular velocity in a freely rotating body.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class Polhode:
 
 
 class Closure(NamedTuple):
-    """Whole turns and polhode periods after which a herpolhode nearly closes, and the angle left.
+    """Turns of a herpolhode and periods after which it nearly closes, and the remaining angle.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ class Closure(NamedTuple):
 
 
 def inertia_ellipsoid(moments: Moments, omega: Any) -> FloatArray:
-    """Semi-axes of the inertia ellipsoid in omega space, sqrt(2T/I), rad/s (I.5.1).
+    """Semi-axes sqrt(2T/I) of the ellipsoid of angular velocities with energy T, rad/s (I.5.1).
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def rescaled_inertia_ellipsoid(moments: Moments) -> FloatArray:
 
 
 def momentum_ellipsoid(moments: Moments, omega: Any) -> FloatArray:
-    """Semi-axes of the angular momentum ellipsoid in omega space, L/I, rad/s (I.5.1).
+    """Semi-axes L/I of the ellipsoid of angular velocities with angular momentum L, rad/s (I.5.1).
 
     Parameters and result as for `inertia_ellipsoid`.
     """
@@ -125,7 +125,7 @@ def invariable_plane_distance(moments: Moments, omega: Any) -> FloatArray:
 
 
 def polhode(moments: Moments, omega: Any, n: int = 361) -> Polhode:
-    """Points of the polhode, the path of the angular velocity in the body (I.5.6).
+    """Compute points of the polhode, the path of the angular velocity in the body (I.5.6).
 
     Parameters
     ----------
@@ -151,7 +151,7 @@ def polhode(moments: Moments, omega: Any, n: int = 361) -> Polhode:
 
 
 def herpolhode(moments: Moments, omega: Any, times: Any) -> FloatArray:
-    """Path of the angular velocity in the invariable plane, rad/s (I.5.9).
+    """Herpolhode: path of the angular velocity in the invariable plane, rad/s (I.5.9).
 
     The origin is the point where the line of the angular momentum meets the plane.
 
@@ -203,7 +203,7 @@ def herpolhode_radii(moments: Moments, omega: Any) -> FloatArray:
 
 
 def herpolhode_advance(moments: Moments, omega: Any) -> FloatArray:
-    """Angle by which the herpolhode advances in one period of the polhode.
+    """Angle by which the herpolhode advances in one period of the polhode, rad.
 
     The principal axis about which the angular momentum moves advances by the same angle.
 
@@ -235,7 +235,7 @@ def herpolhode_advance(moments: Moments, omega: Any) -> FloatArray:
 
 
 def nearest_closure(advance: float, most_periods: int = 100) -> Closure:
-    """Find whole turns and polhode periods whose ratio is nearest to the herpolhode's advance.
+    """Find the number of polhode periods after which a herpolhode is most nearly closed.
 
     The advance is then taken in turns per period of the polhode.
 
@@ -255,13 +255,13 @@ def nearest_closure(advance: float, most_periods: int = 100) -> Closure:
 
 
 def _across(motion: JacobiMotion, phase: Phase) -> FloatArray:
-    """Vector omega x L/|L| along axes 1, 2, 3, computed from the differences of moments."""
+    """Cross product of angular velocity and angular momentum direction, along axes 1, 2, 3."""
     w = phase.along(motion.amplitudes)
     factor = _differences(motion) * [1.0, -1.0, 1.0] / motion.angular_momentum[..., np.newaxis]
     return np.asarray(w[..., [1, 2, 0]] * w[..., [2, 0, 1]] * factor[..., np.newaxis, :])
 
 
 def _differences(motion: JacobiMotion) -> FloatArray:
-    """Differences I3 - I2, I3 - I1, I2 - I1 of the moments, which all have the same sign."""
+    """Differences I3 - I2, I3 - I1, I2 - I1 of the moments along the renumbered axes."""
     sizes = np.abs(np.take_along_axis(motion.moments.difference.hi, motion.axes, -1))
     return np.asarray(motion.sense[..., np.newaxis] * sizes)

@@ -29,7 +29,7 @@ CLOSED_FORM_ERROR = 1e-13
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FreeRotation:
-    """Torque-free rotation of a body over time.
+    """Angular velocity, angular momentum and attitude of a freely rotating body over time.
 
     The inertial axes are those of the body at t = 0.
 
@@ -59,7 +59,7 @@ class FreeRotation:
 
 
 def free_rotation(moments: Moments, omega: Any, times: Any) -> FreeRotation:
-    """Compute the torque-free rotation of a body, in closed form (I.4.4, I.5).
+    """Compute the torque-free rotation of any rigid body in closed form (I.4.4, I.5).
 
     Inputs are treated as exact. A change in the last digit of an input may change a late attitude
     noticeably; this is a property of the motion, not an error of the method.
@@ -108,7 +108,7 @@ def free_rotation(moments: Moments, omega: Any, times: Any) -> FreeRotation:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Phase:
-    """Argument of the elliptic functions of a free rotation at given times, and their values.
+    """Values of the elliptic functions of a free rotation at given times, with their argument.
 
     Attributes
     ----------
@@ -156,7 +156,7 @@ def phase_at(motion: JacobiMotion, times: FloatArray) -> Phase:
 
 
 def to_body(motion: JacobiMotion, vectors: FloatArray) -> FloatArray:
-    """Transform vector components from the numbered axes 1, 2, 3 to the body axes x, y, z.
+    """Convert vector components from the renumbered axes 1, 2, 3 to the body axes x, y, z.
 
     Parameters
     ----------
@@ -168,7 +168,7 @@ def to_body(motion: JacobiMotion, vectors: FloatArray) -> FloatArray:
 
 
 def momentum_frame(motion: JacobiMotion, phase: Phase) -> FloatArray:
-    """Quaternion from body axes 1, 2, 3 to inertial axes whose third is the angular momentum.
+    """Quaternion from renumbered body axes to inertial axes with angular momentum along z.
 
     Parameters
     ----------
@@ -183,21 +183,21 @@ def momentum_frame(motion: JacobiMotion, phase: Phase) -> FloatArray:
 
 
 def _attitude(motion: JacobiMotion, phase: Phase) -> FloatArray:
-    """Quaternion of the rotation since the first time, in components along the body axes."""
+    """Attitude relative to the first time, as a quaternion along the body axes x, y, z."""
     frame = momentum_frame(motion, phase)
     turn = quaternion.multiply(quaternion.conjugate(frame[..., :1, :]), frame)
     return np.concatenate([turn[..., :1], to_body(motion, turn[..., 1:])], axis=-1)
 
 
 def _shortest_turn(cosines: FloatArray) -> FloatArray:
-    """Quaternion of the shortest rotation from a unit vector (third component >= 0) to axis 3."""
+    """Quaternion of the smallest rotation from a unit vector to the third axis."""
     x, y, z = np.moveaxis(cosines, -1, 0)
     turn = np.stack([1 + z, y, -x, np.zeros_like(z)], axis=-1)
     return np.asarray(turn / np.sqrt(np.sum(turn * turn, axis=-1, keepdims=True)))
 
 
 def _half_psi(motion: JacobiMotion, phase: Phase) -> FloatArray:
-    """Half the angle turned about the angular momentum since the first time, rad."""
+    """Half of the angle by which a body has rotated about its angular momentum, rad."""
     precession = motion.precession
     run = precession.rate.scaled(0.5)[..., np.newaxis] * phase.times
     rest = run - TWO_PI * np.rint(run.hi / TWO_PI.hi)

@@ -1,4 +1,4 @@
-"""Effects on the axes besides the torque on the bulge, one module for each effect."""
+"""Effects on the axes besides the torque on the equatorial bulge, one module for each effect."""
 
 from earthspin.motion.effects.effect import MEASURED, SOURCE, Effect, Growth, Numbers
 from earthspin.motion.effects.geodesic import GEODESIC
@@ -28,7 +28,7 @@ RIGID = tuple(name for name in EFFECTS if name != NONRIGID.name)
 
 
 def add(effect: Effect) -> None:
-    """Register a further effect, which is switched off by default.
+    """Register a new effect on the axes; it is switched off by default.
 
     Raises
     ------

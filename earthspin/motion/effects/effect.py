@@ -1,4 +1,4 @@
-"""Effects: a name, a function that switches the effect on, and its size for the Earth."""
+"""Class of effects on the axes: name, function that switches an effect on, and its size."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SOURCE = "measured on DE421 from 1901 to 2050: python -m data_tools neglected"
 
 
 class Growth(NamedTuple):
-    """Bound on an angle as a quadratic in time from J2000.0, in mas and years."""
+    """Bound on an angle that grows in time: a + b t + c t2 from J2000.0, in mas and years."""
 
     swing: float
     rate: float = 0.0
@@ -23,7 +23,7 @@ class Growth(NamedTuple):
 
 
 class Numbers(Protocol):
-    """Interface to the fields of the rotating body that an effect may use, in SI units."""
+    """Interface to the fields of a body from which an effect takes its parameters."""
 
     def number(self, name: str) -> float:
         """Return a field of the body as a float."""
@@ -31,7 +31,7 @@ class Numbers(Protocol):
 
 @dataclass(frozen=True)
 class Effect:
-    """Effect on the axes that can be switched on, in addition to the torque on the bulge.
+    """An effect on the axes, besides the torque on the bulge, that users can switch on.
 
     Attributes
     ----------
@@ -53,7 +53,7 @@ class Effect:
     source: str = SOURCE
 
     def size_at(self, reach: float) -> float:
-        """Bound on the change of the figure axis due to the effect, rad.
+        """Bound on the change of the figure axis by this effect up to a given time, rad.
 
         Parameters
         ----------

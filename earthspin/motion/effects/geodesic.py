@@ -1,4 +1,4 @@
-r"""Geodesic precession and nutation: rotation of the local inertial frame.
+r"""Geodesic precession and nutation: relativistic rotation of the local inertial frame.
 
 A gyroscope that orbits a mass precesses with respect to the stars (de Sitter 1916). For several
 masses, with positions and velocities in the barycentric frame (Brumberg, Bretagnon &
@@ -34,7 +34,7 @@ def geodesic_rate(
     velocity: Mapping[str, FloatArray],
     primary: str,
 ) -> FloatArray:
-    """Angular velocity of the body's local inertial frame with respect to the stars, rad/s.
+    """Angular velocity of the body's local inertial frame relative to the stars, rad/s.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def geodesic_rate(
 
 
 def geodesic_torque(primary: str) -> Torque:
-    """Represent geodesic precession about a mass as a torque on the angular momentum.
+    """Make a function that gives geodesic precession about a mass as an equivalent torque.
 
     Parameters
     ----------

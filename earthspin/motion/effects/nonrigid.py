@@ -1,4 +1,4 @@
-"""Response of the interior to nutation, added to the path of the rigid body.
+"""Nutation response of a body's non-rigid interior, added to the path of the rigid body.
 
 Its size includes the different initial axes: the rigid path starts at the true pole of IAU
 2006/2000A, the path with the response starts 30 mas away, such that the mean poles agree.

@@ -1,4 +1,4 @@
-"""Torques of the planets on the bulge."""
+"""Torques of the planets on the equatorial bulge of a body."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Second-order effects: torques on the actual axis instead of the mean pole of precession."""
+"""Second-order effects: torques computed for the nutating axis instead of the mean pole."""
 
 from __future__ import annotations
 

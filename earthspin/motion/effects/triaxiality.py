@@ -1,4 +1,4 @@
-"""Difference of the equatorial moments, which causes semidiurnal motion of the axes."""
+"""Inequality of the equatorial moments A and B, which causes semidiurnal motion of the axes."""
 
 from __future__ import annotations
 
