@@ -1,1 +1,1 @@
-"""Spin axis over millennia to millions of years: averaged torques on a changing orbit."""
+"""Spin axis of a body over millennia to millions of years, by averaged torques."""

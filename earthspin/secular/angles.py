@@ -26,7 +26,7 @@ Numeric = float | FloatArray
 
 
 class Seasons(NamedTuple):
-    """Obliquity, eccentricity, climatic precession and coprecession; shape (n,) each.
+    """Obliquity, eccentricity, and e sin and e cos of the perihelion longitude, shape (n,) each.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class Seasons(NamedTuple):
 
 
 def seasons(axis: FloatArray, normal: FloatArray, eccentricity: FloatArray) -> Seasons:
-    """Obliquity, eccentricity, climatic precession and coprecession.
+    """Compute obliquity, eccentricity, climatic precession and coprecession from vectors.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def seasons(axis: FloatArray, normal: FloatArray, eccentricity: FloatArray) -> S
 
 
 def equator_and_equinox(axis: FloatArray, normal: FloatArray) -> FloatArray:
-    """Matrices from the GCRS to mean equator and equinox of date, shape (..., n, 3, 3).
+    """Rotation matrices from the GCRS to mean equator and equinox, shape (..., n, 3, 3).
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def equator_and_equinox(axis: FloatArray, normal: FloatArray) -> FloatArray:
 def inclined_axis(
     axis: FloatArray, normal: FloatArray, more: Numeric, turned: Numeric
 ) -> FloatArray:
-    """Rotate a spin axis by given increments of its obliquity and longitude.
+    """Return a spin axis with its obliquity and longitude increased by given angles.
 
     Parameters
     ----------
@@ -111,5 +111,5 @@ def inclined_axis(
 
 
 def broadcast_over_members(axis: FloatArray, vector: FloatArray) -> FloatArray:
-    """Reshape an orbital vector from (3, n) so that it broadcasts with the axes of many members."""
+    """Reshape a vector of the orbit from (3, n) to broadcast with the axes of many members."""
     return vector.reshape(3, *(1,) * (axis.ndim - 2), -1)

@@ -1,4 +1,4 @@
-"""Error budget of the axis far from the present, by cause.
+"""Error of the spin axis far from the present, with the contribution of each error source.
 
 Each cause is an input changed by its 95 % half-width; the solution is repeated with the change, and
 its difference is the contribution of that cause. Up to a few thousand years the constant of
@@ -39,7 +39,7 @@ OF_THE_EARTH = ("J2 rate", "tides", "ellipticity")
 
 @dataclass(frozen=True)
 class Setting:
-    """Inputs of one integration of the spin axis: precession strength, orbit and initial axis.
+    """Inputs of one integration of the spin axis: torque, orbit and initial axis.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class Setting:
 
 @dataclass(frozen=True)
 class Uncertainty:
-    """95 % half-widths of the inputs of the spin axis integration, by error source.
+    """95 % half-widths of the inputs of an integration of the spin axis, by error source.
 
     Attributes
     ----------
@@ -78,14 +78,14 @@ class Uncertainty:
 
     @property
     def causes(self) -> tuple[str, ...]:
-        """Names of the error sources; a source that acts in two directions is listed twice."""
+        """Names of the error sources; a source with two directions is listed twice."""
         moved = ("constant", *(("start",) * len(self.start)), "orbit", "orbit")
         return moved + OF_THE_EARTH if self.earth else moved
 
 
 @dataclass(frozen=True)
 class Solved:
-    """Nominal trajectory of the spin axis, and those with each error source varied.
+    """Nominal trajectory of the spin axis, and one trajectory for each varied error source.
 
     Attributes
     ----------
@@ -103,12 +103,12 @@ class Solved:
 
     @property
     def steps(self) -> int:
-        """Total number of Newton steps of the nominal and all varied trajectories."""
+        """Number of Newton steps, summed over the nominal and all varied trajectories."""
         return self.path.steps + sum(path.steps for _, path, _ in self.others)
 
 
 def solved(setting: Setting, span: tuple[float, float], uncertainty: Uncertainty) -> Solved:
-    """Integrate the nominal spin axis, and again with each error source varied.
+    """Integrate the spin axis with nominal inputs, and again with each error source varied.
 
     A further integration has windows of twice the length.
 
@@ -145,7 +145,7 @@ def solved(setting: Setting, span: tuple[float, float], uncertainty: Uncertainty
 
 
 def moved(orbit: Orbit, error: HalfWidths, ways: Sequence[float]) -> ModifiedOrbit:
-    """Orbit whose normal and eccentricity vector are shifted by multiples of their half-widths.
+    """Orbit whose normal and eccentricity are shifted by multiples of their half-widths.
 
     Parameters
     ----------
@@ -171,7 +171,7 @@ def moved(orbit: Orbit, error: HalfWidths, ways: Sequence[float]) -> ModifiedOrb
 
 
 def inclined_axis(setting: Setting, angles: Sequence[float]) -> FloatArray:
-    """Initial spin axis rotated by small angles, as an array of the shape of the nominal axis.
+    """Initial spin axis rotated by small angles towards and perpendicular to the orbit normal.
 
     Parameters
     ----------
@@ -188,7 +188,7 @@ def inclined_axis(setting: Setting, angles: Sequence[float]) -> FloatArray:
 
 
 def changes(setting: Setting, uncertainty: Uncertainty) -> tuple[tuple[str, Setting], ...]:
-    """Return the inputs with one error source varied by its half-width, for each source.
+    """Return, for each error source, the inputs with only this source varied by its half-width.
 
     The orbit is varied in two directions.
     """
@@ -200,7 +200,7 @@ def changes(setting: Setting, uncertainty: Uncertainty) -> tuple[tuple[str, Sett
 
 
 def changed(setting: Setting, uncertainty: Uncertainty, amounts: FloatArray) -> Setting:
-    """Return the inputs with all error sources varied by given multiples of their half-widths.
+    """Inputs with every error source varied by a given multiple of its half-width.
 
     Parameters
     ----------

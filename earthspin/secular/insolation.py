@@ -31,7 +31,7 @@ NODES = 48
 
 
 class Season(NamedTuple):
-    """Obliquity, eccentricity and perihelion for the insolation; arrays that broadcast together.
+    """Obliquity, eccentricity and longitude of perihelion, from which insolation is computed.
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ class Season(NamedTuple):
 
 
 def daily(season: Season, latitude: FloatArray, longitude: FloatArray) -> FloatArray:
-    """Daily mean insolation, as a fraction of the solar constant at the mean distance.
+    """Daily mean insolation as a fraction of the solar constant at the mean distance.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def daily(season: Season, latitude: FloatArray, longitude: FloatArray) -> FloatA
 
 
 def true_longitude(season: Season, mean: FloatArray) -> FloatArray:
-    """True longitude of the Sun at a mean longitude, rad; both agree at the March equinox."""
+    """True longitude of the Sun from its mean longitude, rad; equal at the March equinox."""
     e = season.eccentricity
     at_equinox = mean_anomaly(-season.perihelion - np.pi, e)
     anomaly = true_anomaly(at_equinox + mean, e)
@@ -76,7 +76,7 @@ def true_longitude(season: Season, mean: FloatArray) -> FloatArray:
 
 
 def mean_longitude(season: Season, true: FloatArray) -> FloatArray:
-    """Mean longitude of the Sun at a true longitude, rad."""
+    """Mean longitude of the Sun from its true longitude, rad; equal at the March equinox."""
     e, opposite = season.eccentricity, season.perihelion + np.pi
     return np.asarray(mean_anomaly(true - opposite, e) - mean_anomaly(-opposite, e))
 
@@ -84,7 +84,7 @@ def mean_longitude(season: Season, true: FloatArray) -> FloatArray:
 def over_days(
     season: Season, latitude: FloatArray, longitude: FloatArray, days: float
 ) -> FloatArray:
-    """Mean insolation over a time window centred on a given true longitude of the Sun.
+    """Mean insolation over some days, centred on the day of a true longitude of the Sun.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-r"""Joint integration of many spin axes over millions of years, in a precessing frame.
+r"""Integrate many spin axes together over millions of years, in a rotating frame.
 
 In a frame that rotates about the mean normal at the precession rate, the axis hardly moves, so
 steps of four thousand years suffice. All members are in one array, and every stage of the method of
@@ -44,7 +44,7 @@ def solve_many(
     times: FloatArray,
     step: float = STEP,
 ) -> FloatArray:
-    """Integrate the spin axes of many members together, from J2000.0.
+    """Integrate the spin axes of many ensemble members together, from J2000.0.
 
     Parameters
     ----------
@@ -76,12 +76,12 @@ def solve_many(
 
 
 def _mean(values: FloatArray) -> float:
-    """Mean of a quantity over all members; exact if all members have the same value."""
+    """Mean of a quantity over ensemble members; exact if all members have the same value."""
     return float(values[0] + np.mean(values - values[0]))
 
 
 def _padded(strength: Strength, width: int, members: int) -> Strength:
-    """Precession strength with its arrays lengthened from the number of members to the batch size.
+    """Precession constants with arrays lengthened to the batch size of the integration.
 
     The value of the last member is repeated.
     """
@@ -102,7 +102,7 @@ def _padded(strength: Strength, width: int, members: int) -> Strength:
 
 
 class _Lanes:
-    """Spin axes of many members in a frame that rotates at their mean precession rate."""
+    """Integrator of the spin axes of many members, in a frame with their mean precession rate."""
 
     def __init__(
         self, strength: Strength, orbit: Orbit, starts: FloatArray, times: FloatArray
@@ -172,12 +172,12 @@ class _Lanes:
             state = state + change
 
     def _still(self, u: FloatArray, time: float) -> FloatArray:
-        """Transform spin axes from the frame that rotates at their mean rate to the GCRS."""
+        """Transform spin axes from the rotating frame of the integration to the GCRS."""
         c, s = math.cos(self.turn * time), math.sin(self.turn * time)
         return np.asarray(self.axes.T @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ u)
 
     def _slopes(self, times: FloatArray) -> Callable[[int, FloatArray], FloatArray]:
-        """Return the function that computes the rates of the axes in the rotating frame.
+        """Make a function that returns the rates of change of all axes in the rotating frame.
 
         Its arguments are the index of a time and the axes.
         """
@@ -203,14 +203,14 @@ class _Lanes:
 
 
 def _crossing(vector: FloatArray) -> FloatArray:
-    """Matrices of the cross product with vectors, shape (3, 3, n)."""
+    """Matrices that form the cross product with given vectors, shape (3, 3, n)."""
     x, y, z = vector
     nought = np.zeros_like(x)
     return np.stack([[nought, -z, y], [z, nought, -x], [-y, x, nought]])
 
 
 def _between(x: float, terms: Sequence[FloatArray]) -> FloatArray:
-    """Interpolate the axes within a time step (Hairer, Norsett & Wanner 1993, II.6).
+    """Interpolate spin axes within one time step (Hairer, Norsett & Wanner 1993, II.6).
 
     The argument is the fraction of the step; the order is 7.
     """

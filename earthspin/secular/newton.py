@@ -1,4 +1,4 @@
-r"""Newton's method for the spin axis at the collocation nodes of all time windows.
+r"""Newton's method for a spin axis at the collocation nodes of all time windows.
 
 The longitude phi of the spin axis about a fixed axis N and the height Z = s.N are canonical
 variables: with the projection L = m.s on the axis m of the torque, and a rotation g,
@@ -31,7 +31,7 @@ TINY = 1e-300
 
 
 class Turn(NamedTuple):
-    """Averaged torque on the spin axis at the nodes of time windows, along a reference axis N.
+    """Averaged torque on a spin axis at the nodes, resolved along a reference axis N.
 
     The components perpendicular to N are complex numbers.
 
@@ -55,7 +55,7 @@ class Turn(NamedTuple):
 
     @classmethod
     def of(cls, on: Pull, axes: FloatArray, windows: Windows) -> Turn:
-        """Resolve the averaged torque along and perpendicular to the reference axis N."""
+        """Resolve an averaged torque into components along and perpendicular to the axis N."""
         shape = windows.times.shape
 
         def seen(vector: FloatArray) -> tuple[ComplexArray, FloatArray]:
@@ -67,7 +67,7 @@ class Turn(NamedTuple):
 
 
 class Slope(NamedTuple):
-    """Rates of the spin axis's longitude and height (component along the reference axis) at nodes.
+    """Rates of longitude and height of a spin axis at the nodes, with their derivatives.
 
     Their derivatives by longitude and height are included.
 
@@ -90,7 +90,7 @@ class Slope(NamedTuple):
 
 
 def slope(on: Turn, phi: FloatArray, z: FloatArray) -> Slope:
-    """Compute the rates of longitude (rad/s) and height (1/s) of the spin axis, with derivatives.
+    """Compute rates of longitude (rad/s) and height (1/s) of a spin axis, with derivatives.
 
     The height is the component along the reference axis.
     """
@@ -122,7 +122,7 @@ def slope(on: Turn, phi: FloatArray, z: FloatArray) -> Slope:
 def moved(
     windows: Windows, rates: FloatArray, state: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Integrate the rates of the spin axis's longitude and height over successive time windows.
+    """Integrate rates of the spin axis's longitude and height over successive time windows.
 
     Return the integrals from window starts to nodes, the states at window starts, and the final
     state. The shapes are (2, ..., w, n), (2, ..., w) and (2, ...).
@@ -135,7 +135,7 @@ def moved(
 def step(
     windows: Windows, on: Turn, values: FloatArray, state: FloatArray, left: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Make one Newton step for longitude and height of the spin axis; also return its size.
+    """Make one Newton step for the spin axis's longitude and height; return also its size.
 
     With S the integral from the start of a window to its nodes, the values y of a window that
     starts at b solve y = b + S f(y). Linearised about the current values, the change is d = c + S J
@@ -172,7 +172,7 @@ def step(
 def _linear(
     windows: Windows, at: Slope, sides: FloatArray, left: FloatArray
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
-    """Solve the linearised equation of a Newton step in every time window, for several defects.
+    """Solve the linear equations of one Newton step, in every time window.
 
     The equation is d = c + S J d for the change d, the defect c, the Jacobian J and the integral S.
 
@@ -208,7 +208,7 @@ def _linear(
 
 
 def _shifts(ends: FloatArray) -> FloatArray:
-    """Newton corrections of longitude and height of the spin axis at window starts, (2, ..., w).
+    """Corrections of the spin axis's longitude and height at the window starts, (2, ..., w).
 
     Parameters
     ----------

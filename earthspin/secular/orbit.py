@@ -20,7 +20,7 @@ Shape: TypeAlias = "tuple[FloatArray, FloatArray, FloatArray]"
 
 
 class Orbit(Protocol):
-    """Protocol of an orbit whose normal and eccentricity can be evaluated at any covered time."""
+    """Interface of an orbit that changes in time: normal and eccentricity at any covered time."""
 
     @property
     def coverage(self) -> tuple[float, float]:
@@ -28,15 +28,15 @@ class Orbit(Protocol):
 
     @property
     def edges(self) -> FloatArray:
-        """Times at which smooth pieces of the orbit join, with J2000.0; s, ascending."""
+        """Ascending times, s, at which polynomial pieces of the orbit join, and J2000.0."""
 
     def at(self, times: FloatArray) -> Shape:
-        """Normal, eccentricity vector and rate of the normal at times in s from J2000.0 TDB."""
+        """Orbit normal, eccentricity vector and rate of the normal at times, s from J2000.0."""
 
 
 @dataclass(frozen=True)
 class ModifiedOrbit:
-    """Orbit derived from another orbit by changing its normal and eccentricity at every time.
+    """Orbit that follows from another orbit by a change of its normal and eccentricity.
 
     Attributes
     ----------
@@ -55,16 +55,16 @@ class ModifiedOrbit:
 
     @property
     def edges(self) -> FloatArray:
-        """Times at which smooth pieces of the original orbit join, s."""
+        """Times, s, at which polynomial pieces of the original orbit join."""
         return self.orbit.edges
 
     def at(self, times: FloatArray) -> Shape:
-        """Changed normal, eccentricity vector and rate of the normal at times, s from J2000.0."""
+        """Changed orbit normal, eccentricity vector and rate of the normal at given times."""
         return self.change(times, self.orbit.at(times))
 
 
 def reference_axes(normal: FloatArray) -> FloatArray:
-    """Right-handed unit vectors, as rows: two perpendicular to a normal, and the normal."""
+    """Three orthogonal unit vectors, as rows; the third is the given orbit normal."""
     third = normal[:, np.newaxis] / np.linalg.norm(normal)
     first = cross(third, np.eye(3)[:, [np.argmin(np.abs(normal))]])
     first /= np.linalg.norm(first)
@@ -72,7 +72,7 @@ def reference_axes(normal: FloatArray) -> FloatArray:
 
 
 class Pull(NamedTuple):
-    """Averaged torque on a spin axis: torque axis, constant of precession, and geodesic rotation.
+    """Averaged torque on a spin axis: torque axis, constant of precession, geodesic rotation.
 
     The spin axis moves by ds/dt = (g n - a (m.s) m) x s.
 
@@ -92,7 +92,7 @@ class Pull(NamedTuple):
 
 
 def pull(strength: Strength, shape: Shape, times: FloatArray) -> Pull:
-    """Compute the averaged torque of Sun and Moon on a spin axis.
+    """Compute the torque of Sun and Moon on a spin axis, averaged over their orbits.
 
     The node of the Moon regresses about an orbit that moves; its mean torque acts about n + (n x
     dn/dt)/|node rate|, which differs from n by 1.4 arcsec for the Earth. To first order the total
@@ -109,7 +109,7 @@ def pull(strength: Strength, shape: Shape, times: FloatArray) -> Pull:
 
 
 def moons_height(shape: Shape, axis: FloatArray, node_rate: float) -> FloatArray:
-    """Precession rate in longitude due to the Moon, divided by the Moon's constant of precession.
+    """Precession rate due to the Moon, divided by the Moon's constant of precession.
 
     The shape is (..., n).
 

@@ -42,7 +42,7 @@ _TURN = 2 * np.pi
 
 @dataclass(frozen=True)
 class Read:
-    """Angles, eccentricity, pole and rates derived from one trajectory or that of each member.
+    """Angles, pole and precession rates derived from a trajectory of one or many spin axes.
 
     Axes of members precede the time axis.
 
@@ -64,7 +64,7 @@ class Read:
 
 @dataclass(frozen=True)
 class Readings:
-    """Angles and rates from the nominal trajectory, and from those with an error source varied.
+    """Angles and rates of the nominal trajectory, and of those with an error source varied.
 
     Attributes
     ----------
@@ -84,11 +84,11 @@ class Readings:
     sampled: Mapping[str, FloatArray] = field(default_factory=dict)
 
     def half_width(self, name: str) -> FloatArray:
-        """95 % half-width of the named quantity."""
+        """95 % half-width of a derived quantity, by name, from all error sources."""
         return self._with_sampled(name, together(self.apart(name)))
 
     def direction_half_width(self, which: Literal["pole", "normal"]) -> FloatArray:
-        """95 % half-width of the direction of the pole, or of the normal of the orbit, rad."""
+        """95 % half-width of the direction of the spin axis or the orbit normal, rad."""
         return self._with_sampled(which, together(self.poles_apart(which)))
 
     def _with_sampled(self, name: str, linear: FloatArray) -> FloatArray:
@@ -97,13 +97,13 @@ class Readings:
         return linear + self.weight * (self.sampled[name] - linear)
 
     def apart(self, name: str) -> dict[str, FloatArray]:
-        """Change of the named quantity due to each error source."""
+        """Change of a derived quantity due to each error source, by name of the source."""
         return _by_cause(
             (cause, moved_by(changed, self.mine, name)) for cause, changed in self.moved
         )
 
     def poles_apart(self, which: Literal["pole", "normal"]) -> dict[str, FloatArray]:
-        """Angle (rad) by which each error source moves the spin axis or the orbit normal."""
+        """Change in direction, rad, of spin axis or orbit normal due to each error source."""
         mine = getattr(self.mine, which)
         return _by_cause(
             (cause, angle(getattr(changed, which), mine)) for cause, changed in self.moved
@@ -111,7 +111,7 @@ class Readings:
 
 
 def moved_by(of: Read, mine: Read, name: str) -> FloatArray:
-    """Difference of the named quantity between a varied and the nominal solution."""
+    """Difference of a derived quantity between a varied and the nominal solution."""
     moved = of.values[name] - mine.values[name]
     if name != "longitude_of_perihelion":
         return moved
@@ -129,7 +129,7 @@ def angle(of: FloatArray, mine: FloatArray) -> FloatArray:
 
 
 def _by_cause(shares: Iterable[tuple[str, FloatArray]]) -> dict[str, FloatArray]:
-    """Root sum square of the changes of each error source, which may have several directions."""
+    """Sum the changes of each error source in quadrature, over its independent directions."""
     totals: dict[str, FloatArray] = {}
     for cause, share in shares:
         totals[cause] = np.hypot(totals.get(cause, 0.0), share)
@@ -137,12 +137,12 @@ def _by_cause(shares: Iterable[tuple[str, FloatArray]]) -> dict[str, FloatArray]
 
 
 def together(shares: dict[str, FloatArray]) -> FloatArray:
-    """Root sum square of the contributions of all error sources."""
+    """Root sum square of the changes due to all error sources."""
     return np.sqrt(sum(share**2 for share in shares.values()))
 
 
 def readings(solved: Solved, times: FloatArray, fixed: FloatArray) -> Readings:
-    """Derive angles and rates from the nominal solution and from each varied solution.
+    """Derive angles and rates, with errors, from the nominal and all varied solutions.
 
     Parameters
     ----------
@@ -177,7 +177,7 @@ def readings(solved: Solved, times: FloatArray, fixed: FloatArray) -> Readings:
 
 
 def phase_error(solved: Solved, times: FloatArray) -> FloatArray:
-    """Largest error of the precession phase between J2000.0 and each time, rad, shape (..., n).
+    """Largest error of the precession angle between J2000.0 and each time, rad, (..., n).
 
     It is the half-width of the axis divided by the sine of its obliquity. The largest value up to
     each time is used, because after a large phase error changes are no longer proportional to their
@@ -201,7 +201,7 @@ def phase_error(solved: Solved, times: FloatArray) -> FloatArray:
 def _sampled(
     solved: Solved, mine: Read, times: FloatArray, fixed: FloatArray, perihelion: FloatArray
 ) -> dict[str, FloatArray]:
-    """95 % quantiles of the deviations of sampled solutions, for each quantity and for the pole."""
+    """95 % half-widths of all quantities from solutions with randomly varied inputs."""
     names = [name for name in mine.values if name not in OF_THE_ORBIT]
     span, quantiles = (float(times.min()), float(times.max())), Quantiles()
     for amounts in draws(len(solved.uncertainty.causes)):
@@ -216,7 +216,7 @@ def _sampled(
 def read(
     path: Trajectory, setting: Setting, times: FloatArray, fixed: FloatArray, orbits: FloatArray
 ) -> Read:
-    """Compute angles, pole and precession rates from a trajectory at given times.
+    """Compute angles, pole and precession rates from one trajectory at given times.
 
     Parameters
     ----------
@@ -268,7 +268,7 @@ def read(
 def _followed_precession(
     path: Trajectory, setting: Setting, times: FloatArray, fixed: FloatArray, angles: FloatArray
 ) -> FloatArray:
-    """Accumulated precession angles p_A and psi_A at times, rad, zero at J2000.0."""
+    """Precession angles p_A and psi_A since J2000.0, with whole turns counted, rad."""
     # along the nodes, which are close enough to unwrap precession
     nodes = np.sort(np.append(path.windows.times.ravel(), 0.0))
     axis = path.at(nodes)
@@ -282,14 +282,14 @@ def _followed_precession(
 
 
 def _turns(axis: FloatArray, normal: FloatArray, fixed: FloatArray) -> FloatArray:
-    """Precession angles p_A and psi_A modulo whole turns, rad, shape (2, ..., n)."""
+    """Precession angles p_A and psi_A at given times, without whole turns, rad."""
     pole, ecliptic = (np.stack([dot(row, v) for row in fixed], axis=-1) for v in (axis, normal))
     psi = np.arctan2(pole[..., 0], pole[..., 1])
     return np.stack([general_precession(pole, ecliptic), psi])
 
 
 def followed_perihelion(orbit: Orbit, times: FloatArray, fixed: FloatArray) -> FloatArray:
-    """Continuous longitude of perihelion of the orbit in fixed axes, without jumps, rad."""
+    """Longitude of perihelion of the orbit in fixed axes, continuous over many turns, rad."""
     first, last = np.floor(min(times.min(), 0.0) / LOOK), np.ceil(max(times.max(), 0.0) / LOOK)
     looks = np.clip(LOOK * np.arange(first, last + 1), *orbit.coverage)
     angle, coarse = (np.arctan2(*(fixed[:2] @ orbit.at(at)[1])[::-1]) for at in (times, looks))
@@ -298,7 +298,7 @@ def followed_perihelion(orbit: Orbit, times: FloatArray, fixed: FloatArray) -> F
 
 
 def _refuse_upright(obliquity: FloatArray, times: FloatArray) -> None:
-    """Refuse an axis normal to the orbit: without an equinox longitudes are undefined."""
+    """Raise an error if a spin axis is normal to its orbit, so that no equinox exists."""
     sines = np.sin(obliquity)
     if sines.ndim > 1 and not np.all(sines > NO_EQUINOX):
         raise ApartError("the axis of a member stands upright on the orbit")

@@ -1,4 +1,4 @@
-"""Solutions with all error sources varied together, and quantiles of their deviations.
+"""Random variation of all error sources together, and quantiles of the resulting deviations.
 
 If the phase of precession is uncertain by a large fraction of a turn, a solution with one cause
 changed may coincide with the nominal one, so its deviation is no half-width. Then the half-width is
@@ -30,7 +30,7 @@ PROBABILITY = 0.95
 
 
 def draws(causes: int) -> FloatArray:
-    """Random changes of the error sources in each member, in half-widths, (MEMBERS, causes).
+    """Random changes of all error sources in each member, in half-widths, (MEMBERS, causes).
 
     They are normally distributed, and reproducible.
     """
@@ -43,7 +43,7 @@ def draws(causes: int) -> FloatArray:
 
 
 class Quantiles:
-    """Quantiles of deviations of members, which are added one at a time.
+    """Quantiles of the deviations of random solutions, which are added one at a time.
 
     Only the largest deviations are stored.
 
@@ -58,7 +58,7 @@ class Quantiles:
         self._largest: dict[str, FloatArray] = {}
 
     def add(self, distances: Mapping[str, FloatArray]) -> None:
-        """Add the deviations of one member from the nominal solution, by name of the quantity."""
+        """Add the deviations of one random solution from the nominal one, by quantity."""
         for name, distance in distances.items():
             if name not in self._largest:
                 self._largest[name] = np.zeros((self._count + 1, *distance.shape))
@@ -67,7 +67,7 @@ class Quantiles:
             self._largest[name].sort(axis=0)
 
     def at_probability(self) -> dict[str, FloatArray]:
-        """Quantile of the deviations at the probability `PROBABILITY`, by name of the quantity."""
+        """Return the quantile of the deviations of each quantity, for `PROBABILITY`."""
         return {
             name: largest[1] + self._share * (largest[2] - largest[1])
             for name, largest in self._largest.items()

@@ -1,4 +1,4 @@
-r"""Torque of Sun and Moon on an axis, for changing orbit, Moon, rotation and figure.
+r"""Constant of precession of a body in time, as orbit, Moon, rotation and figure change.
 
 Averaged over orbits, a torque turns the spin axis s about the normal n of an orbit,
 
@@ -48,7 +48,7 @@ J2_SHARE = 0.2
 
 @dataclass(frozen=True)
 class Tides:
-    """Relative rates of the Moon's mean motion and of the Earth's spin due to tides.
+    """Relative rates of change of the Moon's mean motion and the Earth's spin, due to tides.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class Tides:
 
     @classmethod
     def of_the_earth(cls, factor: Numeric, spin_rate: float, moon_motion: float) -> Tides:
-        """Present tidal rates of the Moon and of the Earth's spin, times a factor.
+        """Present tidal rates of the Moon's motion and the Earth's spin, times a factor.
 
         Parameters
         ----------
@@ -78,7 +78,7 @@ class Tides:
 
 @dataclass(frozen=True)
 class Strength:
-    """Constant of precession at J2000.0 and parameters of its change in time.
+    """Constant of precession at J2000.0, with parameters of its change in time.
 
     Attributes
     ----------
@@ -169,7 +169,7 @@ def geodesic_precession(gm: float, motion: float, eccentricity: float) -> float:
 
 
 def faded(times: FloatArray) -> FloatArray:
-    """Effective time for the change of J2, s: present rate times this time is the change of J2.
+    """Time that, multiplied by the present rate of J2, gives the change of J2, s.
 
     It is t up to `FADES_FROM` and 0 beyond `FADES_TO`.
 
@@ -180,7 +180,7 @@ def faded(times: FloatArray) -> FloatArray:
 
 
 def band(times: FloatArray) -> FloatArray:
-    """95 % half-width of the effective time for the change of J2 (see `faded`), s.
+    """95 % half-width of the time that `faded` returns for the change of J2, s.
 
     It is the fraction `J2_SHARE` of the time up to `FADES_FROM`, the whole time at `FADES_TO`, and
     zero beyond twice `FADES_TO`.
@@ -193,6 +193,6 @@ def band(times: FloatArray) -> FloatArray:
 
 
 def _falling(times: FloatArray, start: float, end: float) -> FloatArray:
-    """Cosine taper: weight 1 for |t| up to `start`, falling to 0 at `end`."""
+    """Weight that falls from 1 at |t| = `start` to 0 at |t| = `end`, as a cosine taper."""
     phase = np.clip((np.abs(times) - start) / (end - start), 0.0, 1.0)
     return np.asarray(0.5 * (1 + np.cos(np.pi * phase)))

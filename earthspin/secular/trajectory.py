@@ -1,4 +1,4 @@
-r"""Trajectory of one or several spin axes over millions of years, by Newton's method in time.
+r"""Integrate one or several spin axes over millions of years, by Newton's method in time.
 
 About a fixed axis N near the mean normal of the orbit, a spin axis s has a longitude phi and a
 height Z = s.N. Both are polynomials in windows of twenty thousand years, through values at
@@ -42,7 +42,7 @@ TOO_NEAR = 0.99
 
 @dataclass(frozen=True)
 class Trajectory:
-    """Spin axis in time, or axes of many members, as polynomials in successive time windows.
+    """Spin axis, or axes of many members, in time, as polynomials in time windows.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ class Trajectory:
     steps: int
 
     def about(self, times: FloatArray) -> FloatArray:
-        """Longitude and height of the spin axis about the reference axis, at given times in s.
+        """Longitude of the spin axis about the reference axis, and component along it, at times.
 
         The height is the component along the reference axis. The shape is (2, ..., n).
         """
@@ -72,7 +72,7 @@ class Trajectory:
         return series_values.reshape(*series.shape[:-2], -1)
 
     def at(self, times: FloatArray) -> FloatArray:
-        """Unit vectors of the spin axis at times in s, shape (3, ..., n)."""
+        """Unit vectors of the spin axis at given times in s, in the GCRS, shape (3, ..., n)."""
         phi, z = self.about(times)
         across = np.sqrt(1 - z * z)
         components = np.array([across * np.cos(phi), across * np.sin(phi), z])
@@ -88,7 +88,7 @@ def solve(
     pieces: int = 1,
     near: Trajectory | None = None,
 ) -> Trajectory:
-    """Integrate a spin axis from J2000.0 in both directions, or several together.
+    """Integrate one or several spin axes from J2000.0 in both directions of time.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def solve(
 
 
 def _edges(edges: FloatArray, span: tuple[float, float], pieces: int) -> list[FloatArray]:
-    """Edges of the time windows of the integration: those before J2000.0, then those after it.
+    """Edges of the time windows of the integration: before J2000.0, and after J2000.0.
 
     Both arrays start at J2000.0.
     """
@@ -149,7 +149,7 @@ def _cut(edges: FloatArray, pieces: int) -> FloatArray:
 
 
 def _axes(orbit: Orbit, start: FloatArray, span: tuple[float, float]) -> FloatArray:
-    """Choose the reference axes of the integration: the third is along the mean orbit normal.
+    """Choose the reference axes of the integration from the mean orbit normal.
 
     If the spin axis is near that normal, the third is perpendicular to it.
     """
@@ -164,7 +164,7 @@ def _axes(orbit: Orbit, start: FloatArray, span: tuple[float, float]) -> FloatAr
 
 
 class _BlockSolver:
-    """Solver of the spin axis in successive blocks of time windows, away from J2000.0."""
+    """Solver of the spin axis in successive blocks of time windows, starting at J2000.0."""
 
     def __init__(
         self,
@@ -235,14 +235,14 @@ class _BlockSolver:
         return None
 
     def _pull(self, times: FloatArray, state: FloatArray) -> Pull:
-        """Averaged torque on the axis, or on the axes of all members, at given times."""
+        """Averaged torque on the spin axis, or on those of all members, at given times."""
         normal, eccentricity, turning = (
             broadcast_over_members(state, vector) for vector in self.orbit.at(times)
         )
         return pull(self.strength, (normal, eccentricity, turning), times)
 
     def _guess(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
-        """First guess of longitude and height of the spin axis at the nodes of a block of windows.
+        """First guess of the spin axis's longitude and height at all nodes of a block.
 
         It is a neighbouring trajectory shifted to the initial state, or uniform precession.
         """
@@ -254,7 +254,7 @@ class _BlockSolver:
         return values[..., :-1].reshape(*state.shape, *windows.times.shape)
 
     def _at_one_height(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
-        """First guess of the motion of the spin axis: uniform precession about the reference axis.
+        """First guess of the spin axis's motion: uniform precession at constant height.
 
         The height, the component along that axis, is constant: that of the start, or the mean of
         the previous block.

@@ -1,1 +1,1 @@
-"""The heavy symmetric top, spinning about a fixed point on its axis (I.7)."""
+"""The heavy symmetric top, which rotates about a fixed point on its axis under its weight (I.7)."""

@@ -1,4 +1,4 @@
-"""Advance of the Euler angles phi and psi of a top, also near the poles (I.7.9).
+"""Euler angles phi and psi of a top in time, accurate also near the poles (I.7.9).
 
 It is computed by integrals of the third kind that are regular at the poles.
 
@@ -46,7 +46,7 @@ _SINE = np.array([0.0, 1.0, 0.0, -1.0])
 
 
 class Turned(NamedTuple):
-    """Angles by which the Euler angles phi and psi have advanced, for a top with I1 = I3.
+    """Angles by which the Euler angles phi and psi of a top have advanced.
 
     Attributes
     ----------
@@ -59,7 +59,7 @@ class Turned(NamedTuple):
 
 
 def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
-    """Advance of the Euler angles phi and psi since the first lower turning point.
+    """Advance of a top's Euler angles phi and psi since the first lower turning point.
 
     The part that is linear in time, of the rate `shared_rate`, is left out.
 
@@ -80,7 +80,7 @@ def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
 
 
 def shared_rate(nutation: Nutation) -> FloatArray:
-    """Constant rate of both phi and psi that is left out by `turned_at`, in the rate unit.
+    """Constant rate of phi and psi that the angles of `turned_at` do not include.
 
     It is half the axial angular momentum over I1, or zero.
 
@@ -91,7 +91,7 @@ def shared_rate(nutation: Nutation) -> FloatArray:
 
 
 def mean_precession(nutation: Nutation) -> FloatArray:
-    """Mean precession rate phi' over one nutation period, in the rate unit.
+    """Mean precession rate phi' over one nutation period, in the top's unit of rates.
 
     For a top that passes exactly over a pole, it is the mean of the limits from both sides.
     """
@@ -103,7 +103,7 @@ def mean_precession(nutation: Nutation) -> FloatArray:
 
 
 def _windings(nutation: Nutation, halves: FloatArray) -> Turned:
-    """Whole quarter turns of the Euler angles phi and psi, up to a turning point.
+    """Quarter turns of phi and psi up to a turning point, from the arctangents in them.
 
     They are counted from the arctangents.
 
@@ -117,17 +117,17 @@ def _windings(nutation: Nutation, halves: FloatArray) -> Turned:
 
 
 def _lower_winding(nutation: Nutation) -> FloatArray:
-    """Quarter turns of (phi + psi)/2 in half a nutation period, counted from its arctangent."""
+    """Quarter turns (-1, 0 or 1) of the arctangent in (phi + psi)/2 per half nutation period."""
     return np.where(_has_lower_arc(nutation), np.sign(nutation.start.b_plus_a), 0.0)
 
 
 def _upper_winding(nutation: Nutation) -> FloatArray:
-    """Quarter turns of (phi - psi)/2 in half a nutation period, counted from its arctangent."""
+    """Quarter turns (-1, 0 or 1) of the arctangent in (phi - psi)/2 per half nutation period."""
     return np.where(_has_upper_arc(nutation), np.sign(nutation.start.b_minus_a), 0.0)
 
 
 def _has_lower_arc(nutation: Nutation) -> BoolArray:
-    """Return True if an arctangent is separated from the integral for (phi + psi)/2.
+    """Return True if (phi + psi)/2 is computed with a separate arctangent term.
 
     That is so if u1 is not nearer to u3 than to the lower pole.
     """
@@ -135,7 +135,7 @@ def _has_lower_arc(nutation: Nutation) -> BoolArray:
 
 
 def _has_upper_arc(nutation: Nutation) -> BoolArray:
-    """Return True if an arctangent is separated from the integral for (phi - psi)/2.
+    """Return True if (phi - psi)/2 is computed with a separate arctangent term.
 
     That is so if u3 is not nearer to the upper pole than u2.
     """
@@ -143,7 +143,7 @@ def _has_upper_arc(nutation: Nutation) -> BoolArray:
 
 
 def _arc_tangents(nutation: Nutation, place: Place) -> Turned:
-    """Parts of the Euler angles phi and psi that are arctangents, without cancellation, rad.
+    """Arctangent terms of the Euler angles phi and psi, without cancellation, rad.
 
     They are the sum and the difference of the arctangents of sigma and delta.
 
@@ -190,7 +190,7 @@ def _arc_tangents(nutation: Nutation, place: Place) -> Turned:
 def _sum_or(
     one: FloatArray, two: FloatArray, three: FloatArray, four: FloatArray, root: FloatArray
 ) -> FloatArray:
-    """Return one + two, or the equal value 2 (three + four)/root if it is more accurate."""
+    """Return one + two, or the equal number 2 (three + four)/root if that is more accurate."""
     open_ = root > 0
     factor = 2 / np.where(open_, root, 1.0)
     better = factor * (np.abs(three) + np.abs(four)) < np.abs(one) + np.abs(two)
@@ -198,7 +198,7 @@ def _sum_or(
 
 
 def _lower_pole_rate(nutation: Nutation) -> FloatArray:
-    """Rate of passing the lower pole, in the rate unit: (a + b)/sqrt(1 + cos(theta)) at the turn.
+    """Rate (a + b)/sqrt(1 + cos theta) of passing the lower pole, at largest inclination.
 
     Here a and b are the axial and vertical angular momentum over I1, and theta is the largest
     inclination. The rate is finite also if the axis reaches the pole.
@@ -209,7 +209,7 @@ def _lower_pole_rate(nutation: Nutation) -> FloatArray:
 
 
 def _upper_pole_rate(nutation: Nutation) -> FloatArray:
-    """Scaled rate at which the axis passes the upper pole: (b - a)/sqrt(1 - cos(theta)).
+    """Rate (b - a)/sqrt(1 - cos theta) of passing the upper pole, at smallest inclination.
 
     Here a and b are the axial and vertical angular momentum over I1, in the rate unit of the
     nutation, and theta is the smallest inclination. The rate is finite also if the axis reaches
@@ -221,7 +221,7 @@ def _upper_pole_rate(nutation: Nutation) -> FloatArray:
 
 
 def _side_of_pole(nutation: Nutation, place: Place) -> FloatArray:
-    """Sense of the half turn, 1 or -1, of an axis that passes exactly over a pole; otherwise 1."""
+    """Sign of the half turn of phi if the axis passes exactly over a pole; otherwise 1."""
     quarter = np.mod(place.halves, 4).astype(int)
     lower = np.where(nutation.crosses_lower_pole, _COSINE[quarter], 1.0)
     upper = np.where(nutation.crosses_upper_pole, _SINE[quarter], 1.0)
@@ -229,7 +229,7 @@ def _side_of_pole(nutation: Nutation, place: Place) -> FloatArray:
 
 
 class _Integral(NamedTuple):
-    """Coefficients of one regular integral in the advance of the Euler angles of a top.
+    """Coefficients of one elliptic integral in the advance of a top's Euler angles.
 
     The integral is F first + third sn^3 RJ(cn^2, dn^2, 1, cn^2 + shape sn^2).
 
@@ -242,7 +242,7 @@ class _Integral(NamedTuple):
 
 
 def _integrals(nutation: Nutation, upper: BoolArray) -> tuple[_Integral, _Integral]:
-    """Coefficients of the non-singular integrals in (phi + psi)/2 and (phi - psi)/2, in this order.
+    """Coefficients of the elliptic integrals in (phi + psi)/2 and (phi - psi)/2.
 
     They start from a turning point; the arctangents are left out.
     """
@@ -283,7 +283,7 @@ def _integral(
     arc: BoolArray,
     regular_shape: FloatArray,
 ) -> _Integral:
-    """Coefficients of the time integral of total/2/(u - pole) from a turning point, u = cos(theta).
+    """Coefficients of the elliptic integral for the rate total/2/(u - pole), u = cos(theta).
 
     If the arctangent is separate, only the regular part is returned.
 
@@ -304,7 +304,7 @@ def _integral(
 
 
 def _partial_integrals(nutation: Nutation, place: Place) -> Turned:
-    """Advance of phi and psi since the nearest turning point, without arctangents, rad.
+    """Advance of phi and psi since the nearest turning point, without arctangent terms, rad.
 
     The rate `shared_rate` is left out, too.
     """
@@ -317,7 +317,7 @@ def _partial_integrals(nutation: Nutation, place: Place) -> Turned:
 
 
 def _complete_integrals(nutation: Nutation) -> Turned:
-    """Advance of phi and psi from one turning point to the next, without arctangents, rad.
+    """Advance of phi and psi between two turning points, without arctangent terms, rad.
 
     The rate `shared_rate` is left out, too.
     """

@@ -1,4 +1,4 @@
-"""Roots of the cubic of nutation, computed so that close roots stay separate (I.7.16).
+"""Roots of the cubic in u = cos(theta) of a top's nutation, without loss of digits (I.7.16).
 
     u'^2 = (1 - u^2)(alpha - beta u) - (b - a u)^2 = beta (u - u1)(u - u2)(u - u3),  u = cos(theta)
 
@@ -32,7 +32,7 @@ _SLOWEST, _NEGLIGIBLE = 1e-100, 1e-60
 
 
 class AxisStart(NamedTuple):
-    """Initial state of the axis; a top of negative weight moment is described upside down.
+    """Initial state of a top's axis; upside down if the weight moment is negative.
 
     A top with a negative weight moment is described by the opposite end of its axis: theta is
     replaced by pi - theta, and spin and weight change sign. Rates are in units of `rate_unit`.
@@ -61,37 +61,37 @@ class AxisStart(NamedTuple):
 
     @property
     def sine2(self) -> FloatArray:
-        """Squared sine of the inclination, sin^2(theta)."""
+        """Squared sine of the initial inclination, sin^2(theta)."""
         return self.below * self.above
 
     @property
     def rate2(self) -> FloatArray:
-        """Squared speed of the tip of the axis, theta'^2 + phi'^2 sin^2(theta)."""
+        """Squared initial speed of the tip of the axis, theta'^2 + phi'^2 sin^2(theta)."""
         return self.theta_rate**2 + self.phi_rate**2 * self.sine2
 
     @property
     def asleep(self) -> NDArray[np.bool_]:
-        """Return True if the axis is vertical and at rest, in stable or unstable equilibrium."""
+        """Return True if the axis is vertical and not moving, whether stable or not."""
         return np.asarray((self.sine2 == 0) & (self.theta_rate == 0))
 
     @property
     def b_minus_a(self) -> FloatArray:
-        """Vertical minus axial angular momentum, over I1; 0 if the axis can pass the upper pole."""
+        """Difference b - a of vertical and axial angular momentum, divided by I1."""
         return self.below * (self.phi_rate * self.above - self.a)
 
     @property
     def b_plus_a(self) -> FloatArray:
-        """Vertical plus axial angular momentum, over I1; 0 if the axis can pass the lower pole."""
+        """Sum b + a of vertical and axial angular momentum, divided by I1."""
         return self.above * (self.phi_rate * self.below + self.a)
 
     @property
     def b(self) -> FloatArray:
-        """Vertical angular momentum divided by I1."""
+        """Vertical component of the angular momentum, divided by I1."""
         return self.phi_rate * self.sine2 + self.a * self.cosine
 
 
 class Gaps(NamedTuple):
-    """Distances along u = cos(theta) between poles, roots of the cubic, and start; none negative.
+    """Distances along u = cos(theta) between the poles, the cubic's roots and the start.
 
     Attributes
     ----------
@@ -115,7 +115,7 @@ class Gaps(NamedTuple):
 
 
 def axis_start(top: HeavyTop) -> AxisStart:
-    """Compute the initial state of the axis, upside down if the weight moment is negative."""
+    """Compute the initial state of a top's axis, upside down for a negative weight moment."""
     below, above, cosine = axis_heights(top.theta)
     a = top.axial_moment / top.transverse_moment * top.spin
     beta = 2 * top.weight_moment / top.transverse_moment
@@ -142,7 +142,7 @@ def axis_start(top: HeavyTop) -> AxisStart:
 
 
 def cubic_gaps(start: AxisStart) -> Gaps:
-    """Compute the distances between the roots of the cubic, the poles and the start (I.7.16)."""
+    """Compute distances between the cubic's roots, the poles and the start (I.7.16)."""
     # Expanded about the start, u = u(0) + x, and times beta^2 with X = beta x:
     # X^3 + c2 X^2 + beta c1 X + beta^2 c0.
     beta = start.beta
@@ -168,7 +168,7 @@ def cubic_gaps(start: AxisStart) -> Gaps:
 def _pair_about_start(
     start: AxisStart, c0: FloatArray, c1: FloatArray, c2: FloatArray, wanted: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Distances between roots, start and poles, if the highest root is far from the other two.
+    """Distances between roots, start and poles, if the two lower roots are close together.
 
     The start lies between u1 and u2.
     """
@@ -189,7 +189,7 @@ def _pair_about_start(
 def _pair_about_pole(
     start: AxisStart, c0: FloatArray, wanted: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Distances between roots, start and poles, if the lowest root is far from the other two.
+    """Distances between roots, start and poles, if the two upper roots are close together.
 
     The upper pole lies between u2 and u3.
     """
@@ -216,7 +216,7 @@ def _pair_about_pole(
 def _largest_root(
     c2: FloatArray, c1: FloatArray, c0: FloatArray, wanted: NDArray[np.bool_]
 ) -> FloatArray:
-    """Largest root of x^3 + c2 x^2 + c1 x + c0, by Newton's method; it must be well separated.
+    """Largest root of x^3 + c2 x^2 + c1 x + c0, well separated, by Newton's method.
 
     Newton's method converges monotonically from above.
     """
@@ -233,13 +233,13 @@ def _largest_root(
 
 
 def _straddling(middle: FloatArray, product: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Solve g - h = middle and g h = product for non-negative g and h."""
+    """Return the non-negative g and h for which g - h = middle and g h = product."""
     larger = (np.hypot(middle, 2 * np.sqrt(product)) + np.abs(middle)) / 2
     smaller = _ratio(product, larger)
     return np.where(middle > 0, larger, smaller), np.where(middle > 0, smaller, larger)
 
 
 def _ratio(numerator: FloatArray, denominator: FloatArray) -> FloatArray:
-    """Quotient of two arrays; zero if the denominator vanishes, as for a distance of zero."""
+    """Quotient of two arrays; 0 where the denominator is 0."""
     empty = denominator == 0
     return np.where(empty, 0.0, numerator / np.where(empty, 1.0, denominator))

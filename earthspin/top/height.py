@@ -1,4 +1,4 @@
-"""Nutation of a top: the oscillation of its axis between two heights (I.7.16, I.7.17).
+"""Nutation of a top: oscillation of its axis between two inclinations (I.7.16, I.7.17).
 
     u = cos(theta) = u1 + (u2 - u1) sn^2(Omega t, m),
     4 Omega^2 = beta (u3 - u1),    m = (u2 - u1)/(u3 - u1)
@@ -33,7 +33,7 @@ _MOMENT = 1e-120
 
 
 class Nutation(NamedTuple):
-    """Constants of the nutation of a top between two turning points.
+    """Constants of a top's nutation, the oscillation of its axis between two inclinations.
 
     Rates are in the rate unit of the start.
 
@@ -69,7 +69,7 @@ class Nutation(NamedTuple):
 
     @property
     def rate(self) -> FloatArray:
-        """Rate Omega at which the argument of the elliptic functions grows.
+        """Rate Omega of the argument of the elliptic functions, in the top's unit of rates.
 
         It is 1 for a steady motion, to allow division.
         """
@@ -97,7 +97,7 @@ class Nutation(NamedTuple):
 
 
 class Place(NamedTuple):
-    """Position of the axis in its nutation cycle at given times, from the nearest turning point.
+    """Position of a top's axis in its nutation cycle, from the nearest turning point.
 
     Attributes
     ----------
@@ -121,7 +121,7 @@ class Place(NamedTuple):
 
 
 class AxisHeight(NamedTuple):
-    """Vertical component u of a top's axis: distances from poles and start, and the rate of u.
+    """Height u = cos(theta) of a top's axis in time, as distances, and its rate u'.
 
     Attributes
     ----------
@@ -140,7 +140,7 @@ class AxisHeight(NamedTuple):
 
 
 def nutation_of(top: HeavyTop) -> Nutation:
-    """Compute the constants of the nutation of one or more tops from their initial states."""
+    """Compute the constants of the nutation of one or more tops from the initial states."""
     start = axis_start(top)
     gaps = cubic_gaps(start)
     gaps = gaps._replace(
@@ -171,7 +171,7 @@ def nutation_of(top: HeavyTop) -> Nutation:
 
 
 def _phase_of_start(nutation: Nutation) -> FloatArray:
-    """Signed time from the nearest turning point to the start, by an elliptic integral."""
+    """Signed time from the nearest turning point to the initial state, in scaled units."""
     start, gaps = nutation.start, nutation.gaps
     third = start.beta * start.below + gaps.outer  # beta (u3 - u(0))
     moves = (nutation.swing > 0) & (third > 0)
@@ -190,7 +190,7 @@ def _phase_of_start(nutation: Nutation) -> FloatArray:
 
 
 def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
-    """Find the position of the axis in its nutation cycle at given times.
+    """Find the position of a top's axis in its nutation cycle at given times.
 
     Parameters
     ----------
@@ -213,7 +213,7 @@ def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
 
 
 def height_at(nutation: Nutation, place: Place) -> AxisHeight:
-    """Compute the vertical component u of a top's axis at given times, and the rate of u.
+    """Compute the height u = cos(theta) of a top's axis at given times, and its rate.
 
     It is given as distances from the poles and the start.
 

@@ -27,7 +27,7 @@ _EIGHTHS = np.exp(0.25j * np.pi * np.arange(8))
 
 @dataclass(frozen=True, eq=False)
 class HeavyTopMotion:
-    """Motion of a top; arrays over time have the shape of the tops, then the shape of the times.
+    """Motion of a heavy top; arrays have the shape of the tops, then that of the times.
 
     Attributes
     ----------
@@ -61,7 +61,7 @@ class HeavyTopMotion:
 
 
 class Angle(NamedTuple):
-    """An angle as whole quarter turns and a remainder, exact after many turns.
+    """An angle as whole quarter turns plus a remainder, exact also after many turns.
 
     Attributes
     ----------
@@ -76,27 +76,27 @@ class Angle(NamedTuple):
 
     @property
     def radians(self) -> FloatArray:
-        """The angle in rad, not reduced to one turn."""
+        """This angle in rad, not reduced to one turn."""
         return np.pi / 2 * self.quarters + self.rest
 
     @property
     def half(self) -> NDArray[np.complex128]:
-        """Complex number e^(i angle/2), exact also after many turns."""
+        """Complex number e^(i angle/2) of this angle, exact also after many turns."""
         eighths = np.mod(self.quarters, 8).astype(int)
         phase: NDArray[np.complex128] = np.exp(0.5j * self.rest) * _EIGHTHS[eighths]
         return phase
 
     def plus(self, other: FloatArray) -> Angle:
-        """Return the angle plus another angle in rad."""
+        """Return the sum of this angle and another angle in rad."""
         return Angle(self.quarters, self.rest + other)
 
     def replaced(self, where: NDArray[np.bool_], other: FloatArray) -> Angle:
-        """Return the angle with the elements selected by `where` set to another angle in rad."""
+        """Return this angle with the elements where `where` is True replaced, rad."""
         return Angle(np.where(where, 0.0, self.quarters), np.where(where, other, self.rest))
 
 
 def heavy_top_motion(top: HeavyTop, times: ArrayLike) -> HeavyTopMotion:
-    """Motion of a heavy top at given times, by elliptic functions.
+    """Compute the motion of a heavy top at given times in closed form.
 
     Parameters
     ----------
@@ -139,13 +139,13 @@ def heavy_top_motion(top: HeavyTop, times: ArrayLike) -> HeavyTopMotion:
 
 
 def _with_axes(top: HeavyTop, count: int) -> HeavyTop:
-    """Tops with `count` trailing array axes of length 1, to broadcast with times."""
+    """Reshape the arrays of tops by `count` trailing axes, to broadcast with times."""
     shape = top.shape + (1,) * count
     return HeavyTop(**{f.name: np.reshape(getattr(top, f.name), shape) for f in fields(top)})
 
 
 def _inclination(nutation: Nutation, below: FloatArray, above: FloatArray) -> FloatArray:
-    """Inclination theta of the axis from its distances from the two poles."""
+    """Inclination theta of the axis from 1 - cos(theta) and 1 + cos(theta), rad."""
     up, down = np.sqrt(below), np.sqrt(above)
     turned = nutation.start.turned
     theta: FloatArray = 2 * np.arctan2(np.where(turned, down, up), np.where(turned, up, down))
@@ -193,7 +193,7 @@ def _attitude(theta: FloatArray, phi: Angle, psi: Angle) -> FloatArray:
 
 
 def _omega_body(top: HeavyTop, nutation: Nutation, height: AxisHeight, psi: Angle) -> FloatArray:
-    """Angular velocity along the body axes: (theta' + i phi' sin(theta)) e^(-i psi), and omega3."""
+    """Angular velocity of a top along its body axes, from rates of its Euler angles."""
     start = nutation.start
     sine = np.sqrt(height.below * height.above)
     tilted = sine > 0
@@ -207,7 +207,7 @@ def _omega_body(top: HeavyTop, nutation: Nutation, height: AxisHeight, psi: Angl
 
 
 def _vertical_excess(start: AxisStart, height: AxisHeight) -> FloatArray:
-    """Compute phi' sin^2(theta), the precession rate times the squared sine of the inclination.
+    """Compute phi' sin^2(theta): the precession rate times the squared sine of theta.
 
     The form that loses fewer digits is used.
     """

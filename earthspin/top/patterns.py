@@ -1,4 +1,4 @@
-"""Patterns traced by the tip of the axis: waves, cusps or loops (I.7.19).
+"""Patterns that the tip of a top's axis traces: waves, cusps or loops (I.7.19).
 
 The precession phi' is proportional to b - a u, and vanishes at u = b/a. The cubic there is
 (1 - u^2)(alpha - beta b/a), so that the tip reverses, and traces loops, if |b| < |a| and
@@ -27,7 +27,7 @@ _ROUNDING = 16 * float(np.finfo(float).eps)
 
 
 def nutation_pattern(top: HeavyTop) -> NDArray[np.str_]:
-    """Name of the pattern that the tip of the axis traces: wave, loop, cusp and others (I.7.19).
+    """Name of the pattern that the tip of a top's axis traces, such as a wave or loop (I.7.19).
 
     Returns
     -------
@@ -52,7 +52,7 @@ def nutation_pattern(top: HeavyTop) -> NDArray[np.str_]:
 
 
 class PatternLimits(NamedTuple):
-    """Initial rates phi' at which the pattern of the tip changes, rad/s.
+    """Initial precession rates phi' at which waves, cusps and loops change, rad/s.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class PatternLimits(NamedTuple):
 
 
 def pattern_limits(top: HeavyTop) -> PatternLimits:
-    """Initial rates phi' at which waves change to loops, and loops to waves (I.7.19).
+    """Initial precession rates phi' at which waves change to loops and back (I.7.19), rad/s.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ def pattern_limits(top: HeavyTop) -> PatternLimits:
 
 
 def _is_steady(start: AxisStart) -> NDArray[np.bool_]:
-    """Return True if theta' and theta'' vanish at the start, so that theta is constant."""
+    """Return True if theta' and theta'' are zero at the start: the inclination is constant."""
     phi_rate = start.phi_rate
     gyroscopic, centrifugal = 2 * phi_rate * start.a, 2 * phi_rate**2 * start.cosine
     size = np.abs(gyroscopic) + np.abs(centrifugal) + start.beta
@@ -118,7 +118,7 @@ def _is_steady(start: AxisStart) -> NDArray[np.bool_]:
 
 
 def _loop_drive(start: AxisStart) -> tuple[FloatArray, FloatArray]:
-    """Difference whose sign tells waves from loops, and the sum of the magnitudes of its two terms.
+    """Difference whose sign separates waves from loops, and the size of its two terms.
 
     The terms are a alpha and b beta (I.7.7) at the start of the top's motion.
     """

@@ -1,4 +1,4 @@
-"""Effect of rounding errors in the initial state on the motion of a top.
+"""Effect of rounding errors in a top's initial state on its computed motion.
 
 A top that nearly sleeps, or nearly stops at the highest point of its motion, amplifies rounding
 errors of the initial state, which limits every method. The effect is measured by changing one
@@ -42,7 +42,7 @@ def error_bound(top: HeavyTop, times: ArrayLike) -> FloatArray:
 
 
 def effect_of_rounding(top: HeavyTop, times: ArrayLike) -> FloatArray:
-    """Effect on the motion of changing each initial value by one unit in its last place, summed.
+    """Change of a top's motion if each initial value changes by one unit in its last place.
 
     Parameters
     ----------
@@ -87,12 +87,12 @@ def _difference(one: HeavyTopMotion, other: HeavyTopMotion) -> FloatArray:
 
 
 def _largest(values: Numbers) -> FloatArray:
-    """Largest absolute value over the times, the last axis, which is retained with length 1."""
+    """Largest absolute value over the last axis (times), which keeps length 1."""
     return np.asarray(np.max(np.abs(values), axis=-1, keepdims=True))
 
 
 def _relative(difference: Numbers, size: FloatArray) -> FloatArray:
-    """Largest ratio |difference|/size over the times, the last axis; 0 where the size is 0."""
+    """Largest ratio |difference|/size over the last axis (times); 0 where size is 0."""
     ratio = np.zeros(difference.shape)
     np.divide(np.abs(difference), size, out=ratio, where=size > 0)
     return np.asarray(np.max(ratio, axis=-1))

@@ -27,7 +27,7 @@ _UPRIGHT = 1e-60
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class HeavyTop:
-    """A symmetric top, its weight, and its motion at t = 0.
+    """A symmetric top: its moments of inertia, its weight moment, and its motion at t = 0.
 
     Each field is a number or an array; the fields broadcast together. A top with arrays is a batch
     of tops.
@@ -114,7 +114,7 @@ class HeavyTop:
 
 
 class TopConstants(NamedTuple):
-    """The constants of a top's motion, named as in I.7.7 and I.7.14.
+    """Constants a, b, alpha and beta of a top's motion, as in I.7.7 and I.7.14.
 
     Attributes
     ----------
@@ -150,7 +150,7 @@ def top_constants(top: HeavyTop) -> TopConstants:
 
 
 class AxisHeights(NamedTuple):
-    """Height of the tip of the unit axis along the vertical.
+    """Height cos(theta) of the axis, and its distances 1 - cos and 1 + cos from the poles.
 
     Attributes
     ----------
@@ -168,7 +168,7 @@ class AxisHeights(NamedTuple):
 
 
 def axis_heights(theta: FloatArray) -> AxisHeights:
-    """Height of the axis, from half angles to avoid cancellation near the poles."""
+    """Compute cos(theta), 1 - cos(theta) and 1 + cos(theta) without cancellation."""
     below = np.where(theta < _UPRIGHT, 0.0, 2 * np.sin(theta / 2) ** 2)
     # No float equals pi; the nearest one denotes a hanging top.
     above = np.where(theta == np.pi, 0.0, 2 * np.cos(theta / 2) ** 2)
@@ -176,7 +176,7 @@ def axis_heights(theta: FloatArray) -> AxisHeights:
 
 
 def _broadcast(names: list[str], values: list[FloatArray]) -> list[FloatArray]:
-    """Broadcast the arrays of all fields to one shape; refuse shapes that do not fit."""
+    """Broadcast all fields of a top to one array shape; raise an error if they do not fit."""
     try:
         return list(np.broadcast_arrays(*values))
     except ValueError:
@@ -185,7 +185,7 @@ def _broadcast(names: list[str], values: list[FloatArray]) -> list[FloatArray]:
 
 
 def _require(holds: Any, field: str, value: Any, allowed: str) -> None:
-    """Refuse a field if a value in it does not meet the condition; report the first one."""
+    """Raise an error if any value of a field does not meet its condition."""
     holds, value = np.broadcast_arrays(holds, value)
     if not np.all(holds):
         raise BodyError(_NAME, field, float(value[~holds].flat[0]), allowed)

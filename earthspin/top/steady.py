@@ -35,7 +35,7 @@ class SteadyPrecession(NamedTuple):
 
 
 class SleepingTop(NamedTuple):
-    """Stability of an upright top, theta = 0.
+    """Stability of a top in the upright position, theta = 0.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ def minimum_spin(top: HeavyTop) -> FloatArray:
 
 
 def steady_precession(top: HeavyTop) -> SteadyPrecession:
-    """Slow and fast steady precession at the inclination and spin of the top.
+    """Compute the slow and the fast rate of steady precession for inclination and spin.
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ def steady_precession(top: HeavyTop) -> SteadyPrecession:
 
 
 def _refuse_slow_spin(top: HeavyTop, slow: NDArray[np.bool_]) -> None:
-    """Refuse a spin too slow for steady precession; the error names the first such top."""
+    """Raise an error if a top spins too slowly for steady precession at its inclination."""
     if np.any(slow):
         spin, theta, least = (
             float(x[slow].flat[0]) for x in (top.spin, top.theta, minimum_spin(top))
@@ -113,7 +113,7 @@ def _refuse_slow_spin(top: HeavyTop, slow: NDArray[np.bool_]) -> None:
 
 
 def slow_precession_limit(top: HeavyTop) -> FloatArray:
-    """Slow precession of a fast top, m g r/(I3 omega3), independent of inclination, rad/s.
+    """Rate of slow precession of a fast top, m g r/(I3 omega3), rad/s.
 
     Raises
     ------
@@ -127,7 +127,7 @@ def slow_precession_limit(top: HeavyTop) -> FloatArray:
 
 
 def sleeping_top(top: HeavyTop) -> SleepingTop:
-    """Critical spin of the upright top, omega3^2 = 4 I1 m g r/I3^2, and its stability.
+    """Compute the critical spin of an upright top, omega3^2 = 4 I1 m g r/I3^2, and stability.
 
     A small inclination xi = theta e^(i phi) obeys xi'' - i a xi' - (beta/2) xi = 0.
 

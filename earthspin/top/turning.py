@@ -1,4 +1,4 @@
-"""Turning points of theta, and the effective potential (I.7.16, I.7.18)."""
+"""Turning points of the inclination theta of a top, and its effective potential (I.7.16)."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def cubic_roots(top: HeavyTop) -> FloatArray:
 
 
 def turning_angles(top: HeavyTop) -> FloatArray:
-    """Smallest and largest inclination theta1, theta2, accurate also near the poles.
+    """Smallest and largest inclination of a top's axis, rad, accurate also near the poles.
 
     Returns
     -------
@@ -56,7 +56,7 @@ def turning_angles(top: HeavyTop) -> FloatArray:
 
 
 def nutation_period(top: HeavyTop) -> FloatArray:
-    """Period of the nutation, the oscillation of theta, s.
+    """Period of the nutation (oscillation of the inclination theta) of a top, s.
 
     For steady motion it is the period of a small nutation; infinite if theta approaches the upright
     position asymptotically, or never turns.
@@ -68,7 +68,7 @@ def nutation_period(top: HeavyTop) -> FloatArray:
 
 
 def mean_precession_rate(top: HeavyTop) -> FloatArray:
-    """Mean precession rate phi' over one nutation period, rad/s.
+    """Mean precession rate phi' of a top over one nutation period, rad/s.
 
     For a top that passes exactly over a pole it is the mean of the limits from both sides, for a
     sleeping top its initial phi', and for a top that approaches the upright position asymptotically
@@ -117,7 +117,7 @@ def effective_potential(top: HeavyTop, theta: ArrayLike) -> FloatArray:
 
 
 def _over_root(numerator: FloatArray, radicand: FloatArray) -> FloatArray:
-    """Quotient numerator/sqrt(radicand), with limits for a radicand of zero.
+    """Quotient numerator/sqrt(radicand); 0 or infinite where the radicand is 0.
 
     If the radicand is 0, the result is 0 for a zero numerator and otherwise infinite.
     """
@@ -127,5 +127,5 @@ def _over_root(numerator: FloatArray, radicand: FloatArray) -> FloatArray:
 
 
 def _cosine(below: FloatArray, above: FloatArray) -> FloatArray:
-    """Cosine of theta from 1 - u and 1 + u, without cancellation near -1 and 1."""
+    """Cosine u of theta from 1 - u and 1 + u, without cancellation."""
     return np.where(below < above, 1 - below, above - 1)

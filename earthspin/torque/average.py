@@ -53,7 +53,7 @@ FEWEST_CYCLES = 3
 
 @dataclass(frozen=True)
 class Window:
-    """Time window for an average: centre, length in cycles, and taper that gives the weights.
+    """Time window for an average: centre, length in cycles, and taper (weight function).
 
     Attributes
     ----------
@@ -74,16 +74,16 @@ class Window:
 
     @property
     def length(self) -> float:
-        """Length of the window, s."""
+        """Length of the time window, s."""
         return self.cycles * self.cycle
 
     def sample_times(self, step: float) -> FloatArray:
-        """Times with a spacing of `step` s over the window, including its centre, s."""
+        """Evenly spaced times over the window, with a spacing of `step` s, s."""
         half = math.floor(self.length / 2 / step)
         return np.asarray(self.centre + step * np.arange(-half, half + 1.0))
 
     def weights(self, times: FloatArray) -> FloatArray:
-        """Weights of the taper at evenly spaced times of the window, with a sum of 1.
+        """Weights of the taper at evenly spaced times in the window; their sum is 1.
 
         Parameters
         ----------
@@ -99,7 +99,7 @@ class Window:
         return np.asarray(w / np.sum(w))
 
     def mean(self, times: FloatArray, values: FloatArray) -> FloatArray:
-        """Weighted mean of an array over time, which is its first axis.
+        """Weighted mean over the window of an array whose first axis is time.
 
         Parameters
         ----------
@@ -113,7 +113,7 @@ class Window:
 
 
 def best_window(start: float, end: float, cycle: float, epoch: float = 0.0) -> Window:
-    """Choose the window of fastest convergence in a time span: taper sin4 on whole cycles.
+    """Choose the time window whose mean converges fastest: a sin4 taper over whole cycles.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def best_window(start: float, end: float, cycle: float, epoch: float = 0.0) -> W
 
 
 def neighbours(window: Window) -> list[Window]:
-    """Alternative windows for an error estimate: another taper, one cycle fewer, or both."""
+    """Return slightly different windows, whose means are compared to estimate the error."""
     shorter = window.cycles - 1
     others = [(window.cycles, "hann"), (shorter, "hann")]
     if shorter >= FEWEST_CYCLES:
@@ -161,7 +161,7 @@ def window_mean_and_error(
     measured_error: FloatArray | None = None,
     strength: FloatArray | None = None,
 ) -> tuple[FloatArray, FloatArray]:
-    """Mean of each torque and of the total over a window, with its error as a long-term mean.
+    """Weighted mean of each torque and of their sum, with the error as a long-term mean.
 
     Parameters
     ----------
@@ -209,7 +209,7 @@ def _means_of_many(
     slow_swing: FloatArray,
     strength: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
-    """Mean torques and errors as in `window_mean_and_error`, for several factors on each torque."""
+    """Mean torques and their errors, each multiplied by several factors (ensemble members)."""
     means = [window.mean(times, values), *(w.mean(times, values) for w in neighbours(window))]
     means.append(window.mean(times[::2], values[::2]))
     factor = strength.reshape(len(strength), *(1,) * (values.ndim - 2), -1)
@@ -222,14 +222,14 @@ def _means_of_many(
 
 
 def with_total(values: FloatArray) -> FloatArray:
-    """Append the sum over perturbers as one more element of axis 1."""
+    """Append the sum of all perturbers' values as one more element of axis 1."""
     return np.concatenate([values, values.sum(axis=1, keepdims=True)], axis=1)
 
 
 def convergence_curve(
     window: Window, times: FloatArray, values: FloatArray, cycles: FloatArray
 ) -> dict[str, FloatArray]:
-    """Mean of a series as a function of the window length, for each taper.
+    """Mean of a time series as a function of the window length, for each taper.
 
     Parameters
     ----------
@@ -255,7 +255,7 @@ def convergence_curve(
 
 
 def precessing_torque(torque: FloatArray, axis: FloatArray, normal: FloatArray) -> FloatArray:
-    """Torque component that causes precession in longitude, divided by the sine of the obliquity.
+    """Torque component that causes precession in longitude, divided by sin(obliquity).
 
     It is N . (k x n)/sin2(obliquity) for the torque N.
 
@@ -292,7 +292,7 @@ def precessing_torque(torque: FloatArray, axis: FloatArray, normal: FloatArray) 
 
 
 def precessing_of_tensor(in_plane: Numeric, out_of_plane: Numeric, obliquity: float) -> Numeric:
-    """Size of the precessing torque, s-2, computed from components of the mean tidal tensor.
+    """Size of the torque that causes precession, from mean tidal tensor components, s-2.
 
     From bounds on the errors of the components, it is a bound on the torque's error.
 

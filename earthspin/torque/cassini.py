@@ -1,4 +1,4 @@
-r"""Cassini states: spin axes that precess together with their orbit.
+r"""Cassini states: equilibria in which a spin axis precesses together with its orbit.
 
 The normal k of an orbit precesses about a fixed pole at the inclination i and the rate -nu (nu > 0
 if the node regresses). A spin axis s is in a Cassini state if it precesses together with k, so that
@@ -42,7 +42,7 @@ ON_CIRCLE = 1e-6
 
 @dataclass(frozen=True)
 class Precessing:
-    """A spinning body and its precessing orbit.
+    """Parameters of a spinning body on a precessing orbit, for its Cassini states.
 
     Attributes
     ----------
@@ -62,20 +62,20 @@ class Precessing:
     node_rate: float
 
     def slope(self, obliquity: FloatArray) -> FloatArray:
-        """Negative derivative of the axis's Hamiltonian with respect to obliquity, rad/s."""
+        """Negative derivative of the spin axis's Hamiltonian by the obliquity, rad/s."""
         cosine, sine = np.cos(obliquity), np.sin(obliquity)
         torque = 1.5 * (self.axial * cosine + self.locked * (1 + cosine)) * sine
         return np.asarray(self.node_rate * np.sin(obliquity - self.inclination) - torque)
 
     def curvature(self, obliquity: FloatArray) -> FloatArray:
-        """Derivative of `slope` with respect to obliquity, rad/s."""
+        """Derivative of the function `slope` by the obliquity, rad/s."""
         cosine, double = np.cos(obliquity), np.cos(2 * obliquity)
         torque = 1.5 * (self.axial * double + self.locked * (cosine + double))
         return np.asarray(self.node_rate * np.cos(obliquity - self.inclination) - torque)
 
 
 class States(NamedTuple):
-    """Cassini states in the order of their numbers, shape (n,) each; n is 2 or 4.
+    """Cassini states (2 or 4) of a body: number, obliquity and stability, shape (n,) each.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ class States(NamedTuple):
 
 
 def is_locked(spin_rate: float, motion: float) -> bool:
-    """Return True if the spin rate is a positive multiple of half the mean motion."""
+    """Return True if the spin rate is a positive multiple of half the orbital mean motion."""
     halves = round(2 * spin_rate / motion)
     return halves > 0 and abs(2 * spin_rate / motion / halves - 1) < LOCKED
 
@@ -101,7 +101,7 @@ def is_locked(spin_rate: float, motion: float) -> bool:
 def strengths(
     motion: float, spin_rate: float, j2: float, c22: float, polar: float, eccentricity: float
 ) -> tuple[float, float]:
-    """Strengths of the averaged torque, rad/s: by J2 (K0), and by C22 if the spin is locked (Kr).
+    """Strengths K0 (by J2) and Kr (by C22, if the spin is locked) of the mean torque, rad/s.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def hansen(multiple: int, eccentricity: float) -> float:
 
 
 def cassini_states(of: Precessing) -> States:
-    """Compute the Cassini states of a body.
+    """Compute obliquity and stability of all Cassini states of a body.
 
     Parameters
     ----------
@@ -169,7 +169,7 @@ def cassini_states(of: Precessing) -> States:
 
 
 def _numbers(angles: FloatArray, stable: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """Conventional numbers 1 to 4 of the Cassini states, from their obliquities and stability."""
+    """Conventional numbers 1 to 4 of Cassini states, from their obliquities and stability."""
     number = np.where(angles < 0, 1, 2)
     number[~stable] = 4
     number[np.argmax(np.where(stable, np.abs(angles), -1.0))] = 3

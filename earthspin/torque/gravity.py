@@ -27,7 +27,7 @@ def torque_from_declination(
     declination: FloatArray,
     distance: FloatArray,
 ) -> FloatArray:
-    """Torque on the bulge from right ascension, declination and distance of a mass (I.8.7).
+    """Torque of a mass on the bulge, from its right ascension, declination, distance (I.8.7), N m.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def torque_from_declination(
 def torque_from_position(
     gm: float, moment_difference: float, position: FloatArray, axis: FloatArray
 ) -> FloatArray:
-    """Torque on the bulge from the position of a mass and the figure axis (I.9.32).
+    """Torque of a mass on the bulge, from its position and the figure axis (I.9.32), N m.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def torque_error(
     distance_error: float,
     u_product: float,
 ) -> FloatArray:
-    """95 % half-width of a torque, from the errors of GM (C - A) and of the position of the mass.
+    """95 % half-width of a torque due to errors of GM (C - A) and of the mass's position, N m.
 
     Parameters
     ----------
@@ -122,14 +122,14 @@ def torque_error(
 
 
 def _direction(position: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Unit vectors and lengths of position vectors, without forming powers that overflow."""
+    """Unit vectors and lengths of position vectors, without overflow of powers."""
     distance = np.sqrt(np.sum(position * position, axis=-1))
     _refuse_centre(distance)
     return position / distance[..., np.newaxis], distance
 
 
 def _refuse_centre(distance: FloatArray) -> None:
-    """Refuse distances that are zero or negative; accept NaN."""
+    """Raise an error if a distance is zero or negative; accept NaN."""
     away = np.asarray(distance) > 0
     if not np.all(away):
         wrong = float(np.asarray(distance)[~away].flat[0])

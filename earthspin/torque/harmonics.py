@@ -1,4 +1,4 @@
-"""Torques on the zonal harmonics beyond J2: the pear shape J3, and J4.
+"""Torques on zonal harmonics of a body beyond J2: J3 (pear shape) and J4.
 
 A mass m at r has the energy + (G M m / r) J_n (a/r)^n P_n(u) in the field of J_n, where u is the
 cosine of its angle from the figure axis F. A rotation of the body by dtheta changes F by dtheta x
@@ -30,7 +30,7 @@ def zonal_torque(
     position: FloatArray,
     axis: FloatArray,
 ) -> FloatArray:
-    """Torque of a mass on one zonal harmonic of a body, divided by the body's M a2, s-2.
+    """Torque of a mass on one zonal harmonic J_n of a body, divided by M a2, s-2.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def zonal_torque(
 def zonal_law(
     coefficients: Mapping[int, float], radius: float, gm: float, position: FloatArray
 ) -> Callable[[FloatArray], FloatArray]:
-    """Torque of a mass on several zonal harmonics, as a function of the direction of the axis.
+    """Make a function of the figure axis that returns the torque on several harmonics J_n.
 
     Parameters
     ----------

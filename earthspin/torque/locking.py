@@ -1,4 +1,4 @@
-"""Spin-orbit resonances, for which an average over orbits without resonance terms fails.
+"""Detect spin-orbit resonances, in which torques averaged over the orbit would be wrong.
 
 A body that rotates p/2 times per orbit (the Moon once, Mercury one and a half times) has the same
 orientation at the same position of each orbit. The torque on its equatorial ellipticity then does
@@ -23,7 +23,7 @@ SLOW = 5 * 86400.0
 def locked_ratio(
     times: FloatArray, position: FloatArray, axis: FloatArray, spin_rate: float
 ) -> float | None:
-    """Rotations per orbit if the spin is in resonance with the orbit, found from positions.
+    """Rotations per orbit of a body in spin-orbit resonance, from positions; otherwise None.
 
     Return None if there is no resonance.
 
@@ -48,7 +48,7 @@ def locked_ratio(
 
 
 def locked_turns(spin_rate: float, mean_motion: float) -> float | None:
-    """Rotations per orbit if the spin rate is in resonance with a mean motion, otherwise None.
+    """Rotations per orbit of a body in spin-orbit resonance, from rates; otherwise None.
 
     Parameters
     ----------

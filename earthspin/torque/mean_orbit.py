@@ -29,12 +29,12 @@ ROUNDINGS = 2
 
 
 def square_of_normal(normal: FloatArray) -> FloatArray:
-    """Tensor n n^T from the unit normal n of a fixed orbit, shape (3, 3)."""
+    """Tensor n n^T of the unit normal n of a fixed orbit, shape (3, 3)."""
     return np.outer(normal, normal)
 
 
 def mean_square_of_normal(pole: FloatArray, inclination: float) -> FloatArray:
-    """Mean of the tensor n n^T of the orbit normal n over a period of the node, shape (3, 3).
+    """Tensor n n^T of an orbit normal n, averaged over a period of the node, shape (3, 3).
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def mean_square_of_normal(pole: FloatArray, inclination: float) -> FloatArray:
 
 
 def mean_tide(gm: float, a: float, e: float, square: FloatArray) -> FloatArray:
-    """Mean tidal tensor, the mean of GM r r^T/r^5, s-2, shape (3, 3).
+    """Tidal tensor GM r r^T/r^5, averaged over an orbit, s-2, shape (3, 3).
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def mean_tide(gm: float, a: float, e: float, square: FloatArray) -> FloatArray:
 
 
 def mean_torque(tide: FloatArray, axis: FloatArray) -> FloatArray:
-    """Mean torque on a spin axis, per unit of C - A, s-2, shape (3,)."""
+    """Torque averaged over an orbit, per unit of C - A, from the mean tidal tensor, s-2."""
     return np.asarray(3 * np.cross(tide @ axis, axis))
 
 
@@ -75,5 +75,5 @@ def rounding(tide: FloatArray) -> float:
 
 
 def rounding_of_precessing(of_torque: FloatArray, obliquity: float) -> FloatArray:
-    """Rounding error of the precessing torque, from that of the mean torque and the obliquity."""
+    """Rounding error of `precessing_torque`, from that of the mean torque, s-2."""
     return np.asarray(of_torque / math.sin(obliquity))

@@ -1,4 +1,4 @@
-"""Bounds on torques that a J2 model neglects: J3, J4 and the ellipticity of the equator.
+"""Bounds on the torques of J3, J4 and triaxiality, which a model with only J2 neglects.
 
 The torque on J_n is (G M m / r) J_n (a/r)^n P_n'(u) times the sine of the angle from the axis
 (`torque.harmonics`); the torque on the equatorial ellipticity is at most 3/2 G m (B - A) / r3,
@@ -20,7 +20,7 @@ def largest_torque_on_figure(
     zonal: Mapping[int, float],
     triaxiality: float,
 ) -> dict[str, float]:
-    """Bounds on the torques that a model with only J2 neglects.
+    """Largest torques of J3, J4 and triaxiality, which a model with only J2 neglects.
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ FloatArray = NDArray[np.float64]
 
 
 def tidal_tensor(pulls: Iterable[tuple[float, FloatArray]]) -> FloatArray:
-    """Tidal tensor: sum of GM r r^T / r^5 over masses.
+    """Tidal tensor: sum of GM r r^T / r^5 over all perturbing masses, s-2.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def tidal_tensor(pulls: Iterable[tuple[float, FloatArray]]) -> FloatArray:
 
 
 def apply(tensor: FloatArray, vector: FloatArray) -> FloatArray:
-    """Product of a symmetric tensor of six components, shape (6, ...), and a vector, (3, ...)."""
+    """Product of a symmetric tensor (six components, shape (6, ...)) and a vector (3, ...)."""
     xx, yy, zz, xy, xz, yz = tensor
     x, y, z = vector
     result = np.empty(np.broadcast_shapes((3, *np.shape(xx)), np.shape(vector)))
@@ -64,7 +64,7 @@ def apply(tensor: FloatArray, vector: FloatArray) -> FloatArray:
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Vector product of two vectors, shape (3, ...)."""
+    """Vector product of two arrays of vectors, shape (3, ...)."""
     (ax, ay, az), (bx, by, bz) = a, b
     result = np.empty(np.broadcast_shapes(np.shape(a), np.shape(b)))
     for row, a1, b2, a2, b1 in zip(
@@ -76,7 +76,7 @@ def cross(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def dot(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Scalar product of two vectors, shape (3, ...)."""
+    """Scalar product of two arrays of vectors, shape (3, ...)."""
     (ax, ay, az), (bx, by, bz) = a, b
     result: FloatArray = ax * bx
     result += ay * by
@@ -85,7 +85,7 @@ def dot(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def quadrupole_torque(tensor: FloatArray, axis: FloatArray) -> FloatArray:
-    """Torque per unit of C - A on a body with a given figure axis, s-2.
+    """Torque on the equatorial bulge from the tidal tensor and figure axis, per C - A, s-2.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ def precession_estimate(
     u_h: float,
     u_gm: Numeric,
 ) -> Estimate:
-    """Rate of precession in longitude with its error, rad/s.
+    """Precession rate in longitude with its error, from the mean torque, rad/s.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def precession_estimate(
 def torque_estimate(
     vector: Numeric, vector_error: Numeric, bulge: Numeric, u_bulge: float, u_gm: Numeric
 ) -> Estimate:
-    """Magnitude of the mean torque with its error, N m.
+    """Magnitude of the mean torque with its error, from the value per C - A, N m.
 
     Parameters
     ----------
@@ -81,13 +81,13 @@ def precession_rate(precessing: Numeric, h: Numeric, spin_rate: Numeric) -> Nume
 
 
 def period(rate: Numeric) -> Numeric:
-    """Period of one turn at a given rate (rad per unit of time); infinite for rate zero."""
+    """Period of one revolution at a given rate (rad per unit of time); infinite for rate 0."""
     with np.errstate(divide="ignore"):
         return 2 * math.pi / np.abs(rate)
 
 
 def period_error(rate: Numeric, rate_error: Numeric) -> Numeric:
-    """Half-width of the period of one turn, to first order, from that of the rate.
+    """Half-width of the period of one revolution, from the half-width of the rate.
 
     It is infinite for rate zero, and NaN if the error of any other rate is unknown.
     """
@@ -98,14 +98,14 @@ def period_error(rate: Numeric, rate_error: Numeric) -> Numeric:
 
 
 def rate_ratio(precessing: Numeric) -> Numeric:
-    """Ratio of each precessing torque to the first one; 1 for equal torques, also if both are 0."""
+    """Ratio of each precessing torque to that of the first perturber; 1 if both are 0."""
     first = precessing[0]
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(precessing == first, 1.0, precessing / first)
 
 
 def total_uncertainty(precessing: Numeric, u_gm: Numeric) -> Numeric:
-    """Relative standard uncertainties of precessing torques and of their total, from those of GM.
+    """Relative uncertainties of each precessing torque and their total, due to those of GM.
 
     Parameters
     ----------
@@ -127,13 +127,13 @@ def total_uncertainty(precessing: Numeric, u_gm: Numeric) -> Numeric:
 
 
 def half_width(value: Numeric, *relative_uncertainties: Numeric) -> Numeric:
-    """95 % half-width of a product, from the relative standard uncertainties of its factors."""
+    """95 % half-width of a product, from relative standard uncertainties of its factors."""
     variance = sum(u * u for u in relative_uncertainties)
     return NORMAL_95 * np.abs(value) * np.sqrt(variance)
 
 
 def circular_orbit_torque(gm: float, distance: float, obliquity: float) -> float:
-    """Mean precessing torque for a circular orbit in the reference plane, in closed form, s-2.
+    """Mean precessing torque of a mass on a circular orbit in the reference plane, s-2.
 
     Parameters
     ----------
@@ -148,7 +148,7 @@ def circular_orbit_torque(gm: float, distance: float, obliquity: float) -> float
 
 
 def left_for_method(asked: float, *relative_uncertainties: float) -> float:
-    """Relative error left for averaging if the total error must stay within a limit.
+    """Relative error that an average may have if the total error has a given limit.
 
     Parameters
     ----------
