@@ -26,7 +26,7 @@ def ensemble(
     block: int | None = None,
     impossible: Literal["refuse", "drop"] | None = None,
 ) -> xr.Dataset:
-    """Answer one question for many members, which differ in one or more inputs.
+    """Answer one question (computation) for many members, which differ in their inputs.
 
     The random numbers of a member depend only on the seed and on the number of the member, not on
     blocks or workers.

@@ -20,7 +20,7 @@ _WITH_ARTICLE = (EARTH.name, MOON.name, SUN.name)
 
 
 def proper(name: str) -> str:
-    """Capitalise the name of a built-in body: ``"Earth"``; leave other names unchanged."""
+    """Write a built-in body's name with a capital letter: ``"Earth"``; leave others unchanged."""
     return name.capitalize() if name in BODIES else name
 
 

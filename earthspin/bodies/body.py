@@ -167,7 +167,7 @@ class Body(FromMass):
     LABELLED: ClassVar[frozenset[str]]
 
     def __new__(cls, *places: object, **_: object) -> Body:
-        """Refuse positional arguments, because a body has about thirty fields."""
+        """Raise an error for positional arguments; the fields of a body must be named."""
         if places:
             raise TypeError("Body() takes its arguments by name: Body(name='x', gm=1e14)")
         return super().__new__(cls)
@@ -370,12 +370,12 @@ class Body(FromMass):
 
     @property
     def spin_rate(self) -> Numeric:
-        """Angular velocity, rad/s; negative if retrograde."""
+        """Angular velocity of rotation, rad/s; negative if retrograde."""
         return 2 * math.pi / self.needed("spin_period")
 
     @property
     def moments(self) -> Any:
-        """Principal moments A <= B <= C, kg m2, with C about the spin axis; numpy, shape (3,).
+        """Principal moments of inertia A <= B <= C, kg m2, with C about the spin axis.
 
         Raises
         ------
@@ -400,7 +400,7 @@ class Body(FromMass):
         )
 
     def needed(self, name: str) -> Numeric:
-        """Return the value of a field; raise an error if the field is not set.
+        """Return the value of a field by its name; raise an error if the field is not set.
 
         Raises
         ------
@@ -411,7 +411,7 @@ class Body(FromMass):
         return getattr(self, name)
 
     def require(self, names: Iterable[str]) -> None:
-        """Raise one error that lists all given fields without a value, each with an example value.
+        """Raise one error that lists all given field names without a value, with example values.
 
         Parameters
         ----------
@@ -447,16 +447,16 @@ class Body(FromMass):
 
     @property
     def labelled(self) -> bool:
-        """True if some field is a labelled array, which makes the body an ensemble."""
+        """True if some field is an array with named dimensions: the body is an ensemble."""
         return self.labelled_field is not None
 
     @property
     def labelled_field(self) -> str | None:
-        """Name of the first field that is a labelled array; None if there is none."""
+        """Name of the first field that is an array with named dimensions; None if there is none."""
         return next((name for name in self.UNITS if hasattr(getattr(self, name), "dims")), None)
 
     def replace(self, **changes: Any) -> Body:
-        """Return a body with some fields changed; fields that depend on these are updated, too.
+        """Return a copy of the body with some fields changed, and dependent fields updated.
 
         Parameters
         ----------
@@ -511,7 +511,7 @@ class Body(FromMass):
         return _replace(changed, observed_wobble=None)
 
     def _tilted(self, obliquity: object) -> Body:
-        """Return the body with another obliquity and the same orbit normal."""
+        """Return a copy of the body with another obliquity; its orbit normal stays the same."""
         if self.pole is None:
             return _replace(self, obliquity=obliquity)
         fixed = self
@@ -525,7 +525,7 @@ class Body(FromMass):
         return _replace(fixed, pole=fixed._pole_at(obliquity), pole_uncertainty=None)
 
     def _figure(self, changes: dict[str, Any]) -> dict[str, Numeric]:
-        """Return values of J2, H and triaxiality that follow from changed moments of inertia or J2.
+        """Return J2, H and triaxiality that follow from changed moments of inertia or a changed J2.
 
         Remove `moments` from the changes.
         """

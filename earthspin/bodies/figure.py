@@ -46,7 +46,7 @@ def moments_of(j2: float, h: float, triaxiality: float) -> NDArray[np.float64]:
 def figure_of(
     name: str, moments: tuple[Numeric, Numeric, Numeric], scale: Numeric
 ) -> dict[str, Numeric]:
-    """J2, H and triaxiality from three moments of inertia, as a dict by field name.
+    """J2, H and triaxiality from three moments of inertia, as a dict with these field names.
 
     Parameters
     ----------

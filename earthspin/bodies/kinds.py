@@ -94,7 +94,7 @@ class Uncertainties:
     words, hint = "standard deviation divided by value, by field", "Mapping[str, float]"
 
     def read(self, value: object, where: Where) -> dict[str, float]:
-        """Read a table of relative standard deviations by field name.
+        """Check a table of relative standard deviations, and return it by field name.
 
         The body checks the field names.
         """
@@ -139,7 +139,7 @@ class OneOf:
 
 @dataclass(frozen=True)
 class CitedPeriod:
-    """Converter of a period in days with its uncertainty and source."""
+    """Converter of a period in days, with its uncertainty and source, such as a wobble period."""
 
     words, hint = (
         "a table of value, unit, uncertainty and source",

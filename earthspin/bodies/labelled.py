@@ -35,7 +35,7 @@ def is_close(value: Numeric | None, other: Numeric | None) -> bool:
 
 
 def is_same(value: object, other: object) -> bool:
-    """Test whether two values are identical, including the labels of arrays."""
+    """Test whether two values are identical, including the coordinate labels of arrays."""
     if hasattr(value, "identical"):
         return type(value) is type(other) and bool(value.identical(other))
     return not hasattr(other, "identical") and value == other

@@ -73,7 +73,7 @@ class Layers:
 
 
 def _layer(table: Any, where: Where) -> Layer:
-    """Read one layer of a body from a table; a single number is a profile constant with radius."""
+    """Make one layer of a body from a table; a single number means a value constant with radius."""
     if not isinstance(table, Mapping) or not {"top", "density", "vp"} <= set(table):
         raise where.error(table, "give top, density, vp, and vs and shear_q if it is solid")
     if unknown := set(table) - {"top", "density", "vp", "vs", "shear_q"}:

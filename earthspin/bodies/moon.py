@@ -85,7 +85,7 @@ _TERMS = {
 
 
 def _terms(sizes: dict[int, float]) -> list[tuple[float, float, float]]:
-    """Amplitude (deg), phase (deg) and rate (deg per century) of each periodic term of the pole."""
+    """Amplitude (deg), phase (deg), rate (deg/century) of periodic terms of the Moon's pole."""
     return [(s, _TERMS[n][0], _TERMS[n][1] * DAYS_PER_CENTURY) for n, s in sizes.items()]
 
 

@@ -65,7 +65,7 @@ def added_by(
 def carried(
     planet: dict[str, Constant], polar_moment: Constant, satellites: tuple[Satellite, ...]
 ) -> dict[str, Constant]:
-    """Effective J2 and H of a planet, including the satellites that precess with its equator.
+    """Effective J2 and H of a planet whose satellites precess together with its equator.
 
     Parameters
     ----------

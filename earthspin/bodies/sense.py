@@ -43,7 +43,7 @@ _HOLDS: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
 
 
 def check_kinds(body: Fields, numbers: Iterable[str]) -> None:
-    """Check types: numbers are finite, names text, codes integers, array labels consistent.
+    """Raise an error if a field has a wrong type: number, name, integer code or array labels.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def check_kinds(body: Fields, numbers: Iterable[str]) -> None:
 
 
 def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
-    """Check the range of each number and uncertainty, and the consistency of the figure.
+    """Raise an error if a number is out of range, or J2, H and the moments are inconsistent.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ def _check_polar_moment(name: str, j2: Numeric, h: Numeric, triaxiality: Numeric
 
 
 def _check_words(body: Fields) -> None:
-    """Check that names are text, codes are integers and uncertainties a table of numbers."""
+    """Raise an error if a name is not text, a code no integer, or an uncertainty no number."""
     name = body["name"]
     for field in ("name", "reference"):
         if not isinstance(body[field], str):

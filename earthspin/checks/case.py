@@ -88,14 +88,14 @@ class Case:
 
     @property
     def must_hold(self) -> bool:
-        """Return True if the case must give an answer, False if it must raise an error."""
+        """Return True if this test case must give a result, False if it must raise an error."""
         return not self.refusal
 
 
 def holds(
     *, bound: float, unit: str = "1", slow: bool = False, long: bool = False
 ) -> Callable[[Measure], Case]:
-    """Make a `Case` of a function that yields differences from a reference, at most `bound`.
+    """Decorator: make a `Case` of a function that yields errors, which must not exceed `bound`.
 
     The other arguments are those of `Case`.
     """
@@ -103,12 +103,12 @@ def holds(
 
 
 def refused(message: str) -> Callable[[Measure], Case]:
-    """Decorate a function that must raise a one-line error whose message contains `message`."""
+    """Decorator: make a `Case` of a function that must raise an error containing `message`."""
     return partial(_case, refusal=message)
 
 
 def _case(measure: Measure, refusal: str = "", **numbers: Any) -> Case:
-    """Make a `Case` from a decorated function; its docstring gives name, reason and reference."""
+    """Make a `Case` from a decorated function, whose docstring holds name, reason and reference."""
     name, _, rest = (measure.__doc__ or measure.__name__).partition("Hard because:")
     why, _, reference = rest.partition("Compared with:")
     if refusal:
@@ -144,7 +144,7 @@ class Outcome:
 
 
 def judge(case: Case) -> Outcome:
-    """Run a case, and compare its result with the bound or with the expected error message.
+    """Run a test case, and compare its result with the bound or its error with the expected one.
 
     Parameters
     ----------

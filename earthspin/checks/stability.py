@@ -1,4 +1,4 @@
-"""Run the stiff and extreme cases, and return their verdicts as one dataset."""
+"""Run the stiff and extreme test cases, and return their verdicts as one Dataset."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Error against run time of every method for a quantity (work-precision diagrams).
+"""Measure error and run time of all methods for a quantity (work-precision diagrams).
 
 A ladder contains every method for one quantity, with settings from coarse to fine, and an
 independent reference that is at least a hundred times more accurate. Each setting is run and timed.
@@ -169,7 +169,7 @@ class Ladder:
 
     @property
     def rungs(self) -> int:
-        """Largest number of settings of any method in the comparison."""
+        """Largest number of settings (rungs) of any method in this comparison."""
         return max(len(method.settings) for method in self.methods)
 
 
@@ -293,7 +293,7 @@ def pareto_front(error: Any, run_time: Any) -> BoolArray:
 
 
 def accuracy(quantity: str, *, quick: bool = False) -> xr.Dataset:
-    """Measure error and run time of every method for a quantity, with other libraries.
+    """Measure error and run time of all methods for a quantity, here and in other libraries.
 
     Parameters
     ----------
@@ -397,7 +397,7 @@ def points_class(unit: str) -> type[Variables]:
     by_method = ("method",)
 
     class Points(Variables, along=("method", "rung")):
-        """Errors and run times of each method at each setting."""
+        """Measured errors and run times of each method at each of its settings."""
 
         error: Value = number(unit, "error with respect to the reference")
         run_time: Value = number("s", "median run time")
@@ -455,7 +455,7 @@ def _sentence_of_task(ladder: Ladder, points: Sequence[Sequence[Point]], task: s
 
 
 class _Row(NamedTuple):
-    """Error, run time and name of one measured setting; the error is in the result's unit."""
+    """Error, run time and name of one measured setting, in the unit of the result."""
 
     error: float
     run_time: float

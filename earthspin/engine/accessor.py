@@ -69,7 +69,7 @@ class Answer:
         return replace(plan_parts(self.scene), seconds=dict(seconds))
 
     def to_frame(self) -> pd.DataFrame:
-        """Return a tidy pandas table with a row for each label and a column for each number.
+        """Return the result as a pandas table: a row for each label, a column for each number.
 
         The rows are labelled by the dimensions that most variables have. Further dimensions,
         including `component`, `quaternion` and `axis`, become columns. Each error follows its
@@ -100,7 +100,7 @@ class Answer:
         return frame.reset_index()[[*map(str, frame.index.names), *names]]
 
     def to_skycoord(self, name: str = "") -> SkyCoord:
-        """Return unit vectors as astropy coordinates in the ICRS.
+        """Return the unit vectors of the result as astropy coordinates in the ICRS.
 
         The axes of the GCRS are parallel to those of the ICRS; no aberration is applied.
 
@@ -211,7 +211,7 @@ class Answer:
         return quantiles(self._dataset, shares)
 
     def sensitivity(self) -> xr.Dataset:
-        """Contribution of each input of an ensemble to the variance of each result.
+        """Compute how much each ensemble input contributes to the variance of each result.
 
         The numbers are fitted by a linear function of all inputs (`numerics.sampling`). An input
         that is a name, such as an orbit table, divides the members into classes: its share is that

@@ -1,4 +1,4 @@
-"""Generate the public function and an equivalent Python script from the class of a question."""
+"""Generate the public Python function, and a script, from the class of a question."""
 
 from __future__ import annotations
 

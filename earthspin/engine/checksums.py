@@ -1,4 +1,4 @@
-"""Checksums of stored results: SHA-256 of all bytes, and of the content of a file.
+"""Checksums (SHA-256) of result files: of all their bytes, and of their content.
 
 Bytes: a netCDF file ends with a line that holds the checksum of every byte before it, and a Zarr
 store holds a ledger of its files in the format of ``sha256sum``. Both can be checked without

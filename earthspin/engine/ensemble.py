@@ -149,12 +149,12 @@ class Ensemble:
 
     @cached_property
     def nominal(self) -> xr.Dataset:
-        """Answer to the question without varied numbers, with the first member's input names."""
+        """Answer with the question's own numbers, and with the first member's input names."""
         return self.variants.nominal(next(iter(self.groups)))
 
     @cached_property
     def width(self) -> int:
-        """Number of members that are computed together; 1 if they are computed separately."""
+        """Number of members that are computed together as arrays; 1 if each is computed alone."""
         rows = BLOCK_BYTES * 4 // (self.nominal.nbytes * ROW)
         if not self.numbers:
             return rows * ROW or 1  # one answer for each combination of names is computed
@@ -241,7 +241,7 @@ class Ensemble:
     # --- blocks ----------------------------------------------------------------------------------
 
     def first(self) -> xr.Dataset:
-        """Compute the first block of members, with the attributes of the whole result."""
+        """Compute the first block of members, with the global attributes of the whole ensemble."""
         question = self.full_question
         attributes = {"title": question.title, SCENE: scene_text(question)}
         if self.dropped:

@@ -56,12 +56,12 @@ class Input:
 
     @property
     def named(self) -> bool:
-        """Return True if the input is a name rather than a number."""
+        """Return True if the values of this input are names rather than numbers."""
         return not self.field and self.element is None and by_name(self.kind)
 
     @property
     def unit(self) -> str:
-        """Unit of the values; empty for pure numbers and names."""
+        """Unit of the values of this input; empty for pure numbers and names."""
         return "" if self.named else str(self.kind.unit)
 
     @property
@@ -231,7 +231,7 @@ def _along_members(values: NDArray[Any]) -> xr.DataArray:
 
 
 def along_members(values: Mapping[str, NDArray[Any]], which: Any) -> dict[str, Any]:
-    """Return the input values of several members as arrays along the dimension `member`."""
+    """Return input values of several members as arrays along the dimension `member`."""
     return {name: _along_members(array[which]) for name, array in values.items()}
 
 

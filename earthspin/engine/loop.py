@@ -52,7 +52,7 @@ class Work(Protocol):
         """Compute the first block (number 0), with the attributes of the whole result."""
 
     def make(self, number: int) -> xr.Dataset:
-        """Compute one block of the result, by its number.
+        """Compute one block of the result, given the number of the block.
 
         The dimension of the layout is the first dimension of every variable that has it.
         """
@@ -114,7 +114,7 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
 
 
 def hold(work: Work, *, client: object = None) -> xr.Dataset:
-    """Compute a result block by block in memory.
+    """Compute a result block by block, and return it in memory.
 
     Parameters
     ----------

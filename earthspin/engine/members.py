@@ -277,7 +277,7 @@ def _whole_number(value: Any, where: Where, low: int, high: int = LARGEST_COUNT)
 def _distributions(
     table: Mapping[str, Any], where: Where, before: str = ""
 ) -> Iterator[tuple[str, Distribution]]:
-    """Yield the name and the distribution of each input in a table.
+    """Yield the name and the distribution of each varying input in a table.
 
     TOML turns a dotted name into a table within a table.
     """
@@ -338,7 +338,7 @@ def count_of(members: Members, inputs: Mapping[str, Distribution], where: Where)
 def draw(
     members: Members, inputs: Mapping[str, Distribution], which: FloatArray, where: Where
 ) -> dict[str, NDArray[Any]]:
-    """Draw one value for each member from the distribution of each input.
+    """Draw the values of all varying inputs for each member, from their distributions.
 
     Parameters
     ----------

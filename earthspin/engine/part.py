@@ -93,12 +93,12 @@ class Part(Generic[P, R]):
 
     @cached_property
     def needs(self) -> tuple[str, ...]:
-        """Names of the function's parameters without a default, which are required inputs."""
+        """Names of the inputs that this part (function) requires: parameters without default."""
         return _parameters(self.function, inspect.Parameter.empty)
 
     @cached_property
     def uses(self) -> tuple[str, ...]:
-        """Names of the function's parameters with default None, which are optional inputs."""
+        """Names of the optional inputs of this part (function): parameters with default None."""
         return _parameters(self.function, None)
 
     def reason(self, keys: dict[str, Any]) -> str | None:
@@ -176,6 +176,6 @@ def _parameters(function: Callable[..., Any], default: object) -> tuple[str, ...
 
 
 def _first_sentence(function: Callable[..., Any]) -> str:
-    """First line of a function's docstring, in lower case and without a full stop, for lists."""
+    """First line of a function's docstring, in lower case, without the final full stop."""
     line = (function.__doc__ or "").strip().split("\n")[0].rstrip(".")
     return line[:1].lower() + line[1:] if line[1:2].islower() else line

@@ -90,7 +90,7 @@ class Plan:
         return rows + [Row(title, "left out", why) for title, why in self.left_out.items()]
 
     def to_frame(self) -> Any:
-        """Return the plan as a pandas DataFrame."""
+        """Return the table of this plan as a pandas DataFrame."""
         import pandas as pd
 
         return pd.DataFrame([vars(row) for row in self.rows])

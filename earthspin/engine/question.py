@@ -63,12 +63,12 @@ class Key:
 
     @property
     def required(self) -> bool:
-        """Return True if the user must give this key, because it has no default."""
+        """Return True if the user must give a value for this key, which has no default."""
         return self.shown is MISSING
 
     @cached_property
     def default(self) -> Any:
-        """Default value of the key, converted by the type of the key."""
+        """Default value of this key (input), converted to its type."""
         return None if self.shown is None else self.kind.read(self.shown, Where(self.name))
 
     @property
@@ -150,7 +150,7 @@ class Question:
     def __init_subclass__(
         cls, word: str = "", call: str = "", table: str = "", positional: tuple[str, ...] = ()
     ) -> None:
-        """Set the names by which a subclass of `Question` is known in scenes and in Python.
+        """Set the names of a subclass of `Question` in scene files and in Python.
 
         A subclass without `word` is no question itself: it holds keys for several questions.
         """
@@ -199,7 +199,7 @@ class Question:
         return self
 
     def _check_groups(self) -> None:
-        """Refuse keys that exclude one another, such as `times` together with `span`."""
+        """Raise an error if keys are given that exclude one another, as `times` and `span`."""
         groups = [group for group in self.exclusive if self.given & set(group)]
         if len(groups) > 1:
             ways = ", or ".join(" and ".join(group) for group in self.exclusive)
@@ -291,7 +291,7 @@ class Question:
         return {name for group in self.exclusive for name in group} - set(used)
 
     def keys(self) -> dict[str, Any]:
-        """Values of all keys of this question, by name of the key."""
+        """Values of all keys (inputs) of this question, by name of the key."""
         return {name: getattr(self, name) for name in keys_of(type(self))}
 
     def published_inputs(self) -> Mapping[str, tuple[str, tuple[float, float]]]:

@@ -49,7 +49,7 @@ def quantiles(answer: xr.Dataset, shares: Sequence[float] = (0.025, 0.5, 0.975))
 
 
 def sensitivity(answer: xr.Dataset) -> xr.Dataset:
-    """Contribution of each input to the variance of each result of an ensemble.
+    """Compute how much each ensemble input contributes to the variance of each result.
 
     Users call it as ``ds.earthspin.sensitivity()``.
 

@@ -62,7 +62,7 @@ class Layout:
 
     @property
     def count(self) -> int:
-        """Number of blocks in the store."""
+        """Number of blocks into which the store is divided."""
         return -(-self.size // self.block)
 
     def bounds(self, number: int) -> tuple[int, int]:
@@ -111,7 +111,7 @@ class Unfinished:
 
     @property
     def missing(self) -> list[int]:
-        """Numbers of the blocks that are not finished."""
+        """Numbers of the blocks of the store that are not yet finished."""
         return [n for n in range(self.layout.count) if n not in self.done]
 
     @property
@@ -212,7 +212,7 @@ def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) ->
 
 
 def _variables_in_blocks(store: Path, along: str) -> dict[str, int]:
-    """Number of dimensions of each variable that is written block by block, by variable name."""
+    """Number of dimensions, by name, of each variable that is written in blocks."""
     dims = {
         path.parent.name: json.loads(path.read_bytes()).get("_ARRAY_DIMENSIONS", ())
         for path in sorted(store.glob("*/.zattrs"))

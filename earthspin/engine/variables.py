@@ -89,7 +89,7 @@ class SchemaError(Exception):
 
 @dataclass(frozen=True)
 class Field:
-    """Declaration of one field of a `Variables` class, which makes one or more variables.
+    """Declaration of one field of a `Variables` class, which defines one or more variables.
 
     Attributes
     ----------

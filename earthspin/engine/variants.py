@@ -64,7 +64,7 @@ class Variants:
         return self._runs[names]
 
     def nominal(self, names: Names) -> xr.Dataset:
-        """Compute the answer with the given names as inputs, but without varied numbers."""
+        """Compute the answer with the given names and with the question's own numbers."""
         run = self[names]()
         answer = run.answer()
         self._descriptions[names] = {

@@ -1,4 +1,4 @@
-"""Anelastic softening of the mantle from seismic periods to long periods."""
+"""Anelastic softening of the mantle: lower rigidity at long periods than at seismic periods."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-r"""Dynamic response of the ocean to diurnal tides, which is not in equilibrium.
+r"""Response of the ocean to diurnal tides, which differs from equilibrium, and its effect on k2.
 
 A tide model gives the contribution of the ocean to the potential of degree 2 and order 1 for single
 waves; divided by the potential of the same wave, it is a change of the Love number, \Delta k (IERS
@@ -40,7 +40,7 @@ _UNIT = 1e-11
 
 
 class Wave(NamedTuple):
-    """One diurnal tidal wave.
+    """One diurnal tidal wave: frequency, equilibrium height, and amplitude of the ocean tide.
 
     Attributes
     ----------

@@ -123,7 +123,7 @@ def liquid(profile: Profile, i: int) -> Callable[[Array], Array]:
 
 
 def solid_centre(profile: Profile, strain: Array) -> Array:
-    """Three regular solutions y near a solid centre, to leading order in r, (strain, 6, 3)."""
+    """Three regular solutions of the deformation equations near a solid centre, (strain, 6, 3)."""
     r, i = START, profile.first
     lam, mu = (modulus[:, 0] for modulus in profile.moduli(i, np.array([r]), strain))
     rho = profile.density(i, r)
@@ -138,6 +138,6 @@ def solid_centre(profile: Profile, strain: Array) -> Array:
 
 
 def liquid_centre(profile: Profile, i: int, r: float = START) -> Array:
-    """Regular solution near a liquid centre: potential y5, and y7, which holds its derivative."""
+    """Regular solution of the deformation equations near a liquid centre: y5 and y7."""
     s = FOUR_PI_G * profile.density(i, r) / profile.gravity(i, r)
     return np.array([r**2, (5 / r - s) * r**2])

@@ -62,7 +62,7 @@ class LayeredBody:
 
     @property
     def core_radius(self) -> float:
-        """Radius of the boundary between the liquid core and the mantle, m; 0 without a core."""
+        """Radius of the core-mantle boundary, m; 0 without a core."""
         return max((layer.top for layer in self.layers[:-1] if not layer.vs), default=0.0)
 
     @property
@@ -92,7 +92,7 @@ class LayeredBody:
         return self.moment_of_inertia(self.core_radius) / self.moment_of_inertia()
 
     def _radial_moment(self, power: int, radius: float) -> float:
-        """Integral of rho r^power from the centre to a radius, in closed form."""
+        """Integral of density times r^power from the centre to a radius, in closed form."""
         total, below = 0.0, 0.0
         for layer in self.layers:
             top = min(layer.top, radius) / self.radius

@@ -1,4 +1,4 @@
-"""Four-layer Mars with a fluid core, consistent with its mass and moment of inertia."""
+"""Four-layer model of Mars with a fluid core, consistent with its mass and moment of inertia."""
 
 from __future__ import annotations
 

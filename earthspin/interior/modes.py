@@ -88,7 +88,7 @@ class Parts:
 
     @property
     def compliances(self) -> dict[str, Numeric]:
-        """Compliances of the regions, by their names in Mathews et al. (1991).
+        """Compliances of mantle, fluid core and inner core, named as in Mathews et al. (1991).
 
         Each is normalised by the equatorial moment A of its region.
         """
@@ -265,7 +265,7 @@ def chandler_by_core(layers: LayeredBody, e: float, spin_rate: float) -> dict[st
 
 
 def numbers_of(layers: LayeredBody, spin_rate: float) -> dict[str, float]:
-    """Compliances, ellipticities, coupling numbers and moments of the regions, by name.
+    """Compliances, ellipticities, coupling numbers and moments of core and mantle, by name.
 
     The moments are relative; regions that the body lacks are omitted.
 

@@ -1,4 +1,4 @@
-"""The preliminary reference Earth model (PREM), as data."""
+"""Layers of the preliminary reference Earth model (PREM), as data."""
 
 from __future__ import annotations
 

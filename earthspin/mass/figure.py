@@ -69,12 +69,12 @@ def check_flattening(flattening: ArrayLike) -> FloatArray:
 
 
 def polar_radius(radius: ArrayLike, flattening: ArrayLike) -> FloatArray:
-    """Polar radius c = a (1 - f), in the unit of the equatorial radius a."""
+    """Polar radius c = a (1 - f) of a spheroid, in the unit of the equatorial radius a."""
     return np.asarray(np.asarray(radius, dtype=float) * (1 - check_flattening(flattening)))
 
 
 def eccentricity_squared(flattening: ArrayLike) -> FloatArray:
-    """Squared eccentricity e2 = (a2 - c2)/a2 = f (2 - f), negative if prolate (I.9.38)."""
+    """Squared eccentricity (a2 - c2)/a2 = f (2 - f) of a spheroid, negative if prolate (I.9.38)."""
     f = check_flattening(flattening)
     return np.asarray(f * (2 - f))
 
@@ -209,7 +209,7 @@ def moment_difference_from_density(
 
 
 def ellipticity_homogeneous(flattening: ArrayLike) -> FloatArray:
-    """Exact (C - A)/A of a homogeneous spheroid, (a2 - c2)/(a2 + c2).
+    """Exact dynamical ellipticity (C - A)/A = (a2 - c2)/(a2 + c2) of a homogeneous spheroid.
 
     McCullough's formula (I.9.52) approximates it by the flattening.
     """

@@ -17,7 +17,7 @@ Numeric = Any
 
 
 def moment_difference(j2: Numeric, mass: Numeric, radius: Numeric) -> Numeric:
-    """Difference C - A of the moments of inertia from J2 (I.9.30), kg m2.
+    """Difference C - A of the moments of inertia of a body from its J2 (I.9.30), kg m2.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ def ellipticity_from_h(h: Numeric) -> Numeric:
 
 
 def h_from_ellipticity(e: Numeric) -> Numeric:
-    """Dynamical flattening H = (C - A)/C from e = (C - A)/A."""
+    """Dynamical flattening H = (C - A)/C from the dynamical ellipticity e = (C - A)/A."""
     return e / (1 + e)
 
 

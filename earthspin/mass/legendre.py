@@ -195,6 +195,6 @@ def _argument(z: ArrayLike) -> FloatArray:
 
 
 def _check_order(n: int, m: int) -> None:
-    """Refuse an order m outside 0 <= m <= n."""
+    """Raise an error unless the order m of a Legendre function satisfies 0 <= m <= n."""
     if degree("degree n", n) < degree("order m", m):
         raise UndefinedError(f"order m = {m} exceeds the degree n = {n}; allowed: 0 to {n}")

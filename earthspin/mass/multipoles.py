@@ -128,7 +128,7 @@ class Multipoles:
 
     @property
     def zonal(self) -> FloatArray:
-        """Zonal moments Z_n (order m = 0), as in `earthspin.mass.zonal`, shape (n_max + 1,), kg."""
+        """Zonal moments Z_n (multipole moments of order 0) for n = 0 to n_max, kg."""
         return np.real(self.moments[:, 0])
 
     def moment(self, n: int, m: int) -> complex:

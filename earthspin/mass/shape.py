@@ -57,7 +57,7 @@ class Shape:
 
     @property
     def dynamical_flattening(self) -> float:
-        """Dynamical flattening H = (C - (A + B)/2)/C."""
+        """Dynamical flattening H = (C - (A + B)/2)/C of the body."""
         principal = self.principal
         return float((principal.c_minus_a + principal.c_minus_b) / 2 / principal.moments[2])
 
@@ -183,7 +183,7 @@ class Shape:
 
     @classmethod
     def _summed(cls, pieces: Pieces, outline: FloatArray, radius: float | None) -> Self:
-        """Make a `Shape` by sums over the masses and positions of weighted points."""
+        """Make a `Shape` from sums over weighted points of the body."""
         mass = sum(float(np.sum(m)) for m, _ in pieces(0))
         centre = np.sum([m @ r for m, r in pieces(1)], axis=0) / mass
         second = np.zeros((3, 3))

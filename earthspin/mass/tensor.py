@@ -24,7 +24,7 @@ _BODY = "rigid body"
 def inertia_tensor(
     masses: ArrayLike, positions: ArrayLike, about: ArrayLike | None = None
 ) -> FloatArray:
-    """Inertia tensor of point masses (I.1.3).
+    """Inertia tensor of point masses about a given point (I.1.3), kg m2.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def tensor_about_centre(tensor: ArrayLike, mass: ArrayLike, offset: ArrayLike) -
 
 
 def angular_momentum(tensor: ArrayLike, omega: ArrayLike) -> FloatArray:
-    """Angular momentum L = I omega (I.1.4).
+    """Angular momentum L = I omega from inertia tensor and angular velocity (I.1.4).
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ def angular_momentum(tensor: ArrayLike, omega: ArrayLike) -> FloatArray:
 
 
 def kinetic_energy(tensor: ArrayLike, omega: ArrayLike) -> FloatArray:
-    """Kinetic energy T = omega . I omega/2 (I.1.7), J; arguments as for `angular_momentum`."""
+    """Kinetic energy of rotation T = omega . I omega/2, from inertia tensor (I.1.7), J."""
     w = np.asarray(omega, dtype=float)
     return np.asarray(np.sum(w * angular_momentum(tensor, w), axis=-1) / 2)
 

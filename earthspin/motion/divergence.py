@@ -75,7 +75,7 @@ class Divergence:
 def divergence(
     body: Rigid, masses: Masses, start: State, end: float, direction: int = 0
 ) -> Divergence:
-    """Integrate a rotation and a slightly different one, and measure how fast they diverge.
+    """Integrate two slightly different rotations of a body, and measure how fast they diverge.
 
     Parameters
     ----------

@@ -79,12 +79,12 @@ class Rigid:
 
     @property
     def moments(self) -> FloatArray:
-        """Principal moments of inertia of each body, divided by C, shape (3, lanes)."""
+        """Principal moments A, B, C of each body, divided by its C, shape (3, lanes)."""
         return np.stack([1 - self.c_minus_a, 1 - self.c_minus_b, np.ones_like(self.c_minus_a)])
 
     @property
     def levers(self) -> FloatArray:
-        """Moment differences C - B, A - C, B - A of each body, divided by C, shape (3, lanes)."""
+        """Moment differences C - B, A - C, B - A of each body over its C, shape (3, lanes)."""
         return np.stack([self.c_minus_b, -self.c_minus_a, self.c_minus_a - self.c_minus_b])
 
     @property
@@ -223,7 +223,7 @@ class Equations:
         return np.concatenate([rate, 0.5 * drift])
 
     def _torque(self, q: FloatArray, matrix: FloatArray, spin: FloatArray) -> FloatArray:
-        """Tidal torque on the bulge plus custom torque, over C u, along the body axes, s-1.
+        """Tidal torque on the bulge plus custom torque, along the body axes, scaled, s-1.
 
         The torque is divided by C u. C is the polar moment of inertia, and u the unit of spin.
         """
@@ -235,7 +235,7 @@ class Equations:
         return np.asarray(torque)
 
     def _further_torque(self, matrix: FloatArray, momentum: FloatArray) -> FloatArray:
-        """Torque on harmonics J_n and by further effects, over C u, along sky axes, s-1.
+        """Torque on harmonics J_n and by further effects, along the sky axes, scaled, s-1.
 
         The torque is divided by C u. C is the polar moment of inertia, and u the unit of spin.
         """
@@ -259,10 +259,10 @@ class Equations:
 
 
 def _into(matrix: FloatArray, vector: FloatArray) -> FloatArray:
-    """Transform vectors from the sky's axes to the body's axes."""
+    """Transform vectors from sky axes to body axes by rotation matrices."""
     return np.asarray(np.einsum("jim,jm->im", matrix, vector))
 
 
 def _out_of(matrix: FloatArray, vector: FloatArray) -> FloatArray:
-    """Transform vectors from the body's axes to the sky's axes."""
+    """Transform vectors from body axes to sky axes by rotation matrices."""
     return np.asarray(np.einsum("ijm,jm->im", matrix, vector))

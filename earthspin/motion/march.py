@@ -121,7 +121,7 @@ class Piece:
     end: FloatArray
 
     def at(self, times: FloatArray) -> FloatArray:
-        """Angular momentum and attitude quaternion of all bodies at times, shape (7, lanes, t)."""
+        """Angular momentum and attitude quaternion of all bodies at given times, (7, lanes, t)."""
         lanes = self.series.shape[1]
         windows = Windows(self.edges, self.series.shape[-1])
         flat = windows.evaluate(self.series.reshape(7 * lanes, len(windows.half), -1), times)

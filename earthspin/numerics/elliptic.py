@@ -1,4 +1,4 @@
-"""Elliptic functions and integrals with full accuracy for every modulus, including 0 and 1.
+"""Elliptic functions and integrals with full accuracy for all moduli, including 0 and 1.
 
 `scipy.special.ellipj` takes the parameter m, so it loses the digits of 1 - m near a separatrix.
 `scipy.special.elliprj` loses up to three digits of a complete integral whose integrand peaks at its

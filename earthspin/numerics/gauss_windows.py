@@ -96,7 +96,7 @@ class Windows:
 
 
 def _apply(values: Any, matrix: FloatArray) -> Any:
-    """Multiply real or complex values by a real matrix from the right.
+    """Multiply the last axis of real or complex values by a real matrix.
 
     For complex values, separate products of the real and imaginary parts halve the cost.
     """

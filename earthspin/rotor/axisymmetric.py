@@ -30,7 +30,7 @@ _ROUNDING = 8 * np.finfo(float).eps
 
 @dataclass(frozen=True, slots=True)
 class SymmetricRotor:
-    """An axisymmetric body in torque-free rotation.
+    """An axisymmetric rigid body in torque-free rotation.
 
     Attributes
     ----------
@@ -120,7 +120,7 @@ class SymmetricRotor:
 
     @property
     def energy(self) -> Numeric:
-        """Kinetic energy T, J (I.6.11)."""
+        """Kinetic energy T of rotation, J (I.6.11)."""
         sine, cosine = np.sin(self.alpha), np.cos(self.alpha)
         return self.speed**2 * (self.equatorial * sine**2 + self.polar * cosine**2) / 2
 
@@ -218,7 +218,7 @@ class SymmetricRotor:
         )
 
     def attitude(self, times: Numeric) -> FloatArray:
-        """Unit quaternion w, x, y, z from body to inertial axes, shape (..., n, 4).
+        """Attitude as unit quaternion w, x, y, z from body to inertial axes, shape (..., n, 4).
 
         It represents Rz(phi) Rx(theta) Rz(psi), with the angles of (I.6.25).
 

@@ -158,7 +158,7 @@ def _check(moments: PrincipalMoments) -> None:
 
 
 def finite(given: Any, name: str, unit: str) -> FloatArray:
-    """Convert an input to an array of floats; refuse infinite and missing values.
+    """Convert an input to an array of floats; raise an error for infinite or missing values.
 
     Parameters
     ----------

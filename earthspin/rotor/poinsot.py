@@ -87,7 +87,7 @@ def inertia_ellipsoid(moments: Moments, omega: Any) -> FloatArray:
 
 
 def rescaled_inertia_ellipsoid(moments: Moments) -> FloatArray:
-    """Semi-axes of the inertia ellipsoid scaled to 2T = 1: 1/sqrt(I), kg-1/2 m-1 (I.5.1).
+    """Semi-axes 1/sqrt(I) of the inertia ellipsoid scaled to 2T = 1, kg-1/2 m-1 (I.5.1).
 
     Its coordinates are rho = omega/sqrt(2T).
 

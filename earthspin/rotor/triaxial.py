@@ -129,13 +129,13 @@ class Phase:
     lower: Jacobi
 
     def along(self, amplitudes: FloatArray) -> FloatArray:
-        """Multiply cn, sn and dn at each time by three amplitudes; shape (..., n, 3)."""
+        """Multiply the elliptic functions cn, sn, dn by three amplitudes, shape (..., n, 3)."""
         sn, cn, dn = self.upper
         return np.stack([self.turned * cn, self.turned * sn, dn], -1) * amplitudes[..., None, :]
 
 
 def phase_at(motion: JacobiMotion, times: FloatArray) -> Phase:
-    """Evaluate the elliptic functions of a torque-free motion at given times.
+    """Evaluate the elliptic functions of a torque-free rotation at given times.
 
     Parameters
     ----------

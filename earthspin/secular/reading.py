@@ -1,4 +1,4 @@
-"""Angles and rates derived from a trajectory of the spin axis, and their errors by cause.
+"""Angles and rates derived from a trajectory of the spin axis, and their errors by error source.
 
 Longitudes are unwrapped, although epochs may be far apart: between two epochs precession is
 followed along the nodes of the solution, and the perihelion, which moves fast for a nearly circular
@@ -123,7 +123,7 @@ def moved_by(of: Read, mine: Read, name: str) -> FloatArray:
 
 
 def angle(of: FloatArray, mine: FloatArray) -> FloatArray:
-    """Angle between two sets of unit vectors, rad; shape (...) from (3, ...)."""
+    """Angle between unit vectors of two arrays, rad; the first axis holds x, y, z."""
     half = np.linalg.norm(of - mine, axis=0) / 2
     return np.asarray(2 * np.arcsin(np.minimum(half, 1.0)))
 

@@ -113,7 +113,7 @@ class Strength:
     node_rate: Numeric = math.inf
 
     def constant(self, times: FloatArray, e2: FloatArray) -> FloatArray:
-        """Constant of precession at given times, rad/s.
+        """Precession constant of the body at given times, rad/s.
 
         Parameters
         ----------
@@ -139,12 +139,12 @@ class Strength:
         return np.asarray(spin * figure * (of_sun + self.moon * moon**2))
 
     def geodesic_rate(self, e2: FloatArray) -> FloatArray:
-        """Rate of geodesic precession about the orbit normal, rad/s, at a squared eccentricity."""
+        """Rate of geodesic precession about the orbit normal for a squared eccentricity, rad/s."""
         return np.asarray(self.geodesic * (1 - self.eccentricity**2) / (1 - e2))
 
     @property
     def moons_share(self) -> Numeric:
-        """Fraction of the constant of precession at J2000.0 that is due to the Moon."""
+        """Fraction of the precession constant at J2000.0 that is due to the Moon."""
         return self.moon / (self.sun + self.moon)
 
 

@@ -77,22 +77,22 @@ class Nutation(NamedTuple):
 
     @property
     def crosses_lower_pole(self) -> BoolArray:
-        """Return True if the axis passes exactly through the lower pole."""
+        """Return True if the top's axis passes exactly through the downward vertical."""
         return np.asarray((self.gaps.lower_pole == 0) & (self.swing > 0))
 
     @property
     def crosses_upper_pole(self) -> BoolArray:
-        """Return True if the axis passes exactly through the upper pole."""
+        """Return True if the top's axis passes exactly through the upward vertical."""
         return np.asarray((self.gaps.upper_pole == 0) & (self.swing > 0))
 
     @property
     def depth(self) -> FloatArray:
-        """Distance along u = cos(theta) from the upper pole to the lower turning point, 1 - u1."""
+        """Distance 1 - u1, along u = cos(theta), from the upper pole to the lower turning point."""
         return self.start.below + self.gaps.lower
 
     @property
     def height(self) -> FloatArray:
-        """Distance along u = cos(theta) from the lower pole to the upper turning point, 1 + u2."""
+        """Distance 1 + u2, along u = cos(theta), from the lower pole to the upper turning point."""
         return self.start.above + self.gaps.upper
 
 

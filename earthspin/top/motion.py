@@ -76,7 +76,7 @@ class Angle(NamedTuple):
 
     @property
     def radians(self) -> FloatArray:
-        """This angle in rad, not reduced to one turn."""
+        """Value of the angle in rad, not reduced to one turn."""
         return np.pi / 2 * self.quarters + self.rest
 
     @property
@@ -182,7 +182,7 @@ def _phi_and_psi(
 
 
 def _attitude(theta: FloatArray, phi: Angle, psi: Angle) -> FloatArray:
-    """Attitude quaternion of the successive rotations Rz(phi) Rx(theta) Rz(psi).
+    """Attitude quaternion from Euler angles: successive rotations Rz(phi) Rx(theta) Rz(psi).
 
     The half rotations by phi and psi are applied separately: adding the angles would lose the slow
     precession of a top after a long time.

@@ -109,7 +109,7 @@ def pattern_limits(top: HeavyTop) -> PatternLimits:
 
 
 def _is_steady(start: AxisStart) -> NDArray[np.bool_]:
-    """Return True if theta' and theta'' are zero at the start: the inclination is constant."""
+    """Return True if theta' = theta'' = 0 at the start, so that the inclination is constant."""
     phi_rate = start.phi_rate
     gyroscopic, centrifugal = 2 * phi_rate * start.a, 2 * phi_rate**2 * start.cosine
     size = np.abs(gyroscopic) + np.abs(centrifugal) + start.beta

@@ -24,7 +24,7 @@ CLOSED_FORM_ERROR = 1e-13
 
 
 def error_bound(top: HeavyTop, times: ArrayLike) -> FloatArray:
-    """Bound on the largest error of `heavy_top_motion` over all times and quantities.
+    """Bound on the largest relative error of `heavy_top_motion` over all times and quantities.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def effect_of_rounding(top: HeavyTop, times: ArrayLike) -> FloatArray:
 
 
 def _difference(one: HeavyTopMotion, other: HeavyTopMotion) -> FloatArray:
-    """Largest relative difference between two motions over times and quantities, for each top."""
+    """Largest relative difference between two motions of each top, over times and quantities."""
     across, reference = (m.omega_body[..., 0] + 1j * m.omega_body[..., 1] for m in (one, other))
     # a quaternion and its negative are the same attitude
     sign = np.copysign(1.0, np.sum(one.attitude * other.attitude, axis=-1, keepdims=True))

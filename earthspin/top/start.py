@@ -94,7 +94,7 @@ class HeavyTop:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Shape of the arrays of tops; empty for one top."""
+        """Array shape of the fields (one element per top); empty for one top."""
         return np.shape(self.theta)
 
     def _check(self) -> None:

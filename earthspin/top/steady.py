@@ -19,7 +19,7 @@ _ROUNDING = 8 * float(np.finfo(float).eps)
 
 
 class SteadyPrecession(NamedTuple):
-    """The two rates at which a top precesses without nutation, rad/s.
+    """Slow and fast rate at which a top precesses without nutation, rad/s.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class SleepingTop(NamedTuple):
 
 
 def minimum_spin(top: HeavyTop) -> FloatArray:
-    """Smallest |omega3| that allows steady precession at the top's inclination, rad/s.
+    """Smallest |omega3| that allows steady precession of a top at its inclination, rad/s.
 
     omega3^2 = 4 I1 m g r cos(theta)/I3^2; zero if the centre of mass is not above the pivot.
     """

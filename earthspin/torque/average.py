@@ -255,7 +255,7 @@ def convergence_curve(
 
 
 def precessing_torque(torque: FloatArray, axis: FloatArray, normal: FloatArray) -> FloatArray:
-    """Torque component that causes precession in longitude, divided by sin(obliquity).
+    """Torque component that causes precession in longitude, divided by sine of obliquity.
 
     It is N . (k x n)/sin2(obliquity) for the torque N.
 

@@ -66,7 +66,7 @@ def torque_estimate(
 
 
 def precession_rate(precessing: Numeric, h: Numeric, spin_rate: Numeric) -> Numeric:
-    """Rate of precession in longitude, rad/s; positive westward, as for the Earth.
+    """Rate of precession in longitude from a mean torque, rad/s; positive westward.
 
     Parameters
     ----------

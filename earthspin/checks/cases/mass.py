@@ -30,7 +30,7 @@ EPS = float(np.finfo(float).eps)
 
 @holds(bound=0.0)
 def _one_ulp() -> Distances:
-    """principal moments that differ by one unit in the last place
+    """principal moments of inertia that differ by one unit in the last place
 
     Hard because: C - A is the smallest possible difference and comes from eigenvalues
     Compared with: one unit in the last place, relative to the moment
@@ -168,7 +168,7 @@ def _hardly_converging() -> Distances:
 
 @holds(bound=5e-12)
 def _legendre() -> Distances:
-    """Legendre functions of degree 1000 at the poles
+    """values of Legendre functions of degree 1000 at the poles
 
     Hard because: the recurrence takes a thousand steps in which neighbouring terms nearly cancel
     Compared with: P_n(1) = 1 and P_n(-1) = (-1)^n

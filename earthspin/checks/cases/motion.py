@@ -306,7 +306,7 @@ def _resonant_windows() -> Distances:
 
 @holds(bound=0.03, unit="uas", slow=True)
 def _whole_kernel() -> Distances:
-    """Earth's pole over the whole span of the kernel
+    """Earth's pole over the whole span of the ephemeris kernel
 
     Hard because: 154 years take 7000 windows in segments that are joined outward from J2000
     Compared with: windows of half the length with 16 nodes
@@ -344,7 +344,7 @@ def _obliquities() -> Distances:
 
 @holds(bound=3.0, unit="uas")
 def _kernel_ends() -> Distances:
-    """Earth's pole in the first and last second of the kernel
+    """Earth's pole in the first and last second of the ephemeris kernel
 
     Hard because: windows must not extend beyond the kernel, and no very short window may remain at
         its ends

@@ -53,7 +53,7 @@ def _still_ecliptic() -> Distances:
 
 @holds(bound=2000.0, unit="uas")
 def _angles_of_eleven_centuries() -> Distances:
-    """precession angles from 1550 to 2650
+    """precession angles from the year 1550 to 2650
 
     Hard because: five angles from vectors are compared with five polynomials far from their epoch
     Compared with: p_A and eps_A of IAU 2006 (ERFA p06e), computed from its psi_A, omega_A and

@@ -114,7 +114,7 @@ def _beside_the_pole() -> Distances:
 
 @holds(bound=5e-15)
 def _both_ways() -> Distances:
-    """Mars as seen from the Earth, with barycentre codes
+    """position of Mars relative to the Earth, by kernel segments of barycentres
 
     Hard because: common segments of the two paths must cancel instead of being subtracted
     Compared with: the Earth as seen from Mars, relative to the distance

@@ -1,4 +1,4 @@
-"""Compare methods for the period of the free wobble by error and run time.
+"""Compare error and run time of methods for the period of the free wobble.
 
 Methods: fits to polar motion, and the peak of a spectrum.
 """
@@ -61,7 +61,7 @@ def ladder(quick: bool) -> Ladder:
 
 
 def best_scatter(years: float) -> float:
-    """Smallest scatter of a wobble period that is estimated from some years of data, d.
+    """Theoretical lower limit of the scatter of a wobble period from some years of data, d.
 
     It is T sqrt(T/(4 pi Q L)) for the period T, the quality factor Q and the length L.
     """

@@ -1,4 +1,4 @@
-"""Compare methods for the compliances of a layered Earth by error and run time.
+"""Compare error and run time of methods for the compliances of a layered Earth.
 
 Methods: collocation and step-by-step integrators.
 
@@ -85,7 +85,7 @@ def ladder(quick: bool) -> Ladder:
 
 
 def scaled_error(true: DoubleDouble, result: Array) -> float:
-    """Largest error of the elements of the compliance matrix, each scaled by its diagonal.
+    """Largest error of an element of the compliance matrix, scaled by its diagonal elements.
 
     The error of element (i, j) is divided by the geometric mean of elements (i, i) and (j, j).
     """
@@ -94,7 +94,7 @@ def scaled_error(true: DoubleDouble, result: Array) -> float:
 
 
 def _run(carry: Callable[..., Array], setting: float) -> Result:
-    """Compliances of PREM by one integrator, and the number of radii that it evaluated."""
+    """Compliances of PREM by one integrator, and the number of radii at which it was evaluated."""
     radii = 0
 
     def counted(
@@ -124,7 +124,7 @@ def _by_scipy(name: str, matrix: Matrix, start: float, stop: float, y: Array, rt
 
 
 def _runge_kutta(matrix: Matrix, start: float, stop: float, y: Array, step: float) -> Array:
-    """Integrate by the classical Runge-Kutta method in steps proportional to the radius."""
+    """Integrate along the radius by the classical Runge-Kutta method, with growing steps."""
     edges = _edges(start, stop, step)
     for r, after in pairwise(edges):
         h = after - r

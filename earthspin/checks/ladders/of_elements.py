@@ -1,4 +1,4 @@
-r"""Compare methods for positions on orbits from orbital elements by error and run time.
+r"""Compare error and run time of methods that compute positions from orbital elements.
 
 Methods: the package, textbook methods and Skyfield.
 

@@ -1,4 +1,4 @@
-"""Compare methods for the uncertainty of the precession period due to H by error and run time.
+"""Compare error and run time of methods for the precession period's uncertainty due to H.
 
 Methods: ensembles and linear errors.
 

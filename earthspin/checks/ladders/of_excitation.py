@@ -1,4 +1,4 @@
-r"""Compare methods for polar motion and its excitation by error and run time.
+r"""Compare error and run time of methods for polar motion and its excitation.
 
 Methods: the exact schemes and approximate ones.
 
@@ -119,7 +119,7 @@ def weighting_error(step: float, *, resonant: bool) -> float:
 def _method(
     name: str, task: str, steps: tuple[float, ...], setting: Callable[[float], Setting]
 ) -> Method:
-    """Make the `Method` of one numerical scheme, with a setting for each time step.
+    """Make the `Method` of one numerical scheme, with a `Setting` for each time step.
 
     Only exact schemes have a finite error bound.
     """
@@ -129,7 +129,7 @@ def _method(
 
 
 def _excitation_setting(scheme: str, step: float, span: float) -> Setting:
-    """Make a setting whose run computes excitation from polar motion at one time step.
+    """Make the `Setting` that computes excitation from polar motion with one time step.
 
     It returns the computed excitation, and the exact mean excitation over the same intervals.
     """
@@ -140,7 +140,7 @@ def _excitation_setting(scheme: str, step: float, span: float) -> Setting:
 
 
 def _polar_motion_setting(scheme: str, step: float, span: float) -> Setting:
-    """Make a setting whose run computes polar motion from excitation at one time step.
+    """Make the `Setting` that computes polar motion from excitation with one time step.
 
     It returns the computed polar motion, and the exact polar motion at the same times.
     """

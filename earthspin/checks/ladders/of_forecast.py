@@ -1,4 +1,4 @@
-"""Compare forecasts of polar motion by this package and by common methods: error and run time."""
+"""Compare error and run time of forecasts of polar motion, by this package and common methods."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Compare methods for a free triaxial rotor by error and run time.
+"""Compare error and run time of methods for a free triaxial rotor.
 
 Methods: Jacobi's closed form and numerical integrators.
 """

@@ -1,4 +1,4 @@
-"""Compare methods for the Earth's spin axis over a million years by error and run time."""
+"""Compare error and run time of methods for the Earth's spin axis over a million years."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Compare methods for the mean torque over an orbit given by elements: error and run time.
+"""Compare error and run time of methods for the mean torque over an orbit given by elements.
 
 Methods: closed form, windowed averages and sums.
 

@@ -1,4 +1,4 @@
-"""Compare methods for the figure axis under the torques of Sun and Moon by error and run time.
+"""Compare error and run time of methods for the figure axis under torques of Sun and Moon.
 
 Methods: Picard iteration and step-by-step integrators.
 """

@@ -1,4 +1,4 @@
-"""Compare methods for the mean precession rate from torques by error and run time.
+"""Compare error and run time of methods for the mean precession rate.
 
 Methods: tapers, window lengths, steps, plain means.
 """
@@ -68,7 +68,7 @@ def ladder(quick: bool) -> Ladder:
 
 
 def _setting(words: str, taper: str, length: float, step: int, epochs: FloatArray) -> Setting:
-    """Make a setting: run time from an average about one epoch, error from many epochs."""
+    """Make a `Setting` that is timed at one epoch, and whose error is taken at many epochs."""
 
     def mean_about(
         epoch: float, torque: Callable[[FloatArray], FloatArray] = _daily_torque

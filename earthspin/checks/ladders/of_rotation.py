@@ -1,4 +1,4 @@
-"""Compare methods for the attitude of a tumbling moon by error and run time.
+"""Compare error and run time of methods for the attitude of a tumbling moon.
 
 Methods: Gauss windows and step-by-step integrators.
 """
@@ -42,7 +42,7 @@ REFERENCE_ERROR = 5e-17
 
 
 def times() -> FloatArray:
-    """Evenly spaced times of the reference solution, in units of the inverse mean motion."""
+    """Evenly spaced times of the reference solution, multiplied by the orbital mean motion, rad."""
     return np.linspace(0.0, SPAN, TIMES + 1)[1:]
 
 

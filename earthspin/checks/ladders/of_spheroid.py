@@ -1,4 +1,4 @@
-"""Compare methods for attraction and torque of a homogeneous spheroid by error and run time.
+"""Compare error and run time of methods for attraction and torque of a homogeneous spheroid.
 
 Methods: exact form, series and sums.
 """
@@ -99,12 +99,12 @@ def _exact(r: FloatArray) -> tuple[Any, Any]:
 
 
 def _torque(push: Any, r: Any) -> Any:
-    """Torque on the spheroid: a scalar `push` times the cross product of r and the z axis."""
+    """Torque on the spheroid: `push` times the cross product of position r and the z axis."""
     return np.stack([push * r[:, 1], -push * r[:, 0], np.zeros_like(push)], axis=-1)
 
 
 def _series(n_max: int, r: FloatArray) -> tuple[Any, Any]:
-    """Attraction and torque by the zonal series to degree `n_max`."""
+    """Attraction and torque of a spheroid by its series of zonal harmonics to degree `n_max`."""
     zonals = spheroid_zonals(FLATTENING, n_max)
     distance = np.linalg.norm(r, axis=1)
     u = r[:, 2] / distance
@@ -121,7 +121,7 @@ def _series(n_max: int, r: FloatArray) -> tuple[Any, Any]:
 
 
 def _maccullagh(r: FloatArray) -> tuple[Any, Any]:
-    """Attraction and torque from the monopole and the moment difference C - A (I.9.31, I.9.32)."""
+    """Attraction and torque by MacCullagh's formula, with C - A only (I.9.31, I.9.32)."""
     bulge = (1 - (1 - FLATTENING) ** 2) / 5
     square = np.sum(r * r, axis=1)
     distance = np.sqrt(square)
@@ -132,7 +132,7 @@ def _maccullagh(r: FloatArray) -> tuple[Any, Any]:
 
 
 def _arctangents(r: Any) -> tuple[Any, Any]:
-    """Attraction and torque by the textbook formula with arctangents (MacMillan 1930)."""
+    """Attraction and torque of a spheroid by the formula with arctangents (MacMillan 1930)."""
     one = r.dtype.type(1)
     c = one - r.dtype.type(FLATTENING)
     e2 = one - c * c
@@ -148,7 +148,7 @@ def _arctangents(r: Any) -> tuple[Any, Any]:
 
 
 def _sum(cells: int, r: FloatArray) -> tuple[Any, Any]:
-    """Attraction and torque by numerical integration over Gauss points of the body's volume."""
+    """Attraction and torque by numerical integration over the volume of the spheroid."""
     node, weight = np.polynomial.legendre.leggauss(cells)
     size, size_weight = (1 + node) / 2, weight / 2
     longitude = 2 * np.pi * (np.arange(2 * cells) + 0.5) / (2 * cells)

@@ -1,4 +1,4 @@
-"""Compare the closed form of a heavy top with integrators by error and run time."""
+"""Compare error and run time of the closed form of a heavy top and of integrators."""
 
 from __future__ import annotations
 

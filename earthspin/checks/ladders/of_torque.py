@@ -1,4 +1,4 @@
-"""Compare methods for directions to Sun and Moon at the true equator by error and run time.
+"""Compare error and run time of methods for directions to Sun and Moon at the true equator.
 
 Nutation is interpolated, exact, or neglected.
 """
@@ -157,7 +157,7 @@ def _about(axis: int, angle: LongArray) -> LongArray:
 
 
 def _directions(matrix: FloatArray, days: FloatArray) -> FloatArray:
-    """Unit vectors to Sun and Moon in the frame of one matrix per day, shape (2, n, 3)."""
+    """Unit vectors to Sun and Moon, rotated by one matrix per day, shape (2, n, 3)."""
     result = positions(days)
     vectors = np.stack([rotate(matrix, result[name]) for name in CODES])
     return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))

@@ -111,7 +111,7 @@ def _compiled(h: float, spin_rate: float, tolerance: float) -> Any:
 
 
 def _polynomial(hy: Any, x: Any, first: int) -> Any:
-    """Symbolic polynomial in x with heyoka parameters, from index `first`, as coefficients."""
+    """Symbolic polynomial in x, whose coefficients are heyoka parameters from index `first` on."""
     value = hy.par[first + DEGREE]
     for n in range(DEGREE - 1, -1, -1):
         value = value * x + hy.par[first + n]

@@ -32,7 +32,7 @@ def attitude_motion(
     *,
     rtol: float = 1e-13,
 ) -> tuple[FloatArray, FloatArray]:
-    """Integrate attitude and angular momentum with scipy's DOP853.
+    """Integrate attitude and angular momentum of a rigid body with SciPy's DOP853.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def attitude_motion(
 
 
 def attitude_about(axis: FloatArray, angle: float) -> FloatArray:
-    """Attitude quaternion, scalar first, from the body's third axis and the rotation about it.
+    """Attitude quaternion, scalar first, from the third axis and the rotation angle about it.
 
     Parameters
     ----------

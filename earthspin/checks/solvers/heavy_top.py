@@ -16,7 +16,7 @@ from earthspin.top.start import HeavyTop
 
 
 class IntegratedMotion(NamedTuple):
-    """Numerically integrated motion of one top.
+    """Numerically integrated motion of one heavy top: attitude and angular velocity.
 
     Attributes
     ----------

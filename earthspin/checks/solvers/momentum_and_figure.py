@@ -30,7 +30,7 @@ def axisymmetric_motion(
     *,
     rtol: float = 1e-13,
 ) -> tuple[FloatArray, FloatArray]:
-    """Integrate angular momentum and figure axis with scipy's DOP853.
+    """Integrate angular momentum and figure axis of an axisymmetric body with SciPy's DOP853.
 
     Parameters
     ----------
