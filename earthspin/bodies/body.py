@@ -377,6 +377,8 @@ class Body(FromMass):
     def moments(self) -> Any:
         """Principal moments of inertia A <= B <= C, kg m2, with C about the spin axis.
 
+        The result is a NumPy array of shape (3,).
+
         Raises
         ------
         BodyError

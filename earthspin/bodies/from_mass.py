@@ -30,7 +30,7 @@ class FromMass:
         radius: Any = None,
         **fields: Any,
     ) -> Self:
-        """Make a body of point masses that spins about its axis of greatest inertia.
+        """Make a body from point masses; it spins about its axis of greatest inertia.
 
         Parameters
         ----------
@@ -71,7 +71,7 @@ class FromMass:
         radius: Any = None,
         **fields: Any,
     ) -> Self:
-        """Make a body of a density that is constant in each cell of a grid; exact for such cells.
+        """Make a body from a density that is constant in each cell of a grid; exact for such cells.
 
         Parameters
         ----------
@@ -108,7 +108,7 @@ class FromMass:
         radius: Any = None,
         **fields: Any,
     ) -> Self:
-        """Make a homogeneous body of a closed mesh of triangles; exact for flat faces.
+        """Make a homogeneous body from a closed mesh of triangles; exact for flat faces.
 
         Parameters
         ----------
@@ -146,7 +146,7 @@ class FromMass:
     def from_layers(
         cls, layers: Any, *, spin_period: Any, name: str = "layers", **fields: Any
     ) -> Self:
-        """Make a body of layers in hydrostatic equilibrium, to first order in its flattening.
+        """Make a body from layers in hydrostatic equilibrium, to first order in its flattening.
 
         The layers are also stored as the body's `interior`.
 

@@ -273,7 +273,7 @@ def measure(ladder: Ladder, advance: Advance = lambda amount: None) -> list[list
 
 
 def pareto_front(error: Any, run_time: Any) -> BoolArray:
-    """Return True for each point that no other point beats in error and run time.
+    """Return True for each point on the Pareto front: no other point surpasses it.
 
     Another point surpasses it if it is better in error or run time and not worse in the other.
 

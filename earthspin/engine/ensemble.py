@@ -123,23 +123,23 @@ class Ensemble:
 
     @cached_property
     def numbers(self) -> dict[str, Input]:
-        """Inputs of the ensemble whose values are numbers, not names."""
+        """Inputs of the ensemble that are numbers; other inputs are names, such as files."""
         return {name: entry for name, entry in self.inputs.items() if not entry.named}
 
     @cached_property
     def variants(self) -> Variants:
-        """Copies of the question, one for each combination of names (files) that members use."""
+        """Copies of the question, one for each combination of inputs by name (such as files)."""
         keys = tuple(entry.key for entry in self.inputs.values() if entry.named)
         return Variants(self.question, keys, {entry.key for entry in self.numbers.values()})
 
     def names(self, index: int) -> Names:
-        """Values of those inputs of one member that are names, such as files."""
+        """Inputs of one member that are given by name, such as files, as a tuple of names."""
         inputs = (name for name, entry in self.inputs.items() if entry.named)
         return tuple(str(self.values[name][index]) for name in inputs)
 
     @cached_property
     def groups(self) -> dict[Names, IntArray]:
-        """Indices of the members that share the same input names, by tuple of these names."""
+        """Indices of members with equal inputs by name (such as files), by the tuple of names."""
         if len(self.numbers) == len(self.inputs):
             return {(): np.arange(len(self.which))}
         indices: dict[Names, list[int]] = {}
@@ -149,7 +149,7 @@ class Ensemble:
 
     @cached_property
     def nominal(self) -> xr.Dataset:
-        """Answer with the question's own numbers, and with the first member's input names."""
+        """Answer with the question's own numbers and with the first member's inputs by name."""
         return self.variants.nominal(next(iter(self.groups)))
 
     @cached_property
@@ -264,7 +264,7 @@ class Ensemble:
         return block.assign_coords(self._labels(slice(first, last), block))
 
     def _together(self, first: int, last: int) -> Iterator[tuple[IntArray, xr.Dataset]]:
-        """Compute members `first` to `last` - 1, in groups that have the same input names.
+        """Compute members `first` to `last` - 1, in groups with equal inputs by name.
 
         Yield their indices and answers.
 
@@ -297,7 +297,7 @@ class Ensemble:
         return _along_all_members(self._answer(self.names(index), values, which), 1)
 
     def _answer(self, names: Names, values: Mapping[str, Any], which: str) -> xr.Dataset:
-        """Compute the answer for one member, or for several members with the same names."""
+        """Compute the answer for one member, or for several members with equal inputs by name."""
         try:
             rerun = self.variants[names]
             answer = rerun(with_values(rerun.plan.question, self.numbers, values)).numbers()

@@ -67,7 +67,7 @@ class Distribution:
         return cls(shape, tuple(map(_scene_value, numbers)))
 
     def checked(self, kind: Any, where: Where) -> Distribution:
-        """Return the distribution in SI units; raise an error if it does not suit the input."""
+        """Return the distribution in SI units; raise an error if the input cannot have it."""
         if by_name(kind):
             if self.shape not in ("choice", "grid"):
                 problem = f"{self.shape} applies to numbers; for names give choice or grid"

@@ -1,4 +1,4 @@
-"""Copies (variants) of a question, one for each combination of names that ensemble members use.
+"""Variants of a question: copies that differ in inputs given by name, such as file names.
 
 Members that differ in the orbit, the kernel or a model belong to different questions. Members with
 the same names share one question; parts that do not depend on the numbers of members run once.
@@ -26,7 +26,7 @@ _WHOLE, _SOURCES = "/", "/sources"
 
 
 class Variants:
-    """Copies (variants) of a question with different names, such as files, as inputs.
+    """Variants of a question: copies that differ in inputs given by name, such as file names.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ class Variants:
         self._descriptions: dict[Names, dict[str, Mapping[str, Any]]] = {}
 
     def question(self, names: Names) -> Question:
-        """Return the copy of the question that has the given names as inputs.
+        """Return the variant of the question with the given names (such as file names) as inputs.
 
         Raises
         ------
@@ -55,7 +55,7 @@ class Variants:
         return self._question.replace(**dict(zip(self._keys, names, strict=True)))
 
     def __getitem__(self, names: Names) -> Rerun:
-        """Return the stored `Rerun` of the copy that has the given names as inputs."""
+        """Return the stored `Rerun` of the variant that has the given names as inputs."""
         if names not in self._runs:
             self._runs[names] = Rerun(self.question(names), self._moving)
             if len(self._runs) > LARGEST_NUMBER_OF_RUNS:
@@ -64,7 +64,7 @@ class Variants:
         return self._runs[names]
 
     def nominal(self, names: Names) -> xr.Dataset:
-        """Compute the answer with the given names and with the question's own numbers."""
+        """Compute the answer of one variant with the question's own numbers."""
         run = self[names]()
         answer = run.answer()
         self._descriptions[names] = {
@@ -75,7 +75,7 @@ class Variants:
         return answer
 
     def _attributes(self, groups: Iterable[Names], name: str) -> dict[Names, Mapping[str, Any]]:
-        """Attributes of one variable, or of the whole answer, by the names in each variant."""
+        """Attributes of one variable, or of the whole answer, in each variant of the question."""
         for names in groups:
             if names not in self._descriptions:
                 self.nominal(names)
@@ -107,7 +107,7 @@ class Variants:
 
 
 def _joined(attributes: Mapping[Names, Mapping[str, Any]]) -> dict[str, Any]:
-    """Combine attributes of variants: keep equal values, and list texts that differ.
+    """Combine the attributes of all variants: keep equal values, and list texts that differ.
 
     Other differing attributes are dropped.
     """

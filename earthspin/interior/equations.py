@@ -83,6 +83,8 @@ def _horner(coefficients: tuple[float, ...], x: Any) -> Any:
 def solid(profile: Profile, i: int, strain: Array) -> Callable[[Array], Array]:
     """Function of r that returns the matrix M of the equations dy/dr = M y in solid layer i.
 
+    The function takes an array of radii and returns an array of shape (strain, r, 6, 6).
+
     The equations are those of degree two.
     """
 
@@ -110,6 +112,8 @@ def solid(profile: Profile, i: int, strain: Array) -> Callable[[Array], Array]:
 
 def liquid(profile: Profile, i: int) -> Callable[[Array], Array]:
     """Function of r that returns the matrix M of the equations dy/dr = M y in liquid layer i.
+
+    The function takes an array of radii and returns an array of shape (r, 2, 2).
 
     The unknowns are y5 and y7 (Saito 1974, eq. 17).
     """

@@ -44,7 +44,7 @@ class Carry(Protocol):
         *,
         together: bool = False,
     ) -> Array:
-        """Integrate the solutions y (columns of an array) from radius `start` to `stop`.
+        """Integrate solutions y (columns of an array) from radius `start` to radius `stop`.
 
         `together` means that only linear combinations of the columns are needed.
         """
@@ -191,7 +191,7 @@ def softening(layers: LayeredBody) -> tuple[np.polynomial.Chebyshev, ...]:
 
 
 def _solved(profile: Profile, body: LayeredBody, strain: Array, carry: Carry) -> tuple[Array, ...]:
-    """Solve the equations of all layers with their boundary conditions, for all potentials."""
+    """Solve the deformation equations with their boundary conditions, for all potentials."""
     zero = np.zeros((strain.size, 3, 4))
     if not body.core_radius:
         y = _across(profile, profile.first, solid_centre(profile, strain), strain, carry)
@@ -232,12 +232,12 @@ def _solved(profile: Profile, body: LayeredBody, strain: Array, carry: Carry) ->
 
 
 def _inside(state: Array, r: float) -> Array:
-    """Contribution of displaced masses inside the radius `r` to the Love number k."""
+    """Contribution of mass displacements inside the radius `r` to the Love number k."""
     return np.asarray(r**3 * (state[:, 4] - r * state[:, 5] / 5))
 
 
 def _across(profile: Profile, first: int, y: Array, strain: Array, carry: Carry) -> Array:
-    """Integrate solutions through solid layers, from layer `first` to a liquid or the surface."""
+    """Integrate the deformation equations through solid layers, up to a liquid or the surface."""
     r = START if first == profile.first else profile.tops[first - 1]
     for i in range(first, len(profile.tops)):
         if not profile.layers[i].vs:
@@ -252,7 +252,7 @@ def _across(profile: Profile, first: int, y: Array, strain: Array, carry: Carry)
 def _through_inner_core(
     profile: Profile, body: LayeredBody, strain: Array, carry: Carry
 ) -> tuple[Array, Array | None, list[Array]]:
-    """Integrate solutions from the centre through the inner core to the base of the liquid core.
+    """Integrate the deformation equations through the inner core, from the centre outwards.
 
     Return (y5, y7) in the liquid, the state at the top of the inner core, and conditions there.
     """
@@ -273,7 +273,7 @@ def _through_inner_core(
 
 
 def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
-    """Return y5 and y6 just above a boundary where the applied potential changes by `step`.
+    """Return potential y5 and y6 just above a boundary where the applied potential has a step.
 
     There the applied potential changes by `step`, because it acts in one region only.
     """
@@ -297,7 +297,7 @@ def _through_liquid(
 
 
 def _onto_mantle(profile: Profile, body: LayeredBody, pair: Array) -> Array:
-    """Convert the solutions from the top of the liquid core to the bottom of the mantle.
+    """Initial solutions at the base of the mantle, from those at the top of the liquid core.
 
     Two columns are unit displacements of the mantle, which are free because the liquid may slip.
     """

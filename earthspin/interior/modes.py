@@ -199,6 +199,8 @@ def transfer(parts: Parts, sigma: Array, rigid_e: float) -> Array:
 def free_modes(parts: Parts) -> dict[str, complex]:
     """Complex body-fixed frequencies of the free modes, cycles per rotation, by name.
 
+    The imaginary part is positive if the mode decays.
+
     A mode whose region is absent is not included.
     """
     p, q, _, _ = system(parts)

@@ -192,7 +192,7 @@ def moment_difference_first_order(
 def moment_difference_from_density(
     density: ArrayLike, mean_radius: ArrayLike, flattening: ArrayLike
 ) -> FloatArray:
-    """C - A of a homogeneous spheroid from its density: (8 pi/15) f rho a5 (I.9.47), kg m2.
+    """C - A of a homogeneous spheroid to first order in f: (8 pi/15) f rho a5 (I.9.47), kg m2.
 
     Parameters
     ----------

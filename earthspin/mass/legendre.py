@@ -86,7 +86,7 @@ def legendre_coefficients(
     breaks: Sequence[float] = (),
     accuracy: float = 1e-12,
 ) -> FloatArray:
-    """Coefficients of a function in Legendre functions of order m (I.9.3; m = 0: I.9.4).
+    """Coefficients of the expansion of a function in Legendre functions of order m (I.9.3, I.9.4).
 
     Parameters
     ----------

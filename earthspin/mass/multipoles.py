@@ -128,7 +128,10 @@ class Multipoles:
 
     @property
     def zonal(self) -> FloatArray:
-        """Zonal moments Z_n (multipole moments of order 0) for n = 0 to n_max, kg."""
+        """Zonal moments Z_n (multipole moments of order 0) for n = 0 to n_max, kg.
+
+        They are defined as in `earthspin.mass.zonal`.
+        """
         return np.real(self.moments[:, 0])
 
     def moment(self, n: int, m: int) -> complex:
@@ -270,7 +273,7 @@ def _sources(masses: ArrayLike, positions: ArrayLike) -> tuple[FloatArray, Float
 def _near_and_far(
     position: ArrayLike, source: ArrayLike
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Return two points, the one nearer to the origin first, with larger distance and difference.
+    """Sort two points by distance from the origin; return also the larger distance and the gap.
 
     Return also the larger distance and the difference of the distances.
     """

@@ -66,6 +66,8 @@ def torque_on_masses(
 def ring_positions(count: int, radius: float, angle: float = 0.0) -> FloatArray:
     """Positions of equal masses, evenly spaced on a circle in the xy plane (I.8.1), m.
 
+    The shape is (count, 3).
+
     Parameters
     ----------
     count : int

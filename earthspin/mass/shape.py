@@ -70,7 +70,7 @@ class Shape:
     def of_masses(
         cls, masses: ArrayLike, positions: ArrayLike, radius: float | None = None
     ) -> Self:
-        """Compute mass, centre of mass and figure of a body of point masses.
+        """Compute mass, centre of mass and figure of a body that consists of point masses.
 
         Parameters
         ----------
@@ -101,7 +101,7 @@ class Shape:
         z: ArrayLike,
         radius: float | None = None,
     ) -> Self:
-        """Compute mass, centre of mass and figure of a body of uniform grid cells.
+        """Compute mass, centre of mass and figure of a body from grid cells of uniform density.
 
         The result is exact for a density that is constant in each cell.
 

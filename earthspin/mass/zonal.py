@@ -135,7 +135,9 @@ def spheroid_zonals(flattening: float, n_max: int) -> FloatArray:
 def zonal_potential(
     integrals: ArrayLike, radius: float, distance: ArrayLike, colatitude: ArrayLike
 ) -> FloatArray:
-    """Gravitational potential of a body of revolution by its zonal series (I.9.22), m2 s-2.
+    """Gravitational potential of a body of revolution by its zonal series, m2 s-2.
+
+    The series is that of (I.9.22) and (I.9.23).
 
     Parameters
     ----------

@@ -214,6 +214,8 @@ def window_count(epoch: float, span: tuple[float, float], window: float = WINDOW
 def error_of_input(path: AxisPath, figure: FloatArray, u_h: float) -> FloatArray:
     """95 % half-width of the figure axis direction due to the uncertainty of H, rad.
 
+    The shape is (t,).
+
     The displacement of the axis since the epoch is proportional to H.
 
     Parameters
@@ -231,6 +233,8 @@ def error_of_sky(
     path: AxisPath, figure: FloatArray, drift: float, speed: float, begin: float
 ) -> FloatArray:
     """95 % half-width of the figure axis direction due to errors of perturber positions, rad.
+
+    The shape is (t,).
 
     It is proportional to the displacement of the axis, plus a constant for short periods.
 

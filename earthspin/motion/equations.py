@@ -201,7 +201,10 @@ class Equations:
         return np.concatenate([np.tile(state[:3], self._lanes), p])
 
     def rates(self, unknowns: FloatArray) -> FloatArray:
-        """Time derivatives of the angular momentum and quaternion of all bodies, s-1."""
+        """Time derivatives of the angular momentum and quaternion of all bodies, s-1.
+
+        The shape is (7, lanes * n).
+        """
         momentum, q = unknowns[:3], self.attitude(unknowns)
         matrix = rotations.matrices(q)
         in_body = _into(matrix, momentum) if self._in_space else momentum

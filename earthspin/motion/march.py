@@ -178,7 +178,10 @@ class Solver:
     evaluations: int = field(default=0)
 
     def begin_with(self, spin: FloatArray) -> None:
-        """Set the first and the shortest window length from the initial angular velocity."""
+        """Set the first and the shortest window length from the initial angular velocity.
+
+        The angular velocity is in rad/s and has the shape (3, lanes).
+        """
         fastest = max(float(np.max(np.sqrt(np.sum(spin**2, axis=0)))), abs(self.body.unit))
         self.window, self.shortest = FIRST_TURN / fastest, SHORTEST_TURN / fastest
 

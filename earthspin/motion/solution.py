@@ -233,14 +233,14 @@ class Motion:
         )
 
     def _errors_at(self, times: FloatArray) -> FloatArray:
-        """Largest error of the rotation between the start and each given time."""
+        """Largest error of the rotation from the initial time up to each given time."""
         assert self._now is not None
         edges = self._now[0].edges
         before = self._errors_until(edges)[..., np.clip(np.searchsorted(edges, times) - 1, 0, None)]
         return np.maximum(before, self._errors(times))
 
     def _errors_until(self, edges: FloatArray) -> FloatArray:
-        """Largest error of the rotation between the start and each edge of the windows."""
+        """Largest error of the rotation from the initial time up to each edge of the windows."""
         return np.maximum(np.maximum.accumulate(self._errors(edges), axis=2), self._worst)
 
     def _errors(self, times: FloatArray) -> FloatArray:

@@ -26,7 +26,9 @@ Numeric = float | FloatArray
 
 
 class Seasons(NamedTuple):
-    """Obliquity, eccentricity, and e sin and e cos of the perihelion longitude, shape (n,) each.
+    """Obliquity, eccentricity e, climatic precession e sin(w), and coprecession e cos(w).
+
+    The angle w is the longitude of perihelion. Each array has the shape (n,).
 
     Attributes
     ----------
@@ -63,7 +65,7 @@ def seasons(axis: FloatArray, normal: FloatArray, eccentricity: FloatArray) -> S
 
 
 def equator_and_equinox(axis: FloatArray, normal: FloatArray) -> FloatArray:
-    """Rotation matrices from the GCRS to mean equator and equinox, shape (..., n, 3, 3).
+    """Rotation matrices from GCRS to mean equator and equinox of date, shape (..., n, 3, 3).
 
     Parameters
     ----------

@@ -67,7 +67,7 @@ class Turn(NamedTuple):
 
 
 class Slope(NamedTuple):
-    """Rates of longitude and height of a spin axis at the nodes, with their derivatives.
+    """Rates of a spin axis's longitude and of its component along N at the nodes, with derivatives.
 
     Their derivatives by longitude and height are included.
 
@@ -90,7 +90,9 @@ class Slope(NamedTuple):
 
 
 def slope(on: Turn, phi: FloatArray, z: FloatArray) -> Slope:
-    """Compute rates of longitude (rad/s) and height (1/s) of a spin axis, with derivatives.
+    """Compute the rates of a spin axis's longitude and component along N, with their derivatives.
+
+    The rates are in rad/s and in 1/s.
 
     The height is the component along the reference axis.
     """
@@ -122,7 +124,7 @@ def slope(on: Turn, phi: FloatArray, z: FloatArray) -> Slope:
 def moved(
     windows: Windows, rates: FloatArray, state: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Integrate rates of the spin axis's longitude and height over successive time windows.
+    """Integrate the rates of a spin axis's longitude and component along N over time windows.
 
     Return the integrals from window starts to nodes, the states at window starts, and the final
     state. The shapes are (2, ..., w, n), (2, ..., w) and (2, ...).
@@ -135,7 +137,7 @@ def moved(
 def step(
     windows: Windows, on: Turn, values: FloatArray, state: FloatArray, left: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Make one Newton step for the spin axis's longitude and height; return also its size.
+    """Make one Newton step for a spin axis's longitude and component along N; return also its size.
 
     With S the integral from the start of a window to its nodes, the values y of a window that
     starts at b solve y = b + S f(y). Linearised about the current values, the change is d = c + S J
@@ -208,7 +210,7 @@ def _linear(
 
 
 def _shifts(ends: FloatArray) -> FloatArray:
-    """Corrections of the spin axis's longitude and height at the window starts, (2, ..., w).
+    """Corrections of a spin axis's longitude and component along N at the window starts.
 
     Parameters
     ----------

@@ -282,7 +282,10 @@ def _followed_precession(
 
 
 def _turns(axis: FloatArray, normal: FloatArray, fixed: FloatArray) -> FloatArray:
-    """Precession angles p_A and psi_A at given times, without whole turns, rad."""
+    """Precession angles p_A and psi_A at given times, without whole turns, rad.
+
+    The shape is (2, ..., n).
+    """
     pole, ecliptic = (np.stack([dot(row, v) for row in fixed], axis=-1) for v in (axis, normal))
     psi = np.arctan2(pole[..., 0], pole[..., 1])
     return np.stack([general_precession(pole, ecliptic), psi])

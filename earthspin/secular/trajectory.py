@@ -242,7 +242,7 @@ class _BlockSolver:
         return pull(self.strength, (normal, eccentricity, turning), times)
 
     def _guess(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
-        """First guess of the spin axis's longitude and height at all nodes of a block.
+        """First guess of a spin axis at all nodes: longitude, and component along the axis N.
 
         It is a neighbouring trajectory shifted to the initial state, or uniform precession.
         """
@@ -254,7 +254,7 @@ class _BlockSolver:
         return values[..., :-1].reshape(*state.shape, *windows.times.shape)
 
     def _at_one_height(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
-        """First guess of the spin axis's motion: uniform precession at constant height.
+        """First guess of the spin axis's motion: uniform precession about the reference axis.
 
         The height, the component along that axis, is constant: that of the start, or the mean of
         the previous block.

@@ -103,7 +103,7 @@ def mean_precession(nutation: Nutation) -> FloatArray:
 
 
 def _windings(nutation: Nutation, halves: FloatArray) -> Turned:
-    """Quarter turns of phi and psi up to a turning point, from the arctangents in them.
+    """Whole quarter turns that arctangents add to phi and psi up to a turning point.
 
     They are counted from the arctangents.
 
@@ -117,12 +117,12 @@ def _windings(nutation: Nutation, halves: FloatArray) -> Turned:
 
 
 def _lower_winding(nutation: Nutation) -> FloatArray:
-    """Quarter turns (-1, 0 or 1) of the arctangent in (phi + psi)/2 per half nutation period."""
+    """Quarter turns (-1, 0 or 1) that an arctangent adds to (phi + psi)/2 per half nutation."""
     return np.where(_has_lower_arc(nutation), np.sign(nutation.start.b_plus_a), 0.0)
 
 
 def _upper_winding(nutation: Nutation) -> FloatArray:
-    """Quarter turns (-1, 0 or 1) of the arctangent in (phi - psi)/2 per half nutation period."""
+    """Quarter turns (-1, 0 or 1) that an arctangent adds to (phi - psi)/2 per half nutation."""
     return np.where(_has_upper_arc(nutation), np.sign(nutation.start.b_minus_a), 0.0)
 
 

@@ -93,6 +93,8 @@ class AxisStart(NamedTuple):
 class Gaps(NamedTuple):
     """Distances along u = cos(theta) between the poles, the cubic's roots and the start.
 
+    No distance is negative.
+
     Attributes
     ----------
     lower_pole : ndarray

@@ -52,7 +52,7 @@ def nutation_pattern(top: HeavyTop) -> NDArray[np.str_]:
 
 
 class PatternLimits(NamedTuple):
-    """Initial precession rates phi' at which waves, cusps and loops change, rad/s.
+    """Initial precession rates phi' at which the tip's pattern changes, as waves to loops, rad/s.
 
     Attributes
     ----------

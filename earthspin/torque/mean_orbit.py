@@ -65,7 +65,10 @@ def mean_tide(gm: float, a: float, e: float, square: FloatArray) -> FloatArray:
 
 
 def mean_torque(tide: FloatArray, axis: FloatArray) -> FloatArray:
-    """Torque averaged over an orbit, per unit of C - A, from the mean tidal tensor, s-2."""
+    """Torque averaged over an orbit, per unit of C - A, from the mean tidal tensor, s-2.
+
+    The shape is (3,).
+    """
     return np.asarray(3 * np.cross(tide @ axis, axis))
 
 

@@ -87,7 +87,7 @@ def period(rate: Numeric) -> Numeric:
 
 
 def period_error(rate: Numeric, rate_error: Numeric) -> Numeric:
-    """Half-width of the period of one revolution, from the half-width of the rate.
+    """Half-width of the period of one revolution, to first order, from that of the rate.
 
     It is infinite for rate zero, and NaN if the error of any other rate is unknown.
     """

@@ -145,7 +145,7 @@ def _psi(vectors: FloatArray) -> FloatArray:
 
 
 def _exponent(count: Callable[[float], int], spans: Sequence[float]) -> float:
-    """Fit the evaluation count as a power of the time span; return the exponent minus 1."""
+    """Fit the number of evaluations by a power of the time span; return the exponent minus 1."""
     counts = [count(span) for span in spans]
     return float(np.polyfit(np.log(spans), np.log(counts), 1)[0]) - 1
 

@@ -173,7 +173,7 @@ def _scipy(slope: Slope, start: FloatArray, t: FloatArray, rtol: float) -> Resul
 
 
 def _runge_kutta(slope: Slope, start: FloatArray, times: FloatArray, kyr: float) -> Result:
-    """Integrate the spin axis by the classical Runge-Kutta method in equal steps (kyr)."""
+    """Integrate the spin axis by the classical Runge-Kutta method, with equal steps in kyr."""
     each = max(round(-times[0] / (TIMES - 1) / (kyr * KYR)), 1)
     step = times[0] / (TIMES - 1) / each
     s, axes = start, [start]

@@ -75,7 +75,7 @@ def simulate(
 def red_size(
     period: float, quality_factor: float, share: float, memory: float, amplitude: float = 128.0
 ) -> float:
-    """Rms (mas) of red noise in an excitation, from its share of the power at the wobble.
+    """Rms (mas) of red noise, from its share of the excitation power at the wobble frequency.
 
     Parameters
     ----------
