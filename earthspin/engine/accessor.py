@@ -271,7 +271,7 @@ class Answer:
 
 
 def _spread(dataset: xr.Dataset) -> xr.Dataset:
-    """Convert a Dataset so that all its variables have the same dimensions, as a table needs.
+    """Give all variables of a Dataset the same dimensions, which the columns of a table need.
 
     A variable with further dimensions becomes one variable for each of their labels.
     """

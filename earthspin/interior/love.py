@@ -286,7 +286,7 @@ def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
 def _through_liquid(
     profile: Profile, body: LayeredBody, pair: Array, carry: Carry
 ) -> tuple[Array, int]:
-    """Integrate y5 and y7 through the liquid core; return also the index of the next layer."""
+    """Integrate the potential (y5, y7) through the liquid core; return also the next layer."""
     r = body.inner_core_radius / body.radius or START
     liquids = (n for n, layer in enumerate(profile.layers) if not layer.vs)
     i = max(next(liquids), profile.first)

@@ -212,7 +212,7 @@ def window_count(epoch: float, span: tuple[float, float], window: float = WINDOW
 
 
 def error_of_input(path: AxisPath, figure: FloatArray, u_h: float) -> FloatArray:
-    """95 % half-width of the figure axis direction due to the uncertainty of H, rad.
+    """95 % half-width of the figure axis's direction due to the uncertainty of H, rad.
 
     The shape is (t,).
 

@@ -92,7 +92,7 @@ class Segment:
     rounds: int
 
     def momentum_at_end(self, forward: bool) -> FloatArray:
-        """Angular momentum at the last time of this segment, in units of C Omega."""
+        """Angular momentum where the integration leaves this segment, in units of C Omega."""
         if forward:
             return np.asarray(self.momentum[:, -1].sum(axis=-1))
         return np.asarray(self.momentum[:, 0] @ signs(self.momentum.shape[-1]))

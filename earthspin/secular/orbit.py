@@ -59,7 +59,7 @@ class ModifiedOrbit:
         return self.orbit.edges
 
     def at(self, times: FloatArray) -> Shape:
-        """Changed orbit normal, eccentricity vector and rate of the normal at given times."""
+        """Changed orbit normal, eccentricity vector and rate of the normal at given times (s)."""
         return self.change(times, self.orbit.at(times))
 
 

@@ -63,7 +63,7 @@ class Tides:
 
     @classmethod
     def of_the_earth(cls, factor: Numeric, spin_rate: float, moon_motion: float) -> Tides:
-        """Present tidal rates of the Moon's motion and the Earth's spin, times a factor.
+        """Make `Tides` with the Earth's present tidal rates, multiplied by a factor.
 
         Parameters
         ----------

@@ -209,7 +209,7 @@ def _means_of_many(
     slow_swing: FloatArray,
     strength: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
-    """Mean torques and their errors, each multiplied by several factors (ensemble members)."""
+    """Mean torques and errors if each torque is multiplied by each of several factors."""
     means = [window.mean(times, values), *(w.mean(times, values) for w in neighbours(window))]
     means.append(window.mean(times[::2], values[::2]))
     factor = strength.reshape(len(strength), *(1,) * (values.ndim - 2), -1)
