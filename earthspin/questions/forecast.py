@@ -30,7 +30,13 @@ from earthspin.engine.variables import (
     words,
 )
 from earthspin.errors import SceneError, SeriesError, Where
-from earthspin.parts.pole_table import MJD, ComplexArray, TableFile, complex_pole
+from earthspin.parts.pole_table import (
+    MJD,
+    ComplexArray,
+    TableFile,
+    complex_pole,
+    labelled_series,
+)
 from earthspin.parts.reasons import no_iau_model
 from earthspin.sky.eop import (
     PoleSeries,
@@ -45,6 +51,8 @@ from earthspin.wobble.forecast import COMPONENTS, LONGEST, SKILL, FastExcitation
 from earthspin.wobble.forecast import Forecast as Predicted
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from earthspin.sky.iers_table import PoleTable
 
 #: How far a date may be from midnight, d.
@@ -52,38 +60,66 @@ _MIDNIGHT = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class GivenPole:
-    """Polar motion given as a Dataset.
+class GivenSeries:
+    """Polar motion or its excitation, given as a Dataset.
 
     Attributes
     ----------
     rows : array, shape (3, n)
-        Days from J2000.0, and x and y in mas.
+        Days from J2000.0, and x and y, or chi1 and chi2, in mas.
     """
 
     rows: FloatArray
 
 
-class ObservedPole(TableFile):
-    """Input that is a table of polar motion or a Dataset of `polar_motion`."""
+class KnownExcitation:
+    """Kind of input: the excitation of polar motion in a Dataset, as `read_excitation` returns."""
+
+    words = "a Dataset of read_excitation"
+    hint = "xr.Dataset"
+
+    def read(self, value: Any, where: Where) -> Any:
+        """Read the series from a Dataset, or restore it from the table that `write` returns."""
+        if isinstance(value, GivenSeries):
+            return value
+        if isinstance(value, dict):
+            return GivenSeries(unpack(value, where))
+        if not hasattr(value, "data_vars"):
+            raise where.error(value, f"it is {self.words}")
+        return self.series(value)
+
+    def series(self, dataset: xr.Dataset) -> GivenSeries:
+        """Convert the variables of a Dataset to a series in mas."""
+        time, chi1, chi2 = labelled_series(dataset, ("chi1", "chi2"), ("mas",))
+        return GivenSeries(np.array([time, chi1 / MAS, chi2 / MAS]))
+
+    def write(self, value: GivenSeries) -> Plain:
+        """Form stored in scenes: the rows of the series as bytes."""
+        return pack(value.rows)
+
+
+class ObservedPole(KnownExcitation, TableFile):
+    """Kind of input: a table of polar motion, or a Dataset that `polar_motion` returned."""
 
     words = '"c04", "finals", the path of a file or a Dataset of polar_motion'
     hint = "str | PathLike[str] | xr.Dataset"
 
     def read(self, value: Any, where: Where) -> Any:
         """Read polar motion from a Dataset or its stored form, or the name or path of a table."""
-        if isinstance(value, GivenPole):
-            return value
-        if hasattr(value, "data_vars"):
-            time, p = complex_pole(value)
-            return GivenPole(np.array([time, p.real, -p.imag]))
-        if isinstance(value, dict):
-            return GivenPole(unpack(value, where))
-        return super().read(value, where)
+        if isinstance(value, (GivenSeries, dict)) or hasattr(value, "data_vars"):
+            return KnownExcitation.read(self, value, where)
+        return TableFile.read(self, value, where)
+
+    def series(self, dataset: xr.Dataset) -> GivenSeries:
+        """Convert the polar motion in a Dataset to x and y in mas."""
+        time, p = complex_pole(dataset)
+        return GivenSeries(np.array([time, p.real, -p.imag]))
 
     def write(self, value: Any) -> Plain:
         """Form stored in scenes: the name or path of a table, or the rows of a Dataset as bytes."""
-        return pack(value.rows) if isinstance(value, GivenPole) else super().write(value)
+        return (
+            super().write(value) if isinstance(value, GivenSeries) else TableFile.write(self, value)
+        )
 
 
 class Forecast(
@@ -129,16 +165,23 @@ class Forecast(
     origin: Annotated[float, Epoch()] | None = key(
         None, doc="last day whose observation is used; the newest observed day if not given"
     )
-    file: Annotated[str | Path | GivenPole, ObservedPole()] = key(
+    file: Annotated[str | Path | GivenSeries, ObservedPole()] = key(
         "finals", doc="table of the IERS that astropy carries, a local file, or polar motion"
     )
-    parameters: Literal["shipped", "fitted"] = key(
-        "shipped",
-        doc="parameters of the fast excitation: shipped, or fitted before the origin",
+    parameters: Literal["shipped", "fitted"] | None = key(
+        None,
+        doc="parameters of the fast excitation: shipped, or fitted before the origin; "
+        "shipped by default, and always fitted with an excitation",
+    )
+    excitation: Annotated[GivenSeries, KnownExcitation()] | None = key(
+        None, doc="excitation by air, water and ground, observed and forecast: daily means"
     )
 
     def check(self) -> None:
-        """Require a step of whole days, and a horizon not beyond that of the measured skill."""
+        """Require whole days, a horizon of measured skill, fitted parameters with excitation."""
+        if self.excitation is not None and self.parameters == "shipped":
+            problem = "with an excitation they are fitted; leave parameters out"
+            raise SceneError("parameters", self.parameters, problem)
         if self.days > LONGEST:
             problem = f"a forecast reaches {LONGEST} d at most; take fewer days"
             raise SceneError("days", f"{self.days:g} d", problem)
@@ -175,9 +218,9 @@ class Record:
 
 
 @part(unless=no_iau_model)
-def record(file: str | Path | GivenPole, origin: float | None) -> Record:
+def record(file: str | Path | GivenSeries, origin: float | None) -> Record:
     """Read the observed polar motion up to the origin; refuse a series that is not daily."""
-    if isinstance(file, GivenPole):
+    if isinstance(file, GivenSeries):
         time, x, y = file.rows
         p: ComplexArray = (x - 1j * y).astype(complex)
         whole = Record(time, p, "polar_motion")
@@ -213,12 +256,37 @@ def _day(time: float) -> str:
 
 
 @part
-def predicted(record: Record, days: float, parameters: str) -> Predicted:
+def predicted(
+    record: Record, days: float, parameters: str | None, excitation: GivenSeries | None
+) -> Predicted:
     """Predict polar motion and the covariance of its error for each day after the origin."""
     from earthspin.wobble import forecast as model
 
-    fast = model.SHIPPED if parameters == "shipped" else model.fit(record.p)
+    if excitation is not None:
+        return model.forecast_with_excitation(*_from_common_day(record, excitation), int(days))
+    fast = model.fit(record.p) if parameters == "fitted" else model.SHIPPED
     return model.forecast(record.p, int(days), fast)
+
+
+def _from_common_day(record: Record, excitation: GivenSeries) -> tuple[ComplexArray, ComplexArray]:
+    """Return pole and excitation from the first day that both cover, each to its own end.
+
+    Raises
+    ------
+    SceneError
+        If the excitation is not a series of daily means from one day of the pole to the next.
+    """
+    middles, chi1, chi2 = excitation.rows
+    before = middles[0] - 0.5 - record.time[0]  # days without excitation
+    uneven = abs(np.diff(middles) - 1).max(initial=0.0) > _MIDNIGHT
+    if uneven or abs(before - round(before)) > _MIDNIGHT:
+        raise SceneError(
+            "excitation",
+            f"means about {datetime64(middles[:1])[0]}, {datetime64(middles[1:2])[0]} and so on",
+            "give the mean of each day; read_excitation(..., daily=True) makes it, 0h to 0h",
+        )
+    skipped = round(before)
+    return record.p[max(skipped, 0) :], (chi1 + 1j * chi2)[max(-skipped, 0) :]
 
 
 class AheadOfOrigin(Variables, along=("time",)):
@@ -254,11 +322,13 @@ def ahead(
     predicted: Predicted,
     days: float,
     step: float,
-    parameters: str,
+    parameters: str | None,
     origin: float | None,
+    excitation: GivenSeries | None,
 ) -> ForecastPole:
     """Return the forecast x and y of the pole, with half-widths and correlation of errors."""
     newest = float(record.time[-1])
+    kind = parameters or ("shipped" if excitation is None else "fitted")
     shown = _shown(days, step)
     p, covariance = predicted.pole[shown] * MAS, predicted.covariance[shown] * MAS**2
     sx, sy = np.sqrt(covariance[:, 0, 0]), np.sqrt(covariance[:, 1, 1])
@@ -267,8 +337,12 @@ def ahead(
         "origin": _day(newest if origin is None else origin),
         "newest_row": _day(newest),
         "age_of_newest_row": f"{0.0 if origin is None else origin - newest:g} d at the origin",
-        "parameters": f"{parameters}: {_words(predicted.fast)}",
+        "parameters": f"{kind}: {_words(predicted.fast)}",
     }
+    if excitation is not None:
+        source["excitation"] = (
+            f"given from {_day(excitation.rows[0, 0])} to {_day(excitation.rows[0, -1])}"
+        )
     return ForecastPole(
         time=_times(record, days, step),
         x=(p.real, NORMAL_95 * sx),
@@ -290,7 +364,14 @@ class Components(AheadOfOrigin):
     component: Labels = labels(default=list(COMPONENTS))
 
 
-@part
+def not_separated(excitation: GivenSeries | None) -> str | None:
+    """If an excitation is given, return why the components are left out; otherwise None."""
+    if excitation is None:
+        return None
+    return "the pole that a given excitation drives is not separated into components"
+
+
+@part(unless=not_separated)
 def components(record: Record, predicted: Predicted, days: float, step: float) -> Components:
     """Compute the forecast Chandler, annual and semiannual wobbles and slow pole, with errors."""
     shown = _shown(days, step)
@@ -353,11 +434,11 @@ class BulletinA(AheadOfOrigin):
     bulletin_a_y: Pair = measured("arcsec", "y predicted by Bulletin A")
 
 
-def not_in_file(file: str | Path | GivenPole, origin: float | None, days: float) -> str | None:
+def not_in_file(file: str | Path | GivenSeries, origin: float | None, days: float) -> str | None:
     """Return the reason to leave out Bulletin A, if it lacks the days of the forecast."""
     if origin is not None:
         return "Bulletin A predicts from the newest observed day; leave origin out"
-    if isinstance(file, GivenPole) or (table := read_bulletin_a(file)) is None:
+    if isinstance(file, GivenSeries) or (table := read_bulletin_a(file)) is None:
         return "the table holds no predictions of Bulletin A"
     if table.mjd.size < days:
         return f"Bulletin A predicts {table.mjd.size} d ahead; take at most as many days"
@@ -365,9 +446,11 @@ def not_in_file(file: str | Path | GivenPole, origin: float | None, days: float)
 
 
 @part(unless=not_in_file)
-def bulletin_a(file: str | Path | GivenPole, record: Record, days: float, step: float) -> BulletinA:
+def bulletin_a(
+    file: str | Path | GivenSeries, record: Record, days: float, step: float
+) -> BulletinA:
     """Read the polar motion predicted by Bulletin A, with 95 % half-widths, from the table."""
-    table = None if isinstance(file, GivenPole) else read_bulletin_a(file)
+    table = None if isinstance(file, GivenSeries) else read_bulletin_a(file)
     assert table is not None
     rows = _shown(days, step)
     return BulletinA(
@@ -397,12 +480,12 @@ def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, F
     return predict(table.mjd, table.x, table.y, table.x_error, table.y_error, mjd)
 
 
-def no_offsets(file: str | Path | GivenPole, origin: float | None, days: float) -> str | None:
+def no_offsets(file: str | Path | GivenSeries, origin: float | None, days: float) -> str | None:
     """Return the reason to leave out the celestial pole offsets, if they cannot be forecast."""
     from earthspin.nutation.offset_prediction import LONGEST as FARTHEST
     from earthspin.nutation.offset_prediction import too_short
 
-    if isinstance(file, GivenPole):
+    if isinstance(file, GivenSeries):
         return "polar motion has no celestial pole offsets; name a table"
     try:
         table = offsets_until(file, origin)
@@ -419,10 +502,10 @@ def no_offsets(file: str | Path | GivenPole, origin: float | None, days: float) 
 
 @part(unless=no_offsets)
 def pole_offsets(
-    file: str | Path | GivenPole, record: Record, days: float, step: float
+    file: str | Path | GivenSeries, record: Record, days: float, step: float
 ) -> AheadOffsets:
     """Forecast the celestial pole offsets from those observed up to the origin of the forecast."""
-    assert not isinstance(file, GivenPole)
+    assert not isinstance(file, GivenSeries)
     table = offsets_until(file, float(record.time[-1]))
     mjd = record.time[-1] + np.arange(1, int(days) + 1)[_shown(days, step)] + MJD
     value, error = (pair.T for pair in predicted_offsets(table, mjd))
@@ -433,11 +516,16 @@ def pole_offsets(
 
 
 @part
-def neglected() -> Neglected:
+def neglected(excitation: GivenSeries | None) -> Neglected:
     """Effects that the forecast neglects."""
+    momentum = (
+        "forecasts of the angular momentum of air, water and ground"
+        if excitation is None
+        else "errors of a forecast of the excitation beyond those of its values up to the origin"
+    )
     return Neglected(
-        unknown="forecasts of the angular momentum of air, water and ground; "
-        "tides of a day and of half a day, which tables of the pole leave out by convention"
+        unknown=f"{momentum}; tides of a day and of half a day, which tables of the pole leave out "
+        "by convention"
     )
 
 
@@ -469,7 +557,7 @@ def iers_table(question: Forecast) -> PoleTable:
 
     results = run_parts(plan_parts(question, ["pole_offsets"])).results
     file = question.file
-    if isinstance(file, GivenPole):
+    if isinstance(file, GivenSeries):
         raise SceneError("file", "polar motion", "name a table, which has celestial pole offsets")
     seen: Record = results["record"]
     mjd, horizon = seen.time + MJD, int(question.days)
