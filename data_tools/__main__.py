@@ -106,6 +106,13 @@ def main(words: list[str] | None = None) -> int:
             command.add_argument(
                 "--solutions", nargs="+", help="files of other solutions to compare"
             )
+        if verb == "forecast":
+            command.add_argument(
+                "--excitation",
+                nargs="+",
+                metavar="FOLDER",
+                help="score hindcasts with these angular momentum functions instead",
+            )
         if verb == "orbits":
             command.add_argument(
                 "--left-out", action="store_true", help="measure what the tables leave out instead"

@@ -295,6 +295,7 @@ def forecast(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     parameters: Literal["shipped", "fitted"] | None = ...,
+    excitation: xr.Dataset | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,

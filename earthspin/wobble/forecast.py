@@ -106,7 +106,10 @@ class FastExcitation:
 
     @property
     def free(self) -> Array:
-        """Parameters of the fast excitation, transformed to unbounded values for an optimiser."""
+        """Parameters of the fast excitation, transformed to unbounded values for an optimiser.
+
+        The white part must be greater than zero.
+        """
         logs = np.log([self.first_decay, self.second_decay, self.x, self.y])
         turns = [self.first_turn, self.second_turn, np.arctanh(self.correlation)]
         return np.array([*logs, *turns, np.log(self.white)])
