@@ -104,7 +104,7 @@ class Where:
         return SceneError(self.key, given, problem, source=self.source)
 
     def at(self, inner: str) -> Where:
-        """Return the location of an element inside the value at this location."""
+        """Return the location of an element of this value, such as `body.j2` inside `body`."""
         return Where(f"{self.key}.{inner}", self.source, self.typed)
 
 
@@ -419,7 +419,7 @@ def in_bytes(count: float) -> str:
 
 
 def no_plain_file(path: object) -> str:
-    """If a path is a folder, device or pipe, return why it cannot be read; else an empty text.
+    """Return the reason (text) why a path is not a plain file, else an empty text.
 
     It is also empty if nothing exists at the path.
 

@@ -1,4 +1,4 @@
-"""Read scenes, which are tables of inputs for a question, and run the questions."""
+"""Read and run scenes: tables of inputs for one computation (question), such as precession."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ class VersionWarning(UserWarning):
 
 
 def Scene(*, compute: str, **keys: Any) -> Question:
-    """Create the question that is described by a scene, which is a set of keys and values.
+    """Create a question (a computation with all its inputs) from keys and values of a scene.
 
     Parameters
     ----------
@@ -216,7 +216,7 @@ def _names(table: Mapping[str, Any]) -> set[str]:
 def _changed(
     table: dict[str, Any], changes: Mapping[str, Any], source: str, title: str, typed: set[str]
 ) -> Question:
-    """Build a question from the table of a scene, after new values are set for some keys."""
+    """Build a question from the table of inputs of a scene, with new values for some keys."""
     for key, value in changes.items():
         _set_key(table, str(key), value, source)
     if "compute" not in table:

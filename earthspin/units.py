@@ -367,7 +367,7 @@ class Numbers:
 
     @property
     def words(self) -> str:
-        """Text for error messages: size of the allowed array, and an example of an element."""
+        """Text for error messages: shape of the allowed array, and an example of an element."""
         size = " x ".join("n" if n is None else str(n) for n in self.shape)
         return f'{size} values like "{self.example}"' if self.unit else f"{size} numbers"
 
@@ -466,7 +466,7 @@ class Whole(_AsItIs):
         return f"a whole number, {self.low} or more"
 
     def read(self, value: object, where: Where) -> int:
-        """Check that a value is a whole number within the limits."""
+        """Return a value as an int; refuse all but whole numbers from `low` to `high`."""
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
             raise where.error(value, f"give {self.words}")
         if not self.low <= value <= self.high:
@@ -499,7 +499,7 @@ class Word(_AsItIs):
         return " or ".join(f'"{word}"' for word in self.allowed)
 
     def read(self, value: object, where: Where) -> str:
-        """Check that a value is one of the allowed words."""
+        """Return the value if it is one of the allowed words; refuse all other values."""
         if value is True:  # TOML, and a shell that takes the quotes away
             value = "true"
         if not isinstance(value, str) or value not in self.allowed:
@@ -514,7 +514,7 @@ class Text(_AsItIs):
     words, hint = "a line of text", "str"
 
     def read(self, value: object, where: Where) -> str:
-        """Check that a value is text on a single line."""
+        """Return a text unchanged; refuse all but text on a single line."""
         if not isinstance(value, str) or not is_one_line(value):
             raise where.error(value, f"it is {self.words}")
         return value
@@ -542,7 +542,7 @@ class FileName(_AsItIs):
     content: ClassVar[str] = "text"
 
     def read(self, value: object, where: Where) -> Any:
-        """Check that a value is a path or a short name; the file is not opened here."""
+        """Return a path or short name as text; refuse all else. The file is not opened here."""
         if not isinstance(value, (str, os.PathLike)) or not os.fspath(value).strip():
             raise where.error(value, f"it is {self.expected or self.words}")
         return os.fspath(value)

@@ -55,7 +55,7 @@ class Layers:
         return LayeredBody(name, layers, reference)
 
     def write(self, value: LayeredBody) -> dict[str, Any]:
-        """Convert a layered body to a table of its name, reference and layers, for scene files."""
+        """Convert a layered body to a table (name, cited source, layers) for scene files."""
         return {
             "name": value.name,
             "reference": value.reference,

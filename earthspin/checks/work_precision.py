@@ -78,7 +78,7 @@ class Setting:
 
 @dataclass(frozen=True)
 class Method:
-    """A computing method in a comparison, with all settings whose error and time are measured.
+    """A numerical method, and its settings for which error and run time are measured.
 
     Attributes
     ----------

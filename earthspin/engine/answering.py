@@ -85,7 +85,7 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
 
 
 def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
-    """Add error estimates from an ensemble of random members to the answer to a question.
+    """Add to a result the errors that follow from a random sample of its inputs.
 
     Parameters
     ----------

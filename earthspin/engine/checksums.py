@@ -97,7 +97,7 @@ def _line(file: BinaryIO, size: int) -> bytes:
 
 
 def files_in(store: Path) -> list[str]:
-    """Sorted relative paths of all files in a Zarr store, except its list of checksums."""
+    """Sorted relative paths of all files in a Zarr store, except its checksum list."""
     files = (path for path in store.rglob("*") if path.is_file() and path.name != LEDGER)
     return sorted(path.relative_to(store).as_posix() for path in files)
 
@@ -112,32 +112,32 @@ def of_files(store: Path, names: Iterable[str]) -> dict[str, str]:
 
 
 def entries(sums: Mapping[str, str]) -> bytes:
-    """Format checksums of files as text, one line for each file."""
+    """Format checksums of files as a checksum list: text with one line for each file."""
     lines = "".join(f"{digest}  {path}\n" for path, digest in sums.items())
     return lines.encode("utf-8", "surrogateescape")
 
 
 def read_entries(ledger: Path) -> dict[str, str]:
-    """Read the SHA-256 of each file from lines of checksums; later lines replace earlier ones."""
+    """Read the SHA-256 of each file from a checksum list; later lines replace earlier ones."""
     lines = ledger.read_bytes().decode("utf-8", "surrogateescape").split("\n")
     return {entry[2]: entry[1] for entry in filter(None, map(_ENTRY.fullmatch, lines))}
 
 
 def ledger_of(store: Path) -> dict[str, str] | None:
-    """Read the SHA-256 of each file of a Zarr store from its list; None if it has no list."""
+    """Read the checksum list of a Zarr store: SHA-256 by file name; None if it has no list."""
     ledger = min(store.rglob(LEDGER), default=None)
     return None if ledger is None else read_entries(ledger)
 
 
 def write_ledger(store: Path, sums: Mapping[str, str]) -> None:
-    """Write the list of checksums of a complete Zarr store into the folder of its first array."""
+    """Write the checksum list of a complete Zarr store into the folder of its first array."""
     first = min(store.rglob(".zarray"), default=None)
     if first is not None:
         first.with_name(LEDGER).write_bytes(entries(dict(sorted(sums.items()))))
 
 
 def check_file(store: Path, name: str, digest: str, ledger: Mapping[str, str]) -> None:
-    """Raise an error if a file of a Zarr store does not match its checksum in the list.
+    """Raise an error if a file of a Zarr store does not match its SHA-256 in the checksum list.
 
     Parameters
     ----------

@@ -100,7 +100,7 @@ def _checked(values: NDArray[Any], where: Where) -> NDArray[Any]:
 
 
 def _names(values: NDArray[Any], where: Where) -> NDArray[Any]:
-    """Check that each member has a name for an input; return the names as an array of text."""
+    """Return the values of one input for all ensemble members as text; refuse all but names."""
     if values.ndim != 1 or not values.size:
         raise where.error(f"shape {values.shape}", "give one name for each member")
     for index, name in enumerate(values):

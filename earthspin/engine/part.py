@@ -102,7 +102,7 @@ class Part(Generic[P, R]):
         return _parameters(self.function, None)
 
     def reason(self, keys: dict[str, Any]) -> str | None:
-        """Return the reason why this part is left out for given inputs; None if it runs."""
+        """Return the reason (text) to omit this part for given inputs, else None."""
         for condition in self.unless:
             why = condition(**_arguments(condition, keys))
             if why is not None:

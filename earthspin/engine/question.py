@@ -291,7 +291,7 @@ class Question:
         return {name for group in self.exclusive for name in group} - set(used)
 
     def keys(self) -> dict[str, Any]:
-        """Values of all keys (inputs) of this question, by name of the key."""
+        """Return a dict of the values of all inputs (keys) of this question, by input name."""
         return {name: getattr(self, name) for name in keys_of(type(self))}
 
     def published_inputs(self) -> Mapping[str, tuple[str, tuple[float, float]]]:
@@ -344,7 +344,7 @@ dataclass(frozen=True, init=False, eq=False, repr=False)(Question)
 
 
 def keys_of(question: type[Question]) -> dict[str, Key]:
-    """Keys (inputs) of a question class by name: its own keys and those of all questions."""
+    """Return a dict of all inputs (`Key`) of a question class, by input name."""
     if "key_table" not in vars(question):
         hints = get_type_hints(question, include_extras=True)
         shared = [entry.name for entry in fields(Question) if entry.name != "title"]  # type: ignore[arg-type]

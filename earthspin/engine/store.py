@@ -314,7 +314,7 @@ def verify(path: str | Path) -> Path:
 
 
 def _verify_files(store: Path) -> bool:
-    """Compare all files of a Zarr store with its list of checksums; False without a list.
+    """Compare all files of a Zarr store with its checksum list; return False without a list.
 
     Raises
     ------

@@ -76,7 +76,7 @@ class Layout:
 
 
 class Unfinished:
-    """An unfinished Zarr store that one process has locked.
+    """A partly written Zarr store, which one process has locked.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ class Unfinished:
             _append_to_ledger(self.folder / LEDGER, sums)
 
     def check_frame(self) -> None:
-        """Raise an error if files that belong to no block differ from those of `begin`.
+        """Raise an error if files outside the blocks have changed since `begin` wrote them.
 
         Raises
         ------
@@ -160,7 +160,7 @@ class Unfinished:
         return damaged
 
     def finish(self, place: Path) -> None:
-        """Complete the store: write its list of checksums, and move it to `place`."""
+        """Complete the store: write its checksum list, and move it to `place`."""
         for stray in self.store.rglob("*.partial"):  # a chunk whose writer was killed
             stray.unlink()
         sums = _frame_checksums(self.store, self.layout.along)
@@ -235,7 +235,7 @@ def _frame_checksums(store: Path, along: str) -> dict[str, str]:
 
 @contextmanager
 def locked_folder(place: Path, request: Mapping[str, str]) -> Iterator[Path | None]:
-    """Lock and yield the folder of the unfinished store for a path; None if there is none.
+    """Lock and yield the folder of a partly written Zarr store; yield None if it is missing.
 
     Parameters
     ----------
@@ -272,7 +272,7 @@ def locked_folder(place: Path, request: Mapping[str, str]) -> Iterator[Path | No
 
 
 def _refuse_another(folder: Path, request: dict[str, str]) -> None:
-    """Raise an error if an unfinished store has another question, version or layout."""
+    """Raise an error if a store was begun for another question, version or layout."""
     try:
         begun = json.loads((folder / REQUEST).read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):
@@ -291,7 +291,7 @@ def _damaged(folder: Path, what: str) -> OutputError:
 
 
 def begin(place: Path, request: Mapping[str, str], layout: Layout, first: xr.Dataset) -> None:
-    """Create an unfinished store, and write the first block into it.
+    """Create a Zarr store of full length, in which only the first block is written.
 
     Parameters
     ----------

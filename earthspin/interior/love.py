@@ -273,9 +273,10 @@ def _through_inner_core(
 
 
 def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
-    """Return potential y5 and y6 just above a boundary where the applied potential has a step.
+    """Add the jump of the applied potential at a boundary to potential y5 and gradient y6.
 
-    There the applied potential changes by `step`, because it acts in one region only.
+    The applied potential acts in one region only, so at the boundary of this region, of radius
+    `r`, it changes by `step` r2.
     """
     y5, y6 = y[:, 4].copy(), y[:, 5].copy()
     y5[:, -4:] += step * r**2
@@ -286,7 +287,7 @@ def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
 def _through_liquid(
     profile: Profile, body: LayeredBody, pair: Array, carry: Carry
 ) -> tuple[Array, int]:
-    """Integrate the potential (y5, y7) through the liquid core; return also the next layer."""
+    """Values of potential y5 and gradient y7 at the top of the liquid core, and the next layer."""
     r = body.inner_core_radius / body.radius or START
     liquids = (n for n, layer in enumerate(profile.layers) if not layer.vs)
     i = max(next(liquids), profile.first)

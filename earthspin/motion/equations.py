@@ -186,13 +186,14 @@ class Equations:
         return np.repeat(values, self._nodes, axis=-1)
 
     def attitude(self, unknowns: FloatArray) -> FloatArray:
-        """Attitude quaternions of all bodies from the unknowns, shape (4, lanes * n)."""
+        """Attitude quaternions of all bodies from the unknowns, shape (4, bodies * nodes)."""
         return np.asarray(np.einsum("abm,bm->am", self._ahead, unknowns[3:]))
 
     def unknowns(self, state: FloatArray) -> FloatArray:
-        """Convert angular momentum and attitude to the unknowns of all bodies (lanes).
+        """Unknowns of the equations: angular momentum, and attitude relative to uniform rotation.
 
-        `state` has the shape (7, n).
+        `state`, shape (7, n), holds angular momentum and attitude of one body. They are repeated
+        for all bodies (lanes).
 
         This is only valid for the form with the angular momentum along the sky's axes.
         """
@@ -201,9 +202,9 @@ class Equations:
         return np.concatenate([np.tile(state[:3], self._lanes), p])
 
     def rates(self, unknowns: FloatArray) -> FloatArray:
-        """Time derivatives of the angular momentum and quaternion of all bodies, s-1.
+        """Time derivatives of the unknowns: angular momentum and relative attitude, s-1.
 
-        The shape is (7, lanes * n).
+        The shape is (7, lanes * n), with n values for each body (lane).
         """
         momentum, q = unknowns[:3], self.attitude(unknowns)
         matrix = rotations.matrices(q)

@@ -37,9 +37,11 @@ _ROUGH, _FEW, _ALL = 2, 2, 9
 
 @dataclass(frozen=True)
 class Start:
-    """Initial axis of a segment of time windows, with an estimate of its rate of change.
+    """Figure axis or angular momentum where a series of time windows starts, and its rate.
 
-    The mean rate of the last segment gives a first estimate that is ten times better than without.
+    `axis` is a figure axis if `is_figure`, else the angular momentum in units of C Omega. `rate` is
+    its estimated rate of change, s-1. The mean rate of the last segment gives a first estimate that
+    is ten times better than without.
     """
 
     axis: FloatArray
@@ -54,14 +56,14 @@ class Start:
         return self.axis + tilt if self.is_figure else self.axis
 
     def guess(self, windows: Windows, forward: bool) -> FloatArray:
-        """First estimate of the axis at the nodes of all windows, from its rate, (3, w, n)."""
+        """First estimate of the axis at all nodes: initial axis plus rate times time, (3, w, n)."""
         since = windows.times - windows.edges[0 if forward else -1]
         return np.asarray(self.axis[:, None, None] + np.multiply.outer(self.rate, since))
 
 
 @dataclass(frozen=True)
 class Segment:
-    """Numerical solution for the axes of a body over a segment of consecutive time windows.
+    """Computed angular momentum and figure axis of a body over consecutive time windows.
 
     Attributes
     ----------

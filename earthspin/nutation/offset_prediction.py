@@ -175,7 +175,7 @@ def _check(mjd: FloatArray, values: FloatArray, horizon: FloatArray) -> None:
 
 
 def too_short(size: int, longest: float) -> str | None:
-    """If `size` days of offsets are too few for a prediction, return the reason; otherwise None."""
+    """Return the reason (text) to omit a prediction if `size` days are too few, else None."""
     needed = STARTING + FEWEST + int(np.ceil(longest))
     if size >= needed:
         return None

@@ -92,14 +92,14 @@ def chosen_average(
 
 
 def on_mean_equator(equator: str) -> str | None:
-    """If the mean equator is requested, return why nutation is left out; otherwise None."""
+    """Return the reason (text) to omit nutation if the mean equator is requested, else None."""
     return "the equator is the mean one" if equator == "mean" else None
 
 
 def source_has_equator(source: SourceName) -> str | None:
-    """If the source of positions has its own equator of date, return why nutation is left out.
+    """Return the reason (text) to omit nutation if the source has its own equator, else None.
 
-    Otherwise return None.
+    This is a source of positions that has the equator of date.
     """
     return f"{source} has the equator of date" if source in OF_DATE else None
 

@@ -109,7 +109,7 @@ def _refuse_circles(centres: Mapping[str, str]) -> None:
 
 
 def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
-    """Ellipse of a body's orbit about its centre, from the orbital elements in SI units."""
+    """Ellipse of the orbit of `member` about the body `centre`, from its orbital elements."""
     orbit = member.orbit
     assert orbit is not None
     a, motion = size_and_motion(member, centre)
@@ -182,7 +182,7 @@ def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
 
 
 def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
-    """If all perturber positions relative to the body follow from orbital elements, return True."""
+    """Return True if all perturber positions relative to the body follow from orbital elements."""
     if not any(member.orbit is not None for member in (body, *perturbers)):
         return False
     by_name = ellipse_chains(body, perturbers)
@@ -190,7 +190,7 @@ def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
 
 
 def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """If exact mean torques are possible, return why windowed means are left out; otherwise None.
+    """Return the reason (text) to omit windowed means if exact means are possible, else None.
 
     Exact means are possible if each perturber moves on an ellipse about the body.
     """
@@ -202,7 +202,7 @@ def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 
 def no_exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """If exact mean torques are impossible, return the reason; otherwise return None."""
+    """Return the reason (text) to omit exact means if some orbits are not ellipses, else None."""
     if exact_means(body, perturbers) is None:
         return "not all perturbers move on ellipses about the body, so windowed averages are used"
     return None

@@ -35,9 +35,9 @@ def interior_of(body: Body) -> Interior | None:
 
 
 def of_another_body(layers: LayeredBody, body: Body) -> str | None:
-    """If the layers have another mass or radius than the body, return why results are left out.
+    """Return the reason (text) to omit results if the layers do not fit the body, else None.
 
-    Otherwise return None.
+    The layers must have the mass and the mean radius of the body.
     """
     flattening = 0.0 if body.flattening is None else body.flattening
     mean_radius = body.needed("radius") * (1 - flattening / 3)
@@ -64,19 +64,13 @@ def refuse_unknown(question: Question, body: Body) -> None:
 
 
 def no_interior(body: Body) -> str | None:
-    """If no interior of the body is known, return why results that need it are left out.
-
-    Otherwise return None.
-    """
+    """Return the reason (text) to omit results if no interior of the body is known, else None."""
     none = interior_of(body) is None
     return f"no interior of {in_a_sentence(body.name)} is known" if none else None
 
 
 def not_layered(body: Body) -> str | None:
-    """If no layers of the body are known, return why results that need them are left out.
-
-    Otherwise return None.
-    """
+    """Return the reason (text) to omit results if no layers of the body are known, else None."""
     interior = interior_of(body)
     if interior is None or interior.layers is not None:
         return no_interior(body)
@@ -111,6 +105,6 @@ def layers(interior: LayeredBody | None, body: Body) -> LayeredBody:
 
 
 def not_prem(interior: LayeredBody | None, body: Body) -> str | None:
-    """If the layers are not those of PREM, return why published numbers are left out; else None."""
+    """Return the reason (text) to omit published numbers if layers are not PREM's, else None."""
     name = (interior or layers_of(body)).name
     return None if name == "prem" else f"no published numbers of '{name}' are known"

@@ -34,7 +34,7 @@ def observed_series() -> PoleSeries:
 
 
 def not_observed_then(span: Span, step: float) -> str | None:
-    """If too few dates have an observed pole, return why the comparison is left out; else None."""
+    """Return the reason (text) to omit the comparison if too few dates are observed, else None."""
     first, last = span.days
     first, last = max(first, FIRST_DAY), min(last, float(observed_series().mjd[-1]) - MJD)
     if (last - first) * DAY >= FEWEST * step:

@@ -15,7 +15,7 @@ class ObservedWobble(Variables):
 
 
 def not_observed(body: Body) -> str | None:
-    """If no free wobble of the body was observed, return why its period is left out; else None."""
+    """Return the reason (text) to omit the observed period if no wobble was observed, else None."""
     if body.observed_wobble:
         return None
     return f"no observed wobble of this {proper(body.name)} is known"

@@ -50,7 +50,7 @@ class Daily(Variables, along=("time",)):
 
 
 def not_observed(body: Body) -> str | None:
-    """If the body has no observed pole, return why polar motion is left out; otherwise None."""
+    """Return the reason (text) to omit polar motion if no observed pole is known, else None."""
     return f"no polar motion of {in_a_sentence(body.name)} is known" if no_iau_model(body) else None
 
 

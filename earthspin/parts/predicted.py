@@ -49,7 +49,7 @@ class Prediction:
 
     @property
     def ladder(self) -> list[str]:
-        """Names of the models of increasing detail (rungs), without the models for comparison."""
+        """Names of the models in order of detail (rungs), except those used only for comparison."""
         return [name for name in self.rungs if name not in ladder.BESIDE]
 
     def transfer(self, name: str, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
@@ -66,7 +66,7 @@ class Prediction:
 
 
 def layered(body: Body) -> Interior | None:
-    """If the layers of the body include an inner core, return its interior; otherwise None."""
+    """Return the interior of a body whose layers include an inner core; else None."""
     interior = interior_of(body)
     if interior is None or interior.layers is None or not interior.layers.inner_core_radius:
         return None
@@ -74,9 +74,9 @@ def layered(body: Body) -> Interior | None:
 
 
 def no_layers(body: Body) -> str | None:
-    """If no suitable layers or no IAU model is known, return why the prediction is left out.
+    """Return the reason (text) to omit the prediction if the body is unsuitable, else None.
 
-    Otherwise return None.
+    The body needs an IAU model, and layers with an inner core that have its mass and radius.
     """
     if no_iau_model(body):
         return no_iau_model(body)

@@ -11,16 +11,16 @@ from earthspin.nutation.budget import published_effects
 
 
 def no_iau_model(body: Body) -> str | None:
-    """If the IAU has no precession model of the body, return why IAU results are left out.
+    """Return the reason (text) to omit IAU results if the body has no IAU model, else None.
 
-    Otherwise return None.
+    The model is that of its precession.
     """
     described = body.pole is not None and body.pole.of_the_iau
     return None if described else f"the IAU has no precession model for {in_a_sentence(body.name)}"
 
 
 def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """If body or perturbers do not fit, return why IAU comparisons are left out; otherwise None.
+    """Return the reason (text) to omit IAU comparisons if they do not apply, else None.
 
     These need a body with an IAU precession model and only the Sun and the Moon as perturbers.
     """
@@ -34,9 +34,9 @@ def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 
 def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """If the Earth or its perturbers are modified, return why IAU numbers are left out.
+    """Return the reason (text) to omit IAU numbers if the Earth is modified, else None.
 
-    Otherwise return None.
+    These need the unmodified Earth, with only the Sun and the Moon as perturbers.
     """
     if not_sun_and_moon(body, perturbers):
         return not_sun_and_moon(body, perturbers)
@@ -46,7 +46,7 @@ def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 
 def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """If the Moon does not perturb the Earth, return why lunar results are left out; else None."""
+    """Return the reason (text) to omit lunar results if the Moon is no perturber, else None."""
     if no_iau_model(body):
         return no_iau_model(body)
     has_moon = "moon" in {p.name for p in perturbers}
@@ -54,12 +54,12 @@ def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 
 def no_accuracy(accuracy: float | None) -> str | None:
-    """If no accuracy is requested, return why no settings are chosen for it; otherwise None."""
+    """Return the reason (text) to omit chosen settings if no accuracy is requested, else None."""
     return "no accuracy is requested, so the finest settings are used" if accuracy is None else None
 
 
 def many_pulls(perturbers: tuple[Body, ...]) -> str | None:
-    """If the mass of a perturber is an array, return why some results are left out; else None.
+    """Return the reason (text) to omit results if a perturber's mass is an array, else None.
 
     These are results that need one number for each mass.
     """

@@ -60,11 +60,11 @@ class KernelName(FileName):
         return super().read(value, where)
 
     def is_path(self, value: object) -> bool:
-        """If a value is a path and not the name of a known kernel, return True."""
+        """Return True if a value is a path and not the name of a known kernel."""
         return isinstance(value, str) and value.lower() not in NAMED_KERNELS
 
     def begins(self, head: bytes) -> bool:
-        """If the first bytes of a file are those of an SPK kernel, return True."""
+        """Return True if the first bytes of a file are those of an SPK kernel."""
         return head.startswith((b"DAF/SPK", b"NAIF/DAF"))
 
 
@@ -147,13 +147,13 @@ class PerturbedBody(Question):
 
 
 def unmeasured(body: Body) -> bool:
-    """Return True if the body has its own positions, and their error was not measured."""
+    """Return True if `body.position` is set but not from a kernel, so its error is unknown."""
     return body.position is not None and not is_measured(body.position)
 
 
 @dataclass(frozen=True)
 class Places:
-    """For each body, the way to find its position: kernel, own trajectory or orbital elements.
+    """Way to find the position of each body: kernel, own trajectory or orbital elements.
 
     Attributes
     ----------
@@ -219,12 +219,12 @@ class Sky:
 
     @property
     def unmeasured(self) -> tuple[str, ...]:
-        """Perturbers whose positions have no measured error."""
+        """Names of the perturbers whose position error is unknown, as it was not measured."""
         return tuple(n for n, place in self.targets.items() if math.isnan(self.error(place)[0]))
 
     @property
     def no_error(self) -> str:
-        """If some results have no error (NaN), return the reason; otherwise an empty text."""
+        """Return the reason (text) why some errors are NaN; an empty text if none is NaN."""
         if not self.unmeasured:
             return ""
         return (
@@ -246,7 +246,7 @@ class Sky:
     def check_times(
         self, days: Iterable[float], targets: Mapping[str, Place] | None = None
     ) -> None:
-        """If the position of any target is missing on one of the given days, raise an error.
+        """Raise an error if the position of any target is missing on one of the given days.
 
         By default the targets are the perturbers.
         """

@@ -428,7 +428,7 @@ def skill() -> Skill:
 
 
 class BulletinA(AheadOfOrigin):
-    """Prediction of Bulletin A."""
+    """Polar motion x and y as predicted in Bulletin A of the IERS."""
 
     bulletin_a_x: Pair = measured("arcsec", "x predicted by Bulletin A")
     bulletin_a_y: Pair = measured("arcsec", "y predicted by Bulletin A")

@@ -178,7 +178,7 @@ def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> 
 
 
 def several_starts(omega: FloatArray) -> str | None:
-    """For several initial states, return why Poinsot's construction is left out; else None."""
+    """Return the reason (text) to omit Poinsot's construction for several starts, else None."""
     return None if omega.ndim == 1 else "there are several starts"
 
 

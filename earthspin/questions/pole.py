@@ -97,25 +97,22 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
 
 
 def not_nonrigid(effects: tuple[str, ...]) -> str | None:
-    """If the non-rigid effect is switched off, return why the interior's response is left out.
-
-    Otherwise return None.
-    """
+    """Return the reason (text) to omit the interior's response if it is switched off, else None."""
     return None if NONRIGID.name in effects else "the non-rigid response is switched off"
 
 
 def not_fitted(response: str) -> str | None:
-    """If the predicted interior response is requested, return why the fitted one is left out.
+    """Return the reason (text) to omit the fit if a predicted response is requested, else None.
 
-    Otherwise return None.
+    The response is that of the body's interior to nutation torques.
     """
     return None if response == "fitted" else "the response is predicted"
 
 
 def not_predicted(response: str) -> str | None:
-    """If the fitted interior response is requested, return why the predicted one is left out.
+    """Return the reason (text) to omit prediction if a fitted response is requested, else None.
 
-    Otherwise return None.
+    The response is that of the body's interior to nutation torques.
     """
     return None if response == "predicted" else "the response is fitted"
 
@@ -232,7 +229,7 @@ def response_error(
 
 
 def no_longitude(body: Body) -> str | None:
-    """If psi and eps of the axes are undefined for the body, return the reason; else None."""
+    """Return the reason (text) to omit psi and eps of the axes if they are undefined, else None."""
     pole = body.needed("pole")
     if body.orbit_pole is None and not pole.of_the_iau:
         return f"psi is counted along the orbit, and {in_a_sentence(body.name)} has no orbit_pole"

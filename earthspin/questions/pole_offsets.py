@@ -119,14 +119,14 @@ class CoreNutation(Variables, along=("middle",)):
 
 
 def shorter_than_a_window(span: Span | None, window: float | None) -> str | None:
-    """If the span is shorter than a window, return why the core nutation is left out; else None."""
+    """Return the reason (text) to omit core nutation if the span is below one window, else None."""
     if span is None or _length(span) >= (core.WINDOW if window is None else window):
         return None
     return "the span is shorter than a window, which is three years if not given"
 
 
 def too_short_for_a_period(span: Span | None) -> str | None:
-    """If the span is too short, return why the core nutation period is left out; else None."""
+    """Return the reason (text) to omit core nutation period if the span is too short, else None."""
     needed = 2 * shortest_span()
     if span is None or _length(span) >= needed:
         return None

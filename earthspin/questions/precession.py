@@ -232,10 +232,7 @@ def convergence(torque_samples: Samples, body: Body) -> Convergence:
 
 
 def no_figure(body: Body) -> str | None:
-    """If data of the body are unsuitable, return why models of its figure are left out.
-
-    Otherwise return None.
-    """
+    """Return the reason (text) to omit figure models if body data are unsuitable, else None."""
     missing = [k for k in ("j2", "flattening", "radius") if getattr(body, k) is None]
     if missing:
         return f"{in_a_sentence(body.name)} has no {missing[0]}"
@@ -287,7 +284,7 @@ def figure_models(mean_torques: MeanTorques, body: Body) -> FigureModels:
 
 
 def is_sphere(body: Body) -> str | None:
-    """If the body is a sphere, return why the free wobble is left out; otherwise None."""
+    """Return the reason (text) to omit the free wobble if the body is a sphere, else None."""
     oblate = all_of(body.needed("dynamical_flattening") != 0)
     return None if oblate else "a sphere does not wobble"
 

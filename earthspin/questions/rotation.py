@@ -168,7 +168,7 @@ class Pulling:
 
 
 def nothing_pulls(perturbers: tuple[Body, ...]) -> str | None:
-    """If there are no perturbers, return why their positions are left out; otherwise None."""
+    """Return the reason (text) to omit positions if there are no perturbers, else None."""
     return None if perturbers else "nothing pulls on the body"
 
 
@@ -179,7 +179,7 @@ def _length(vector: FloatArray) -> float:
 
 
 def _spinning(body: Body, start_omega: FloatArray | None) -> Body:
-    """If the body has no spin rate, take the rate from the initial angular velocity."""
+    """Take the spin rate from the initial angular velocity if the body has none."""
     if body.spin_period is not None or start_omega is None:
         return body
     speed = _length(start_omega)
@@ -491,7 +491,7 @@ class Growth(Dated):
 
 
 def one_date(span: Span, times: TimeList | None) -> str | None:
-    """For a single date, return why the divergence of rotations is left out; otherwise None."""
+    """Return the reason (text) to omit divergence if only one date is requested, else None."""
     first, last = span.days if times is None else times.span()
     return None if last > first else "neighbours part in time, and one date is asked for"
 

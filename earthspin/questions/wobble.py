@@ -138,7 +138,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
 
 
 def why_rigid(body: Body) -> str | None:
-    """If non-rigid models do not apply to the body, return the reason; otherwise return None."""
+    """Return the reason (text) to omit non-rigid models if they do not apply, else None."""
     interior = layered.interior_of(body)
     if interior is None:
         return f"{layered.no_interior(body)}; set body.interior"
@@ -358,7 +358,10 @@ def interior_response(body: Body) -> InteriorNumbers:
 
 
 class Sensitivity(Variables, along=("input",), no_error="a share of an error, or an input of it"):
-    """Derivative of the last model's wobble period by each input, and that input's half-width."""
+    """Derivative of the wobble period with respect to each input, and error of that input.
+
+    The period is that of the most detailed model; errors are 95 % half-widths.
+    """
 
     days_per_unit: Value = number("d", "change of the last rung per unit of the input")
     input_value: Value = number("1", "value of the input")
@@ -370,7 +373,7 @@ class Sensitivity(Variables, along=("input",), no_error="a share of an error, or
 
 @part
 def sensitivity(inside: Inside) -> Sensitivity:
-    """Derivative of the last model's wobble period with respect to each input, days per unit."""
+    """Derivative of the most detailed model's wobble period with respect to each input."""
     slopes = propagation.sensitivities(inside.inputs, *inside.setting)
     anelastic = "anelastic" in ladder.climb(inside.inputs, *inside.setting).turns
     half_widths = propagation.half_widths(inside.inputs, inside.uncertainty, anelastic)
@@ -418,7 +421,7 @@ def core_nutation(inside: Inside, body: Body) -> CoreNutation:
 
 
 def no_inner_core(body: Body) -> str | None:
-    """If the inner core model cannot be used for the body, return the reason; otherwise None."""
+    """Return the reason (text) to omit the inner core model if it cannot be used, else None."""
     if layered.not_layered(body):
         return layered.not_layered(body)
     if body.labelled:

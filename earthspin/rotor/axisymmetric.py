@@ -347,7 +347,7 @@ def free_wobble_period(ellipticity: Numeric, spin_period: Numeric) -> Numeric:
 
 
 def free_wobble_error(period: Numeric, h: Numeric, u_h: float) -> Numeric:
-    """95 % half-width of the free wobble period due to the uncertainty of H, in its unit.
+    """95 % half-width of the free wobble period due to the error of H, in the unit of `period`.
 
     Parameters
     ----------

@@ -132,9 +132,9 @@ class _Lanes:
             )
 
     def run(self, times: FloatArray, longest: float) -> Iterator[FloatArray]:
-        """Yield the unit vectors of all axes in the GCRS at each time, shape (3, batch size).
+        """Yield the unit vectors of all spin axes, in the GCRS, at each time, shape (3, members).
 
-        The times are sorted by distance from J2000.0.
+        Members are those of the padded batch. The times are sorted by distance from J2000.0.
         """
         if not times.size or times[-1] == 0.0:
             yield from (self.axes.T @ self.start for _ in times)
@@ -177,9 +177,10 @@ class _Lanes:
         return np.asarray(self.axes.T @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ u)
 
     def _slopes(self, times: FloatArray) -> Callable[[int, FloatArray], FloatArray]:
-        """Make a function that returns the rates of change of all axes in the rotating frame.
+        """Make the function for the rates of change of all spin axes in the rotating frame.
 
-        Its arguments are the index of a time and the axes.
+        There is one spin axis for each ensemble member. The arguments of the function are the
+        index of a time and the axes.
         """
         normal, eccentricity, turning = self.orbit.at(times)
         e2 = np.sum(eccentricity**2, axis=0)

@@ -113,6 +113,6 @@ def drift_is_measured(centre: int, target: int) -> bool:
 
 
 def _barycentre(code: int) -> int:
-    """NAIF code of the planetary system's barycentre; the Earth and the Moon keep their codes."""
+    """NAIF code of the barycentre of a planet with its moons; Earth and others keep their code."""
     planet = code // 100 if 100 < code < 1000 and code % 100 == 99 else code
     return code if planet == 3 else planet

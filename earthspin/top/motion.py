@@ -139,7 +139,7 @@ def heavy_top_motion(top: HeavyTop, times: ArrayLike) -> HeavyTopMotion:
 
 
 def _with_axes(top: HeavyTop, count: int) -> HeavyTop:
-    """Reshape the arrays of tops by `count` trailing axes, to broadcast with times."""
+    """Append `count` axes of length 1 to all arrays of a `HeavyTop`, to broadcast with times."""
     shape = top.shape + (1,) * count
     return HeavyTop(**{f.name: np.reshape(getattr(top, f.name), shape) for f in fields(top)})
 

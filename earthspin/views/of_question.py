@@ -1,4 +1,4 @@
-"""Make the tables, figures and pages of a result, with the module for its question."""
+"""Make the tables, figures and pages of a result, as the view module of its question says."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> 
 
 
 def figures_of(answer: xr.Dataset) -> list[Figure]:
-    """Draw the figures of a result, as the module for its question defines them.
+    """Draw the figures of a result, as the view module of its question defines them.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ def figures_of_fit(fit: xr.Dataset) -> list[Figure]:
 
 
 def print_tables(tree: Result, *, with_plan: bool = False) -> None:
-    """Print the tables of a result, with its run time or a table of the computations that ran."""
+    """Print the tables of a result, then its run time or, if `with_plan`, its computations."""
     from earthspin.views.terminal import Terminal
 
     console = Terminal()
@@ -211,7 +211,10 @@ def what_ran(*trees: Result) -> list[Table]:
 
 
 def _view(tree: Result) -> ModuleType:
-    """Module for the views of a result: for its question, for ensembles, or the plain table."""
+    """Return the module of `earthspin.views` that makes the tables and figures of a result.
+
+    It is that for ensembles, that of the question, or `plain`.
+    """
     return ensemble if is_ensemble(tree) else views_of(tree)
 
 

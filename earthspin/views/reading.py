@@ -28,7 +28,7 @@ def question_of(result: Result) -> type[Question] | None:
 
 
 def views_of(result: Result) -> ModuleType:
-    """Return the module with the tables and figures for a result; by default the plain table."""
+    """Return the view module of a result's question; `plain`, which makes tables, by default."""
     question = question_of(result)
     return import_module(f"earthspin.views.{question.views if question else 'plain'}")
 

@@ -55,7 +55,7 @@ def ladder(tree: Result) -> Table:
 
 
 def sensitivity(tree: Result) -> Table:
-    """Table of the derivatives of the last model's wobble period with respect to each input."""
+    """Table of derivatives of the most detailed model's wobble period, one for each input."""
     inputs, roots = needed(tree, "sensitivity"), section(tree, "core_nutation")
     columns = (
         "input",

@@ -217,7 +217,9 @@ def half_widths(
 def sensitivities(
     inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real"
 ) -> dict[str, Numeric]:
-    """Derivative of the last model's wobble period with respect to each input, d per unit.
+    """Derivative of the most detailed model's wobble period with respect to each input.
+
+    It is in days per unit of the input.
 
     Parameters
     ----------

@@ -113,7 +113,7 @@ def _run(carry: Callable[..., Array], setting: float) -> Result:
 
 
 def _by_scipy(name: str, matrix: Matrix, start: float, stop: float, y: Array, rtol: float) -> Array:
-    """Integrate all solution columns along the radius with SciPy, as one system of equations."""
+    """Integrate the deformation equations, for all columns at once, along the radius by SciPy."""
 
     def slope(r: float, flat: Array) -> Array:
         return np.asarray(_at(matrix, r) @ flat.reshape(y.shape)).ravel()
@@ -124,7 +124,10 @@ def _by_scipy(name: str, matrix: Matrix, start: float, stop: float, y: Array, rt
 
 
 def _runge_kutta(matrix: Matrix, start: float, stop: float, y: Array, step: float) -> Array:
-    """Integrate along the radius by the classical Runge-Kutta method, with growing steps."""
+    """Integrate the deformation equations along the radius by the Runge-Kutta method (RK4).
+
+    The steps grow with the radius: they are equal in its logarithm.
+    """
     edges = _edges(start, stop, step)
     for r, after in pairwise(edges):
         h = after - r
@@ -138,7 +141,7 @@ def _runge_kutta(matrix: Matrix, start: float, stop: float, y: Array, step: floa
 
 
 def _even_layers(matrix: Matrix, start: float, stop: float, y: Array, step: float) -> Array:
-    """Integrate through thin homogeneous layers by the matrix exponential of each layer.
+    """Integrate the deformation equations through homogeneous layers by matrix exponentials.
 
     The exponents are r M in the middle of each layer in ln r, times its thickness in ln r.
     """
