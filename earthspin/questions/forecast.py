@@ -365,7 +365,7 @@ class Components(AheadOfOrigin):
 
 
 def not_separated(excitation: GivenSeries | None) -> str | None:
-    """If an excitation is given, return why the components are left out; otherwise None."""
+    """Return the reason (text) to omit the components if an excitation is given, else None."""
     if excitation is None:
         return None
     return "the pole that a given excitation drives is not separated into components"
@@ -435,7 +435,7 @@ class BulletinA(AheadOfOrigin):
 
 
 def not_in_file(file: str | Path | GivenSeries, origin: float | None, days: float) -> str | None:
-    """Return the reason to leave out Bulletin A, if it lacks the days of the forecast."""
+    """Return the reason (text) to omit Bulletin A if it lacks days of the forecast, else None."""
     if origin is not None:
         return "Bulletin A predicts from the newest observed day; leave origin out"
     if isinstance(file, GivenSeries) or (table := read_bulletin_a(file)) is None:
@@ -481,7 +481,7 @@ def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, F
 
 
 def no_offsets(file: str | Path | GivenSeries, origin: float | None, days: float) -> str | None:
-    """Return the reason to leave out the celestial pole offsets, if they cannot be forecast."""
+    """Return the reason (text) to omit celestial pole offsets without a forecast, else None."""
     from earthspin.nutation.offset_prediction import LONGEST as FARTHEST
     from earthspin.nutation.offset_prediction import too_short
 
