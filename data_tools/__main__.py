@@ -11,6 +11,7 @@ from data_tools import (
     constants_page,
     core_resonance,
     coverage,
+    driven_wobble,
     earth_rotation,
     error_models,
     forecast,
@@ -60,6 +61,10 @@ VERBS = {
         free_wobble.main,
         "measure how often the intervals of the free wobble hold the truth, for docs/wobble.md",
     ),
+    "driven-wobble": (
+        driven_wobble.main,
+        "fit the free wobble with the excitation in files, for docs/wobble.md",
+    ),
     "forecast": (
         forecast.main,
         "measure the skill of the forecast of the pole, for docs/forecast.md",
@@ -82,6 +87,8 @@ VERBS = {
 }
 #: Verbs that compare with a kernel.
 WITH_KERNEL = ("kernels", "error-models", "windows", "orbits")
+#: Verbs that read files of angular momentum.
+WITH_EXCITATION = ("driven-wobble", "forecast")
 #: Verbs that do several things, of which some may be named.
 OF_SEVERAL = {
     "accuracy-pages": tuple(QUANTITIES),
@@ -106,12 +113,13 @@ def main(words: list[str] | None = None) -> int:
             command.add_argument(
                 "--solutions", nargs="+", help="files of other solutions to compare"
             )
-        if verb == "forecast":
+        if verb in WITH_EXCITATION:
             command.add_argument(
                 "--excitation",
                 nargs="+",
                 metavar="FOLDER",
-                help="score hindcasts with these angular momentum functions instead",
+                required=verb == "driven-wobble",
+                help="folders of files of angular momentum; forecast: score hindcasts with them",
             )
         if verb == "orbits":
             command.add_argument(

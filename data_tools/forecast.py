@@ -4,8 +4,8 @@ Hindcasts use C04 with origins from 2005 to 2025, beside least squares with auto
 releases of astropy-iers-data hold what Bulletin A predicted at the time; pip downloads them, one
 after the other, into a folder that later runs use again.
 
-With folders of angular momentum functions (option `--excitation`), hindcasts with the excitation are
-scored instead. The excitation after the origin is the one that was observed later, so that the
+With folders of angular momentum functions (option `--excitation`), hindcasts with the excitation
+are scored instead. The excitation after the origin is the one that was observed later, so that the
 scores are those of a perfect forecast of the excitation.
 """
 
