@@ -263,12 +263,17 @@ def largest(likelihood: Likelihood, method: str) -> WobbleFit:
 def _risen(
     of: Callable[[float], float], best: float, limit: float, reach: float, target: float
 ) -> float:
-    """Find where an increasing function, zero at `best`, reaches a target; otherwise the limit.
+    """Find where a function that increases from zero at `best` reaches a target value.
 
-    The limit stands for a place that lies beyond it.
+    If it stays below the target up to `limit`, the limit is returned.
     """
-    # Searches from elsewhere end a little elsewhere: a height is looked up, not found twice.
-    height = cache(of)
+
+    @cache
+    def height(value: float) -> float:
+        # A new search at the same value may end at another maximum, so none is repeated; the
+        # height at the best value is zero by definition.
+        return 0.0 if value == best else of(value)
+
     room, sign, tolerance = abs(limit - best), np.sign(limit - best), 1e-2 * reach
     near = best
     while reach < room and height(best + sign * reach) < target:

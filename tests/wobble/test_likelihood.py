@@ -251,3 +251,13 @@ def test_what_does_not_go_together_is_refused(synthetic: tuple[xr.Dataset, xr.Da
     backwards = chi.isel(time=slice(None, None, -1))
     with pytest.raises(SceneError, match="times are not ascending"):
         earthspin.polar_motion_from(backwards, period=431.0, quality_factor=90.0)
+
+
+def test_the_end_of_an_interval_if_a_search_at_the_best_value_fails() -> None:
+    """A search at the best value once followed a first step beyond the limit; it is not needed."""
+
+    def profile(value: float) -> float:
+        return abs(value) if value else 5.0
+
+    assert abs(likelihood._risen(profile, 0.0, 4.0, reach=8.0, target=1.96) - 1.96) < 0.1
+    assert likelihood._risen(profile, 0.0, -1.0, reach=8.0, target=1.96) == -1.0
