@@ -13,6 +13,9 @@ intervals contain the truth.
 from __future__ import annotations
 
 import argparse
+import os
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -40,7 +43,7 @@ BAND, TYPICAL = (395.0, 480.0), 100.0
 YEARS = (2000, 2005, 2010, 2015, 2019)
 #: Truths and number of simulated poles, density of the rest at the wobble (mas squared times days),
 #: half of it white and half red, and the memory of the red half, d.
-QUALITY, DRAWS, DENSITY, MEMORY = (50.0, 100.0, 180.0), 40, 2600.0, 365.0
+QUALITY, DRAWS, DENSITY, MEMORY = (50.0, 100.0, 180.0), 100, 2600.0, 365.0
 
 
 def known(folders: list[str], components: list[str]) -> tuple[Array, Complex, Complex]:
@@ -131,7 +134,8 @@ def main(arguments: argparse.Namespace) -> int:
         if not sizes:
             sizes.append(f"| observed | {amplitudes(pole)} |")
         sizes.append(f"| driven by {name} | {amplitudes(driven)} |")
-    truths = [simulated(time, complex(p[0]), chi, quality) for quality in QUALITY]
+    with ProcessPoolExecutor(os.cpu_count()) as workers:
+        truths = list(workers.map(partial(simulated, time, complex(p[0]), chi), QUALITY))
     lines = [
         "| excitation | period, d | Q | power of the rest, mas² d | smallest half-width, d |",
         "|---|---|---|---|---|",

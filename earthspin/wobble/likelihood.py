@@ -237,8 +237,12 @@ def largest(likelihood: Likelihood, method: str) -> WobbleFit:
         def profile(value: float) -> float:
             """Square root of the increase of -2 log(likelihood) if one parameter is fixed."""
             nonlocal nearby
-            nearby[of] = value
-            nearby, height = lowest(likelihood, nearby, fixed=of)
+            starts = [nearby.copy(), at.copy()]
+            for start in starts:
+                start[of] = value
+            # the last search may have ended far from this value
+            start = min(starts, key=lambda z: likelihood(*z))
+            nearby, height = lowest(likelihood, start, fixed=of)
             return float(np.sqrt(max(height - least, 0.0)))
 
         def side(limit: float) -> float:
