@@ -217,8 +217,17 @@ def lowest(
     return best.x * UNIT, float(best.fun)
 
 
-def largest(likelihood: Likelihood, method: str) -> WobbleFit:
-    """Fit the free wobble at the maximum of a likelihood, with 95 % intervals."""
+def largest(likelihood: Likelihood, method: str, widening: float = 1.0) -> WobbleFit:
+    """Fit the free wobble at the maximum of a likelihood, with 95 % intervals.
+
+    Parameters
+    ----------
+    likelihood : Likelihood
+    method : str
+        Name of the method, for the result.
+    widening : float
+        Factor by which the intervals are made wider than those of the profile.
+    """
     at, least = lowest(likelihood)
     period = 2 * np.pi / (MIDDLE + at[0])
     if min(abs(period - end) for end in BAND) < EDGE:
@@ -248,7 +257,7 @@ def largest(likelihood: Likelihood, method: str) -> WobbleFit:
         def side(limit: float) -> float:
             nonlocal nearby
             nearby = at.copy()
-            return _risen(profile, float(at[of]), limit, reach, NORMAL_95)
+            return _risen(profile, float(at[of]), limit, reach, widening * NORMAL_95)
 
         return side(LOWEST[of]), side(HIGHEST[of])
 

@@ -26,6 +26,10 @@ from earthspin.wobble.presence import need_wobble
 from earthspin.wobble.record import Array, Complex, check
 from earthspin.wobble.sinusoid import fit_least_squares
 
+#: Factor by which intervals of a fit with excitation are widened: without it 89 % of them held the
+#: truth in 300 simulated records of 30 years (`python -m data_tools driven-wobble`).
+WIDENING = 1.2
+
 METHODS: dict[str, Callable[[Array, Complex], WobbleFit]] = {
     "burg": fit_burg,
     "likelihood": fit_likelihood,
@@ -78,5 +82,5 @@ def fit_with_excitation(time: Array, p: Complex, chi: Complex) -> WobbleFit:
     check(time, p)
     need_wobble(time, p)
     return likelihood.largest(
-        likelihood.LikelihoodWithExcitation(time, p, chi), "likelihood with excitation"
+        likelihood.LikelihoodWithExcitation(time, p, chi), "likelihood with excitation", WIDENING
     )
