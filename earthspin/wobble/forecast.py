@@ -315,7 +315,7 @@ def forecast_with_excitation(p: Complex, chi: Complex, days: int) -> Forecast:
     """
     if chi.size < p.size:
         raise UndefinedError(
-            f"the excitation ends {p.size - chi.size} d too early; it must cover the day after "
+            f"the excitation ends {p.size - chi.size} d too early; it must include the day of "
             "the origin"
         )
     if p.size < SHORTEST_EXCITATION:
