@@ -248,7 +248,7 @@ def test_only_some() -> None:
         ({"only": "motoin"}, "did you mean 'motion'"),
         ({"only": "zzz"}, "no case has that word"),
         ({"only": ""}, "no case has that word"),
-        ({"only": "10^8 epochs in", "quick": True}, "take long"),
+        ({"only": "10^8 epochs", "quick": True}, "take long"),
     ],
 )
 def test_words_that_no_case_has(given: dict[str, Any], said: str) -> None:
