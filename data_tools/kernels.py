@@ -62,9 +62,9 @@ def drifts(kernel: str, step: str = "20 d") -> dict[str, tuple[float, float]]:
         apart = np.sqrt(
             (first.X - second.X) ** 2 + (first.Y - second.Y) ** 2 + (first.Z - second.Z) ** 2
         )
-        apart = apart.max("axis") * 1e6 / ARCSEC
+        apart = apart.max("axis") / ARCSEC
         over = float((apart / first.direction_error_kernel).max())
-        by_sky[f"{body} under {' and '.join(perturbers)}"] = float(apart.max()), over
+        by_sky[f"{body} under {' and '.join(perturbers)}"] = float(apart.max()) * 1e6, over
     return by_sky
 
 

@@ -46,5 +46,5 @@ def rows() -> Iterator[Row]:
                 f"{span} ({kernel.upper()})",
                 "IAU 2006/2000A (ERFA)",
                 np.linalg.norm(figure - iau, axis=1) / MAS,
-                path.direction_error.values / 1e3,
+                path.direction_error.values * 1e3,
             )

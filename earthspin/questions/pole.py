@@ -54,7 +54,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
     Dataset
         Over `time` and `axis` (``angular_momentum``, ``rotation``, ``figure``): `X`, `Y`, `Z`
         (unit vectors), `psi` and `eps` (arcsec, on the fixed orbit of J2000.0) where they are
-        defined; over `time` `direction_error` (uas) and its shares, with `nonrigid` also
+        defined; over `time` `direction_error` (arcsec) and its shares, with `nonrigid` also
         `direction_error_response`.
 
     Raises
@@ -149,13 +149,15 @@ class Directions(Dated, error="direction_error"):
     Z: Value = number(
         "1", "third component of the unit vector of the axis", along=("time", "axis"), frame="GCRS"
     )
-    direction_error: Value = number("uas", "95 % half-width of the directions, from all shares")
-    direction_error_method: Value = number("uas", "share of direction_error from the integration")
+    direction_error: Value = number("arcsec", "95 % half-width of the directions, from all shares")
+    direction_error_method: Value = number(
+        "arcsec", "share of direction_error from the integration"
+    )
     direction_error_input: Value = number(
-        "uas", "share of direction_error from the uncertainty of H"
+        "arcsec", "share of direction_error from the uncertainty of H"
     )
     direction_error_kernel: Value = number(
-        "uas", "share of direction_error from the positions of the bodies"
+        "arcsec", "share of direction_error from the positions of the bodies"
     )
     axis: Labels = labels()
 
@@ -206,7 +208,7 @@ class ResponseError(Dated):
     """Error of the axis directions that is due to the response of the interior."""
 
     direction_error_response: Value = number(
-        "uas",
+        "arcsec",
         "share of direction_error from the response of the interior: its residual, and the "
         "closure of the rates, against IAU 2006/2000A",
     )
@@ -269,7 +271,7 @@ def pole_angles(
     return Angles(time=axes.time, axis=axes.axis, psi=psi, eps=angles[..., 1])
 
 
-class DirectionAccuracy(Report, units="uas", error_of="in direction"):
+class DirectionAccuracy(Report, units="arcsec", error_of="in direction"):
     """Estimated error of the pole, the accuracy that was requested, and the method used."""
 
 

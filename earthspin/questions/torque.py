@@ -105,7 +105,7 @@ class Torques(Dated, along=("time", "perturber")):
     )
     torque_magnitude: Pair = measured("N m", "magnitude of the torque")
     direction_error: Value = number(
-        "deg", "bound on right ascension and declination", along=("perturber",)
+        "arcsec", "bound on right ascension and declination", along=("perturber",)
     )
     distance_error: Value = number(
         "m", "bound on the distance from the kernel", along=("perturber",)
@@ -194,7 +194,7 @@ def _equator_words(
     return "mean equator" if equator == "mean" else "IAU 2000A nutation at each time"
 
 
-class DirectionAccuracy(Report, units="mas", error_of="in direction"):
+class DirectionAccuracy(Report, units="arcsec", error_of="in direction"):
     """Estimated error of the directions, the accuracy that was requested, and the method used."""
 
 

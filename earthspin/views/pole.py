@@ -21,7 +21,8 @@ def ends(tree: Result) -> Table:
         return f"{date(row.time, 's')} {row.axis.item().replace('_', ' ')}"
 
     method, given = (
-        f"{float(answer[f'direction_error_{share}'].max()):.2g}" for share in ("method", "input")
+        f"{1e6 * float(answer[f'direction_error_{share}'].max()):.2g}"
+        for share in ("method", "input")
     )
     note = (
         f"The path has {answer.time.size} epochs, of which the first and the last are shown. The "

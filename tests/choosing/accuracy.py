@@ -125,7 +125,7 @@ def pole_outcome(rng: Generator) -> Outcome:
         step="7.3 d",
     )
     # below what the sky is known to, a promise is refused
-    floor = float(earthspin.run(question).direction_error_kernel.max())
+    floor = float(earthspin.run(question).direction_error_kernel.max()) * 1e6
     asked = max(asked, 1.2 * floor)
     question = question.replace(accuracy=f"{asked} uarcsec")
     result = earthspin.run(question)
@@ -146,7 +146,7 @@ def pole_outcome(rng: Generator) -> Outcome:
         except UndefinedError:
             continue
     found = np.stack([result[c].transpose("time", "axis").values for c in "XYZ"], axis=-1)
-    claimed = float(result.error_estimated)
+    claimed = float(result.error_estimated) * 1e6
     return Outcome(str(result.method_chosen.values), asked, claimed, off(found), cost, cheapest)
 
 
@@ -264,7 +264,7 @@ def series_outcome(rng: Generator) -> Outcome:
     return Outcome(
         str(result.method_chosen.values),
         asked,
-        float(result.error_estimated),
+        float(result.error_estimated) * 1e3,
         true / ARCSEC * 1e3 + kernel,
         cost + now.size * len(perturbers),
         cheapest + now.size * len(perturbers),

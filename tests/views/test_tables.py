@@ -69,8 +69,8 @@ def test_an_accuracy_that_was_asked_for_has_its_table() -> None:
         earthspin.run(earthspin.load_scene("torque", {"accuracy": "10 mas"}))
     )
     assert (first.title, second.title) == ("Accuracy", "Torque")
-    assert first.headers[1] == "requested error, mas"
-    assert first.rows[0][1] == "10"
+    assert first.headers[1] == "requested error, arcsec"
+    assert first.rows[0][1] == "0.01"
 
 
 def test_another_earth_says_so_and_shows_nothing_observed() -> None:

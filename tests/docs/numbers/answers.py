@@ -63,13 +63,13 @@ def nutation_between_nodes() -> float:
 def kernel_of_the_pole() -> list[float]:
     """Least and largest share of the kernel in the error of the pole, by DE421, uas."""
     share = earthspin.pole("1900-01-01", "2053-01-01", "500 d").direction_error_kernel
-    return [float(share.min()), float(share.max())]
+    return [float(share.min()) * 1e6, float(share.max()) * 1e6]
 
 
 def input_error_of_the_pole() -> float:
     """Of the pole by H after twenty years, mas."""
     path = earthspin.pole(times=["2020-01-01T12:00"], effects=["second-order"])
-    return float(path.direction_error_input.max()) / 1e3
+    return float(path.direction_error_input.max()) * 1e3
 
 
 @cache
@@ -104,7 +104,7 @@ def from_the_iau(*effects: str) -> tuple[NDArray[np.float64], NDArray[np.float64
     axis = path.sel(axis="figure")
     vectors = np.stack([axis.X, axis.Y, axis.Z], axis=-1)
     off = (vectors - erfa.pnm06a(J2000_JD, days)[:, 2]) / ARCSEC * 1e3
-    return np.linalg.norm(off, axis=1), path.direction_error.values / 1e3
+    return np.linalg.norm(off, axis=1), path.direction_error.values * 1e3
 
 
 def at_j2000_with_response() -> float:

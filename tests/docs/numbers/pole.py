@@ -92,7 +92,7 @@ def by_dop853(rtol: float) -> tuple[float, int]:
 def method_error() -> float:
     """Of thirty years of the figure axis, uas."""
     path = earthspin.pole("1985-01-01", "2015-01-01", "30 d", effects=["second-order"])
-    return float(path.direction_error_method.max())
+    return float(path.direction_error_method.max()) * 1e6
 
 
 def slow_spin(days: float) -> float:
