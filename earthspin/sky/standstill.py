@@ -26,7 +26,7 @@ _REACH = 2.0 * 365.25  # days searched before and after the passage of the node
 
 @dataclass(frozen=True)
 class Standstill:
-    """Date and declination of one lunar standstill.
+    """Date and declination of the northern or southern extreme of a lunar standstill.
 
     Attributes
     ----------
@@ -66,7 +66,7 @@ def node_passages(start: float, end: float) -> list[tuple[str, float]]:
 def find_standstills(
     declination: Callable[[FloatArray], FloatArray], start: float, end: float
 ) -> list[Standstill]:
-    """Find all lunar standstills that lie entirely within a time span.
+    """Find the northern and southern extreme of each lunar standstill within a time span.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def find_standstills(
     Returns
     -------
     list of Standstill
-        In order of time; empty if there are none in the span.
+        In order of time, two for each passage of the node; empty if there are none in the span.
     """
     standstills = []
     for kind, passage in node_passages(start, end):
@@ -87,10 +87,13 @@ def find_standstills(
         near = days[1:-1][rising[1:] != rising[:-1]]
         turning = _vertices(declination, _vertices(declination, near, _SAMPLING), _CLOSE)
         extremes = declination(turning)
-        swing = np.abs(extremes)
-        best = np.argmax(swing) if kind == "major" else np.argmin(swing)
-        standstills.append(Standstill(kind, float(turning[best]), float(extremes[best])))
-    return standstills
+        for side in (extremes > 0, extremes < 0):
+            if side.any():
+                day, height = turning[side], extremes[side]
+                swing = np.abs(height)
+                best = np.argmax(swing) if kind == "major" else np.argmin(swing)
+                standstills.append(Standstill(kind, float(day[best]), float(height[best])))
+    return sorted(standstills, key=lambda standstill: standstill.day)
 
 
 def _vertices(

@@ -244,7 +244,8 @@ def standstills(tree: Result) -> Table:
         Column("", lambda row: text[row.standstill_kind.item()], "source text (I.8), deg"),
     )
     note = (
-        "Extreme declinations of single months, seen from the centre of the body. The source text "
+        "Northern and southern extreme of each standstill, each of a single month, seen from the "
+        "centre of the body. The source text "
         "takes 23.44 plus or minus 5.14 degrees; the Sun makes the inclination of the orbit vary "
         "between 5.0 and 5.3 degrees, so the largest declination reaches 28.7 and the smallest "
         f"extreme is near 18.1. Errors, from the kernel alone, are at most {error:.0e} deg."

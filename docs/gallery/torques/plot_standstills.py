@@ -16,7 +16,8 @@ from earthspin.views.drawing import note
 # ---------------------------------------------------------
 # The Moon's orbit is inclined by five degrees to the ecliptic, and its line of nodes turns once
 # between two major standstills (figure I.8.6 and the text below). The months merge into a band
-# whose edges vary; the extremes in the series are marked. The Sun's extremes do not vary.
+# whose edges vary; the northern and southern extreme of each standstill are marked. The Sun's
+# extremes do not vary.
 #
 # *Next:* look at a single year by another span, with a step of an hour.
 
