@@ -67,7 +67,7 @@ bench: $(VENV)/.test
 	$(BIN)/python tests/benchmarks/ensemble.py
 
 clean:
-	rm -rf $(VENV) $(LOWEST) $(NEWEST) report build dist docs/_build
+	rm -rf $(VENV) $(LOWEST) $(NEWEST) .venv-3.14 report build dist docs/_build
 
 $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV)
