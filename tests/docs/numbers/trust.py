@@ -171,6 +171,8 @@ TOLD: list[Told | Part] = [
     Told(TESTING, "calls and requests from fixed seeds ({} s)", "run time: tests/fuzz"),
     Told(TESTING, "days for seconds, {} days for a Julian year", "a planted error, as it is"),
     Told(TESTING, "runs the same with Python {} and", "the version of a program"),
+    Told(TESTING, "repeats it with Python {} where", "the version of a program"),
+    Told(TESTING, "PYTHON_NEWEST=python{} NEWEST=.venv-{}", "the version of a program"),
     Told(
         FILES,
         "({} MB) are written in {} s and verified in {} s, of which the last line takes {} s",
