@@ -3,10 +3,12 @@
 import re
 import subprocess
 import sys
+import tomllib
 import zipfile
 from pathlib import Path
 
 import pytest
+import yaml
 
 import earthspin
 from tests.processes import ROOT, printed
@@ -140,3 +142,19 @@ def test_the_architecture_names_every_module_and_none_besides() -> None:
     left = {p for p in plain - named if str(Path(p).parent) not in AS_A_WHOLE}
     assert not left, f"docs/architecture.md does not name {sorted(left)}"
     assert {f"{folder}/" for folder in AS_A_WHOLE} <= named
+
+
+def test_the_conda_recipe_asks_for_what_the_package_asks_for() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    recipe = yaml.safe_load((ROOT / "conda/recipe.yaml").read_text())
+    context = recipe["context"]
+    assert context["version"] == earthspin.__version__
+    assert f">={context['python_min']}" == project["requires-python"]
+    # conda-forge divides these two into a core and what only its developers need.
+    core = {"astropy": "astropy-base", "matplotlib": "matplotlib-base"}
+    asked = [re.fullmatch(r"([\w-]+)(>=.+)", line) for line in project["dependencies"]]
+    wanted = {f"{core.get(m[1], m[1].lower())} {m[2]}" for m in asked if m}
+    python, *others = recipe["requirements"]["run"]
+    assert python == "python >=${{ python_min }}"
+    assert len(asked) == len(wanted) == len(others)
+    assert set(others) == wanted
