@@ -112,6 +112,14 @@ def test_a_folder_is_joined_summed_and_averaged(folder: Path) -> None:
     assert np.allclose(mass.chi2 * MAS, -2e-9 * np.arange(65) / 8, rtol=0, atol=1e-17)
 
 
+def test_only_the_span_that_all_components_cover(folder: Path) -> None:
+    (folder / "b_1999_OAM.asc").unlink()
+    found = read_angular_momentum(folder, ["AAM", "OAM"])
+    assert np.array_equal(found.mjd, np.arange(51543, 51548.01, 0.125))
+    expected = (SLOPES["AAM"] + SLOPES["OAM"]) * (found.mjd - 51540)
+    assert np.allclose(found.mass, expected, rtol=0, atol=1e-17)
+
+
 def test_means_of_days_of_a_bent_line(tmp_path: Path) -> None:
     """A triangle that peaks at noon, its samples at other hours: by hand 3/4 of it, and 1/8."""
     file = tmp_path / "bent"
