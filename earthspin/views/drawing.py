@@ -129,15 +129,15 @@ class Drawing:
 
 @style()
 def _saved(figure: Figure) -> str:
-    text, layout = io.StringIO(), figure.get_layout_engine()
-    if layout is not None:
-        # savefig would draw the whole figure once more to lay it out, which takes a third longer
-        layout.execute(figure)
-        figure.set_layout_engine("none")
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+    text, canvas, dpi = io.StringIO(), figure.canvas, figure.dpi
     try:
-        figure.savefig(text, format="svg", metadata={"Date": None})
+        # savefig would draw a figure with a layout twice, since it may also trim the margins.
+        FigureCanvasSVG(figure).print_svg(text, metadata={"Date": None})  # type: ignore[no-untyped-call]
     finally:
-        figure.set_layout_engine(layout)
+        figure.set_canvas(canvas)
+        figure.set_dpi(dpi)
     svg = text.getvalue()
     # The metadata name the drawing library, and addresses that no page needs.
     return re.sub(r"<metadata>.*?</metadata>", "", svg[svg.index("<svg") :], flags=re.DOTALL)
