@@ -128,7 +128,7 @@ def plot_torque(
             ax.plot(answer.time, mean, color=colour, lw=1.4, zorder=over, label=words)
         else:
             ax.axhline(float(torque.mean()), color=colour, lw=0.8, ls="--")
-    ax.set_ylabel("torque towards\nthe equinox (10$^{22}$ N m)")
+    ax.set_ylabel("torque towards\nthe equinox (10²² N m)")
     drawing.few_dates(ax)
     ax.set_xlabel("time (TDB)")
     if smooth_days:

@@ -49,7 +49,7 @@ def test_every_label_is_a_quantity_and_its_unit_in_brackets(scene: str) -> None:
 
 def test_the_rule_tells_labels_apart() -> None:
     assert LABEL.fullmatch("psi sin(eps), straight line removed (arcsec)")
-    assert LABEL.fullmatch("torque towards\nthe equinox (10$^{22}$ N m)")
+    assert LABEL.fullmatch("torque towards\nthe equinox (10²² N m)")
     assert LABEL.fullmatch("relative error")
     for poor in ("mas", "degrees", "eps, arcsec", "psi sin(eps), arcsec", "rad/s", "(mas)"):
         assert not LABEL.fullmatch(poor), poor

@@ -29,7 +29,7 @@ year = earthspin.torque_series("2006-01-01", "2007-01-01", "6 h")
 fig, (upper, lower) = plt.subplots(2, 1, figsize=(6.4, 4.8), sharex=True)
 plot_declination(year, ax=upper)
 plot_torque(year, ax=lower)
-lower.set_ylabel("torque towards\nthe equinox (10$^{22}$ N m)")
+lower.set_ylabel("torque towards\nthe equinox (10²² N m)")
 
 # %%
 # Torque against declination
@@ -52,7 +52,7 @@ for body, colour in ((MOON, "C0"), (SUN, "C4")):
     ax.plot(of.declination, size, ".", ms=1.2, color=colour, label=body.name)
     law = 3 * body.gm * bulge * float((of.distance**-3.0).mean()) * np.sin(delta) * np.cos(delta)
     ax.plot(np.degrees(delta), np.abs(law) / 1e22, "k--", lw=0.8)
-ax.set(xlabel="declination (deg)", ylabel="torque (10$^{22}$ N m)", ylim=(0, None))
+ax.set(xlabel="declination (deg)", ylabel="torque (10²² N m)", ylim=(0, None))
 ax.legend(markerscale=8)
 
 # %%
