@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import replace
 from importlib import import_module
 from itertools import product
 from typing import TYPE_CHECKING, Any
@@ -14,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import xarray as xr
 
 import earthspin
-from earthspin.engine.plan import Plan, plan_parts, scene_of, seconds_of
+from earthspin.engine.plan import Plan, plan_parts, scene_of, with_run_times
 from earthspin.engine.spread import quantiles, sensitivity
 from earthspin.errors import SceneError
 
@@ -65,8 +64,7 @@ class Answer:
     @property
     def plan(self) -> Plan:
         """Plan of the run: functions that ran, and functions left out, with the reasons."""
-        seconds = seconds_of(scene_of(self._dataset))
-        return replace(plan_parts(self.scene), seconds=dict(seconds))
+        return with_run_times(plan_parts(self.scene), scene_of(self._dataset))
 
     def to_frame(self) -> pd.DataFrame:
         """Return the result as a pandas table: a row for each label, a column for each number.

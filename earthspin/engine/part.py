@@ -8,7 +8,8 @@ optional parameters needs at least one of them.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections import OrderedDict
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property, update_wrapper
 from typing import Any, Generic, ParamSpec, TypeVar, overload
@@ -24,8 +25,14 @@ Reason = Callable[..., str | None]
 #: Returns one sentence on what a part does, from keys of the question.
 Describer = Callable[..., str]
 
+#: Returns what the result of a part depends on, from the inputs of the part; None if the result
+#: must be computed anew.
+SameFor = Callable[..., Hashable]
+
 #: Name of the parameter of a part that computes one block of a long series.
 BLOCK = "block"
+#: Number of results of a part that are stored for later calls.
+STORED = 4
 
 
 @dataclass(frozen=True)
@@ -55,6 +62,8 @@ class Part(Generic[P, R]):
         Whether the part chooses settings for a requested accuracy.
     describe : callable or None
         Takes keys of the question by name and returns a description of the part.
+    same_for : callable or None
+        Takes the inputs of the part and returns a value; a result is reused while this is equal.
     """
 
     def __init__(
@@ -63,13 +72,11 @@ class Part(Generic[P, R]):
         unless: tuple[Reason, ...],
         chooses: bool,
         describe: Describer | None = None,
+        same_for: SameFor | None = None,
     ) -> None:
-        self.function, self.unless, self.chooses, self.describe = (
-            function,
-            unless,
-            chooses,
-            describe,
-        )
+        self.function, self.unless, self.chooses = function, unless, chooses
+        self.describe, self.same_for = describe, same_for
+        self._stored: OrderedDict[Hashable, R] = OrderedDict()
         self.gives = _schema_of(function)
         self.name = function.__name__
         self.does = _first_sentence(function)
@@ -78,6 +85,18 @@ class Part(Generic[P, R]):
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
         """Call the wrapped function."""
         return self.function(*args, **kwargs)
+
+    def stored_or_computed(self, inputs: Mapping[str, Any]) -> tuple[R, bool]:
+        """Return the result for given inputs, and whether an earlier result was reused."""
+        same = None if self.same_for is None else self.same_for(**inputs)
+        if same is not None and same in self._stored:
+            return self._stored[same], True
+        result = self.function(**inputs)  # type: ignore[call-arg]
+        if same is not None:
+            self._stored[same] = result
+            if len(self._stored) > STORED:
+                self._stored.popitem(last=False)
+        return result, False
 
     def __reduce__(self) -> str:
         # A module holds the part under the name of its function, so pickle stores only the name.
@@ -124,6 +143,7 @@ def part(
     unless: Reason | tuple[Reason, ...] = ...,
     chooses: bool = ...,
     describe: Describer | None = ...,
+    same_for: SameFor | None = ...,
 ) -> Callable[[Callable[P, R]], Part[P, R]]: ...
 def part(
     function: Callable[P, R] | None = None,
@@ -132,6 +152,7 @@ def part(
     unless: Reason | tuple[Reason, ...] = (),
     chooses: bool = False,
     describe: Describer | None = None,
+    same_for: SameFor | None = None,
 ) -> Part[P, R] | Callable[[Callable[P, R]], Part[P, R]]:
     """Make a `Part` from a typed function; a decorator.
 
@@ -146,12 +167,15 @@ def part(
     describe : callable, optional
         Function of keys of the question that describes the part in a plan; the first line of the
         docstring by default.
+    same_for : callable, optional
+        Function of the inputs of the part. The result is stored, and reused in later runs for which
+        the function returns an equal value; None means that the result is not stored.
     """
     reasons = unless if isinstance(unless, tuple) else (unless,)
 
     if function is None:
-        return lambda function: Part(function, reasons, chooses, describe)
-    return Part(function, reasons, chooses, describe)
+        return lambda function: Part(function, reasons, chooses, describe, same_for)
+    return Part(function, reasons, chooses, describe, same_for)
 
 
 def _arguments(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from graphlib import TopologicalSorter
 from typing import Any
 
@@ -34,7 +34,8 @@ def scene_of(answer: Any) -> str:
 #: Number of recent runs whose run times are stored.
 REMEMBERED = 64
 
-_SECONDS: OrderedDict[str, Mapping[str, float]] = OrderedDict()
+#: Run times of recent runs, and names of reused parts, by the text of the scene.
+_RUNS: OrderedDict[str, tuple[Mapping[str, float], frozenset[str]]] = OrderedDict()
 
 
 @dataclass(frozen=True)
@@ -68,6 +69,8 @@ class Plan:
     seconds : mapping of str to float
         Run time of each part by name, without imports, and that of imports under `IMPORTS`; empty
         before the run.
+    reused : frozenset of str
+        Names of parts whose result of an earlier run was reused.
     """
 
     question: Question
@@ -75,15 +78,17 @@ class Plan:
     sections: tuple[str, ...]
     left_out: dict[str, str]
     seconds: Mapping[str, float] = field(default_factory=dict)
+    reused: frozenset[str] = frozenset()
 
     @property
     def rows(self) -> list[Row]:
         """Rows of the plan's table: first the parts that run, then those left out."""
         status, keys = "ran" if self.seconds else "runs", self.question.keys()
-        rows = [
-            Row(part.title, status, part.description(keys), self.seconds.get(part.name))
-            for part in self.parts
-        ]
+        rows = []
+        for part in self.parts:
+            reused = " (reused from an earlier run)" if part.name in self.reused else ""
+            does = part.description(keys) + reused
+            rows.append(Row(part.title, status, does, self.seconds.get(part.name)))
         if IMPORTS in self.seconds:
             note = "modules loaded on first use, once in each process"
             rows.append(Row(IMPORTS, status, note, self.seconds[IMPORTS]))
@@ -219,14 +224,15 @@ def _refuse_taken_dimensions(question: Question) -> None:
                 )
 
 
-def remember_seconds(scene: str, seconds: Mapping[str, float]) -> None:
-    """Store the run times, s, of the parts of a question, by the text of its scene."""
-    _SECONDS[scene] = dict(seconds)
-    _SECONDS.move_to_end(scene)
-    if len(_SECONDS) > REMEMBERED:
-        _SECONDS.popitem(last=False)
+def remember_run(scene: str, plan: Plan) -> None:
+    """Store the run times of a plan that has run, by the text of its scene."""
+    _RUNS[scene] = plan.seconds, plan.reused
+    _RUNS.move_to_end(scene)
+    if len(_RUNS) > REMEMBERED:
+        _RUNS.popitem(last=False)
 
 
-def seconds_of(scene: str) -> Mapping[str, float]:
-    """Stored run time of each part in the last run of the same question, s; empty if none."""
-    return _SECONDS.get(scene, {})
+def with_run_times(plan: Plan, scene: str) -> Plan:
+    """Add to a plan the run times of the last run of the same question, if they are stored."""
+    seconds, reused = _RUNS.get(scene, ({}, frozenset()))
+    return replace(plan, seconds=seconds, reused=reused)

@@ -12,7 +12,7 @@ from earthspin._version import __version__, version
 from earthspin.engine.imports import import_clock
 from earthspin.engine.labels import CONVENTIONS
 from earthspin.engine.neglected import Neglected
-from earthspin.engine.plan import IMPORTS, SCENE, Plan, plan_parts, remember_seconds
+from earthspin.engine.plan import IMPORTS, SCENE, Plan, plan_parts, remember_run
 from earthspin.engine.question import NEGLECTED, Question
 from earthspin.engine.variables import Variables
 from earthspin.errors import UndefinedError
@@ -51,7 +51,7 @@ class Run:
 
         result = self.numbers()
         result.attrs = _attributes(self)
-        remember_seconds(result.attrs[SCENE], self.plan.seconds)
+        remember_run(result.attrs[SCENE], self.plan)
         return result
 
     def tree(self) -> xr.DataTree:
@@ -143,6 +143,7 @@ def run_parts(plan: Plan, before: Mapping[str, Any] | None = None) -> Run:
     """Run the parts (functions) of a plan in order, except those with a result in `before`."""
     values = plan.question.keys() | dict(before or {})
     seconds: dict[str, float] = {}
+    reused: set[str] = set()
     with import_clock() as imports:
         imported = imports.seconds
         for part in plan.parts:
@@ -152,11 +153,13 @@ def run_parts(plan: Plan, before: Mapping[str, Any] | None = None) -> Run:
             inputs |= {name: values[name] for name in part.uses if name in values}
             begun = time.perf_counter() - imports.seconds
             with in_range(part.name):
-                value = part(**inputs)
+                value, again = part.stored_or_computed(inputs)
                 values[part.name] = value.dataset() if isinstance(value, Variables) else value
             seconds[part.name] = time.perf_counter() - imports.seconds - begun
+            if again:
+                reused.add(part.name)
         seconds[IMPORTS] = imports.seconds - imported
-    return Run(replace(plan, seconds=seconds), values)
+    return Run(replace(plan, seconds=seconds, reused=frozenset(reused)), values)
 
 
 @contextmanager

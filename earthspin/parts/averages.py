@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 SAMPLING = DAY  # s
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Samples:
     """Torques divided by C - A at equally spaced times, and the weight function for their mean.
 
@@ -73,7 +73,23 @@ class Samples:
     strength: xr.DataArray | None = None
 
 
-@part(unless=exact_means)
+def _same_samples(
+    sky: Sky,
+    stretch: Stretch,
+    body: Body,
+    perturbers: tuple[Body, ...],
+    chosen_average: Choice[Averaging] | None = None,
+) -> Hashable:
+    """Inputs on which samples depend; None if they contain arrays or objects, which may change."""
+    bodies, places = (body, *perturbers), (sky.centre, *sky.targets.values())
+    if chosen_average is not None or any(member.labelled for member in bodies):
+        return None
+    if not all(isinstance(place, int) for place in places):
+        return None
+    return frozenset(sky.provenance.items()), places, stretch, bodies
+
+
+@part(unless=exact_means, same_for=_same_samples)
 def torque_samples(
     sky: Sky,
     stretch: Stretch,
@@ -207,7 +223,17 @@ class MeanTorques:
     cases: Mapping[str, int] = field(default_factory=dict)
 
 
-@part(unless=exact_means)
+def _same_means(
+    torque_samples: Samples,
+    perturbers: tuple[Body, ...],
+    chosen_average: Choice[Averaging] | None = None,
+) -> Hashable:
+    """Samples from which means are computed, and their perturbers; None if those are arrays."""
+    arrays = any(member.labelled for member in perturbers)
+    return None if arrays or chosen_average is not None else (torque_samples, perturbers)
+
+
+@part(unless=exact_means, same_for=_same_means)
 def window_means(
     torque_samples: Samples,
     perturbers: tuple[Body, ...],

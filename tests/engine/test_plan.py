@@ -9,7 +9,8 @@ import pytest
 
 import earthspin
 from earthspin import MARS, Scene, SceneError, load_scene
-from earthspin.engine.part import BLOCK, Part
+from earthspin.engine.part import BLOCK, STORED, Part
+from earthspin.engine.part import part as make_part
 from earthspin.engine.plan import NOT_REQUESTED
 from earthspin.engine.question import Question, keys_of
 from earthspin.scenes import QUESTIONS, shipped_scenes
@@ -131,3 +132,21 @@ def test_a_dimension_of_results_is_not_one_of_bodies() -> None:
     with pytest.raises(SceneError, match="results already have this name") as error:
         earthspin.plan(Scene(compute="torque", body=body))
     assert error.value.key == "body.dynamical_flattening"
+
+
+def test_a_stored_result_is_reused_for_equal_inputs_only() -> None:
+    calls: list[int] = []
+
+    @make_part(same_for=lambda number: None if number < 0 else number)
+    def square(number: int) -> int:
+        """Square of a number."""
+        calls.append(number)
+        return number**2
+
+    for number, reused in ((2, False), (2, True), (3, False), (2, True), (-1, False), (-1, False)):
+        assert square.stored_or_computed({"number": number}) == (number**2, reused)
+    assert calls == [2, 3, -1, -1]
+    for number in range(3, 3 + STORED):  # the oldest result makes room
+        square.stored_or_computed({"number": number})
+    assert square.stored_or_computed({"number": 2}) == (4, False)
+    assert square(2) == 4

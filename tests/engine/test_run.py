@@ -1,6 +1,9 @@
 """Running: only what a scene needs, and the same every time."""
 
 import inspect
+import os
+import shutil
+from collections import OrderedDict
 from pathlib import Path
 
 import astropy.units as u
@@ -11,12 +14,17 @@ from astropy.time import Time
 
 import earthspin
 from earthspin import AccuracyError, CoverageError, Scene, SceneError, load_scene
+from earthspin.parts import averages
 from earthspin.scenes import run, run_blocks
 from earthspin.sky import ephemeris
 
 
 def opened_kernels(monkeypatch: pytest.MonkeyPatch) -> list[ephemeris.Ephemeris]:
-    """Every kernel that is opened from now on; each counts what it is asked for."""
+    """Every kernel that is opened from now on; each counts what it is asked for.
+
+    No samples of earlier runs are reused.
+    """
+    monkeypatch.setattr(averages.torque_samples, "_stored", OrderedDict())
     opened: list[ephemeris.Ephemeris] = []
     original = ephemeris.Ephemeris
 
@@ -54,6 +62,52 @@ def test_a_thousand_bodies_evaluate_the_kernel_once(monkeypatch: pytest.MonkeyPa
         counts.append(opened[0].evaluations)
     assert counts[0] == counts[1]
     assert counts[0][(3, 301)] > 0
+
+
+def test_means_are_reused_for_equal_inputs_only(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    opened = opened_kernels(monkeypatch)
+    kernel = tmp_path / "own.bsp"
+    shutil.copy(ephemeris.find_kernel("de421"), kernel)
+    heavy_moon = earthspin.MOON.replace(gm=1.01 * earthspin.MOON.gm)
+    masses = xr.DataArray([1.0, 1.01], dims="mass") * earthspin.MOON.gm
+
+    def rate(**keys: object) -> tuple[xr.DataArray, bool]:
+        """Rate of precession, and whether the kernel was evaluated for it."""
+        answer = earthspin.precession(source="jplephem", **keys)
+        return answer.precession_rate.sel(perturber="total"), bool(opened[-1].evaluations)
+
+    def pair(perturber: object) -> list[object]:
+        return [earthspin.SUN, perturber]
+
+    first, evaluated = rate(ephemeris=kernel)
+    assert evaluated
+    again, evaluated = rate(ephemeris=kernel, body=earthspin.EARTH.replace())
+    assert not evaluated
+    assert float(again) == float(first)
+    for reused in (False, True):  # by Skyfield
+        plan = earthspin.precession().earthspin.plan
+        (reason,) = (row.reason for row in plan.rows if row.part == "torque-samples")
+        assert ("reused" in reason) == reused
+    # anything else is computed: another body, mass, span, or file under the same name
+    slow = earthspin.EARTH.replace(spin_period="48 h")
+    slower, _ = rate(ephemeris=kernel, body=slow)
+    turns = slow.spin_period / earthspin.EARTH.spin_period
+    assert float(slower) == pytest.approx(turns * float(first), rel=1e-14, abs=0)
+    heavier, evaluated = rate(ephemeris=kernel, perturbers=pair(heavy_moon))
+    assert evaluated
+    assert float(heavier) > float(first)
+    assert rate(ephemeris=kernel, span=("1920-01-01", "2050-01-01"))[1]
+    for _ in range(2):  # arrays may change in place
+        both, evaluated = rate(ephemeris=kernel, perturbers=pair(earthspin.MOON.replace(gm=masses)))
+        assert evaluated
+        assert np.allclose(both, [first, heavier], rtol=1e-13, atol=0)
+    with kernel.open("r+b") as file:  # another comment in the same kernel
+        file.seek(1024)
+        file.write(b"edited")
+    os.utime(kernel, (1e9, 1e9))
+    assert rate(ephemeris=kernel)[1]
 
 
 def test_dates_of_every_kind_give_the_same_series() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
+
 import erfa
 import numpy as np
 import pytest
@@ -10,6 +12,7 @@ from skyfield.api import load, load_file
 
 import earthspin
 from earthspin.engine.question import keys_of
+from earthspin.parts.averages import torque_samples
 from earthspin.sky import iau
 from earthspin.sky.ephemeris import Ephemeris, find_kernel, open_ephemeris
 from earthspin.sky.skyfield import Skyfield
@@ -130,6 +133,7 @@ def test_precession_asks_skyfield_for_declinations(monkeypatch: pytest.MonkeyPat
         return real(self, frame)
 
     monkeypatch.setattr(ICRF, "frame_latlon", watched)
+    monkeypatch.setattr(torque_samples, "_stored", OrderedDict())  # those of earlier tests
     answer = earthspin.precession()
     assert frames
     assert all(frame is mean_equator_and_equinox_of_date for frame in frames)
