@@ -18,9 +18,10 @@ from earthspin.sky.iau import mean_longitude_of_node
 
 FloatArray = NDArray[np.float64]
 
-#: Spacing of the samples among which extremes are looked for, and that of the three samples about
-#: each, d; the second determines the times of the extremes to 0.5 s.
-_SAMPLING, _CLOSE = 0.5, 0.02
+#: Spacing of the samples among which extremes are looked for, d.
+_SAMPLING = 2.0
+#: Spacings of three samples about each extreme, by which its time is refined to 0.5 s, d.
+_CLOSER = (2.0, 0.2, 0.02)
 _REACH = 2.0 * 365.25  # days searched before and after the passage of the node
 
 
@@ -80,19 +81,25 @@ def find_standstills(
     list of Standstill
         In order of time, two for each passage of the node; empty if there are none in the span.
     """
+    passages = node_passages(start, end)
+    if not passages:
+        return []
+    centres = [day for _, day in passages]
+    days = np.add.outer(centres, np.arange(-_REACH, _REACH, _SAMPLING))
+    rising = np.diff(declination(days.ravel()).reshape(days.shape), axis=1) > 0
+    owner, place = np.nonzero(rising[:, 1:] != rising[:, :-1])
+    turning = days[owner, place + 1]
+    for spacing in _CLOSER:
+        turning = _vertices(declination, turning, spacing)
+    extremes = declination(turning)
     standstills = []
-    for kind, passage in node_passages(start, end):
-        days = np.arange(passage - _REACH, passage + _REACH, _SAMPLING)
-        rising = np.diff(declination(days)) > 0
-        near = days[1:-1][rising[1:] != rising[:-1]]
-        turning = _vertices(declination, _vertices(declination, near, _SAMPLING), _CLOSE)
-        extremes = declination(turning)
+    for number, (kind, _) in enumerate(passages):
         for side in (extremes > 0, extremes < 0):
-            if side.any():
-                day, height = turning[side], extremes[side]
-                swing = np.abs(height)
-                best = np.argmax(swing) if kind == "major" else np.argmin(swing)
-                standstills.append(Standstill(kind, float(day[best]), float(height[best])))
+            mine = np.flatnonzero(side & (owner == number))
+            if mine.size:
+                swing = np.abs(extremes[mine])
+                best = mine[np.argmax(swing) if kind == "major" else np.argmin(swing)]
+                standstills.append(Standstill(kind, float(turning[best]), float(extremes[best])))
     return sorted(standstills, key=lambda standstill: standstill.day)
 
 

@@ -107,9 +107,12 @@ class Window:
             Evenly spaced, s.
         values : ndarray, shape (n, ...)
         """
+        half = self.length / 2
+        first = np.searchsorted(times, self.centre - half)
+        last = np.searchsorted(times, self.centre + half, side="right")
         # time last: numpy then sums pairwise, independent of the number of threads
-        in_time = np.ascontiguousarray(np.moveaxis(values, 0, -1))
-        return np.asarray(np.sum(self.weights(times) * in_time, axis=-1))
+        in_time = np.ascontiguousarray(np.moveaxis(values[first:last], 0, -1))
+        return np.asarray(np.sum(self.weights(times[first:last]) * in_time, axis=-1))
 
 
 def best_window(start: float, end: float, cycle: float, epoch: float = 0.0) -> Window:
