@@ -27,6 +27,7 @@ from earthspin.units import FloatArray, Number, Plain, is_masked, pack, unpack
 J2000 = np.datetime64("2000-01-01T12:00:00", "us")
 MICROSECONDS_PER_DAY = 86_400_000_000
 FIRST_UTC = 2436934.5  # Julian date of 1960-01-01
+LAST_UTC = 2488069.5  # Julian date of 2100-01-01; newer tables will not reach further soon
 TABLES = "astropy-iers-data"  # the package that brings leap seconds and UT1
 LONGEST_STEP = 10_000 * 365.25 * 86_400.0  # s
 _Time = TypeVar("_Time", int, float)
@@ -163,17 +164,33 @@ def _days_from_time(time: Any, where: Where, shown: str = "") -> Any:
     try:
         with _tables_at_hand(), warnings.catch_warnings():
             warnings.simplefilter("error")
-            tdb = time.tdb
+            tdb = _with_tdb_minus_tt(time).tdb
             days_tdb = (tdb.jd1 - J2000_JD) + tdb.jd2
         # of the last day before it, the library does not warn
         is_known = time.scale not in ("utc", "ut1") or np.min(time.jd) >= FIRST_UTC
     except Exception:  # the library and ERFA have kinds of their own, warnings among them
         is_known = False
     if not is_known:
-        newer = f", or install newer tables ({TABLES})" if np.max(time.jd) > FIRST_UTC else ""
-        problem = f"its scale, {time.scale}, is not known there; give TDB{newer}"
+        problem = f"{time.scale.upper()} is not known then; give TDB"
+        if FIRST_UTC < np.max(time.jd) < LAST_UTC:
+            problem += f", or install newer tables ({TABLES})"
         raise where.error(shown or f"JD {np.ravel(time.jd)[0]}", problem) from None
     return days_tdb
+
+
+def _with_tdb_minus_tt(time: Any) -> Any:
+    """Return a time in TT with TDB - TT at the centre of the Earth, if its scale is uniform.
+
+    astropy computes TDB - TT by way of UTC, and refuses or warns where UTC is not known.
+    """
+    if time.scale not in ("tt", "tai", "tcg") or time.location is not None:
+        return time
+    import erfa
+
+    tt = time.tt.replicate()
+    # the series is for some thousand years; the difference never exceeds 2 ms
+    tt.delta_tdb_tt = np.clip(erfa.dtdb(tt.jd1, tt.jd2, 0.0, 0.0, 0.0, 0.0), -2e-3, 2e-3)
+    return tt
 
 
 def _days_of(time: Any, where: Where) -> Any:

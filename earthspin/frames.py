@@ -19,27 +19,41 @@ from astropy.coordinates import (
     ICRS,
     Attribute,
     BaseCoordinateFrame,
+    BaseRADecFrame,
     DynamicMatrixTransform,
-    RepresentationMapping,
+    SphericalCosLatDifferential,
     SphericalRepresentation,
     TimeAttribute,
     frame_transform_graph,
 )
 from astropy.time import Time
 
-from earthspin.constants import J2000_JD
+from earthspin.bodies import in_a_sentence
+from earthspin.constants import DAY, J2000_JD
 from earthspin.dates import datetime64, days
 from earthspin.engine.labels import si
 from earthspin.engine.question import Question
-from earthspin.errors import SceneError, Where
-from earthspin.scenes import Scene, load_scene, run, run_tree
-from earthspin.secular.angles import equator_and_equinox
+from earthspin.errors import SceneError, UndefinedError, Where
+from earthspin.parts.times import epochs
+from earthspin.scenes import VERSIONS, load_scene, members_of, run, run_tree, warn_of_versions
+from earthspin.secular.angles import equator_and_equinox, equinox_error
+from earthspin.secular.reading import NO_EQUINOX
 from earthspin.units import FloatArray
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
 
+#: Questions whose answers give the axes of a frame.
+WORDS = ("long-term", "pole", "rotation")
+#: Resolution of the times of an answer, d.
+MICROSECOND = 1e-6 / DAY
+
 __all__ = ["BodyFixed", "EquatorOfDate", "SkyfieldFrame", "rotations"]
+
+
+def _give(words: tuple[str, ...]) -> str:
+    """Advice for error messages: the questions whose answers are accepted."""
+    return f"give an answer to {' or '.join(map(repr, words))}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,16 +63,16 @@ class Model:
     Attributes
     ----------
     question : Question
-        Question of the answer, without its times.
-    first : float
-        First date of the answer, days from J2000.0 TDB; a rotation starts there.
+        Question of the answer, for a single body.
     text : str
         Scene of the answer, by which models are compared.
+    versions : dict of str to str
+        Versions and file hashes with which the answer was computed.
     """
 
     question: Question
-    first: float
     text: str
+    versions: dict[str, str]
 
     @classmethod
     def of(cls, answer: Any, words: tuple[str, ...]) -> Model:
@@ -69,21 +83,21 @@ class Model:
         SceneError
             If the answer is not that of one of the questions `words` for a single body.
         """
-        if isinstance(answer, cls):
-            return answer
         if isinstance(answer, xr.DataTree):
             answer = answer.to_dataset()
-        if not isinstance(answer, xr.Dataset) or answer.attrs.get("compute") not in words:
-            allowed = " or ".join(f"'{word}'" for word in words)
-            raise SceneError("model", type(answer).__name__, f"give an answer to {allowed}")
-        question = load_scene(answer)
-        several = set(answer.dims) - {"time", "epoch", "axis", "component", "perturber"}
-        several -= {"quaternion", "effect", "cause"}
-        if several:
-            problem = "give the answer for a single body or member"
-            raise SceneError("model", f"an answer along {', '.join(map(str, several))}", problem)
-        first = float(days(answer.time, Where("time"))[0]) if "time" in answer.coords else 0.0
-        return cls(question, first, answer.attrs["scene"])
+        if isinstance(answer, xr.Dataset) and "scene" in answer.attrs:
+            versions = {key: answer.attrs[key] for key in VERSIONS if key in answer.attrs}
+            answer = cls(load_scene(answer), answer.attrs["scene"], versions)
+        if not isinstance(answer, cls):
+            problem = f"{_give(words)}, with its attributes"
+            raise SceneError("model", type(answer).__name__, problem)
+        question = answer.question
+        if question.word not in words:
+            raise SceneError("model", f"an answer to '{question.word}'", _give(words))
+        if question.members is not None or members_of(question) > 1:
+            problem = "run the question again for one of them, and give that answer"
+            raise SceneError("model", "an answer for several bodies", problem)
+        return answer
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Model) and other.text == self.text
@@ -94,41 +108,46 @@ class Model:
     def __repr__(self) -> str:
         return f"<answer to '{self.question.word}'>"
 
-    def at(self, **times: Any) -> Question:
+    @property
+    def first(self) -> float:
+        """First date of the answer, at which a rotation starts, days from J2000.0 TDB."""
+        keys = self.question.keys()
+        return float(epochs(keys["span"], keys["step"], keys["times"]).span()[0])
+
+    def at(self, times: Any) -> Question:
         """Build a question with the inputs of the result, and with new times."""
-        own = {
-            name: getattr(self.question, name)
-            for name in self.question.given
-            if name not in ("span", "step", "times")
-        }
-        scene: Question = Scene(compute=self.question.word, **own, **times)
-        return scene
+        return load_scene(self.question, {"times": times})
 
 
 @lru_cache(maxsize=64)
 def _solved(model: Model, times: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
     """Rotation matrices from the ICRS, shape (n, 3, 3), and 95 % half-widths of the axes, rad.
 
-    The half-width is that of the pole or, for a rotation, of the attitude.
+    Both arrays are shared by all callers, and cannot be written to.
     """
     solvers = {"long-term": _long_term, "pole": _pole, "rotation": _rotation}
-    return solvers[model.question.word](model, np.array(times))
+    solved = solvers[model.question.word](model, np.array(times))
+    for array in solved:
+        array.flags.writeable = False
+    return solved
 
 
 def _long_term(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Matrices from the ICRS to the mean equator and equinox of date, and pole errors, rad."""
+    """Matrices from the ICRS to the mean equator and equinox of date, and their errors, rad."""
     different, index = np.unique(times, return_inverse=True)
-    tree = run_tree(model.at(times=different * u.d), sections=["matrices"])
+    tree = run_tree(model.at(different * u.d), sections=["matrices"])
+    warn_of_versions(model.versions, tree.attrs)
     section = tree["matrices"].to_dataset()
     return section.matrix.values[index], si(section.matrix_error).values[index]
 
 
 def _pole(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Matrices from the ICRS to the true equator and equinox of date, and pole errors, rad.
+    """Matrices from the ICRS to the true equator and equinox of date, and their errors, rad.
 
     The equinox is the node on the ecliptic of date or on the orbit.
     """
-    answer = run(model.at(times=_tdb(times))).sel(axis="figure")
+    answer = run(model.at(_tdb(times))).sel(axis="figure")
+    warn_of_versions(model.versions, answer.attrs)
     axis = np.stack([answer[name].values for name in "XYZ"])
     body = model.question.body  # type: ignore[attr-defined]
     if body.needed("pole").of_the_iau:
@@ -136,17 +155,30 @@ def _pole(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
     else:
         own = body.needed("pole").orbit_normal(body.orbit_pole)
         normal = np.repeat(own[:, np.newaxis], times.size, axis=1)
-    return equator_and_equinox(axis, normal), si(answer.direction_error).values
+    error = si(answer.direction_error).values
+    sine = np.linalg.norm(np.cross(axis, normal, axis=0), axis=0)
+    if np.any(sine <= np.fmax(error, NO_EQUINOX)):
+        raise UndefinedError(
+            f"the axis of {in_a_sentence(body.name)} stands upright on the orbit: there is no "
+            "equinox; use the axes of the answer itself"
+        )
+    return equator_and_equinox(axis, normal), equinox_error(error, 0.0, sine)
 
 
 def _rotation(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Matrices from the ICRS to the principal axes of the body, and attitude errors, rad."""
-    if times.min() < model.first:
-        start, asked = datetime64(np.array([model.first, times.min()]))
+    """Matrices from the ICRS to the principal axes of the body, and their errors, rad."""
+    first = model.first
+    if times.min() < first - MICROSECOND:
+        start, asked = datetime64(np.array([first, times.min()]))
         problem = f"the rotation starts at {start} TDB; take a later time"
         raise SceneError("obstime", str(asked), problem)
-    answer = run(model.at(times=_tdb(np.array([model.first, *times])))).isel(time=slice(1, None))
-    return rotations(answer).inv().as_matrix(), si(answer.attitude_error).values
+    answer = run(model.at(_tdb(np.array([first, *np.maximum(times, first)]))))
+    warn_of_versions(model.versions, answer.attrs)
+    answer = answer.isel(time=slice(1, None))
+    # times of an answer are rounded to a microsecond
+    spin = np.sqrt(np.sum(answer.omega**2, axis=-1)).values
+    error = si(answer.attitude_error).values + spin * MICROSECOND * DAY / 2
+    return rotations(answer).inv().as_matrix(), error
 
 
 def _tdb(times: FloatArray) -> Time:
@@ -158,31 +190,40 @@ def _at(model: Model | None, obstime: Time) -> tuple[FloatArray, FloatArray]:
     """Rotation matrices from the ICRS to a frame, at its times, and their errors, rad."""
     if model is None:
         raise SceneError("model", "nothing", "give an answer, as in model=answer")
+    if obstime.size == 0:
+        return np.empty((*obstime.shape, 3, 3)), np.empty(obstime.shape)
     times = days(obstime.reshape(-1), Where("obstime"))
     matrix, error = _solved(model, tuple(times.tolist()))
     return matrix.reshape(*obstime.shape, 3, 3), error.reshape(obstime.shape)
 
 
 class _ModelAttribute(Attribute):  # type: ignore[misc]
-    """Attribute of an astropy frame that holds a result of this package."""
+    """Attribute of an astropy frame that holds a result of this package.
 
-    def __init__(self, *words: str) -> None:
-        self.words = words
-        super().__init__(default=None)
+    astropy hands the attributes of one frame on to others by their names, so that each frame checks
+    the question itself.
+    """
 
     def convert_input(self, value: Any) -> tuple[Any, bool]:
         """Convert a result to its model (question and inputs), as astropy requires."""
-        return (None, False) if value is None else (Model.of(value, self.words), True)
+        return (None, False) if value is None else (Model.of(value, WORDS), True)
 
 
-class _Rotated(BaseCoordinateFrame):  # type: ignore[misc]
-    """Base class of astropy frames whose axes are computed by this package."""
+class _Computed:
+    """Properties of a frame of astropy whose axes are computed by this package."""
 
-    default_representation = SphericalRepresentation
+    obstime: Time
+    model: Model | None
+    _words: tuple[str, ...]
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        if self.model is not None:
+            Model.of(self.model, self._words)
 
     @property
     def error(self) -> u.Quantity:
-        """95 % half-width of the pole's direction or, for a rotation, of the attitude, arcsec."""
+        """95 % half-width of the directions of the axes, arcsec."""
         return (_at(self.model, self.obstime)[1] * u.rad).to(u.arcsec)
 
     @property
@@ -191,20 +232,31 @@ class _Rotated(BaseCoordinateFrame):  # type: ignore[misc]
         return _at(self.model, self.obstime)[0]
 
 
-class EquatorOfDate(_Rotated):
+class EquatorOfDate(_Computed, BaseRADecFrame):  # type: ignore[misc]
     """Frame of astropy: equator and equinox of date of a computed pole.
 
-    Directions are rotated only: no light time, aberration or light deflection is applied, unlike
-    in astropy's GCRS and CIRS.
+    Directions and velocities are rotated only: no light time, aberration or light deflection is
+    applied, unlike in astropy's GCRS and CIRS.
 
     Parameters
     ----------
     obstime : Time
-        Time of the equator and equinox; several times are allowed.
+        Time of the equator and equinox, J2000.0 by default; several times are allowed. A date given
+        as text is UTC in astropy.
     model : Dataset
-        Answer of `long_term`: mean equator and equinox of date. Answer of `pole`: equator of the
-        figure axis with its nutation, and its node on the ecliptic of date of IAU 2006; for another
-        body than the Earth its node on the orbit. The question is solved at `obstime` itself.
+        Answer of `long_term`: mean equator and equinox of date. Answer of `pole`: true equator of
+        the figure axis, and its node on the ecliptic of date of IAU 2006; for another body than the
+        Earth its node on the orbit. The question is solved at `obstime` itself. The Earth of
+        `pole` is rigid by default, up to 86 mas from the pole of IAU 2006/2000A; an answer with
+        ``effects="all"`` has the response of its interior and agrees to 0.66 mas (1950 to 2050).
+
+    Attributes
+    ----------
+    error : Quantity
+        95 % half-width of the directions of pole and equinox, arcsec. For `pole` it does not
+        contain effects that the answer leaves out.
+    matrix : ndarray, shape (..., 3, 3)
+        Rotation matrix from the ICRS.
 
     Raises
     ------
@@ -226,25 +278,29 @@ class EquatorOfDate(_Rotated):
     183.3 76.8
     """
 
-    frame_specific_representation_info = {  # noqa: RUF012 - astropy makes it a property
-        SphericalRepresentation: [
-            RepresentationMapping("lon", "ra"),
-            RepresentationMapping("lat", "dec"),
-        ]
-    }
     obstime = TimeAttribute(default=Time(J2000_JD, format="jd", scale="tdb"))
-    model = _ModelAttribute("long-term", "pole")
+    model = _ModelAttribute(default=None)
+    _words = ("long-term", "pole")
 
 
-class BodyFixed(_Rotated):
+class BodyFixed(_Computed, BaseCoordinateFrame):  # type: ignore[misc]
     """Frame of astropy: principal axes of a rotating body, computed by `rotation`.
+
+    Vectors are rotated only: a velocity remains the velocity relative to the ICRS.
 
     Parameters
     ----------
     obstime : Time
-        Time of the attitude, not before the start of the answer.
+        Time of the attitude, not before the start of the answer; J2000.0 by default.
     model : Dataset
         Answer of `rotation`, which is solved at `obstime` itself.
+
+    Attributes
+    ----------
+    error : Quantity
+        95 % half-width of the attitude, arcsec.
+    matrix : ndarray, shape (..., 3, 3)
+        Rotation matrix from the ICRS to the principal axes, that of C last.
 
     Raises
     ------
@@ -252,8 +308,11 @@ class BodyFixed(_Rotated):
         If `model` is no such answer, or if `obstime` is before its start.
     """
 
+    default_representation = SphericalRepresentation
+    default_differential = SphericalCosLatDifferential
     obstime = TimeAttribute(default=Time(J2000_JD, format="jd", scale="tdb"))
-    model = _ModelAttribute("rotation")
+    model = _ModelAttribute(default=None)
+    _words = ("rotation",)
 
 
 for _frame in (EquatorOfDate, BodyFixed):
@@ -277,14 +336,32 @@ for _frame in (EquatorOfDate, BodyFixed):
 class SkyfieldFrame:
     """Frame of Skyfield, for `frame_xyz` and `frame_latlon`, whose axes are those of a result.
 
+    Vectors are rotated only: a velocity remains the velocity relative to the ICRF.
+
     Parameters
     ----------
     answer : Dataset
         Answer of `long_term`, `pole` or `rotation`, as in `EquatorOfDate` and `BodyFixed`.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> from skyfield.api import load, load_file
+    >>> from earthspin.frames import SkyfieldFrame
+    >>> from earthspin.sky.ephemeris import find_kernel
+    >>> answer = earthspin.pole("2026-01-01", "2026-01-02", "1 d", effects="all")
+    >>> kernel, scale = load_file(str(find_kernel("de421"))), load.timescale(builtin=True)
+    >>> moon = (kernel["moon"] - kernel["earth"]).at(scale.tdb(2026, 1, 1))
+    >>> declination, right_ascension, distance = moon.frame_latlon(SkyfieldFrame(answer))
+    >>> print(f"{declination.degrees:.3f} {right_ascension.degrees:.3f}")
+    27.413 62.931
     """
 
     def __init__(self, answer: xr.Dataset) -> None:
-        self.model = Model.of(answer, ("long-term", "pole", "rotation"))
+        self.model = Model.of(answer, WORDS)
+
+    def __repr__(self) -> str:
+        return f"SkyfieldFrame({self.model})"
 
     def rotation_at(self, t: Any) -> FloatArray:
         """Rotation matrix from the ICRF at the times of a Skyfield Time, (3, 3) or (3, 3, n)."""
@@ -304,7 +381,8 @@ def rotations(answer: xr.Dataset) -> Rotation:
     Returns
     -------
     Rotation
-        One for each time; `as_matrix`, `as_quat` and `as_euler` give other forms.
+        One for each time; `as_matrix`, `as_quat` and `as_euler` give other forms. `as_quat()` has
+        the order (x, y, z, w); ``as_quat(scalar_first=True)`` has that of `attitude`, (w, x, y, z).
 
     Raises
     ------
@@ -313,8 +391,12 @@ def rotations(answer: xr.Dataset) -> Rotation:
     """
     from scipy.spatial.transform import Rotation
 
-    if "attitude" not in answer:
-        raise SceneError("answer", answer.attrs.get("compute", ""), "it has no 'attitude'")
+    if "attitude" not in getattr(answer, "data_vars", ()):
+        word = getattr(answer, "attrs", {}).get("compute")
+        problem = "give an answer to 'rotation', 'free-rotor' or 'top', which has attitudes"
+        raise SceneError(
+            "answer", f"an answer to '{word}'" if word else type(answer).__name__, problem
+        )
     return Rotation.from_quat(
         answer.attitude.transpose(..., "quaternion").values, scalar_first=True
     )

@@ -297,7 +297,7 @@ def run(scene: Any) -> xr.Dataset:
     True
     """
     answer = answering.answer(load_scene(scene))
-    _say_what_differs(scene, answer)
+    warn_of_versions(_attributes(scene), answer.attrs)
     return answer
 
 
@@ -331,19 +331,30 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
     71.59
     """
     tree = answering.answer_tree(load_scene(scene), sections)
-    _say_what_differs(scene, tree)
+    warn_of_versions(_attributes(scene), tree.attrs)
     return tree
 
 
-def _say_what_differs(scene: Any, answer: Any) -> None:
-    """Warn if a stored result was computed with other versions than the new result."""
+def _attributes(scene: Any) -> Mapping[str, Any]:
+    """Attributes of a stored result, or of the file that contains it; empty for other scenes."""
     if isinstance(scene, (str, Path)) and Path(str(scene)).suffix in (".nc", ".zarr"):
         scene = open_file(scene)
-    old = getattr(scene, "attrs", {})
+    attributes: Mapping[str, Any] = getattr(scene, "attrs", {})
+    return attributes
+
+
+def warn_of_versions(old: Mapping[Any, Any], new: Mapping[Any, Any]) -> None:
+    """Warn if a stored result was computed with other versions than the new result.
+
+    Parameters
+    ----------
+    old, new : mapping
+        Attributes of both results.
+    """
     differ = [
-        f"{name} {old[name]}, now {answer.attrs.get(name)}"
+        f"{name} {old[name]}, now {new.get(name)}"
         for name in VERSIONS
-        if name in old and old[name] != answer.attrs.get(name)
+        if name in old and old[name] != new.get(name)
     ]
     if differ:
         warnings.warn(f"made with {'; '.join(differ)}", VersionWarning, stacklevel=3)

@@ -203,15 +203,29 @@ def test_a_series_asked_for_in_utc_is_that_of_its_tdb() -> None:
     ids=str,
 )
 def test_where_there_is_no_utc_a_zone_is_refused(value: object) -> None:
-    with pytest.raises(SceneError, match="utc, is not known there"):
+    with pytest.raises(SceneError, match="UTC is not known then; give TDB"):
         dates.microseconds(value, SPAN)
-    with pytest.raises(SceneError, match="utc, is not known there"):
+    with pytest.raises(SceneError, match="UTC is not known then; give TDB"):
         dates.days([value], TIMES)
+
+
+def test_uniform_scales_are_known_at_all_times() -> None:
+    """Where UTC is not known, TDB - TT is below 2 ms, and TT - TAI is 32.184 s."""
+    for year in (-9999.0, 9999.0):
+        tt = Time(year, format="jyear", scale="tt")
+        expected = (tt.jd1 - 2451545.0) + tt.jd2
+        for time in (tt, tt.tai, tt.tcg):
+            (found,) = dates.days(time, TIMES)
+            assert abs(found - expected) * 86400 < 2e-3
+    for scale in ("tt", "tai", "tcg"):  # with those of astropy in our time
+        times = Time(["1975-03-04T05:06:07.123", "2003-04-05"], scale=scale)
+        expected = (times.tdb.jd1 - 2451545.0) + times.tdb.jd2
+        assert np.array_equal(dates.days(times, TIMES), expected)
 
 
 def test_where_there_is_no_utc_an_index_is_refused() -> None:
     for start in ("1950-01-01", "2200-01-01"):
-        with pytest.raises(SceneError, match="utc, is not known there"):
+        with pytest.raises(SceneError, match="UTC is not known then; give TDB"):
             dates.days(pd.date_range(start, periods=2, tz="UTC"), TIMES)
 
 

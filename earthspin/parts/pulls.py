@@ -12,6 +12,7 @@ from earthspin.bodies import BODIES, Body
 from earthspin.constants import ARCSEC, DAY, NORMAL_95
 from earthspin.engine.part import part
 from earthspin.engine.question import key
+from earthspin.errors import Where
 from earthspin.mass.inertia import inverse_polar_moment
 from earthspin.motion.effects import EFFECTS, PLANETS, RIGID
 from earthspin.motion.forces import Figure, Forces
@@ -22,11 +23,30 @@ from earthspin.sky.protocol import Place
 from earthspin.units import FloatArray, Several, Word
 
 
+class EffectNames(Several):
+    """Kind of input: names of effects, or "all"."""
+
+    @property
+    def hint(self) -> str:
+        """Type hint of the allowed value, as code editors show it."""
+        return f"Literal['all'] | {super().hint}"
+
+    @property
+    def words(self) -> str:
+        """Text for error messages that describes the allowed values."""
+        return f'{super().words}; or "all"'
+
+    def read(self, value: object, where: Where) -> tuple[str, ...]:
+        """Return the names of all effects for "all"; otherwise check the given names."""
+        everything = isinstance(value, str) and value == "all"
+        return super().read(list(EFFECTS) if everything else value, where)
+
+
 class AxisMotion(Series):
     """Base class of questions about the motion of a body's axes under torques."""
 
-    effects: Annotated[tuple[str, ...], Several(Word(EFFECTS))] = key(
-        RIGID, doc="effects besides the torque of the perturbers on the bulge"
+    effects: Annotated[tuple[str, ...], EffectNames(Word(EFFECTS))] = key(
+        RIGID, doc='effects besides the torque of the perturbers on the bulge, or "all"'
     )
 
     def check(self) -> None:

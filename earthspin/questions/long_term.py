@@ -24,7 +24,7 @@ from earthspin.parts.side_by_side import SideBySide
 from earthspin.parts.sky import PerturbedBody, Sky, Stretch, places, sky
 from earthspin.secular import budget as solutions
 from earthspin.secular import reading
-from earthspin.secular.angles import equator_and_equinox, inclined_axis
+from earthspin.secular.angles import equator_and_equinox, equinox_error, inclined_axis
 from earthspin.secular.orbit import moons_height
 from earthspin.secular.strength import Strength, Tides, geodesic_precession
 from earthspin.sky.orbit_table import OrbitTable, shipped
@@ -480,7 +480,7 @@ class Matrices(FromStart, along=("epoch", "axis", "component"), error="matrix_er
         "1", "precession matrix from the GCRS to mean equator and equinox of date"
     )
     matrix_error: Value = number(
-        "arcsec", "95 % half-width of the direction of its third row, the pole", along=("epoch",)
+        "arcsec", "95 % half-width of the directions of equinox and pole", along=("epoch",)
     )
     epoch: Labels = labels()
     axis: Labels = labels(default=["equinox", "90 deg east", "pole"])
@@ -493,9 +493,14 @@ def matrices(
 ) -> Matrices:
     """Compute the precession matrices from the GCRS to mean equator and equinox of date."""
     matrix = equator_and_equinox(readings.mine.pole, readings.mine.normal)
+    error = equinox_error(
+        readings.direction_half_width("pole"),
+        readings.direction_half_width("normal"),
+        np.sin(readings.mine.values["obliquity"]),
+    )
     return Matrices(
         matrix=numbers.lay(matrix, "epoch", "axis", "component"),
-        matrix_error=numbers.lay(readings.direction_half_width("pole"), "epoch"),
+        matrix_error=numbers.lay(error, "epoch"),
         epoch=series.epoch,
     ).started_from(body)
 

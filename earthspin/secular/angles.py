@@ -78,6 +78,22 @@ def equator_and_equinox(axis: FloatArray, normal: FloatArray) -> FloatArray:
     return np.moveaxis(rows, (0, 1), (-2, -1))
 
 
+def equinox_error(pole: FloatArray, normal: Numeric, sine: FloatArray) -> FloatArray:
+    """95 % half-width of the directions of equinox and pole together, rad.
+
+    A displacement d of the pole can turn the equinox by d/tan(obliquity) along the equator; a
+    displacement d of the orbit's normal can turn it by d/sin(obliquity).
+
+    Parameters
+    ----------
+    pole, normal : ndarray
+        95 % half-widths of the directions of the pole and of the orbit's normal, rad.
+    sine : ndarray
+        Sine of the obliquity.
+    """
+    return np.asarray(np.hypot(pole, normal) / sine)
+
+
 def inclined_axis(
     axis: FloatArray, normal: FloatArray, more: Numeric, turned: Numeric
 ) -> FloatArray:
