@@ -120,7 +120,8 @@ def pole(
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
     source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    effects: Literal[
+    effects: Literal["all"]
+    | Literal[
         "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
     ]
     | Sequence[
@@ -150,7 +151,8 @@ def compare_iau(
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
     source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    effects: Literal[
+    effects: Literal["all"]
+    | Literal[
         "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
     ]
     | Sequence[
@@ -178,7 +180,8 @@ def nutation_ladder(
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
     source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    effects: Literal[
+    effects: Literal["all"]
+    | Literal[
         "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
     ]
     | Sequence[
@@ -234,7 +237,8 @@ def rotation(
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
     source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    effects: Literal[
+    effects: Literal["all"]
+    | Literal[
         "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
     ]
     | Sequence[

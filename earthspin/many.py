@@ -11,7 +11,7 @@ import xarray as xr
 from earthspin.engine.drafts import as_path
 from earthspin.engine.ensemble import Ensemble, with_members
 from earthspin.engine.store import open as open_store
-from earthspin.errors import OutputError
+from earthspin.errors import OutputError, SceneError
 from earthspin.scenes import load_scene
 
 
@@ -98,4 +98,7 @@ def _seed_from(rng: int | np.random.Generator | np.random.SeedSequence) -> int:
     """Return a given integer seed, or draw one from a NumPy generator or seed sequence."""
     if isinstance(rng, (np.random.Generator, np.random.SeedSequence)):
         return int(np.random.default_rng(rng).integers(2**32))
-    return rng
+    if isinstance(rng, bool) or not isinstance(rng, (int, np.integer)):
+        problem = "give a whole number, or a Generator or SeedSequence of NumPy"
+        raise SceneError("rng", rng, problem)
+    return int(rng)

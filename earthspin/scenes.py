@@ -190,12 +190,13 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
     else:
         text, source, title = _read(os.fspath(scene))
         stored = False
+    named = "file" if source else "scene"
     try:
         table = toml(text)
     except tomllib.TOMLDecodeError as error:
-        raise SceneError("file", source, f"it is not TOML: {error}") from None
+        raise SceneError(named, source, f"it is not TOML: {error}") from None
     except (ValueError, RecursionError) as error:
-        raise SceneError("file", source, f"it cannot be read: {error}") from None
+        raise SceneError(named, source, f"it cannot be read: {error}") from None
     with_units = set() if stored else _names(table)
     changed = _names(changes) | {part for key in changes for part in str(key).split(".")[:2]}
     with_units = with_units | changed if typed else with_units - changed
@@ -463,7 +464,8 @@ def _scene_of(answer: Any) -> str:
     """Text of the scene from which a stored result was computed; refuse a result without one."""
     text = planning.scene_of(answer)
     if not text:
-        raise SceneError("scene", type(answer).__name__, "it does not carry the scene that made it")
+        problem = "it has no scene; give a whole answer of this package, with its attributes"
+        raise SceneError("scene", type(answer).__name__, problem)
     return text
 
 

@@ -22,7 +22,8 @@ from earthspin.units import FloatArray, Number, Plain, quantity
 FARTHEST, SHORTEST = 1e9 * JULIAN_YEAR, DAY
 MOST_TIMES = 10_000_000
 _FAR_DATE = re.compile(r"([-+]?\d{1,7})-(\d\d)-(\d\d)")
-_BEFORE_CHRIST = re.compile(r"(\d{1,7}) BCE?")
+#: A year with its era; the year may have commas, as in "10,000 BC".
+_YEAR = re.compile(r"(\d{1,3}(?:,\d{3})+|\d{1,7}) (BCE?|AD|CE)")
 EXAMPLE = "-65 kyr"
 
 
@@ -46,8 +47,9 @@ def seconds(value: Any, where: Where) -> float:
         if date is not None:
             year, month, day = map(int, date.groups())
             return DAY * _days_of_date(year, month, day, where)
-        if before := _BEFORE_CHRIST.fullmatch(value.strip()):
-            return DAY * _days_of_date(1 - int(before[1]), 1, 1, where)
+        if with_era := _YEAR.fullmatch(value.strip()):
+            year, era = int(with_era[1].replace(",", "")), with_era[2]
+            return DAY * _days_of_date(1 - year if era.startswith("BC") else year, 1, 1, where)
     elif isinstance(value, (int, float)) and not hasattr(value, "to_value"):
         raise where.error(value, f"give it with its unit, like '{EXAMPLE}', or a date")
     elif not (
@@ -59,7 +61,9 @@ def seconds(value: Any, where: Where) -> float:
     try:
         duration = quantity(value, "s", where, EXAMPLE)
     except UnitsError:
-        problem = f"give a time from J2000.0 like '{EXAMPLE}', or a date like '-3000-01-01'"
+        problem = (
+            f"give a time from J2000.0 like '{EXAMPLE}', or a date like '-3000-01-01' or '3001 BC'"
+        )
         raise where.error(value, problem) from None
     if np.ndim(duration) != 0:
         raise where.error(value, f"give one time, like '{EXAMPLE}'")

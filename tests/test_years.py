@@ -166,3 +166,6 @@ def test_years_before_christ() -> None:
     """Year 1 BC is the astronomical year 0: 3000 BC starts with -2999-01-01."""
     assert seconds("3000 BC", AT) == seconds("-2999-01-01", AT)
     assert seconds("1 BCE", AT) == seconds("0-01-01", AT)
+    assert seconds("10,000 BC", AT) == seconds("-9999-01-01", AT)
+    for text in ("12000 AD", "12,000 CE", "12000 CE"):
+        assert seconds(text, AT) == seconds("12000-01-01", AT)

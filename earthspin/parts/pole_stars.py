@@ -35,7 +35,8 @@ def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
     Raises
     ------
     SceneError
-        If `result` is not such an answer, or `count` exceeds the number of listed stars.
+        If `result` is no such answer or is for another body than the Earth, or `count` exceeds the
+        number of listed stars.
 
     Examples
     --------
@@ -48,6 +49,9 @@ def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
     pole = getattr(result, "pole", None)
     if pole is None or "epoch" not in pole.dims or pole.attrs.get("frame") != "GCRS":
         raise SceneError("result", type(result).__name__, "give an answer of long_term")
+    if result.attrs.get("body", "earth") != "earth":
+        problem = "the stars are those near the pole of the Earth; give its answer"
+        raise SceneError("result", f"the pole of {result.attrs['body']}", problem)
     if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= len(STARS):  # type: ignore[redundant-expr]
         raise SceneError("count", count, f"give a whole number from 1 to {len(STARS)}")
     axis = pole.transpose(..., "epoch", "component").values

@@ -444,7 +444,8 @@ def _date(days: float) -> str:
     if not np.isfinite(days):
         return str(days)
     micro = np.timedelta64(round(float(days) * 86_400_000_000), "us")
-    return str(np.datetime64("2000-01-01T12:00:00", "us") + micro)[:19]
+    date = np.datetime64("2000-01-01T12:00:00", "us") + micro
+    return str(np.datetime_as_string(date, unit="s"))
 
 
 def describe_kernel(name: str) -> str:

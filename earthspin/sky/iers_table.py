@@ -46,7 +46,8 @@ class PoleTable(iers.IERS_A):  # type: ignore[misc]
         if outside.size:
             raise UndefinedError(
                 f"{day_of(outside[0])} is outside the table of orientation, which begins on "
-                f"{day_of(first)} and ends before {day_of(last)} (UTC); choose dates inside it"
+                f"{day_of(first)} and ends before {day_of(last)} (UTC); choose dates inside it, or "
+                "forecast more days"
             )
 
 

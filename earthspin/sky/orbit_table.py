@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import CoverageError, OutputError, one_line
+from earthspin.rounded import plain
 from earthspin.sky.columns import checksum
 
 FloatArray = NDArray[np.float64]
@@ -113,6 +114,14 @@ class OrbitTable:
     source: str
     errors: FloatArray
     sha256: str = ""
+
+    def __repr__(self) -> str:
+        first, last = (_words(float(round(edge))) for edge in self.coverage)
+        angle = np.degrees(self.errors[0].max()) * 3600
+        return (
+            f"<OrbitTable of {self.name}: {first} to {last}, error of the normal at most "
+            f"{plain(angle)} arcsec; {self.source}>"
+        )
 
     @property
     def provenance(self) -> dict[str, str]:

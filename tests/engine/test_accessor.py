@@ -67,9 +67,9 @@ def test_an_answer_without_labels_is_one_row() -> None:
 
 
 def test_a_dataset_of_another_origin_has_no_scene() -> None:
-    with pytest.raises(SceneError, match="does not carry the scene"):
+    with pytest.raises(SceneError, match="it has no scene; give a whole answer"):
         _ = xr.Dataset().earthspin.scene
-    with pytest.raises(SceneError, match="does not carry the scene"):
+    with pytest.raises(SceneError, match="it has no scene; give a whole answer"):
         _ = xr.Dataset().earthspin.plan
 
 

@@ -513,5 +513,8 @@ def test_sources_of_random_numbers_of_numpy() -> None:
         )
         xr.testing.assert_identical(first, again)
         assert not first.precession_rate.equals(other.precession_rate)
+    for wrong in (1.5, "a", True, np.random.PCG64(3)):
+        with pytest.raises(SceneError, match=r"rng = .*a Generator or SeedSequence"):
+            earthspin.ensemble("precession", 5, rng=wrong)
     with pytest.raises(SceneError, match="give either seed or rng"):
         earthspin.ensemble("precession", 5, seed=1, rng=1)

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import earthspin
 from earthspin import EARTH, SUN, AccuracyError, SceneError
 from earthspin.engine.part import BLOCK, Block
 from earthspin.engine.question import Question
 from earthspin.engine.run import Rerun
+from earthspin.motion.effects import EFFECTS
 from earthspin.scenes import load_scene, run, run_blocks, series_length, write_series
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 YEAR = {"span": ["2000-01-01", "2001-01-01"], "step": "4 min"}
 
@@ -91,3 +89,15 @@ def test_a_promise_that_the_last_stretch_would_break_is_refused_before_the_first
 def test_what_does_not_fit_into_memory_is_told_how_to_be_written() -> None:
     with pytest.raises(SceneError, match=r"write_series\(scene, 'pole.zarr'\)"):
         earthspin.pole("2000-01-01", "2050-01-01", "1 s")
+
+
+def test_all_effects_by_one_word() -> None:
+    names = list(EFFECTS)
+    few = {"span": ["2000-01-01", "2000-02-01"], "step": "10 d"}
+    listed, all_of_them = (
+        earthspin.run(earthspin.load_scene("pole", few | {"effects": effects}))
+        for effects in (names, "all")
+    )
+    xr.testing.assert_identical(listed, all_of_them)
+    with pytest.raises(SceneError, match="the body is rigid here"):
+        earthspin.rotation("2000-01-01", "2000-01-02", "1 d", effects="all")

@@ -60,5 +60,8 @@ def test_counts_that_are_none(count: object) -> None:
     past = earthspin.long_term("-1 kyr", "0 kyr", "1 kyr")
     with pytest.raises(earthspin.SceneError, match="whole number"):
         earthspin.pole_stars(past, count)
+    mars = earthspin.long_term(times=["0 kyr"], body="mars")
+    with pytest.raises(earthspin.SceneError, match="stars are those near the pole of the Earth"):
+        earthspin.pole_stars(mars)
     with pytest.raises(earthspin.SceneError, match="long_term"):
         earthspin.pole_stars(earthspin.wobble_ladder())

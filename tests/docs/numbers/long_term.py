@@ -74,9 +74,10 @@ def eccentricity_now() -> float:
     return float(shipped.answer("long-term").eccentricity[-1])
 
 
-def known_then() -> float:
-    """Half-width of the pole 12,000 years ago, arcsec."""
-    return float(earthspin.long_term(times=["-12 kyr"]).pole_error[0])
+def known_then() -> tuple[float, float]:
+    """Half-widths of pole and equinox 12,000 years ago, arcsec."""
+    tree = earthspin.run_tree(earthspin.long_term(times=["-12 kyr"]), "matrices")
+    return tree.pole_error.item(), tree["matrices"].matrix_error.item()
 
 
 def _shares(name: str) -> Callable[[], Sequence[float]]:
@@ -155,7 +156,11 @@ MEASURED += [
         "radians, {}° today and {}° at $e = {}$",
         lambda: [math.degrees(2 * e) for e in (eccentricity_now(), 0.058)] + [0.058],
     ),
-    Sentence(PAGE, "`matrix_error` is how well the pole is known, {}″ then", known_then),
+    Sentence(
+        PAGE,
+        "known to {}″ (`pole_error`), and the equinox to {}″ (`matrix_error`)",
+        lambda: [*known_then()],
+    ),
 ]
 
 
