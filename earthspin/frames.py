@@ -136,7 +136,7 @@ def _long_term(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]
     """Matrices from the ICRS to the mean equator and equinox of date, and their errors, rad."""
     different, index = np.unique(times, return_inverse=True)
     tree = run_tree(model.at(different * u.d), sections=["matrices"])
-    warn_of_versions(model.versions, tree.attrs)
+    warn_of_versions(model.versions, tree)
     section = tree["matrices"].to_dataset()
     return section.matrix.values[index], si(section.matrix_error).values[index]
 
@@ -147,7 +147,7 @@ def _pole(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
     The equinox is the node on the ecliptic of date or on the orbit.
     """
     answer = run(model.at(_tdb(times))).sel(axis="figure")
-    warn_of_versions(model.versions, answer.attrs)
+    warn_of_versions(model.versions, answer)
     axis = np.stack([answer[name].values for name in "XYZ"])
     body = model.question.body  # type: ignore[attr-defined]
     if body.needed("pole").of_the_iau:
@@ -173,7 +173,7 @@ def _rotation(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
         problem = f"the rotation starts at {start} TDB; take a later time"
         raise SceneError("obstime", str(asked), problem)
     answer = run(model.at(_tdb(np.array([first, *np.maximum(times, first)]))))
-    warn_of_versions(model.versions, answer.attrs)
+    warn_of_versions(model.versions, answer)
     answer = answer.isel(time=slice(1, None))
     # times of an answer are rounded to a microsecond
     spin = np.sqrt(np.sum(answer.omega**2, axis=-1)).values

@@ -298,7 +298,7 @@ def run(scene: Any) -> xr.Dataset:
     True
     """
     answer = answering.answer(load_scene(scene))
-    warn_of_versions(_attributes(scene), answer.attrs)
+    warn_of_versions(_attributes(scene), answer)
     return answer
 
 
@@ -332,7 +332,7 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
     71.59
     """
     tree = answering.answer_tree(load_scene(scene), sections)
-    warn_of_versions(_attributes(scene), tree.attrs)
+    warn_of_versions(_attributes(scene), tree)
     return tree
 
 
@@ -344,18 +344,19 @@ def _attributes(scene: Any) -> Mapping[str, Any]:
     return attributes
 
 
-def warn_of_versions(old: Mapping[Any, Any], new: Mapping[Any, Any]) -> None:
+def warn_of_versions(old: Mapping[str, Any], new: xr.Dataset | xr.DataTree) -> None:
     """Warn if a stored result was computed with other versions than the new result.
 
     Parameters
     ----------
-    old, new : mapping
-        Attributes of both results.
+    old : mapping
+        Attributes of the stored result.
+    new : Dataset or DataTree
     """
     differ = [
-        f"{name} {old[name]}, now {new.get(name)}"
+        f"{name} {old[name]}, now {new.attrs.get(name)}"
         for name in VERSIONS
-        if name in old and old[name] != new.get(name)
+        if name in old and old[name] != new.attrs.get(name)
     ]
     if differ:
         warnings.warn(f"made with {'; '.join(differ)}", VersionWarning, stacklevel=3)

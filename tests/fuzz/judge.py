@@ -62,7 +62,7 @@ def only_planned() -> Iterator[None]:
         mock.patch.object(asking, "answer", planned),
         mock.patch.object(answering, "answer", planned),
         mock.patch.object(answering, "answer_tree", planned),
-        mock.patch("earthspin.scenes._say_what_differs"),
+        mock.patch("earthspin.scenes.warn_of_versions"),
         mock.patch.object(run.Rerun, "__init__", side_effect=UndefinedError("not tried")),
     ):
         yield
