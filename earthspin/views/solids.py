@@ -53,7 +53,7 @@ class Solid:
     tilt: float = 0.35
 
     def json(self) -> str:
-        """Convert the picture to JSON for the page's script, with numbers rounded to five digits.
+        """Convert the picture to JSON for the page's script, with arrays rounded to five digits.
 
         Nothing in it can end the element of the page that holds it: ``<`` is written as an escape.
         """
@@ -61,9 +61,19 @@ class Solid:
         times = np.asarray(self.times, float)
         attitude = np.broadcast_to(np.asarray(self.attitude, float), (times.size, 4))
         content |= {"times": times, "attitude": attitude}
-        exact = json.dumps(content, default=lambda points: points.tolist())
-        rounded = json.loads(exact, parse_float=lambda digits: float(f"{float(digits):.5g}"))
-        return json.dumps(rounded, separators=(",", ":")).replace("<", "\\u003c")
+        text = json.dumps(content, default=_rounded, separators=(",", ":"))
+        return text.replace("<", "\\u003c")
+
+
+def _rounded(points: FloatArray) -> list[Any]:
+    """Numbers of an array, rounded to five significant digits."""
+    size = np.where(points == 0, 1.0, np.abs(points))
+    digits = 4 - np.floor(np.log10(size)).astype(int)
+    # a whole number divided by a power of ten is the nearest float to its decimal digits
+    scale = 10.0 ** np.abs(digits)
+    near = np.where(digits >= 0, np.rint(points * scale) / scale, np.rint(points / scale) * scale)
+    numbers: list[Any] = near.tolist()
+    return numbers
 
 
 #: Words about a solid, which stand on the page beside it.
