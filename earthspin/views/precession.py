@@ -325,6 +325,7 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
     difference = abs(curve.rate_by_window - total.precession_rate).clip(1e-8)
     drawing.lines(ax, curve.window_cycles, difference.transpose(..., "window"), lw=1.2)
     ax.set_yscale("log")
+    ax.yaxis.set_major_formatter(drawing.power_of_ten)
     error = float(total.precession_rate_error_method)
     ax.axhline(error, color="0.3", lw=0.9, ls="--")
     words = f"error claimed for averaging, {table.two_digits(error)} arcsec/yr"

@@ -99,7 +99,10 @@ def plot_path(
         names.append(Label(star.name, (x, y), GREY))
     for _, (x, y), colour in dates:
         ax.plot(x, y, "o", color=colour, ms=4)
-    figure_of(ax).draw_without_rendering()  # only now do the axes lie where they will
+    layout = figure_of(ax).get_layout_engine()
+    if layout is not None:
+        layout.execute(figure_of(ax))
+    ax.apply_aspect()  # only now do the axes lie where they will
     _put(ax, [*dates, *names], path)
     return ax
 
