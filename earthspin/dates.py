@@ -27,7 +27,7 @@ from earthspin.units import FloatArray, Number, Plain, is_masked, pack, unpack
 J2000 = np.datetime64("2000-01-01T12:00:00", "us")
 MICROSECONDS_PER_DAY = 86_400_000_000
 FIRST_UTC = 2436934.5  # Julian date of 1960-01-01
-LAST_UTC = 2488069.5  # Julian date of 2100-01-01; newer tables will not reach further soon
+LAST_UTC = 2488069.5  # Julian date of 2100-01-01; later times need more than newer tables
 TABLES = "astropy-iers-data"  # the package that brings leap seconds and UT1
 LONGEST_STEP = 10_000 * 365.25 * 86_400.0  # s
 _Time = TypeVar("_Time", int, float)

@@ -232,11 +232,11 @@ class CoverageError(EarthspinError, ValueError):
         self, kernel: str, asked: tuple[str, str], coverage: tuple[str, str], what: str = "kernel"
     ) -> None:
         self.kernel, self.asked, self.coverage = kernel, asked, coverage
-        one = asked[0] == asked[1]
-        times = asked[0] if one else f"span {asked[0]} to {asked[1]}"
+        is_single = asked[0] == asked[1]
+        times = asked[0] if is_single else f"span {asked[0]} to {asked[1]}"
         super().__init__(
             f"{times} is outside {what} '{kernel}', which covers {coverage[0]} to {coverage[1]} "
-            f"(TDB); choose a {'time' if one else 'span'} inside it or a longer {what}"
+            f"(TDB); choose a {'time' if is_single else 'span'} inside it or a longer {what}"
         )
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import astropy.units as u
 import erfa
@@ -32,6 +32,7 @@ from earthspin.bodies import in_a_sentence
 from earthspin.constants import DAY, J2000_JD
 from earthspin.dates import datetime64, days
 from earthspin.engine.labels import si
+from earthspin.engine.plan import scene_of
 from earthspin.engine.question import Question
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.parts.times import epochs
@@ -65,9 +66,10 @@ class Model:
     question : Question
         Question of the answer, for a single body.
     text : str
-        Scene of the answer, by which models are compared.
+        Scene of the answer.
     versions : dict of str to str
-        Versions and file hashes with which the answer was computed.
+        Versions and file hashes with which the answer was computed. Models are compared by text
+        and versions.
     """
 
     question: Question
@@ -85,9 +87,9 @@ class Model:
         """
         if isinstance(answer, xr.DataTree):
             answer = answer.to_dataset()
-        if isinstance(answer, xr.Dataset) and "scene" in answer.attrs:
+        if isinstance(answer, xr.Dataset) and scene_of(answer):
             versions = {key: answer.attrs[key] for key in VERSIONS if key in answer.attrs}
-            answer = cls(load_scene(answer), answer.attrs["scene"], versions)
+            answer = cls(load_scene(answer), scene_of(answer), versions)
         if not isinstance(answer, cls):
             problem = f"{_give(words)}, with its attributes"
             raise SceneError("model", type(answer).__name__, problem)
@@ -100,7 +102,9 @@ class Model:
         return answer
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Model) and other.text == self.text
+        if not isinstance(other, Model):
+            return False
+        return other.text == self.text and other.versions == self.versions
 
     def __hash__(self) -> int:
         return hash(self.text)
@@ -119,35 +123,48 @@ class Model:
         return load_scene(self.question, {"times": times})
 
 
-@lru_cache(maxsize=64)
-def _solved(model: Model, times: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
-    """Rotation matrices from the ICRS, shape (n, 3, 3), and 95 % half-widths of the axes, rad.
+class Solved(NamedTuple):
+    """Axes at given times, computed anew from the question of a result.
 
-    Both arrays are shared by all callers, and cannot be written to.
+    Attributes
+    ----------
+    matrix : ndarray, shape (n, 3, 3)
+        Rotation matrices from the ICRS.
+    error : ndarray, shape (n,)
+        95 % half-widths of the directions of the axes, rad.
+    versions : Dataset
+        Versions and file hashes of this computation, as attributes.
     """
+
+    matrix: FloatArray
+    error: FloatArray
+    versions: xr.Dataset
+
+
+@lru_cache(maxsize=16)
+def _solved(model: Model, times: tuple[float, ...]) -> Solved:
+    """Compute the axes of a model; the arrays are shared by all callers and cannot be changed."""
     solvers = {"long-term": _long_term, "pole": _pole, "rotation": _rotation}
     solved = solvers[model.question.word](model, np.array(times))
-    for array in solved:
+    for array in (solved.matrix, solved.error):
         array.flags.writeable = False
     return solved
 
 
-def _long_term(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _long_term(model: Model, times: FloatArray) -> Solved:
     """Matrices from the ICRS to the mean equator and equinox of date, and their errors, rad."""
     different, index = np.unique(times, return_inverse=True)
     tree = run_tree(model.at(different * u.d), sections=["matrices"])
-    warn_of_versions(model.versions, tree)
-    section = tree["matrices"].to_dataset()
-    return section.matrix.values[index], si(section.matrix_error).values[index]
+    section, versions = tree["matrices"].to_dataset(), xr.Dataset(attrs=tree.attrs)
+    return Solved(section.matrix.values[index], si(section.matrix_error).values[index], versions)
 
 
-def _pole(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _pole(model: Model, times: FloatArray) -> Solved:
     """Matrices from the ICRS to the true equator and equinox of date, and their errors, rad.
 
     The equinox is the node on the ecliptic of date or on the orbit.
     """
     answer = run(model.at(_tdb(times))).sel(axis="figure")
-    warn_of_versions(model.versions, answer)
     axis = np.stack([answer[name].values for name in "XYZ"])
     body = model.question.body  # type: ignore[attr-defined]
     if body.needed("pole").of_the_iau:
@@ -162,10 +179,11 @@ def _pole(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
             f"the axis of {in_a_sentence(body.name)} stands upright on the orbit: there is no "
             "equinox; use the axes of the answer itself"
         )
-    return equator_and_equinox(axis, normal), equinox_error(error, 0.0, sine)
+    matrix = equator_and_equinox(axis, normal)
+    return Solved(matrix, equinox_error(error, 0.0, sine), xr.Dataset(attrs=answer.attrs))
 
 
-def _rotation(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _rotation(model: Model, times: FloatArray) -> Solved:
     """Matrices from the ICRS to the principal axes of the body, and their errors, rad."""
     first = model.first
     if times.min() < first - MICROSECOND:
@@ -173,12 +191,11 @@ def _rotation(model: Model, times: FloatArray) -> tuple[FloatArray, FloatArray]:
         problem = f"the rotation starts at {start} TDB; take a later time"
         raise SceneError("obstime", str(asked), problem)
     answer = run(model.at(_tdb(np.array([first, *np.maximum(times, first)]))))
-    warn_of_versions(model.versions, answer)
     answer = answer.isel(time=slice(1, None))
     # times of an answer are rounded to a microsecond
     spin = np.sqrt(np.sum(answer.omega**2, axis=-1)).values
     error = si(answer.attitude_error).values + spin * MICROSECOND * DAY / 2
-    return rotations(answer).inv().as_matrix(), error
+    return Solved(rotations(answer).inv().as_matrix(), error, xr.Dataset(attrs=answer.attrs))
 
 
 def _tdb(times: FloatArray) -> Time:
@@ -193,8 +210,9 @@ def _at(model: Model | None, obstime: Time) -> tuple[FloatArray, FloatArray]:
     if obstime.size == 0:
         return np.empty((*obstime.shape, 3, 3)), np.empty(obstime.shape)
     times = days(obstime.reshape(-1), Where("obstime"))
-    matrix, error = _solved(model, tuple(times.tolist()))
-    return matrix.reshape(*obstime.shape, 3, 3), error.reshape(obstime.shape)
+    solved = _solved(model, tuple(times.tolist()))
+    warn_of_versions(model.versions, solved.versions, stacklevel=4)
+    return solved.matrix.reshape(*obstime.shape, 3, 3), solved.error.reshape(obstime.shape)
 
 
 class _ModelAttribute(Attribute):  # type: ignore[misc]
@@ -247,8 +265,9 @@ class EquatorOfDate(_Computed, BaseRADecFrame):  # type: ignore[misc]
         Answer of `long_term`: mean equator and equinox of date. Answer of `pole`: true equator of
         the figure axis, and its node on the ecliptic of date of IAU 2006; for another body than the
         Earth its node on the orbit. The question is solved at `obstime` itself. The Earth of
-        `pole` is rigid by default, up to 86 mas from the pole of IAU 2006/2000A; an answer with
-        ``effects="all"`` has the response of its interior and agrees to 0.66 mas (1950 to 2050).
+        `pole` is rigid by default, up to 0.09 arcsec from the pole of IAU 2006/2000A; an answer
+        with ``effects="all"`` has the response of its interior, and agrees to 0.66 mas (1950 to
+        2050).
 
     Attributes
     ----------
@@ -342,19 +361,6 @@ class SkyfieldFrame:
     ----------
     answer : Dataset
         Answer of `long_term`, `pole` or `rotation`, as in `EquatorOfDate` and `BodyFixed`.
-
-    Examples
-    --------
-    >>> import earthspin
-    >>> from skyfield.api import load, load_file
-    >>> from earthspin.frames import SkyfieldFrame
-    >>> from earthspin.sky.ephemeris import find_kernel
-    >>> answer = earthspin.pole("2026-01-01", "2026-01-02", "1 d", effects="all")
-    >>> kernel, scale = load_file(str(find_kernel("de421"))), load.timescale(builtin=True)
-    >>> moon = (kernel["moon"] - kernel["earth"]).at(scale.tdb(2026, 1, 1))
-    >>> declination, right_ascension, distance = moon.frame_latlon(SkyfieldFrame(answer))
-    >>> print(f"{declination.degrees:.3f} {right_ascension.degrees:.3f}")
-    27.413 62.931
     """
 
     def __init__(self, answer: xr.Dataset) -> None:
@@ -366,8 +372,9 @@ class SkyfieldFrame:
     def rotation_at(self, t: Any) -> FloatArray:
         """Rotation matrix from the ICRF at the times of a Skyfield Time, (3, 3) or (3, 3, n)."""
         times = days(t, Where("t"))
-        matrix, _ = _solved(self.model, tuple(times.tolist()))
-        return np.moveaxis(matrix.reshape(*t.shape, 3, 3), (-2, -1), (0, 1))
+        solved = _solved(self.model, tuple(times.tolist()))
+        warn_of_versions(self.model.versions, solved.versions)
+        return np.moveaxis(solved.matrix.reshape(*t.shape, 3, 3), (-2, -1), (0, 1))
 
 
 def rotations(answer: xr.Dataset) -> Rotation:

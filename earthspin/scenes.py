@@ -344,7 +344,9 @@ def _attributes(scene: Any) -> Mapping[str, Any]:
     return attributes
 
 
-def warn_of_versions(old: Mapping[str, Any], new: xr.Dataset | xr.DataTree) -> None:
+def warn_of_versions(
+    old: Mapping[str, Any], new: xr.Dataset | xr.DataTree, stacklevel: int = 3
+) -> None:
     """Warn if a stored result was computed with other versions than the new result.
 
     Parameters
@@ -352,6 +354,8 @@ def warn_of_versions(old: Mapping[str, Any], new: xr.Dataset | xr.DataTree) -> N
     old : mapping
         Attributes of the stored result.
     new : Dataset or DataTree
+    stacklevel : int
+        As of `warnings.warn`.
     """
     differ = [
         f"{name} {old[name]}, now {new.attrs.get(name)}"
@@ -359,7 +363,7 @@ def warn_of_versions(old: Mapping[str, Any], new: xr.Dataset | xr.DataTree) -> N
         if name in old and old[name] != new.attrs.get(name)
     ]
     if differ:
-        warnings.warn(f"made with {'; '.join(differ)}", VersionWarning, stacklevel=3)
+        warnings.warn(f"made with {'; '.join(differ)}", VersionWarning, stacklevel=stacklevel)
 
 
 # --- long series ---------------------------------------------------------------------------------

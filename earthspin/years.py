@@ -23,7 +23,7 @@ FARTHEST, SHORTEST = 1e9 * JULIAN_YEAR, DAY
 MOST_TIMES = 10_000_000
 _FAR_DATE = re.compile(r"([-+]?\d{1,7})-(\d\d)-(\d\d)")
 #: A year with its era; the year may have commas, as in "10,000 BC".
-_YEAR = re.compile(r"(\d{1,3}(?:,\d{3})+|\d{1,7}) (BCE?|AD|CE)")
+_YEAR = re.compile(r"(\d{1,3}(?:,\d{3})+|\d{1,7}) (BCE?|AD|CE)", re.IGNORECASE)
 EXAMPLE = "-65 kyr"
 
 
@@ -48,7 +48,9 @@ def seconds(value: Any, where: Where) -> float:
             year, month, day = map(int, date.groups())
             return DAY * _days_of_date(year, month, day, where)
         if with_era := _YEAR.fullmatch(value.strip()):
-            year, era = int(with_era[1].replace(",", "")), with_era[2]
+            year, era = int(with_era[1].replace(",", "")), with_era[2].upper()
+            if year == 0:
+                raise where.error(value, "there is no year 0 with an era; 1 BC precedes AD 1")
             return DAY * _days_of_date(1 - year if era.startswith("BC") else year, 1, 1, where)
     elif isinstance(value, (int, float)) and not hasattr(value, "to_value"):
         raise where.error(value, f"give it with its unit, like '{EXAMPLE}', or a date")

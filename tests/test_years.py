@@ -9,7 +9,7 @@ from astropy.time import Time
 from hypothesis import given
 from hypothesis import strategies as st
 
-from earthspin import EarthspinError
+from earthspin import EarthspinError, SceneError
 from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
 from earthspin.errors import Where
 from earthspin.years import YearList, YearSpan, grid, seconds
@@ -167,5 +167,8 @@ def test_years_before_christ() -> None:
     assert seconds("3000 BC", AT) == seconds("-2999-01-01", AT)
     assert seconds("1 BCE", AT) == seconds("0-01-01", AT)
     assert seconds("10,000 BC", AT) == seconds("-9999-01-01", AT)
-    for text in ("12000 AD", "12,000 CE", "12000 CE"):
+    for text in ("12000 AD", "12,000 CE", "12000 ce"):
         assert seconds(text, AT) == seconds("12000-01-01", AT)
+    for text in ("0 AD", "0,000 BC", "0 CE"):
+        with pytest.raises(SceneError, match="there is no year 0"):
+            seconds(text, AT)

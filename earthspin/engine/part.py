@@ -12,6 +12,7 @@ from collections import OrderedDict
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property, update_wrapper
+from threading import Lock
 from typing import Any, Generic, ParamSpec, TypeVar, overload
 
 from earthspin.engine.variables import Variable, Variables
@@ -63,7 +64,7 @@ class Part(Generic[P, R]):
     describe : callable or None
         Takes keys of the question by name and returns a description of the part.
     same_for : callable or None
-        Takes the inputs of the part and returns a value; a result is reused while this is equal.
+        Takes the inputs of the part and returns a value; a result is reused if the value is equal.
     """
 
     def __init__(
@@ -77,6 +78,7 @@ class Part(Generic[P, R]):
         self.function, self.unless, self.chooses = function, unless, chooses
         self.describe, self.same_for = describe, same_for
         self._stored: OrderedDict[Hashable, R] = OrderedDict()
+        self._lock = Lock()
         self.gives = _schema_of(function)
         self.name = function.__name__
         self.does = _first_sentence(function)
@@ -88,12 +90,15 @@ class Part(Generic[P, R]):
 
     def stored_or_computed(self, inputs: Mapping[str, Any]) -> tuple[R, bool]:
         """Return the result for given inputs, and whether an earlier result was reused."""
-        same = None if self.same_for is None else self.same_for(**inputs)
-        if same is not None and same in self._stored:
-            return self._stored[same], True
+        key = None if self.same_for is None else self.same_for(**inputs)
+        if key is None:
+            return self.function(**inputs), False  # type: ignore[call-arg]
+        with self._lock:
+            if key in self._stored:
+                return self._stored[key], True
         result = self.function(**inputs)  # type: ignore[call-arg]
-        if same is not None:
-            self._stored[same] = result
+        with self._lock:
+            self._stored[key] = result
             if len(self._stored) > STORED:
                 self._stored.popitem(last=False)
         return result, False

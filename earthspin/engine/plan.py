@@ -16,6 +16,8 @@ from earthspin.errors import SceneError, nearest
 ALL = "all"
 #: Row of the run times for importing modules; the run times of parts exclude it.
 IMPORTS = "imports"
+#: Status of a part whose result of an earlier run was used.
+REUSED = "reused"
 #: Attribute of an answer that holds the complete question as the text of a scene file.
 SCENE = "scene"
 
@@ -50,6 +52,8 @@ class Row:
     @property
     def run_time(self) -> str:
         """Run time of the part as text; empty before the run."""
+        if self.status == REUSED:
+            return REUSED
         return "" if self.seconds is None else f"{self.seconds * 1e3:.1f} ms"
 
 
@@ -86,9 +90,9 @@ class Plan:
         status, keys = "ran" if self.seconds else "runs", self.question.keys()
         rows = []
         for part in self.parts:
-            reused = " (reused from an earlier run)" if part.name in self.reused else ""
-            does = part.description(keys) + reused
-            rows.append(Row(part.title, status, does, self.seconds.get(part.name)))
+            seconds, is_reused = self.seconds.get(part.name), part.name in self.reused
+            does = part.description(keys)
+            rows.append(Row(part.title, REUSED if is_reused else status, does, seconds))
         if IMPORTS in self.seconds:
             note = "modules loaded on first use, once in each process"
             rows.append(Row(IMPORTS, status, note, self.seconds[IMPORTS]))
@@ -106,7 +110,8 @@ class Plan:
         lines = [f"{question.title}: compute = {question.word}", ""]
         shown = ""
         for row in self.rows:
-            heading = "left out" if row.status == "left out" else f"{row.status}, in this order"
+            ran = "ran" if self.seconds else "runs"
+            heading = "left out" if row.status == "left out" else f"{ran}, in this order"
             if heading != shown:
                 lines += [""] * bool(shown) + [heading]
                 shown = heading

@@ -153,10 +153,10 @@ def run_parts(plan: Plan, before: Mapping[str, Any] | None = None) -> Run:
             inputs |= {name: values[name] for name in part.uses if name in values}
             begun = time.perf_counter() - imports.seconds
             with in_range(part.name):
-                value, again = part.stored_or_computed(inputs)
+                value, is_stored = part.stored_or_computed(inputs)
                 values[part.name] = value.dataset() if isinstance(value, Variables) else value
             seconds[part.name] = time.perf_counter() - imports.seconds - begun
-            if again:
+            if is_stored:
                 reused.add(part.name)
         seconds[IMPORTS] = imports.seconds - imported
     return Run(replace(plan, seconds=seconds, reused=frozenset(reused)), values)

@@ -22,6 +22,8 @@ from earthspin.parts.elements import ellipse_chains, exact_means, no_exact_means
 from earthspin.parts.sky import Sky, Stretch
 from earthspin.sky.elements import Elements
 from earthspin.sky.equator import angle, rotate
+from earthspin.sky.moving_pole import MovingPole
+from earthspin.sky.poles import FixedPole, IAU2006Pole
 from earthspin.torque import average, locking, mean_orbit, rates
 from earthspin.torque.average import Window, best_window, precessing_torque, window_mean_and_error
 from earthspin.torque.gravity import torque_from_declination
@@ -60,6 +62,8 @@ class Samples:
         Reason why errors are missing; empty if none is.
     strength : DataArray or None
         GM along `perturber` if any is an array, else None; the torques are then for GM = 1.
+    are_stored : bool
+        Whether the samples are stored for later runs.
     """
 
     times: FloatArray
@@ -71,6 +75,7 @@ class Samples:
     unmeasured: tuple[str, ...] = ()
     no_error: str = ""
     strength: xr.DataArray | None = None
+    are_stored: bool = False
 
 
 def _same_samples(
@@ -85,6 +90,8 @@ def _same_samples(
     if chosen_average is not None or any(member.labelled for member in bodies):
         return None
     if not all(isinstance(place, int) for place in places):
+        return None
+    if not isinstance(body.pole, (FixedPole, IAU2006Pole, MovingPole)):
         return None
     return frozenset(sky.provenance.items()), places, stretch, bodies
 
@@ -129,6 +136,7 @@ def torque_samples(
         unmeasured=sky.unmeasured,
         no_error=sky.no_error,
         strength=strength,
+        are_stored=_same_samples(sky, stretch, body, perturbers, chosen_average) is not None,
     )
 
 
@@ -228,9 +236,8 @@ def _same_means(
     perturbers: tuple[Body, ...],
     chosen_average: Choice[Averaging] | None = None,
 ) -> Hashable:
-    """Samples from which means are computed, and their perturbers; None if those are arrays."""
-    arrays = any(member.labelled for member in perturbers)
-    return None if arrays or chosen_average is not None else (torque_samples, perturbers)
+    """Samples from which means are computed; None if these samples are not stored."""
+    return torque_samples if torque_samples.are_stored else None
 
 
 @part(unless=exact_means, same_for=_same_means)

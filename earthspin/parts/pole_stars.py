@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from earthspin.bodies import BODIES, in_a_sentence
+from earthspin.bodies import in_a_sentence
 from earthspin.constants import JULIAN_YEAR
 from earthspin.engine.labels import si
 from earthspin.errors import SceneError
@@ -50,10 +50,10 @@ def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
     pole = getattr(result, "pole", None)
     if pole is None or "epoch" not in pole.dims or pole.attrs.get("frame") != "GCRS":
         raise SceneError("result", type(result).__name__, "give an answer of long_term")
-    body = BODIES.get(result.attrs.get("body", ""))
+    body = result.earthspin.scene.body if "scene" in result.attrs else None
     if body is not None and not body.needed("pole").of_the_iau:
         problem = "the stars are those near the pole of IAU 2006; give an answer that starts there"
-        raise SceneError("result", f"the pole of {in_a_sentence(body.name)}", problem)
+        raise SceneError("result", f"another pole of {in_a_sentence(body.name)}", problem)
     if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= len(STARS):  # type: ignore[redundant-expr]
         raise SceneError("count", count, f"give a whole number from 1 to {len(STARS)}")
     axis = pole.transpose(..., "epoch", "component").values

@@ -95,10 +95,10 @@ def find_standstills(
     standstills = []
     for number, (kind, _) in enumerate(passages):
         for side in (extremes > 0, extremes < 0):
-            mine = np.flatnonzero(side & (owner == number))
-            if mine.size:
-                swing = np.abs(extremes[mine])
-                best = mine[np.argmax(swing) if kind == "major" else np.argmin(swing)]
+            places = np.flatnonzero(side & (owner == number))
+            if places.size:
+                swing = np.abs(extremes[places])
+                best = places[np.argmax(swing) if kind == "major" else np.argmin(swing)]
                 standstills.append(Standstill(kind, float(turning[best]), float(extremes[best])))
     return sorted(standstills, key=lambda standstill: standstill.day)
 

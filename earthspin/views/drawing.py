@@ -268,7 +268,10 @@ _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 def power_of_ten(value: float, _: object = None) -> str:
     """Label of a logarithmic axis, such as 10⁻³; typesetting it as a formula takes 0.1 s."""
-    return "10" + str(round(np.log10(value))).translate(_SUPERSCRIPTS)
+    power = round(np.log10(value)) if value > 0 else 0
+    if not np.isclose(value, 10.0**power, rtol=1e-9, atol=0):
+        return f"{value:g}"  # under the pointer
+    return "10" + str(power).translate(_SUPERSCRIPTS)
 
 
 def few_dates(ax: Axes) -> None:

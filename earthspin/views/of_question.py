@@ -9,7 +9,7 @@ from typing import TypeVar
 
 import xarray as xr
 
-from earthspin.engine.plan import NOT_REQUESTED
+from earthspin.engine.plan import NOT_REQUESTED, REUSED
 from earthspin.engine.spread import is_ensemble
 from earthspin.errors import SceneError
 from earthspin.scenes import plan, run_tree
@@ -200,8 +200,10 @@ def what_ran(*trees: Result) -> list[Table]:
     rows = []
     for part, row in (row for parts in plans for row in along(parts, "part")):
         reason = row.reason.item()
-        if row.status.item() == "ran":
-            rows.append((part, reason, f"{float(row.run_time) * 1e3:.1f}"))
+        status = row.status.item()
+        if status in ("ran", REUSED):
+            run_time = REUSED if status == REUSED else f"{float(row.run_time) * 1e3:.1f}"
+            rows.append((part, reason, run_time))
         elif len(trees) == 1 and reason != NOT_REQUESTED:
             rows.append((part, f"left out: {reason}", ""))
     title = "Parts that ran, and parts left out" if len(trees) == 1 else "Parts that ran"

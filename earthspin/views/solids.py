@@ -68,11 +68,13 @@ class Solid:
 def _rounded(points: FloatArray) -> list[Any]:
     """Numbers of an array, rounded to five significant digits."""
     size = np.where(points == 0, 1.0, np.abs(points))
-    digits = 4 - np.floor(np.log10(size)).astype(int)
-    # a whole number divided by a power of ten is the nearest float to its decimal digits
+    digits = np.clip(4 - np.floor(np.log10(size)), -22, 22)
+    # a whole number divided by an exact power of ten is the float nearest to its decimal digits
     scale = 10.0 ** np.abs(digits)
-    near = np.where(digits >= 0, np.rint(points * scale) / scale, np.rint(points / scale) * scale)
-    numbers: list[Any] = near.tolist()
+    rounded = np.where(
+        digits >= 0, np.rint(points * scale) / scale, np.rint(points / scale) * scale
+    )
+    numbers: list[Any] = rounded.tolist()
     return numbers
 
 

@@ -102,7 +102,7 @@ def plot_path(
     layout = figure_of(ax).get_layout_engine()
     if layout is not None:
         layout.execute(figure_of(ax))
-    ax.apply_aspect()  # only now do the axes lie where they will
+    ax.apply_aspect()  # labels are placed in the final layout
     _put(ax, [*dates, *names], path)
     return ax
 

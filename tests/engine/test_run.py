@@ -17,6 +17,17 @@ from earthspin import AccuracyError, CoverageError, Scene, SceneError, load_scen
 from earthspin.parts import averages
 from earthspin.scenes import run, run_blocks
 from earthspin.sky import ephemeris
+from earthspin.sky.poles import FixedPole
+
+
+class MyPole:
+    """A fixed pole that its owner can change."""
+
+    of_the_iau = False
+    declination = 0.0
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(FixedPole(5.0, self.declination), name)
 
 
 def opened_kernels(monkeypatch: pytest.MonkeyPatch) -> list[ephemeris.Ephemeris]:
@@ -88,8 +99,8 @@ def test_means_are_reused_for_equal_inputs_only(
     assert float(again) == float(first)
     for reused in (False, True):  # by Skyfield
         plan = earthspin.precession().earthspin.plan
-        (reason,) = (row.reason for row in plan.rows if row.part == "torque-samples")
-        assert ("reused" in reason) == reused
+        (row,) = (row for row in plan.rows if row.part == "torque-samples")
+        assert (row.status, row.run_time == "reused") == ("reused" if reused else "ran", reused)
     # anything else is computed: another body, mass, span, or file under the same name
     slow = earthspin.EARTH.replace(spin_period="48 h")
     slower, _ = rate(ephemeris=kernel, body=slow)
@@ -103,6 +114,17 @@ def test_means_are_reused_for_equal_inputs_only(
         both, evaluated = rate(ephemeris=kernel, perturbers=pair(earthspin.MOON.replace(gm=masses)))
         assert evaluated
         assert np.allclose(both, [first, heavier], rtol=1e-13, atol=0)
+    before = averages.window_means._stored.copy()
+    rate(ephemeris=kernel, body=earthspin.EARTH.replace(j2=masses / earthspin.MOON.gm * 1e-3))
+    assert averages.window_means._stored == before  # means of samples that are not stored
+    pole = MyPole()
+    rates = []
+    for pole.declination in (0.9, 0.5):  # a pole of the user, who may change it
+        mars = earthspin.MARS.replace(pole=pole)
+        slow, evaluated = rate(ephemeris=kernel, body=mars, perturbers="sun")
+        assert evaluated
+        rates.append(float(slow))
+    assert abs(rates[1] - rates[0]) > 0.1
     with kernel.open("r+b") as file:  # another comment in the same kernel
         file.seek(1024)
         file.write(b"edited")
