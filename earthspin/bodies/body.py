@@ -430,7 +430,7 @@ class Body(FromMass):
             raise BodyError.lacking(self.name, {name: self.KINDS[name].form for name in missing})
 
     def number(self, name: str) -> float:
-        """Return the value of a field as a float; refuse an array of several values.
+        """Return the value of a field as a float; refuse an array.
 
         Raises
         ------
@@ -438,7 +438,7 @@ class Body(FromMass):
             If the field is not set, or is an array of many bodies.
         """
         value = self.needed(name)
-        if hasattr(value, "dims") and value.size != 1:
+        if getattr(value, "dims", ()):
             raise BodyError(self.name, name, "an array", "this question takes one body at a time")
         return float(value)
 
