@@ -174,7 +174,7 @@ def _days_from_time(time: Any, where: Where, shown: str = "") -> Any:
         problem = f"{time.scale.upper()} is not known then; give TDB"
         if FIRST_UTC < np.max(time.jd) < LAST_UTC:
             problem += f", or install newer tables ({TABLES})"
-        raise where.error(shown or f"JD {np.ravel(time.jd)[0]}", problem) from None
+        raise where.error(shown or f"{time.reshape(-1)[0].value}", problem) from None
     return days_tdb
 
 

@@ -44,8 +44,6 @@ from earthspin.units import FloatArray
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
 
-#: Questions whose answers give the axes of a frame.
-WORDS = ("long-term", "pole", "rotation")
 #: Resolution of the times of an answer, d.
 MICROSECOND = 1e-6 / DAY
 
@@ -77,13 +75,13 @@ class Model:
     versions: dict[str, str]
 
     @classmethod
-    def of(cls, answer: Any, words: tuple[str, ...]) -> Model:
+    def of(cls, answer: Any) -> Model:
         """Make the model (question and inputs) from a result.
 
         Raises
         ------
         SceneError
-            If the answer is not that of one of the questions `words` for a single body.
+            If this is no whole answer, or is for several bodies.
         """
         if isinstance(answer, xr.DataTree):
             answer = answer.to_dataset()
@@ -91,15 +89,17 @@ class Model:
             versions = {key: answer.attrs[key] for key in VERSIONS if key in answer.attrs}
             answer = cls(load_scene(answer), scene_of(answer), versions)
         if not isinstance(answer, cls):
-            problem = f"{_give(words)}, with its attributes"
+            problem = "it has no scene; give a whole answer or its tree, not a section of it"
             raise SceneError("model", type(answer).__name__, problem)
-        question = answer.question
-        if question.word not in words:
-            raise SceneError("model", f"an answer to '{question.word}'", _give(words))
-        if question.members is not None or members_of(question) > 1:
-            problem = "run the question again for one of them, and give that answer"
+        if answer.question.members is not None or members_of(answer.question) > 1:
+            problem = "a frame needs one body; give an answer that is no ensemble"
             raise SceneError("model", "an answer for several bodies", problem)
         return answer
+
+    def check(self, words: tuple[str, ...]) -> None:
+        """Raise an error if the result does not answer one of the questions `words`."""
+        if self.question.word not in words:
+            raise SceneError("model", f"an answer to '{self.question.word}'", _give(words))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Model):
@@ -203,16 +203,12 @@ def _tdb(times: FloatArray) -> Time:
     return Time(J2000_JD, times, format="jd", scale="tdb")
 
 
-def _at(model: Model | None, obstime: Time) -> tuple[FloatArray, FloatArray]:
-    """Rotation matrices from the ICRS to a frame, at its times, and their errors, rad."""
-    if model is None:
-        raise SceneError("model", "nothing", "give an answer, as in model=answer")
-    if obstime.size == 0:
-        return np.empty((*obstime.shape, 3, 3)), np.empty(obstime.shape)
-    times = days(obstime.reshape(-1), Where("obstime"))
-    solved = _solved(model, tuple(times.tolist()))
-    warn_of_versions(model.versions, solved.versions, stacklevel=4)
-    return solved.matrix.reshape(*obstime.shape, 3, 3), solved.error.reshape(obstime.shape)
+def _at(model: Model, time: Any, where: Where) -> tuple[FloatArray, FloatArray]:
+    """Rotation matrices from the ICRS, at times of astropy or Skyfield, and their errors, rad."""
+    flat = time.reshape(-1) if isinstance(time, Time) else time
+    solved = _solved(model, tuple(days(flat, where).tolist()))
+    warn_of_versions(model.versions, solved.versions, stacklevel=5)
+    return solved.matrix.reshape(*time.shape, 3, 3), solved.error.reshape(time.shape)
 
 
 class _ModelAttribute(Attribute):  # type: ignore[misc]
@@ -224,7 +220,7 @@ class _ModelAttribute(Attribute):  # type: ignore[misc]
 
     def convert_input(self, value: Any) -> tuple[Any, bool]:
         """Convert a result to its model (question and inputs), as astropy requires."""
-        return (None, False) if value is None else (Model.of(value, WORDS), True)
+        return (None, False) if value is None else (Model.of(value), True)
 
 
 class _Computed:
@@ -237,17 +233,25 @@ class _Computed:
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         if self.model is not None:
-            Model.of(self.model, self._words)
+            self.model.check(self._words)
 
     @property
     def error(self) -> u.Quantity:
         """95 % half-width of the directions of the axes, arcsec."""
-        return (_at(self.model, self.obstime)[1] * u.rad).to(u.arcsec)
+        return (self._axes()[1] * u.rad).to(u.arcsec)
 
     @property
     def matrix(self) -> FloatArray:
         """Rotation matrix from the ICRS to this frame, shape (..., 3, 3)."""
-        return _at(self.model, self.obstime)[0]
+        return self._axes()[0]
+
+    def _axes(self) -> tuple[FloatArray, FloatArray]:
+        """Rotation matrices from the ICRS at the times of the frame, and their errors, rad."""
+        if self.model is None:
+            raise SceneError("model", None, f"{_give(self._words)}, as in model=answer")
+        if self.obstime.size == 0:
+            return np.empty((*self.obstime.shape, 3, 3)), np.empty(self.obstime.shape)
+        return _at(self.model, self.obstime, Where("obstime"))
 
 
 class EquatorOfDate(_Computed, BaseRADecFrame):  # type: ignore[misc]
@@ -364,17 +368,19 @@ class SkyfieldFrame:
     """
 
     def __init__(self, answer: xr.Dataset) -> None:
-        self.model = Model.of(answer, WORDS)
+        self.model = Model.of(answer)
+        self.model.check(("long-term", "pole", "rotation"))
 
     def __repr__(self) -> str:
         return f"SkyfieldFrame({self.model})"
 
     def rotation_at(self, t: Any) -> FloatArray:
         """Rotation matrix from the ICRF at the times of a Skyfield Time, (3, 3) or (3, 3, n)."""
-        times = days(t, Where("t"))
-        solved = _solved(self.model, tuple(times.tolist()))
-        warn_of_versions(self.model.versions, solved.versions)
-        return np.moveaxis(solved.matrix.reshape(*t.shape, 3, 3), (-2, -1), (0, 1))
+        return np.moveaxis(_at(self.model, t, Where("t"))[0], (-2, -1), (0, 1))
+
+    def error_at(self, t: Any) -> u.Quantity:
+        """95 % half-width of the directions of the axes at the times of a Skyfield Time, arcsec."""
+        return (_at(self.model, t, Where("t"))[1] * u.rad).to(u.arcsec)
 
 
 def rotations(answer: xr.Dataset) -> Rotation:

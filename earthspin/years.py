@@ -23,7 +23,7 @@ FARTHEST, SHORTEST = 1e9 * JULIAN_YEAR, DAY
 MOST_TIMES = 10_000_000
 _FAR_DATE = re.compile(r"([-+]?\d{1,7})-(\d\d)-(\d\d)")
 #: A year with its era; the year may have commas, as in "10,000 BC".
-_YEAR = re.compile(r"(\d{1,3}(?:,\d{3})+|\d{1,7}) (BCE?|AD|CE)", re.IGNORECASE)
+_YEAR = re.compile(r"(\d{1,3}(?:,\d{3})+|\d{1,7}) ?(BCE?|AD|CE)", re.IGNORECASE)
 EXAMPLE = "-65 kyr"
 
 

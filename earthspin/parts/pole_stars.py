@@ -18,7 +18,8 @@ def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
     """Bright stars nearest to the celestial pole, at each epoch of a result of `long_term`.
 
     The stars are those of magnitude 4 or brighter near the circle of the pole (Hipparcos catalogue,
-    ESA 1997), moved by their proper motions.
+    ESA 1997), moved by their proper motions. For stars without a listed proper motion, the error
+    contains the unknown motion.
 
     Parameters
     ----------
@@ -50,10 +51,12 @@ def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
     pole = getattr(result, "pole", None)
     if pole is None or "epoch" not in pole.dims or pole.attrs.get("frame") != "GCRS":
         raise SceneError("result", type(result).__name__, "give an answer of long_term")
+    if set(pole.dims) != {"epoch", "component"}:
+        raise SceneError("result", "an answer for several bodies", "give that for one of them")
     body = result.earthspin.scene.body if "scene" in result.attrs else None
     if body is not None and not body.needed("pole").of_the_iau:
-        problem = "the stars are those near the pole of IAU 2006; give an answer that starts there"
-        raise SceneError("result", f"another pole of {in_a_sentence(body.name)}", problem)
+        problem = "its pole is not that of IAU 2006, near which the stars of the list are"
+        raise SceneError("result", f"an answer for {in_a_sentence(body.name)}", problem)
     if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= len(STARS):  # type: ignore[redundant-expr]
         raise SceneError("count", count, f"give a whole number from 1 to {len(STARS)}")
     axis = pole.transpose(..., "epoch", "component").values

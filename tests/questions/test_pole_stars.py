@@ -60,10 +60,13 @@ def test_counts_that_are_none(count: object) -> None:
     past = earthspin.long_term("-1 kyr", "0 kyr", "1 kyr")
     with pytest.raises(earthspin.SceneError, match="whole number"):
         earthspin.pole_stars(past, count)
+    many = earthspin.ensemble("long-term", 2)
+    with pytest.raises(earthspin.SceneError, match="an answer for several bodies"):
+        earthspin.pole_stars(many)
     other = earthspin.EARTH.replace(pole=(4.0, 0.5), orbit_pole=earthspin.MARS.orbit_pole)
     for body in ("mars", other):
         answer = earthspin.long_term(times=["0 kyr"], body=body)
-        with pytest.raises(earthspin.SceneError, match="stars are those near the pole of IAU 2006"):
+        with pytest.raises(earthspin.SceneError, match="its pole is not that of IAU 2006"):
             earthspin.pole_stars(answer)
     with pytest.raises(earthspin.SceneError, match="long_term"):
         earthspin.pole_stars(earthspin.wobble_ladder())
