@@ -174,8 +174,15 @@ def _days_from_time(time: Any, where: Where, shown: str = "") -> Any:
         problem = f"{time.scale.upper()} is not known then; give TDB"
         if FIRST_UTC < np.max(time.jd) < LAST_UTC:
             problem += f", or install newer tables ({TABLES})"
-        raise where.error(shown or f"{time.reshape(-1)[0].value}", problem) from None
+        raise where.error(shown or _as_given(time), problem) from None
     return days_tdb
+
+
+def _as_given(time: Any) -> str:
+    """First time of an astropy Time as text, in its own format."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # "dubious year" of ERFA
+        return str(np.ravel(time.value)[0])
 
 
 def _with_tdb_minus_tt(time: Any) -> Any:
