@@ -65,10 +65,10 @@ def test_mean_equator_of_millennia_against_erfa(past: EquatorOfDate) -> None:
 
 @pytest.mark.parametrize("date", ["1950-03-01", "1985-06-15", "2020-05-05T03:00", "2049-11-11"])
 def test_true_equator_against_erfa(now: EquatorOfDate, date: str) -> None:
-    """Pole and equinox together, measured 0.3 to 1.9 mas."""
+    """Pole and equinox together, measured 0.4 to 1.2 mas, claimed 0.8 to 2.2."""
     frame = EquatorOfDate(obstime=Time(date, scale="tdb"), model=now.model)
     iau = erfa.pnm06a(frame.obstime.jd1, frame.obstime.jd2)  # TT - TDB is below 2 ms
-    assert turn(frame.matrix, iau) < frame.error.to_value("arcsec") < 3e-3
+    assert turn(frame.matrix, iau) < frame.error.to_value("arcsec") < 2.3e-3
 
 
 def test_there_and_back(past: EquatorOfDate, now: EquatorOfDate) -> None:
@@ -144,7 +144,7 @@ def test_refusals(now: EquatorOfDate) -> None:
         _ = EquatorOfDate(model=answer).matrix
 
 
-def test_an_answer_is_used_whole(body_fixed: BodyFixed) -> None:
+def test_an_answer_is_used_whole() -> None:
     """A slice, a reversed or a single row of a rotation has the same start, and the same scene."""
     answer = earthspin.rotation("2000-01-01", "2000-01-31", "10 d", start_attitude=[1, 0, 0, 0])
     late = Time("2000-01-31", scale="tdb")
