@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.checks.solvers.simulation import RED_MEMORY, red_size, simulate
+from tests.reference.simulation import RED_MEMORY, red_size, simulate
 from earthspin.errors import UndefinedError
 from earthspin.wobble.observed import fit
 from earthspin.wobble.record import NEAR

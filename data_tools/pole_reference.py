@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from data_tools.rotation_reference import extrapolated, states
 from earthspin.checks.ladders import of_pole
-from earthspin.checks.sky import CENTRE, CODES, GM, SPIN, H, kernel
+from tests.reference.sky import CENTRE, CODES, GM, SPIN, H, kernel
 from earthspin.constants import DAY, J2000_JD
 from earthspin.sky import iau
 

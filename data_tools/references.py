@@ -27,7 +27,7 @@ from earthspin.checks.ladders import (
     of_top,
     rotating_bodies,
 )
-from earthspin.checks.sky import BODY
+from tests.reference.sky import BODY
 from earthspin.sky import iau
 
 Numbers = Sequence[Any]

@@ -33,7 +33,7 @@ from earthspin.checks.ladders.of_long_term import (
     orbit_slope,
     times,
 )
-from earthspin.checks.stored import load
+from tests.reference.stored import load
 from earthspin.constants import ARCSEC
 from earthspin.secular.lanes import solve_many
 from earthspin.secular.trajectory import solve

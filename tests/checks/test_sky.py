@@ -3,7 +3,7 @@
 import numpy as np
 
 from earthspin.checks.ladders import taylor
-from earthspin.checks.sky import GM, Tide, chebyshev_pieces, positions
+from tests.reference.sky import GM, Tide, chebyshev_pieces, positions
 from earthspin.constants import DAY
 from earthspin.torque.quadrupole import tidal_tensor
 

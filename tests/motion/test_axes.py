@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from earthspin.bodies import EARTH
-from earthspin.checks.sky import Tide
-from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
+from tests.reference.sky import Tide
+from tests.reference.momentum_and_figure import axisymmetric_motion
 from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
 from earthspin.motion.axes import AXES, axis_path, error_of_input, window_count

@@ -8,7 +8,7 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.special import ellipj, ellipk
 
-from earthspin.checks.solvers.attitude import attitude_motion
+from tests.reference.attitude import attitude_motion
 from earthspin.errors import UndefinedError
 from earthspin.motion.equations import Equations, Pull
 from earthspin.motion.solution import Motion

@@ -5,7 +5,7 @@ import pytest
 
 import earthspin
 from earthspin import EARTH, Scene
-from earthspin.checks.solvers.heavy_top import integrate_heavy_top
+from tests.reference.heavy_top import integrate_heavy_top
 from earthspin.rotor.euler import integrate_rotation
 from earthspin.scenes import QUESTIONS
 from earthspin.top.start import HeavyTop

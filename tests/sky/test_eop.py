@@ -8,7 +8,7 @@ import pytest
 
 import earthspin
 from earthspin import SeriesError
-from earthspin.checks.solvers import simulation
+from tests.reference import simulation
 from earthspin.constants import ARCSEC, MAS
 from earthspin.sky import eop
 

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from earthspin.checks.solvers.heavy_top import integrate_heavy_top
+from tests.reference.heavy_top import integrate_heavy_top
 from earthspin.top.start import HeavyTop
 
 BODY = {"transverse_moment": 1.25, "axial_moment": 0.75, "weight_moment": 2.0}

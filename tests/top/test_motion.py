@@ -8,7 +8,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from earthspin.checks.solvers.heavy_top import integrate_heavy_top
+from tests.reference.heavy_top import integrate_heavy_top
 from earthspin.top.motion import HeavyTopMotion, heavy_top_motion
 from earthspin.top.start import HeavyTop, top_constants
 from tests.conftest import load_pins

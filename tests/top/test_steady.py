@@ -6,7 +6,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from earthspin.checks.solvers.heavy_top import integrate_heavy_top
+from tests.reference.heavy_top import integrate_heavy_top
 from earthspin.errors import UndefinedError
 from earthspin.top.motion import heavy_top_motion
 from earthspin.top.start import HeavyTop

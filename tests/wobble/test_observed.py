@@ -13,7 +13,7 @@ from scipy.signal import lfilter
 
 import earthspin
 from earthspin import SceneError, UndefinedError
-from earthspin.checks.solvers import simulation
+from tests.reference import simulation
 from earthspin.constants import ARCSEC, DAY, MAS, TROPICAL_YEAR
 from earthspin.sky.eop import read_polar_motion
 from earthspin.wobble import burg, envelope, observed, record, spectrum

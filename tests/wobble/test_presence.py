@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from earthspin import UndefinedError
-from earthspin.checks.solvers import simulation
+from tests.reference import simulation
 from earthspin.wobble import observed, presence, record, sinusoid
 
 DAYS = np.arange(0.0, 65 * 365.25, 10.0)

@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from earthspin.checks.case import Distances, FloatArray, holds, refused
-from earthspin.checks.sky import BODY, J2, H
+from tests.reference.sky import BODY, J2, H
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.member_values import MEMBER
 from earthspin.engine.question import Question

@@ -15,9 +15,9 @@ import numpy as np
 
 from earthspin.bodies import MOON, SUN
 from earthspin.checks.case import Distances, FloatArray, holds, relative_error
-from earthspin.checks.sky import BODY, CENTRE, CODES, FORCES, J2, SPIN, H, Tide, kernel, positions
-from earthspin.checks.solvers.attitude import attitude_about, attitude_motion, figure_axis
-from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
+from tests.reference.sky import BODY, CENTRE, CODES, FORCES, J2, SPIN, H, Tide, kernel, positions
+from tests.reference.attitude import attitude_about, attitude_motion, figure_axis
+from tests.reference.momentum_and_figure import axisymmetric_motion
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, PUBLISHED_EFFECTS, UAS
 from earthspin.motion.axes import AxisPath, axis_path
 from earthspin.motion.forces import Figure, Forces

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from earthspin.checks.case import Distances, holds, refused
-from earthspin.checks.sky import SPIN, H
+from tests.reference.sky import SPIN, H
 from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, SIDEREAL_YEAR, UAS
 from earthspin.interior.equilibrium import equilibrium
 from earthspin.interior.layers import Layer, LayeredBody

@@ -7,8 +7,8 @@ import numpy as np
 from earthspin.bodies import Body
 from earthspin.checks.case import Distances, FloatArray, holds
 from earthspin.checks.ladders import of_rotation
-from earthspin.checks.sky import eccentric_anomaly
-from earthspin.checks.stored import attitude_error, load
+from tests.reference.sky import eccentric_anomaly
+from tests.reference.stored import attitude_error, load
 from earthspin.constants import G
 from earthspin.motion.equations import Rigid
 from earthspin.motion.march import Masses

@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 
 from earthspin.checks.case import Distances, FloatArray, holds, refused, relative_error
-from earthspin.checks.sky import BODY, J2, SPIN, H
+from tests.reference.sky import BODY, J2, SPIN, H
 from earthspin.constants import JULIAN_YEAR, UAS
 from earthspin.mass.inertia import ellipticity_from_h
 from earthspin.numerics import quaternion

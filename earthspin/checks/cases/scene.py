@@ -8,7 +8,7 @@ import sys
 import numpy as np
 
 from earthspin.checks.case import Distances, holds, refused
-from earthspin.checks.sky import BODY
+from tests.reference.sky import BODY
 from earthspin.errors import UndefinedError
 from earthspin.questions.free_rotor import free_rotor
 from earthspin.questions.top import heavy_top

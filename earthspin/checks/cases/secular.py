@@ -8,7 +8,7 @@ import numpy as np
 
 from earthspin.checks.case import Distances, FloatArray, holds, refused
 from earthspin.checks.ladders.of_long_term import orbit
-from earthspin.checks.sky import BODY
+from tests.reference.sky import BODY
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, JULIAN_YEAR
 from earthspin.questions.long_term import LongTerm, long_term
 from earthspin.scenes import run_tree

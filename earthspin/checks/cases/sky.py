@@ -9,7 +9,7 @@ import numpy as np
 
 from earthspin.bodies import MARS, MOON
 from earthspin.checks.case import Distances, holds, refused, relative_error, temporary
-from earthspin.checks.sky import BODY, CENTRE, CODES, kernel, positions
+from tests.reference.sky import BODY, CENTRE, CODES, kernel, positions
 from earthspin.constants import DAY, J2000_JD
 from earthspin.questions.torque import torque_series
 from earthspin.sky.ephemeris import Ephemeris

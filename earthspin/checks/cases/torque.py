@@ -10,7 +10,7 @@ from scipy.special import eval_legendre
 
 from earthspin.bodies import MOON, SUN, Body
 from earthspin.checks.case import Distances, holds, refused, relative_error
-from earthspin.checks.sky import BODY, J2, H
+from tests.reference.sky import BODY, J2, H
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, G
 from earthspin.questions.pole import pole
 from earthspin.questions.precession import precession

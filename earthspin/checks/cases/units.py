@@ -11,7 +11,7 @@ from astropy.time import Time
 
 from earthspin import dates
 from earthspin.checks.case import Distances, FloatArray, holds, refused
-from earthspin.checks.sky import BODY
+from tests.reference.sky import BODY
 from earthspin.constants import DAY
 from earthspin.errors import Where
 from earthspin.questions.free_rotor import free_rotor

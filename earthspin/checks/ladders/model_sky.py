@@ -12,8 +12,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from earthspin.checks.sky import GM, FloatArray, eccentric_anomaly, unit_vectors
-from earthspin.checks.stored import FOLDER
+from tests.reference.sky import GM, FloatArray, eccentric_anomaly, unit_vectors
+from tests.reference.stored import FOLDER
 from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.torque.average import precessing_torque
 from earthspin.torque.gravity import torque_from_position

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.checks.solvers.simulation import simulate
+from tests.reference.simulation import simulate
 from earthspin.checks.work_precision import FloatArray, Ladder, Method, Setting
 from earthspin.constants import DAY
 from earthspin.errors import UndefinedError

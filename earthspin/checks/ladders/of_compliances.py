@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
-from earthspin.checks.solvers.stepping import integrate
-from earthspin.checks.stored import load
+from tests.reference.stepping import integrate
+from tests.reference.stored import load
 from earthspin.checks.work_precision import Ladder, Method, Result, method
 from earthspin.constants import G
 from earthspin.interior.love import Carry, yielding

@@ -17,9 +17,9 @@ from functools import partial
 import numpy as np
 from scipy.special import jv, jvp
 
-from earthspin.checks.sky import eccentric_anomaly
-from earthspin.checks.solvers.stepping import integrate
-from earthspin.checks.stored import load
+from tests.reference.sky import eccentric_anomaly
+from tests.reference.stepping import integrate
+from tests.reference.stored import load
 from earthspin.checks.work_precision import FloatArray, Ladder, Result, method
 from earthspin.constants import DAY
 from earthspin.sky.elements import Ellipse, Plane

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from scipy.special import ndtri
 
-from earthspin.checks.sky import BODY, H
+from tests.reference.sky import BODY, H
 from earthspin.checks.work_precision import FloatArray, Ladder, Method, Result, Setting, method
 from earthspin.engine.spread import quantiles
 from earthspin.many import ensemble

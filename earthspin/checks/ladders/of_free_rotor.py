@@ -8,8 +8,8 @@ from __future__ import annotations
 from functools import partial
 
 from earthspin.checks.ladders.rotating_bodies import ladder_of_rotation, periods, scipy_methods
-from earthspin.checks.solvers.stepping import integrate, quaternion_rate
-from earthspin.checks.stored import load
+from tests.reference.stepping import integrate, quaternion_rate
+from tests.reference.stored import load
 from earthspin.checks.work_precision import FloatArray, Ladder, Result, method
 from earthspin.rotor.euler import integrate_rotation
 from earthspin.rotor.triaxial import free_rotation

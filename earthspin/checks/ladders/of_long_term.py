@@ -12,9 +12,9 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from earthspin.bodies import MOON
-from earthspin.checks.sky import BODY, SPIN
-from earthspin.checks.solvers.stepping import integrate
-from earthspin.checks.stored import load
+from tests.reference.sky import BODY, SPIN
+from tests.reference.stepping import integrate
+from tests.reference.stored import load
 from earthspin.checks.work_precision import FloatArray, Ladder, Method, Result, method
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, JULIAN_YEAR
 from earthspin.secular import lanes, trajectory

@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 
 from earthspin.checks.ladders.of_elements import ELEMENTS, ORBIT, PLANE, ROUNDING
-from earthspin.checks.stored import load
+from tests.reference.stored import load
 from earthspin.checks.work_precision import FloatArray, Ladder, Method, Result, Setting, method
 from earthspin.constants import DAY
 from earthspin.sky.elements import Ellipse

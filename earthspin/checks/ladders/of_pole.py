@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 
 from earthspin.checks.ladders import taylor
-from earthspin.checks.sky import FORCES, GM, SPIN, H, Tide
-from earthspin.checks.solvers.attitude import attitude_about, attitude_motion, figure_axis
-from earthspin.checks.solvers.momentum_and_figure import axisymmetric_motion
-from earthspin.checks.solvers.stepping import integrate
-from earthspin.checks.stored import load
+from tests.reference.sky import FORCES, GM, SPIN, H, Tide
+from tests.reference.attitude import attitude_about, attitude_motion, figure_axis
+from tests.reference.momentum_and_figure import axisymmetric_motion
+from tests.reference.stepping import integrate
+from tests.reference.stored import load
 from earthspin.checks.work_precision import FloatArray, Ladder, Method, Result, method
 from earthspin.constants import DAY, UAS
 from earthspin.motion.axes import axis_path

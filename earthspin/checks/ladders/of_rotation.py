@@ -11,10 +11,10 @@ from functools import partial
 import numpy as np
 
 from earthspin.checks.ladders.rotating_bodies import ladder_of_rotation, scipy_methods
-from earthspin.checks.sky import eccentric_anomaly
-from earthspin.checks.solvers.attitude import attitude_motion
-from earthspin.checks.solvers.stepping import integrate, quaternion_rate
-from earthspin.checks.stored import load
+from tests.reference.sky import eccentric_anomaly
+from tests.reference.attitude import attitude_motion
+from tests.reference.stepping import integrate, quaternion_rate
+from tests.reference.stored import load
 from earthspin.checks.work_precision import FloatArray, Ladder, Result, method
 from earthspin.motion.equations import Rigid
 from earthspin.motion.march import Masses

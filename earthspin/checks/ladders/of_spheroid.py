@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.polynomial import legendre
 
-from earthspin.checks.sky import unit_vectors
-from earthspin.checks.stored import load
+from tests.reference.sky import unit_vectors
+from tests.reference.stored import load
 from earthspin.checks.work_precision import FloatArray, Ladder, Method, Setting
 from earthspin.mass.maccullagh import maccullagh_torque
 from earthspin.mass.spheroid import spheroid_attraction, spheroid_torque

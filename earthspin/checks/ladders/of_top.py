@@ -7,9 +7,9 @@ from functools import partial
 import numpy as np
 
 from earthspin.checks.ladders.rotating_bodies import ladder_of_rotation, periods, scipy_methods
-from earthspin.checks.solvers.heavy_top import integrate_heavy_top, state_of_angles
-from earthspin.checks.solvers.stepping import integrate
-from earthspin.checks.stored import load
+from tests.reference.heavy_top import integrate_heavy_top, state_of_angles
+from tests.reference.stepping import integrate
+from tests.reference.stored import load
 from earthspin.checks.work_precision import FloatArray, Ladder, Result, method
 from earthspin.top.motion import heavy_top_motion
 from earthspin.top.start import HeavyTop

@@ -17,7 +17,7 @@ from skyfield import nutationlib as tables
 from skyfield.api import load
 from skyfield.jpllib import SpiceKernel
 
-from earthspin.checks.sky import CENTRE, CODES, kernel, positions, unit_vectors
+from tests.reference.sky import CENTRE, CODES, kernel, positions, unit_vectors
 from earthspin.checks.work_precision import FloatArray, Ladder, Method, Result, method
 from earthspin.constants import DAYS_PER_CENTURY, J2000_JD, MAS
 from earthspin.sky import iau

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
-from earthspin.checks.stored import rotation_error
+from tests.reference.stored import rotation_error
 from earthspin.checks.work_precision import FloatArray, Ladder, Method, Result, method
 from earthspin.numerics.double_double import DoubleDouble
 

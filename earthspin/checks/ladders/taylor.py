@@ -1,6 +1,6 @@
 """Integrate the figure axis by Taylor series with the library heyoka, if it is installed.
 
-The equations are those of `earthspin.checks.solvers.momentum_and_figure`. The positions of Sun and
+The equations are those of `tests.reference.momentum_and_figure`. The positions of Sun and
 Moon are polynomials over pieces of four days, as in the kernel. Their coefficients are parameters,
 so that the equations are compiled once.
 """
@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from earthspin.checks.sky import GM, chebyshev_pieces, positions
-from earthspin.checks.solvers.momentum_and_figure import slopes
-from earthspin.checks.solvers.stepping import FloatArray
+from tests.reference.sky import GM, chebyshev_pieces, positions
+from tests.reference.momentum_and_figure import slopes
+from tests.reference.stepping import FloatArray
 from earthspin.constants import DAY
 
 PIECE, DEGREE = 4.0, 12  # d

@@ -12,7 +12,7 @@ import numpy as np
 import earthspin
 from data_tools import driven_wobble
 from data_tools.free_wobble import DRAWS, RED
-from earthspin.checks.solvers import simulation
+from tests.reference import simulation
 from earthspin.sky import eop
 from earthspin.sky.eop import LONGEST_DAYS
 from earthspin.wobble import presence

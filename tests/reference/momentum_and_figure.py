@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from earthspin.checks.solvers.stepping import FloatArray, integrate
+from tests.reference.stepping import FloatArray, integrate
 
 #: Tidal tensor, shape (3, 3), s-2, at a time in s.
 Tide = Callable[[float], FloatArray]

@@ -19,7 +19,7 @@ from earthspin.numerics.double_double import DoubleDouble
 
 FloatArray = NDArray[np.float64]
 
-FOLDER = Path(__file__).parent / "references"
+FOLDER = Path(__file__).parent / "values"
 
 
 def load(name: str, inputs: Mapping[str, Any]) -> dict[str, DoubleDouble]:

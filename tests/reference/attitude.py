@@ -16,8 +16,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from earthspin.checks.solvers.momentum_and_figure import Tide
-from earthspin.checks.solvers.stepping import FloatArray, integrate, quaternion_rate
+from tests.reference.momentum_and_figure import Tide
+from tests.reference.stepping import FloatArray, integrate, quaternion_rate
 from earthspin.motion.triaxial import equatorial_basis
 
 

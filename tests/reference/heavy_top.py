@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
-from earthspin.checks.solvers.stepping import FloatArray, integrate, quaternion_rate
+from tests.reference.stepping import FloatArray, integrate, quaternion_rate
 from earthspin.top.start import HeavyTop
 
 

@@ -1,1 +1,0 @@
-"""Independent solvers, used as references by self-checks and tests of the package's solvers."""
