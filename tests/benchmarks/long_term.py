@@ -20,9 +20,6 @@ import time
 from collections.abc import Callable
 
 import numpy as np
-from scipy.integrate import solve_ivp
-
-from earthspin.bodies import EARTH
 from earthspin.checks.ladders.of_long_term import (
     KYR,
     SPAN,
@@ -33,11 +30,14 @@ from earthspin.checks.ladders.of_long_term import (
     orbit_slope,
     times,
 )
-from tests.reference.stored import load
+from scipy.integrate import solve_ivp
+
+from earthspin.bodies import EARTH
 from earthspin.constants import ARCSEC
 from earthspin.secular.lanes import solve_many
 from earthspin.secular.trajectory import solve
 from earthspin.sky.orbit_table import shipped
+from tests.reference.stored import load
 
 RUNS = 7
 #: Error that one axis is followed within, arcsec.

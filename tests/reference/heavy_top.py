@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
-from tests.reference.stepping import FloatArray, integrate, quaternion_rate
 from earthspin.top.start import HeavyTop
+from tests.reference.stepping import FloatArray, integrate, quaternion_rate
 
 
 class IntegratedMotion(NamedTuple):

@@ -1,7 +1,7 @@
-"""Stored reference values with 32 digits, which are shipped with the package.
+"""Stored reference values with 32 digits.
 
 Each number is an unevaluated sum of two floats, so that errors in the last digit of a float can be
-measured. `python -m data_tools references` computes the files again.
+measured. `python -m tests.reference` computes the files again.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def load(name: str, inputs: Mapping[str, Any]) -> dict[str, DoubleDouble]:
     if stored["inputs"] != json.loads(json.dumps(inputs)):
         raise UndefinedError(
             f"the stored reference '{name}' was computed for other inputs; compute it again with "
-            "python -m data_tools references"
+            "python -m tests.reference"
         )
     return {
         key: DoubleDouble(np.array(pair["hi"]), np.array(pair["lo"]))

@@ -1,14 +1,10 @@
-r"""Compare error and run time of methods that compute positions from orbital elements.
-
-Methods: the package, textbook methods and Skyfield.
+r"""Positions from orbital elements: the package, textbook methods and Skyfield.
 
 The other methods compute the position in the plane of the orbit and rotate it as in a textbook.
 With M the mean anomaly and J the Bessel functions,
 
     cos E = -e/2 + sum (2/k) J_k'(k e) cos kM,    sin E = (2/e) sum J_k(k e)/k sin kM.
 """
-
-from __future__ import annotations
 
 import math
 from collections.abc import Callable
@@ -17,18 +13,17 @@ from functools import partial
 import numpy as np
 from scipy.special import jv, jvp
 
+from earthspin.constants import DAY
+from earthspin.sky.elements import Ellipse, Plane
+from earthspin.units import FloatArray
+from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.sky import eccentric_anomaly
 from tests.reference.stepping import integrate
 from tests.reference.stored import load
-from earthspin.checks.work_precision import FloatArray, Ladder, Result, method
-from earthspin.constants import DAY
-from earthspin.sky.elements import Ellipse, Plane
 
 #: Coordinates in the plane of an orbit, x to the pericentre, m, and the number of evaluations of
 #: the costly function.
 Planar = tuple[FloatArray, FloatArray, int]
-#: Function of an ellipse, mean anomalies and a setting.
-InPlane = Callable[[Ellipse, FloatArray, float], Planar]
 
 #: Eccentricities of the three ellipses: that of the Earth, and two for which iterations are slower.
 ECCENTRICITIES = (0.0167, 0.5, 0.99)
@@ -48,82 +43,60 @@ ELEMENTS = {
 PLANE = Plane(tuple(np.eye(3).ravel().tolist()))
 ORBIT = Ellipse(**ELEMENTS, plane=PLANE)
 ORBITS = tuple(Ellipse(**ELEMENTS | {"e": e}, plane=PLANE) for e in ECCENTRICITIES)
-#: Number of revolutions, and of positions on each ellipse; a quick run takes every second one.
+#: Number of revolutions, and of positions on each ellipse.
 TURNS, TIMES = 30, 100
 #: Inputs of the stored reference.
-INPUTS = ELEMENTS | {
-    "turns": TURNS,
-    "times": TIMES,
-    "eccentricities": list(ECCENTRICITIES),
-}
-ROUNDING = 1e-28
+INPUTS = ELEMENTS | {"turns": TURNS, "times": TIMES, "eccentricities": list(ECCENTRICITIES)}
 
 
 def days() -> FloatArray:
-    """Times at which the positions are compared, d, rounded to 1/16 d.
-
-    Rounding makes them the same on every machine.
-    """
+    """Times of the positions, d, rounded to 1/16 d so that they are equal on every machine."""
     period = 2 * math.pi / ORBIT.motion / DAY
     return np.asarray(np.rint(16 * np.linspace(0, TURNS * period, TIMES)) / 16)
 
 
-def ladder(quick: bool) -> Ladder:
-    """Return the comparison (`Ladder`) of methods for positions from orbital elements."""
-    true = load("elements", INPUTS)["places"]
-    wanted = np.arange(TIMES)[1::2] if quick else np.arange(TIMES)
-    t = days()[wanted]
-    others: list[tuple[str, str, InPlane, tuple[float, ...]]] = [
-        ("fixed-point iteration", "{} steps", _fixed_point, (5, 20, 80, 320)),
-        ("Newton's method from M", "{} steps", _newton, (2, 4, 8, 16)),
-        ("Newton's method, Danby's start", "{} steps", _danby, (2, 3, 4, 6, 8)),
-        ("series in the eccentricity", "{} terms", _series, (3, 10, 30, 100, 300)),
-        ("solve_ivp DOP853", "rtol {}", _integrated, (1e-4, 1e-7, 1e-10, 1e-13)),
-        ("universal variables by Skyfield", "", _skyfield, (0.0,)),
-    ]
-    by_elements = partial(_by_elements, t)
-    methods = [method("ellipses by their elements", "", by_elements, bound=1e-13)]
-    for name, words, run, values in others:
-        few = values[1:3] if quick and len(values) > 1 else values
-        methods.append(method(name, words, partial(_on_all_orbits, run, t), few))
+def ladder() -> Ladder:
+    """Methods for positions from orbital elements."""
+    true, t = load("elements", INPUTS)["places"], days()
+
+    def by_elements() -> tuple[FloatArray, int]:
+        return np.stack([orbit.positions(t) for orbit in ORBITS]), t.size * len(ORBITS)
+
+    def in_plane(run: Callable[..., Planar], setting: float = 0.0) -> tuple[FloatArray, int]:
+        """Positions on all test orbits by a method for the plane of the orbit."""
+        positions, calls = [], 0
+        for orbit in ORBITS:
+            x, y, more = run(orbit, orbit.mean_anomaly + orbit.motion * DAY * t, setting)
+            positions.append(_in_space(orbit, t, x, y))
+            calls += more
+        return np.stack(positions), calls
+
+    others = {
+        "fixed-point iteration": ("{} steps", _fixed_point, (5, 20, 80, 320)),
+        "Newton's method from M": ("{} steps", _newton, (2, 4, 8, 16)),
+        "Newton's method, Danby's start": ("{} steps", _danby, (2, 3, 4, 6, 8)),
+        "series in the eccentricity": ("{} terms", _series, (3, 10, 30, 100, 300)),
+        "solve_ivp DOP853": ("rtol {}", _integrated, (1e-4, 1e-7, 1e-10, 1e-13)),
+    }
     return Ladder(
-        quantity="elements",
-        unit="1",
+        title="Positions from orbital elements",
         problem="positions on ellipses of eccentricity 0.0167, 0.5 and 0.99 whose nodes and "
-        f"pericentres precess, at {wanted.size} times in {TURNS} revolutions; the error is the "
+        f"pericentres precess, at {t.size} times in {TURNS} revolutions; the error is the "
         "largest, relative to the semi-major axis",
-        subject="positions by elements",
         reference="Kepler's equation with 50 digits, stored with 32",
-        reference_error=ROUNDING,
-        methods=methods,
-        error=lambda places: _error((places - true[:, wanted]).hi),
-        useful=0.1,
+        unit="1",
+        floor=1e-28,
+        error=lambda places: np.max(np.linalg.norm((places - true).hi, axis=-1)) / ORBIT.a,
+        runs={
+            "Orbit (start above the root)": {"": by_elements},
+            **{
+                name: settings(words, partial(in_plane, run), values)
+                for name, (words, run, values) in others.items()
+            },
+            "universal variables by Skyfield": {"": partial(in_plane, _skyfield)},
+        },
+        bounds={"Orbit (start above the root)": 1e-13},
     )
-
-
-def _error(difference: FloatArray) -> float:
-    """Largest distance between positions, relative to the semi-major axis.
-
-    The differences, in m, have the shape (3, n, 3).
-    """
-    return float(np.max(np.linalg.norm(difference, axis=-1)) / ORBIT.a)
-
-
-def _by_elements(t: FloatArray) -> Result:
-    return np.stack([orbit.positions(t) for orbit in ORBITS]), t.size * len(ORBITS)
-
-
-def _on_all_orbits(run: InPlane, t: FloatArray, setting: float) -> Result:
-    """Positions on all test orbits by one method, and number of its function evaluations.
-
-    The method computes positions in the plane of an orbit.
-    """
-    positions, calls = [], 0
-    for orbit in ORBITS:
-        x, y, more = run(orbit, orbit.mean_anomaly + orbit.motion * DAY * t, setting)
-        positions.append(_in_space(orbit, t, x, y))
-        calls += more
-    return np.stack(positions), calls
 
 
 def _in_space(orbit: Ellipse, t: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
@@ -172,8 +145,7 @@ def _start(orbit: Ellipse) -> tuple[FloatArray, FloatArray, float]:
     """Position (m) and velocity (m/s) at the pericentre in the orbital plane, and GM (m3 s-2)."""
     speed = orbit.motion * orbit.a * math.sqrt((1 + orbit.e) / (1 - orbit.e))
     position = np.array([orbit.a * (1 - orbit.e), 0.0, 0.0])
-    velocity = np.array([0.0, speed, 0.0])
-    return position, velocity, orbit.motion**2 * orbit.a**3
+    return position, np.array([0.0, speed, 0.0]), orbit.motion**2 * orbit.a**3
 
 
 def _integrated(orbit: Ellipse, mean: FloatArray, rtol: float) -> Planar:
@@ -185,13 +157,13 @@ def _integrated(orbit: Ellipse, mean: FloatArray, rtol: float) -> Planar:
         pull = -gm / (x * x + y * y) ** 1.5
         return [u, v, pull * x, pull * y]
 
-    since, size = mean / orbit.motion, np.array([orbit.a, orbit.a, velocity[1], velocity[1]])
+    size = np.array([orbit.a, orbit.a, velocity[1], velocity[1]])
     start = [*position[:2], *velocity[:2]]
-    states, evaluations = integrate(slopes, start, since, rtol, atol=rtol * size)
+    states, evaluations = integrate(slopes, start, mean / orbit.motion, rtol, atol=rtol * size)
     return states[:, 0], states[:, 1], evaluations
 
 
-def _skyfield(orbit: Ellipse, mean: FloatArray, setting: float) -> Planar:
+def _skyfield(orbit: Ellipse, mean: FloatArray, _: float) -> Planar:
     """Coordinates in the orbital plane by Skyfield's two-body propagator for comets."""
     from skyfield.keplerlib import propagate
 

@@ -1,33 +1,26 @@
-"""Compare error and run time of methods for attraction and torque of a homogeneous spheroid.
+"""Attraction and torque of a homogeneous spheroid: exact form, series and sums."""
 
-Methods: exact form, series and sums.
-"""
-
-from __future__ import annotations
-
-from collections.abc import Callable
-from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
 
-from tests.reference.sky import unit_vectors
-from tests.reference.stored import load
-from earthspin.checks.work_precision import FloatArray, Ladder, Method, Setting
 from earthspin.mass.maccullagh import maccullagh_torque
 from earthspin.mass.spheroid import spheroid_attraction, spheroid_torque
 from earthspin.mass.zonal import spheroid_zonals
 from earthspin.numerics.double_double import DoubleDouble
+from earthspin.units import FloatArray
+from tests.benchmarks.accuracy.ladder import Ladder, settings
+from tests.reference.sky import unit_vectors
+from tests.reference.stored import load
 
-Field = Callable[[Any], tuple[Any, Any]]
+#: Attraction and torque.
+Field = tuple[Any, Any]
 
 FLATTENING = 1 / 298.25
 #: Distances in equatorial radii; 60 is the distance of the Moon, 2.35e4 that of the Sun.
 DISTANCES = (1.05, 1.5, 4.0, 60.0, 1e4, 2.35e4)
 LATITUDES = (-70.0, -30.0, 10.0, 45.0, 80.0)
-
-ROUNDING = 1e-28
 
 
 def points() -> FloatArray:
@@ -36,64 +29,59 @@ def points() -> FloatArray:
     They are ordered by distance. Directions are rounded to 2^-30, so that they are the same on
     every machine.
     """
-    azimuth = np.arange(0.3, len(LATITUDES))
-    direction = unit_vectors(azimuth, np.radians(LATITUDES))
+    direction = unit_vectors(np.arange(0.3, len(LATITUDES)), np.radians(LATITUDES))
     direction = np.round(direction * 2.0**30) / 2.0**30
     return np.concatenate([distance * direction for distance in DISTANCES])
 
 
-def ladder(quick: bool) -> Ladder:
-    """Return the comparison (`Ladder`) of methods for attraction and torque of a spheroid."""
-    positions = points()
-    true = load("spheroid", {"flattening": FLATTENING, "points": positions.tolist()})
-    degrees = (2, 6, 20) if quick else tuple(range(2, 22, 2))
-    cells = (4, 8) if quick else (4, 8, 12, 16, 20)
+def inputs() -> dict[str, Any]:
+    """Inputs of the stored reference."""
+    return {"flattening": FLATTENING, "points": points().tolist()}
 
-    def setting(words: str, field: Field, where: Any = positions) -> Setting:
-        return Setting(words, lambda: (field(where), len(where)))
 
-    textbook = [
-        setting("float64", _arctangents),
-        setting("long double", _arctangents, positions.astype(np.longdouble)),
-    ]
+def ladder() -> Ladder:
+    """Methods for attraction and torque of a spheroid."""
+    r, true = points(), load("spheroid", inputs())
     return Ladder(
-        quantity="spheroid",
-        unit="1",
+        title="Attraction and torque of a spheroid",
         problem=f"attraction and torque of a homogeneous spheroid of flattening 1/298.25 at "
-        f"{len(positions)} points from 1.05 to 23,500 equatorial radii; the error is the largest "
-        "of both, relative to their sizes",
-        subject="attraction and torque of a spheroid at any distance",
+        f"{len(r)} points from 1.05 to 23,500 equatorial radii; the error is the largest of both, "
+        "relative to their sizes",
         reference="the textbook formula (MacMillan) with 80 digits, stored with 32",
-        reference_error=ROUNDING,
-        methods=[
-            Method("exact", [setting("", _exact)], 1e-14),
-            Method(
-                "zonal series", [setting(f"to degree {n}", partial(_series, n)) for n in degrees]
+        unit="1",
+        floor=1e-28,
+        error=lambda field: max(np.max(error) for error in errors(field, true).values()),
+        runs={
+            "exact": {"": lambda: (_exact(r), len(r))},
+            "zonal series": settings(
+                "to degree {}", lambda n: (_series(n, r), len(r)), range(2, 22, 2)
             ),
-            Method("MacCullagh", [setting("", _maccullagh)]),
-            Method("textbook formula", textbook),
-            Method("sum over the body", [setting(f"{n}³ cells", partial(_sum, n)) for n in cells]),
-        ],
-        useful=0.1,
-        error=lambda field: _error(field, true),
+            "MacCullagh": {"": lambda: (_maccullagh(r), len(r))},
+            "textbook formula": {
+                "float64": lambda: (arctangents(r), len(r)),
+                "long double": lambda: (arctangents(r.astype(np.longdouble)), len(r)),
+            },
+            "sum over the body": settings(
+                "{}³ cells", lambda n: (_sum(n, r), len(r)), (4, 8, 12, 16, 20)
+            ),
+        },
+        bounds={"exact": 1e-14},
     )
 
 
-def _error(result: Any, true: dict[str, DoubleDouble]) -> float:
-    """Largest relative error of attraction and torque over all points."""
-    return max(float(np.max(relative_errors(result, true)[name])) for name in true)
-
-
-def relative_errors(result: Any, true: dict[str, DoubleDouble]) -> dict[str, FloatArray]:
+def errors(field: Field, true: dict[str, DoubleDouble]) -> dict[str, FloatArray]:
     """Relative errors of attraction and torque at each point."""
-    errors = {}
-    for values, (name, exact) in zip(result, true.items(), strict=True):
-        error = np.linalg.norm((np.asarray(values) - exact).hi, axis=1)
-        errors[name] = np.asarray(error / np.linalg.norm(exact.hi, axis=1), dtype=np.float64)
-    return errors
+    return {
+        name: np.asarray(
+            np.linalg.norm((np.asarray(values) - exact).hi, axis=1)
+            / np.linalg.norm(exact.hi, axis=1),
+            dtype=np.float64,
+        )
+        for values, (name, exact) in zip(field, true.items(), strict=True)
+    }
 
 
-def _exact(r: FloatArray) -> tuple[Any, Any]:
+def _exact(r: FloatArray) -> Field:
     attraction = spheroid_attraction(1.0, 1.0, FLATTENING, r)
     return attraction, spheroid_torque(1.0, 1.0, FLATTENING, 1.0, r)
 
@@ -103,7 +91,7 @@ def _torque(push: Any, r: Any) -> Any:
     return np.stack([push * r[:, 1], -push * r[:, 0], np.zeros_like(push)], axis=-1)
 
 
-def _series(n_max: int, r: FloatArray) -> tuple[Any, Any]:
+def _series(n_max: int, r: FloatArray) -> Field:
     """Attraction and torque of a spheroid by its series of zonal harmonics to degree `n_max`."""
     zonals = spheroid_zonals(FLATTENING, n_max)
     distance = np.linalg.norm(r, axis=1)
@@ -120,7 +108,7 @@ def _series(n_max: int, r: FloatArray) -> tuple[Any, Any]:
     return attraction, _torque(-along, r)
 
 
-def _maccullagh(r: FloatArray) -> tuple[Any, Any]:
+def _maccullagh(r: FloatArray) -> Field:
     """Attraction and torque by MacCullagh's formula, with C - A only (I.9.31, I.9.32)."""
     bulge = (1 - (1 - FLATTENING) ** 2) / 5
     square = np.sum(r * r, axis=1)
@@ -131,7 +119,7 @@ def _maccullagh(r: FloatArray) -> tuple[Any, Any]:
     return attraction, maccullagh_torque(1.0, np.diag([0.0, 0.0, bulge]), r)
 
 
-def _arctangents(r: Any) -> tuple[Any, Any]:
+def arctangents(r: Any) -> Field:
     """Attraction and torque of a spheroid by the formula with arctangents (MacMillan 1930)."""
     one = r.dtype.type(1)
     c = one - r.dtype.type(FLATTENING)
@@ -147,18 +135,17 @@ def _arctangents(r: Any) -> tuple[Any, Any]:
     return attraction, _torque(1.5 * (a3 - a1) * r[:, 2], r)
 
 
-def _sum(cells: int, r: FloatArray) -> tuple[Any, Any]:
+def _sum(cells: int, r: FloatArray) -> Field:
     """Attraction and torque by numerical integration over the volume of the spheroid."""
-    node, weight = np.polynomial.legendre.leggauss(cells)
+    node, weight = legendre.leggauss(cells)
     size, size_weight = (1 + node) / 2, weight / 2
     longitude = 2 * np.pi * (np.arange(2 * cells) + 0.5) / (2 * cells)
     s, u, phi = np.meshgrid(size, node, longitude, indexing="ij")
     mass = 3 * s**2 * size_weight[:, np.newaxis, np.newaxis] * weight[:, np.newaxis]
     mass = (mass / (4 * cells)).ravel()  # the total is 1
     across = s * np.sqrt(1 - u * u)
-    body = np.stack(
-        [across * np.cos(phi), across * np.sin(phi), s * u * (1 - FLATTENING)], axis=-1
-    ).reshape(-1, 3)
+    body = [across * np.cos(phi), across * np.sin(phi), s * u * (1 - FLATTENING)]
+    body = np.stack(body, axis=-1).reshape(-1, 3)
     attraction, torque = np.empty_like(r), np.empty_like(r)
     for number, point in enumerate(r):
         separation = body - point

@@ -12,11 +12,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from tests.reference.sky import GM, FloatArray, eccentric_anomaly, unit_vectors
-from tests.reference.stored import FOLDER
 from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.torque.average import precessing_torque
 from earthspin.torque.gravity import torque_from_position
+from tests.reference.sky import GM, FloatArray, eccentric_anomaly, unit_vectors
+from tests.reference.stored import FOLDER
 
 #: D, l', l, F at J2000.0 (deg) and their rates (deg per Julian century).
 ARGUMENTS = np.array([297.8501921, 357.5291092, 134.9633964, 93.2720950])

@@ -1,0 +1,61 @@
+"""Mean rate of precession: tapers, lengths of the window and steps beside plain means."""
+
+from functools import partial
+
+import numpy as np
+
+from earthspin.constants import DAY, JULIAN_YEAR
+from earthspin.torque.average import TAPERS, Window
+from tests.benchmarks.accuracy.ladder import Ladder
+from tests.reference import model_sky
+
+#: Central epochs of the averages, d from J2000.0, at different phases of the Moon.
+EPOCHS = np.arange(-6, 7) * 1237.0
+#: Points along the four angles for the mean over infinite time; fewer change it by 1e-14.
+TORUS = (24, 16, 24, 16)
+#: Length of the window in periods of the node, and days between samples, from coarse to fine.
+WINDOWS = ((3, 6), (3, 3), (3, 2), (4, 2), (5, 2), (6, 2), (7, 2), (8, 2), (8, 1))
+#: Lengths of plain means, years.
+PLAIN_YEARS = (1.0, 18.0, 18.6, 19.0, 150.0)
+
+
+def ladder() -> Ladder:
+    """Methods for the mean rate of precession under a model Sun and Moon.
+
+    The bound of tapers is the long-period variation that is claimed for the real Moon. The model
+    also has one: 4.1e-8 in 184 years, the period of the perigee relative to twice the node
+    (3D + 3l' - l - 2F), which is longer than any window.
+    """
+    true, cycle = model_sky.torus_mean(TORUS), model_sky.node_period()
+
+    def mean(taper: str, length: float, step: int, case: int = 0) -> tuple[float, int]:
+        window = Window(float(EPOCHS[case]) * DAY, 1.0, length, taper)
+        times = window.sample_times(step * DAY)
+        return float(window.mean(times, model_sky.precessing_at(times))), times.size
+
+    return Ladder(
+        title="Mean rate of precession",
+        problem="mean rate of precession under a model Sun and Moon (Kepler's ellipse; main terms "
+        f"of ELP2000-82), from torques in a window; the error is the largest of {EPOCHS.size} "
+        "epochs, relative",
+        reference="mean over the torus of the four angles of the model, by the trapezoid rule, "
+        "without any window",
+        unit="1",
+        floor=1e-14,
+        error=lambda means: np.max(np.abs(np.asarray(means) / true - 1)),
+        runs={
+            taper: {
+                f"{turns} turns, {step} d": partial(mean, taper, turns * cycle, step)
+                for turns, step in WINDOWS
+            }
+            for taper in TAPERS
+        }
+        | {
+            "plain mean over years": {
+                f"{years:g} years, 1 d": partial(mean, "plain", years * JULIAN_YEAR, 1)
+                for years in PLAIN_YEARS
+            }
+        },
+        bounds={"plain": 1e-3, "hann": 2e-7, "sin4": 2e-7, "blackman-harris": 2e-7},
+        cases=EPOCHS.size,
+    )

@@ -1,0 +1,94 @@
+"""Directions of Sun and Moon at the true equator: nutation interpolated, exact, or neglected.
+
+The torque at an epoch follows from these directions and the distances.
+"""
+
+from collections.abc import Callable
+from functools import cache, partial
+
+import erfa
+import numpy as np
+from skyfield.api import load
+from skyfield.jpllib import SpiceKernel
+
+from earthspin.constants import J2000_JD, MAS
+from earthspin.sky import iau
+from earthspin.sky.equator import rotate
+from earthspin.sky.skyfield import Skyfield
+from earthspin.units import FloatArray
+from tests.benchmarks.accuracy.ladder import Ladder, settings
+from tests.reference.equator import true_equator
+from tests.reference.sky import CENTRE, CODES, kernel, positions, unit_vectors
+
+#: Epochs, d from J2000.0 TDB.
+DAYS = 8000.25 + np.linspace(0.0, 366.0, 10_000)
+ENDS = float(DAYS[0]), float(DAYS[-1])
+SPACINGS = (16.0, 8.0, 4.0, 2.0, 1.0, 0.5)
+
+
+def ladder() -> Ladder:
+    """Methods for Sun and Moon at the true equator."""
+    true = _directions(true_equator(DAYS))
+    source, spice = Skyfield(kernel()), _spice()
+    scale = load.timescale(builtin=True)
+
+    def at_each(matrices: Callable[[], FloatArray]) -> tuple[FloatArray, int]:
+        return _directions(matrices()), DAYS.size
+
+    def from_nodes(model: str, spacing: float) -> tuple[FloatArray, int]:
+        nutation = iau.Nutation(*ENDS, model=model, spacing=spacing)
+        return _directions(nutation.true_equator(DAYS)), DAYS.size
+
+    def own_source() -> tuple[FloatArray, int]:
+        coordinates = source.radec(CODES, CENTRE, DAYS, iau.true_equator).values()
+        return np.stack([unit_vectors(ra, dec) for ra, dec, _ in coordinates]), DAYS.size
+
+    def skyfield() -> tuple[FloatArray, int]:
+        t, result = scale.tdb_jd(J2000_JD, DAYS), []
+        for code in CODES.values():
+            ra, dec, _ = (spice[code] - spice[CENTRE]).at(t).radec(epoch="date")
+            result.append(unit_vectors(ra.radians, dec.radians))
+        return np.stack(result), DAYS.size
+
+    return Ladder(
+        title="Sun and Moon at the true equator of date",
+        problem="directions of Sun and Moon at the true equator and equinox of date (IAU "
+        f"2006/2000A), positions of DE421, {DAYS.size:,} epochs in a year; the error is the "
+        "largest angle",
+        reference="IAU 2006/2000A summed in long double with Skyfield's tables of the series and "
+        "the angles of Fukushima & Williams",
+        unit="mas",
+        floor=4 * float(np.finfo(np.longdouble).eps) / MAS,
+        error=lambda vectors: np.max(np.linalg.norm(vectors - true, axis=-1)) / MAS,
+        runs={
+            "IAU 2000A from nodes": settings("every {} d", partial(from_nodes, "2000A"), SPACINGS),
+            "IAU 2000B from nodes": settings(
+                "every {} d", partial(from_nodes, "2000B"), SPACINGS[2:5]
+            ),
+            "IAU 2000A at each epoch": {
+                "": partial(at_each, lambda: iau.Nutation(*ENDS, 1).true_equator(DAYS))
+            },
+            'source = "skyfield"': {"": own_source},
+            "IAU 2000B at each epoch": {"": partial(at_each, partial(erfa.pnm00b, J2000_JD, DAYS))},
+            "mean equator alone": {"": partial(at_each, partial(iau.mean_equator, DAYS))},
+            "Skyfield, radec of date": {"": skyfield},
+        },
+        bounds={
+            "IAU 2000A from nodes": 8e-12 / MAS,
+            "IAU 2000B from nodes": 2.0,
+            "IAU 2000A at each epoch": 2e-15 / MAS,
+            'source = "skyfield"': 5e-12 / MAS,
+        },
+    )
+
+
+@cache
+def _spice() -> SpiceKernel:
+    return SpiceKernel(str(kernel().path))
+
+
+def _directions(matrix: FloatArray) -> FloatArray:
+    """Unit vectors to Sun and Moon, rotated by one matrix per day, shape (2, n, 3)."""
+    place = positions(DAYS)
+    vectors = np.stack([rotate(matrix, place[name]) for name in CODES])
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
