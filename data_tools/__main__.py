@@ -6,7 +6,6 @@ import argparse
 import sys
 
 from data_tools import (
-    accuracy_pages,
     cf,
     constants_page,
     core_resonance,
@@ -23,14 +22,12 @@ from data_tools import (
     neglected,
     pole_offsets,
     readme_picture,
-    references,
     secular_orbits,
     signatures,
     stability,
     windows,
     worlds,
 )
-from earthspin.checks.work_precision import QUANTITIES
 from earthspin.errors import EarthspinError
 
 VERBS = {
@@ -48,10 +45,6 @@ VERBS = {
         "measure how far effects that a rigid body leaves out turn the Moon",
     ),
     "windows": (windows.main, "measure how far averages about many epochs scatter"),
-    "accuracy-pages": (
-        accuracy_pages.main,
-        "measure error against run time, for docs/work_precision.md",
-    ),
     "constants": (constants_page.main, "list every cited number and where it was read"),
     "coverage": (
         coverage.main,
@@ -76,7 +69,6 @@ VERBS = {
     "long-term": (long_term.main, "measure what docs/long_term.md says in its tables"),
     "orbits": (secular_orbits.main, "make the tables of orbits over ten million years again"),
     "readme-picture": (readme_picture.main, "draw the picture of the README"),
-    "references": (references.main, "make the stored references of the checks again"),
     "signatures": (signatures.main, "write the signatures of the public calls for editors"),
     "pole-offsets": (
         pole_offsets.main,
@@ -91,8 +83,6 @@ WITH_KERNEL = ("kernels", "error-models", "windows", "orbits")
 WITH_EXCITATION = ("driven-wobble", "forecast")
 #: Verbs that do several things, of which some may be named.
 OF_SEVERAL = {
-    "accuracy-pages": tuple(QUANTITIES),
-    "references": tuple(references.MAKERS),
     "coverage": coverage.TOPICS,
 }
 

@@ -27,11 +27,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.checks.ladders.of_forecast import usual
 from earthspin.constants import MAS, NORMAL_95
 from earthspin.sky.angular_momentum import read_angular_momentum
 from earthspin.sky.eop import PoleSeries, read_bulletin_a, read_polar_motion
 from earthspin.wobble.forecast import SKILL, Forecast, fit, forecast, forecast_with_excitation
+from tests.benchmarks.accuracy.forecast import usual
 
 Array = NDArray[np.float64]
 HORIZONS = (1, 3, 5, 10, 30, 90, 180, 365, 730)

@@ -18,10 +18,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from tests.reference.simulation import RED_MEMORY, red_size, simulate
 from earthspin.errors import UndefinedError
 from earthspin.wobble.observed import fit
 from earthspin.wobble.record import NEAR
+from tests.reference.simulation import RED_MEMORY, red_size, simulate
 
 QUALITY = {"burg": (50.0, 100.0, 180.0, 400.0), "likelihood": (50.0, 180.0)}
 YEARS = (25.0, 65.0, 130.0)

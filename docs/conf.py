@@ -48,7 +48,7 @@ sphinx_gallery_conf = {
         f"gallery/{section}"
         for section in (
             "bodies", "free_rotors", "top", "torques", "precession", "long_term", "pole",
-            "nutation", "rotation", "wobble", "accuracy", "many",
+            "nutation", "rotation", "wobble", "many",
         )
     ],
     "within_subsection_order": "FileNameSortKey",

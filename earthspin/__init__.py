@@ -44,7 +44,6 @@ _HOME = {
         "read_excitation",
     ),
     "earthspin.checks.stability": ("stability",),
-    "earthspin.checks.work_precision": ("accuracy",),
     "earthspin.errors": (
         "AccuracyError",
         "ApartError",

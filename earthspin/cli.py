@@ -1,4 +1,4 @@
-"""Commands of the command line: report, play, run, ensemble, plan, scenes, keys, accuracy, ...
+"""Commands of the command line: report, play, run, ensemble, plan, scenes, keys, ...
 
 What can be asked, and what a shell completes, comes from the questions.
 """
@@ -168,11 +168,6 @@ def _parser() -> ArgumentParser:
     add("--sections", metavar="NAMES|all", help=sections("none"))
     add("--script", **flag, help="print the parts as a Python script")
 
-    add = command("accuracy", _accuracy, "measure error against run time").add_argument
-    add("quantity", nargs="?", metavar="QUANTITY", help="default: all")
-    add("--quick", **flag, help="short problems with few settings")
-    add("--out", metavar="DIR", help="folder for data, figures and a page")
-
     command("scenes", _scenes, "list the shipped scenes")
 
     add = command("keys", _keys, "list the questions and their keys").add_argument
@@ -329,25 +324,6 @@ def _plan(options: Namespace) -> None:
         words = ", ".join(chosen(question)) or "no settings to choose"
         print(f"\nchosen for an accuracy of {question.to_table()['accuracy']}: {words}")
         print("(whether the body's numbers and the kernel allow it shows when it runs)")
-
-
-def _accuracy(options: Namespace) -> int:
-    """Command `accuracy`: measure and show the error and run time of all methods."""
-    from earthspin.checks.work_precision import QUANTITIES, accuracy
-    from earthspin.engine import drafts
-    from earthspin.views import work_precision_views as views
-
-    if options.out is not None:
-        drafts.check_writable(options.out)
-    results = []
-    for quantity in QUANTITIES if options.quantity is None else [options.quantity]:
-        results.append(accuracy(quantity, quick=options.quick))
-        if options.out is not None:
-            views.store_accuracy(results[-1], options.out)
-        views.print_accuracy(results[-1:])
-    if options.out is not None:
-        _print_written(*views.write_accuracy(results, options.out))
-    return 0 if all(result.holds.all() for result in results) else CHECK_FAILED
 
 
 def _scenes(_: Namespace) -> None:
@@ -509,7 +485,6 @@ def _offer(prefix: str, action: Action, parsed_args: Namespace, **_: object) -> 
     """Return the possible completions of an argument: scenes, kernels, keys, sections or files."""
     from argcomplete.completers import FilesCompleter
 
-    from earthspin.checks.work_precision import QUANTITIES
     from earthspin.engine.question import keys_of
     from earthspin.scenes import QUESTIONS, load_scene, shipped_scenes
     from earthspin.sky.ephemeris import NAMED_KERNELS
@@ -531,6 +506,4 @@ def _offer(prefix: str, action: Action, parsed_args: Namespace, **_: object) -> 
             return []
         case "question":
             return list(QUESTIONS)
-        case "quantity":
-            return list(QUANTITIES)
     return list(FilesCompleter()(prefix))

@@ -239,7 +239,6 @@ COMPLETIONS = {
     "earthspin run top-loop --set top.th": {"top.theta=", "top.theta_rate="},
     "earthspin run precession --set top": set(),
     "earthspin plan precession --sections stand": {"standstills"},
-    "earthspin accuracy free": {"free-rotor"},
     "earthspin keys polar": {"polar-motion"},
 }
 

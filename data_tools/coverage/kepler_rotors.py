@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from data_tools.rotation_reference import increment
 from earthspin import Body, Orbit
 from earthspin.constants import DAY
 from earthspin.dates import datetime64
+from tests.reference.extrapolation import increment
 
 FloatArray = NDArray[np.float64]
 LongArray = NDArray[np.longdouble]

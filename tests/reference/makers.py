@@ -218,19 +218,16 @@ def _times(period: float) -> list[float]:
 
 
 def _quaternion(matrix: Any) -> list[Any]:
-    """Unit quaternion w, x, y, z of a rotation matrix, from its largest element."""
-    trace = [matrix[i, i] for i in range(3)]
-    signs = [(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)]
-    squares = [1 + sum(s * d for s, d in zip(sign, trace, strict=True)) for sign in signs]
-    place = max(range(4), key=lambda n: squares[n])
-    root = mp.sqrt(squares[place])
-    cross = [matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]]
-    if place == 0:
-        return [root / 2, *(c / (2 * root) for c in cross)]
-    axis = place - 1
-    vector = [(matrix[axis, k] + matrix[k, axis]) / (2 * root) for k in range(3)]
-    vector[axis] = root / 2
-    return [cross[axis] / (2 * root), *vector]
+    """Unit quaternion w, x, y, z of a rotation matrix, from the largest row of 4 q q^T."""
+    (a, b, c), (d, e, f), (g, h, i) = matrix.tolist()
+    rows = [
+        [1 + a + e + i, h - f, c - g, d - b],
+        [h - f, 1 + a - e - i, b + d, c + g],
+        [c - g, b + d, 1 - a + e - i, f + h],
+        [d - b, c + g, f + h, 1 - a - e + i],
+    ]
+    place = max(range(4), key=lambda n: rows[n][n])
+    return [value / (2 * mp.sqrt(rows[place][place])) for value in rows[place]]
 
 
 def pairs(values: Any) -> dict[str, Any]:

@@ -68,7 +68,6 @@ def ladder() -> Ladder:
             "solve_ivp DOP853": runs("rtol {}", partial(_by_scipy, "DOP853"), TOLERANCES),
             "solve_ivp LSODA": runs("rtol {}", partial(_by_scipy, "LSODA"), TOLERANCES),
             "solve_ivp RK45": runs("rtol {}", partial(_by_scipy, "RK45"), TOLERANCES[:4]),
-            "RK4": runs("steps of {} in ln r", _runge_kutta, THIN),
             "homogeneous layers": runs("layers of {} in ln r", _even_layers, THIN),
         },
         bounds={"collocation": 1e-11},
@@ -99,19 +98,6 @@ def _by_scipy(name: str, matrix: Matrix, start: float, stop: float, y: Array, rt
     ends = np.array([stop])
     states, _ = integrate(slope, y.ravel(), ends, rtol, name, begin=start, atol=rtol * 1e-6)
     return np.asarray(states[-1].reshape(y.shape))
-
-
-def _runge_kutta(matrix: Matrix, start: float, stop: float, y: Array, step: float) -> Array:
-    """Integrate by the Runge-Kutta method, with steps that are equal in the logarithm of r."""
-    for r, after in pairwise(_edges(start, stop, step)):
-        h = after - r
-        first, middle, last = (_at(matrix, at) for at in (r, r + h / 2, after))
-        k1 = first @ y
-        k2 = middle @ (y + h / 2 * k1)
-        k3 = middle @ (y + h / 2 * k2)
-        k4 = last @ (y + h * k3)
-        y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
-    return y
 
 
 def _even_layers(matrix: Matrix, start: float, stop: float, y: Array, step: float) -> Array:

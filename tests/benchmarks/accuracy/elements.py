@@ -18,7 +18,6 @@ from earthspin.sky.elements import Ellipse, Plane
 from earthspin.units import FloatArray
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.sky import eccentric_anomaly
-from tests.reference.stepping import integrate
 from tests.reference.stored import load
 
 #: Coordinates in the plane of an orbit, x to the pericentre, m, and the number of evaluations of
@@ -76,7 +75,6 @@ def ladder() -> Ladder:
         "Newton's method from M": ("{} steps", _newton, (2, 4, 8, 16)),
         "Newton's method, Danby's start": ("{} steps", _danby, (2, 3, 4, 6, 8)),
         "series in the eccentricity": ("{} terms", _series, (3, 10, 30, 100, 300)),
-        "solve_ivp DOP853": ("rtol {}", _integrated, (1e-4, 1e-7, 1e-10, 1e-13)),
     }
     return Ladder(
         title="Positions from orbital elements",
@@ -146,21 +144,6 @@ def _start(orbit: Ellipse) -> tuple[FloatArray, FloatArray, float]:
     speed = orbit.motion * orbit.a * math.sqrt((1 + orbit.e) / (1 - orbit.e))
     position = np.array([orbit.a * (1 - orbit.e), 0.0, 0.0])
     return position, np.array([0.0, speed, 0.0]), orbit.motion**2 * orbit.a**3
-
-
-def _integrated(orbit: Ellipse, mean: FloatArray, rtol: float) -> Planar:
-    """Positions on an orbit by integrating the two-body problem numerically from the pericentre."""
-    position, velocity, gm = _start(orbit)
-
-    def slopes(time: float, state: FloatArray) -> list[float]:
-        x, y, u, v = state
-        pull = -gm / (x * x + y * y) ** 1.5
-        return [u, v, pull * x, pull * y]
-
-    size = np.array([orbit.a, orbit.a, velocity[1], velocity[1]])
-    start = [*position[:2], *velocity[:2]]
-    states, evaluations = integrate(slopes, start, mean / orbit.motion, rtol, atol=rtol * size)
-    return states[:, 0], states[:, 1], evaluations
 
 
 def _skyfield(orbit: Ellipse, mean: FloatArray, _: float) -> Planar:

@@ -1,6 +1,6 @@
 """Tables and work-precision diagrams of measured ladders."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -15,36 +15,17 @@ OURS = (BLUE, GREEN, SKY, "#5B3F9E", "#1B4F72", "#7FB069")
 OTHERS = (RED, ORANGE, PINK, "0.45", "#8C564B", "0.2")
 MARKERS = "osD^vP"
 KEY = "filled: earthspin\nopen: other methods and libraries"
-#: Methods in the picture of the README, by ladder, with their labels there.
-PANELS: dict[str, dict[str, str]] = {
-    "torque": {
-        "IAU 2000A from nodes": "nutation from nodes, IAU 2000A",
-        "IAU 2000B from nodes": "nutation from nodes, IAU 2000B",
-        "IAU 2000A at each epoch": "nutation at each epoch",
-        "Skyfield, radec of date": "Skyfield, radec of date",
-        "IAU 2000B at each epoch": "ERFA, IAU 2000B",
-        "mean equator alone": "mean equator, no nutation",
-    },
-    "pole": {
-        "Picard, 8 d": "windows of 8 d",
-        "Picard, 16 d": "windows of 16 d",
-        "Picard, 32 d": "windows of 32 d",
-        "momentum and figure axis": "DOP853, momentum and figure axis",
-        "RK45, angular momentum": "SciPy RK45, momentum alone",
-        "LSODA, angular momentum": "SciPy LSODA, momentum alone",
-        "DOP853, angular momentum": "SciPy DOP853, momentum alone",
-    },
-    "precession": {
-        "hann": "Hann taper",
-        "sin4": "sin⁴ taper",
-        "blackman-harris": "Blackman-Harris taper",
-        "plain mean over years": "plain mean over years",
-    },
-}
-TITLES = {
-    "torque": "Torque: Sun and Moon at the true equator, 10,000 epochs",
-    "pole": "Pole: two years of the figure axis",
-    "precession": "Precession: mean rate under a model Sun and Moon",
+#: Methods in the picture of the README, by ladder.
+PANELS = {
+    "torque": (
+        *("nutation from nodes, 2000A", "nutation from nodes, 2000B", "nutation at each epoch"),
+        *("Skyfield, radec of date", "ERFA, nutation IAU 2000B", "mean equator, no nutation"),
+    ),
+    "pole": (
+        *("windows of 8 d", "windows of 16 d", "windows of 32 d", "momentum and figure axis"),
+        *(f"SciPy {name}, momentum alone" for name in ("RK45", "LSODA", "DOP853")),
+    ),
+    "precession": ("hann", "sin4", "blackman-harris", "plain mean over years"),
 }
 
 
@@ -67,18 +48,17 @@ def table(ladder: Ladder, rows: pd.DataFrame) -> str:
     return "\n".join([*lines, "", note, ""])
 
 
-def draw(ax: Axes, ladder: Ladder, rows: pd.DataFrame, names: Mapping[str, str]) -> None:
+def draw(ax: Axes, ladder: Ladder, rows: pd.DataFrame, methods: Iterable[str]) -> None:
     """Draw error over run time, with filled markers for methods of the package."""
     counts = [0, 0]
-    for method, label in names.items():
+    for method in methods:
         own = method in ladder.bounds
         number, points = counts[own], rows[rows.method == method].sort_values("seconds")
-        colour, marker = (OURS if own else OTHERS)[number], MARKERS[number]
-        face, dashes = (colour, "-") if own else ("white", "--")
-        ax.plot(
-            *(points.seconds, points.error, dashes),
-            **{"marker": marker, "ms": 5, "color": colour, "mfc": face, "lw": 1, "label": label},
-        )
+        best = points[points.error <= points.error.cummin()]
+        colour, face = (OURS[number], OURS[number]) if own else (OTHERS[number], "white")
+        look = {"color": colour, "mfc": face, "marker": MARKERS[number], "ms": 5, "lw": 1}
+        ax.plot(best.seconds, best.error, "-" if own else "--", label=method, **look)
+        ax.plot(points.seconds, points.error, ls="", **look)
         counts[own] += 1
     ax.set(xscale="log", yscale="log")
     ax.set_title(ladder.title, loc="left")
@@ -98,7 +78,7 @@ def svg(ladder: Ladder, rows: pd.DataFrame) -> str:
     """SVG text of the diagram of one ladder."""
     figure = Figure(figsize=(7.5, 3.8), layout="constrained")
     ax = figure.add_subplot()
-    draw(ax, ladder, rows, {method: method for method in ladder.runs})
+    draw(ax, ladder, rows, ladder.runs)
     ax.set_xlabel("run time (s)")
     return Drawing(ladder.title, ladder.problem, figure).svg
 
@@ -107,9 +87,8 @@ def picture(ladders: Mapping[str, Ladder], measured: Mapping[str, pd.DataFrame])
     """Picture of the README: torque, pole and precession, each beside other methods."""
     figure = Figure(figsize=(8, 7.4), layout="constrained")
     panels = figure.subplots(3, 1, sharex=True)
-    for ax, (quantity, names) in zip(panels, PANELS.items(), strict=True):
-        draw(ax, ladders[quantity], measured[quantity], names)
-        ax.set_title(TITLES[quantity], loc="left")
+    for ax, (quantity, methods) in zip(panels, PANELS.items(), strict=True):
+        draw(ax, ladders[quantity], measured[quantity], methods)
         if ax is not panels[0]:
             ax.get_legend().set_title(None)
     panels[-1].set_xlabel("run time (s)")

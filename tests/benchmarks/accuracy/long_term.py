@@ -85,9 +85,6 @@ def ladder() -> Ladder:
             ),
             "DOP853, orbit at every step": settings("rtol {}", plain, TOLERANCES[:3]),
             "DOP853, fitted equation": settings("rtol {}", by_scipy, TOLERANCES),
-            "RK4, fitted equation": settings(
-                "steps of {} kyr", partial(_runge_kutta, fitted, start), (1.0, 0.5, 0.25, 0.125)
-            ),
         },
         bounds={"Newton in time": 0.02, "Newton in time, half windows": 0.02},
     )
@@ -145,19 +142,3 @@ def _scipy(slope: Slope, start: FloatArray, rtol: float) -> tuple[FloatArray, in
     states, evaluations = integrate(slope, start, times()[::-1], rtol)
     axes = states[::-1].T
     return axes / np.linalg.norm(axes, axis=0), evaluations
-
-
-def _runge_kutta(slope: Slope, start: FloatArray, kyr: float) -> tuple[FloatArray, int]:
-    """Integrate the spin axis by the classical Runge-Kutta method, with equal steps in kyr."""
-    count = round(SPAN / (kyr * KYR))
-    step, s, axes = -SPAN / count, start, [start]
-    for number in range(count):
-        t = number * step
-        k1 = slope(t, s)
-        k2 = slope(t + step / 2, s + step / 2 * k1)
-        k3 = slope(t + step / 2, s + step / 2 * k2)
-        k4 = slope(t + step, s + step * k3)
-        s = s + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
-        axes.append(s)
-    vectors = np.array(axes[:: -count // (TIMES - 1)]).T
-    return vectors / np.linalg.norm(vectors, axis=0), 4 * count

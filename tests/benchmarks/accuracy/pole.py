@@ -81,7 +81,7 @@ def ladder() -> Ladder:
         floor=1e-19 / UAS,
         error=error,
         runs={
-            f"Picard, {length} d": settings("{} nodes", partial(picard, length), nodes)
+            f"windows of {length} d": settings("{} nodes", partial(picard, length), nodes)
             for length, (nodes, _) in WINDOWS.items()
         }
         | {
@@ -89,11 +89,11 @@ def ladder() -> Ladder:
             "full attitude": {"DOP853": full_attitude},
         }
         | {
-            f"{name}, angular momentum": settings(
+            f"SciPy {name}, momentum alone": settings(
                 "rtol {}", partial(momentum_only, name), (1e-6, 1e-8)
             )
             for name in SCIPY
         },
-        bounds={f"Picard, {length} d": bound for length, (_, bound) in WINDOWS.items()}
+        bounds={f"windows of {length} d": bound for length, (_, bound) in WINDOWS.items()}
         | {"momentum and figure axis": 5e-4, "full attitude": 5e-3},
     )

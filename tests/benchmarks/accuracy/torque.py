@@ -61,22 +61,26 @@ def ladder() -> Ladder:
         floor=4 * float(np.finfo(np.longdouble).eps) / MAS,
         error=lambda vectors: np.max(np.linalg.norm(vectors - true, axis=-1)) / MAS,
         runs={
-            "IAU 2000A from nodes": settings("every {} d", partial(from_nodes, "2000A"), SPACINGS),
-            "IAU 2000B from nodes": settings(
+            "nutation from nodes, 2000A": settings(
+                "every {} d", partial(from_nodes, "2000A"), SPACINGS
+            ),
+            "nutation from nodes, 2000B": settings(
                 "every {} d", partial(from_nodes, "2000B"), SPACINGS[2:5]
             ),
-            "IAU 2000A at each epoch": {
+            "nutation at each epoch": {
                 "": partial(at_each, lambda: iau.Nutation(*ENDS, 1).true_equator(DAYS))
             },
             'source = "skyfield"': {"": own_source},
-            "IAU 2000B at each epoch": {"": partial(at_each, partial(erfa.pnm00b, J2000_JD, DAYS))},
-            "mean equator alone": {"": partial(at_each, partial(iau.mean_equator, DAYS))},
+            "ERFA, nutation IAU 2000B": {
+                "": partial(at_each, partial(erfa.pnm00b, J2000_JD, DAYS))
+            },
+            "mean equator, no nutation": {"": partial(at_each, partial(iau.mean_equator, DAYS))},
             "Skyfield, radec of date": {"": skyfield},
         },
         bounds={
-            "IAU 2000A from nodes": 8e-12 / MAS,
-            "IAU 2000B from nodes": 2.0,
-            "IAU 2000A at each epoch": 2e-15 / MAS,
+            "nutation from nodes, 2000A": 8e-12 / MAS,
+            "nutation from nodes, 2000B": 2.0,
+            "nutation at each epoch": 2e-15 / MAS,
             'source = "skyfield"': 5e-12 / MAS,
         },
     )

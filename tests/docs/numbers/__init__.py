@@ -14,7 +14,6 @@ from pathlib import Path
 STORED = Path(__file__).parents[3] / "docs" / "measured" / "values.json"
 
 PAGES = (
-    "accuracy",
     "pole",
     "iau",
     "nutation",
@@ -24,7 +23,6 @@ PAGES = (
     "trust",
     "rotors",
     "skyfield",
-    "work_precision",
     "frames",
     "long_term",
     "worlds",

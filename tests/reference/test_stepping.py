@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from tests.reference.stepping import integrate, quaternion_rate
 from earthspin.errors import UndefinedError
 from earthspin.numerics import quaternion
+from tests.reference.stepping import integrate, quaternion_rate
 
 
 @pytest.mark.parametrize("times", [[0.5, 2.0], [2.0]])
