@@ -1,4 +1,4 @@
-"""How far averages scatter about a smooth rate: the table of docs/accuracy.md."""
+"""Scatter of averages about a smooth rate, by taper and length of the window."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """What leaving out saves: each shipped scene in a process of its own, against running them all.
 
-Run it with `python tests/benchmarks/leaving_out.py`; it prints the table of docs/accuracy.md. Parts
+Run it with `python tests/benchmarks/leaving_out.py`; it prints a table. Parts
 and modules are counted, time and memory are those of whole processes, medians of several. Scenes
 run with all their sections; beside that stands what the answer alone takes.
 """
