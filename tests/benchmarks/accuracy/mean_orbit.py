@@ -49,7 +49,7 @@ def ladder() -> Ladder:
             },
             "sum over anomaly and node": settings("{} anomalies", _by_sum, (8, 16, 32, 64, 120)),
             "plain mean over years": {
-                f"{years:.3g} years, 1 d": partial(_by_window, "plain", years * 365.25 * DAY, 1)
+                f"{years:.3g} yr, 1 d": partial(_by_window, "plain", years * 365.25 * DAY, 1)
                 for years in (1, 10, CYCLE / DAY / 365.25, 5 * CYCLE / DAY / 365.25)
             },
         },

@@ -52,7 +52,7 @@ def ladder() -> Ladder:
         }
         | {
             "plain mean over years": {
-                f"{years:g} years, 1 d": partial(mean, "plain", years * JULIAN_YEAR, 1)
+                f"{years:g} yr, 1 d": partial(mean, "plain", years * JULIAN_YEAR, 1)
                 for years in PLAIN_YEARS
             }
         },
