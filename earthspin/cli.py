@@ -166,7 +166,6 @@ def _parser() -> ArgumentParser:
         "plan", _plan, "show which parts a scene needs, and which it leaves out"
     ).add_argument
     add("--sections", metavar="NAMES|all", help=sections("none"))
-    add("--script", **flag, help="print the parts as a Python script")
 
     add = command("accuracy", _accuracy, "measure error against run time").add_argument
     add("quantity", nargs="?", metavar="QUANTITY", help="default: all")
@@ -317,18 +316,9 @@ def _ensemble(options: Namespace) -> None:
 
 def _plan(options: Namespace) -> None:
     """Command `plan`: print the computations that a scene runs, and those that are left out."""
-    from earthspin.engine.asking import script_of
-    from earthspin.scenes import chosen, plan
+    from earthspin.scenes import plan
 
-    question = _question(options)
-    if options.script:
-        print(script_of(type(question)))
-        return
-    print(plan(question, _sections(options) or ()))
-    if getattr(question, "accuracy", None) is not None:
-        words = ", ".join(chosen(question)) or "no settings to choose"
-        print(f"\nchosen for an accuracy of {question.to_table()['accuracy']}: {words}")
-        print("(whether the body's numbers and the kernel allow it shows when it runs)")
+    print(plan(_question(options), _sections(options) or ()))
 
 
 def _accuracy(options: Namespace) -> int:

@@ -364,7 +364,8 @@ def keys_of(question: type[Question]) -> dict[str, Key]:
 
 def unknown_key(question: type[Question], name: str) -> str:
     """Return the error message for an unknown key, with the most similar known keys."""
-    return f"compute = '{question.word}' has no such key; {nearest(name, keys_of(question))}"
+    allowed = nearest(name, keys_of(question))
+    return f"compute = '{question.word}' has no such key: delete or rename it; {allowed}"
 
 
 # --- what a question is made of ------------------------------------------------------------------

@@ -64,15 +64,6 @@ def test_what_is_left_out_stands_under_the_first_table() -> None:
         assert last == f"Left out: {answer.attrs['neglected']}."
 
 
-def test_an_accuracy_that_was_asked_for_has_its_table() -> None:
-    first, second = tables_for(
-        earthspin.run(earthspin.load_scene("torque", {"accuracy": "10 mas"}))
-    )
-    assert (first.title, second.title) == ("Accuracy", "Torque")
-    assert first.headers[1] == "requested error, arcsec"
-    assert first.rows[0][1] == "0.01"
-
-
 def test_another_earth_says_so_and_shows_nothing_observed() -> None:
     slow = earthspin.run_tree(earthspin.load_scene("precession", {"body.spin_period": "12 h"}))
     tables = {table.title: table for table in tables_for(slow)}
