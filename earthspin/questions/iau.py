@@ -344,27 +344,6 @@ def residuals(differences: Differences) -> Residuals:
     )
 
 
-class ResidualsByModel(Dated, along=("time", "model"), error="error_by_model"):
-    """Time series of computed pole minus IAU pole, for different sets of effects."""
-
-    dpsi_sineps_by_model: Value = number("mas", _LONGITUDE)
-    deps_by_model: Value = number("mas", _OBLIQUITY)
-    error_by_model: Value = number("mas", _HALF_WIDTH, along=())
-    model: Labels = labels()
-
-
-@part
-def residuals_by_model(differences: Differences) -> ResidualsByModel:
-    """Return the time series of computed pole minus IAU pole, for different sets of effects."""
-    return ResidualsByModel(
-        time=datetime64(differences.days),
-        dpsi_sineps_by_model=differences.fitted[..., 0],
-        deps_by_model=differences.fitted[..., 1],
-        error_by_model=differences.error,
-        model=list(differences.models),
-    )
-
-
 class ResidualSizes(Variables, along=("model", "direction")):
     """Root mean square and maximum of computed minus IAU pole, for different sets of effects."""
 
@@ -642,7 +621,6 @@ define_parts(
     answer=budget,
     sections={
         "residuals": residuals,
-        "residuals_by_model": residuals_by_model,
         "residual_sizes": residual_sizes,
         "observed": observed,
         "nutation": nutation,

@@ -39,7 +39,6 @@ def test_rows_match_headers_and_what_ran_is_named(precession_tree: xr.DataTree) 
         assert all(len(row) == len(table.headers) for row in table.rows)
     cost = {row[0]: row[2] for row in ran.rows}
     assert float(cost["figure-models"]) > 0
-    assert cost["rate-accuracy"] == ""
     assert float(ran.cost.split()[0]) > 0
 
 
