@@ -41,12 +41,10 @@ def holds(*, bound: float, unit: str = "") -> Callable[[Callable[[], Distances]]
             with np.errstate(over="raise", invalid="raise", divide="raise"):
                 sizes = [float(np.max(np.abs(distance))) for distance in measure()]
             worst = int(np.argmax(sizes))  # the first NaN, if there is one
-            measured, limit = (f"{size:.1e} {unit}".rstrip() for size in (sizes[worst], bound))
-            record_property("measured", measured)
-            record_property("bound", limit)
-            assert sizes[worst] <= bound, (
-                f"distance {worst + 1} of {len(sizes)} is {measured}, which exceeds {limit}"
-            )
+            record_property("measured", f"{sizes[worst]:.2g} {unit}")
+            record_property("bound", f"{bound:.2g} {unit}")
+            words = f"distance {worst + 1} of {len(sizes)} is {sizes[worst]:.4g}"
+            assert sizes[worst] <= bound, f"{words}, which exceeds {bound:g} {unit}".rstrip()
 
         test.__doc__ = measure.__doc__
         return test

@@ -8,10 +8,7 @@ from pathlib import Path
 import pytest
 
 TABLE = Path(__file__).parents[2] / "docs" / "measured" / "extreme.inc"
-HEAD = (
-    "| case | hard because | compared with | measured | bound |",
-    "|---|---|---|---|---|",
-)
+HEAD = ("| case | hard because | compared with | measured | bound |", "|---|---|---|---|---|")
 
 
 def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:

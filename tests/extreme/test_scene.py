@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 
-from earthspin.errors import UndefinedError
 from earthspin.questions.free_rotor import free_rotor
 from earthspin.questions.top import heavy_top
 from earthspin.questions.torque import torque_series
 from earthspin.scenes import Scene
 from tests.extreme import Distances, holds, refused
+from tests.processes import printed
 from tests.reference.sky import BODY
 
 #: Program for a new process that prints the extra memory (MB) of a long series.
@@ -45,12 +42,7 @@ print(peak({span!r}, {step!r}) - short)
 
 def _memory_growth(span: tuple[str, str], step: str) -> float:
     """Peak memory (MB) of a torque series computed in blocks, minus that of 10^5 epochs."""
-    program = _GROWTH.format(span=span, step=step)
-    process = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
-    if process.returncode != 0:
-        last = (process.stderr.strip().splitlines() or ["no message"])[-1]
-        raise UndefinedError(f"the process that measures its memory ended early: {last}")
-    return float(process.stdout)
+    return float(printed(_GROWTH.format(span=span, step=step)))
 
 
 @pytest.mark.slow

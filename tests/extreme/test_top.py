@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from functools import partial
 
 import numpy as np
 from scipy.special import ellipkm1
@@ -19,15 +19,9 @@ from tests.extreme import Distances, FloatArray, holds, refused
 CRITICAL = 4.0
 
 
-def _top(**changes: Any) -> HeavyTop:
-    numbers: dict[str, Any] = {
-        "transverse_moment": 2.0,
-        "axial_moment": 1.0,
-        "weight_moment": 2.0,
-        "theta": 0.4,
-        "spin": 10.0,
-    }
-    return HeavyTop(**(numbers | changes))
+_top = partial(
+    HeavyTop, transverse_moment=2.0, axial_moment=1.0, weight_moment=2.0, theta=0.4, spin=10.0
+)
 
 
 def _energy_drift(top: HeavyTop, times: FloatArray) -> FloatArray:
