@@ -25,7 +25,6 @@ from data_tools import (
     references,
     secular_orbits,
     signatures,
-    stability,
     windows,
     worlds,
 )
@@ -81,7 +80,6 @@ VERBS = {
         "measure predictions of the celestial pole offsets, for docs/pole_offsets.md",
     ),
     "worlds": (worlds.main, "measure the precession of every world, for docs/worlds.md"),
-    "stability": (stability.main, "run the stiff and extreme cases for their page in the docs"),
 }
 #: Verbs that compare with a kernel.
 WITH_KERNEL = ("kernels", "windows", "orbits")

@@ -42,7 +42,6 @@ _HOME = {
         "polar_motion_from",
         "read_excitation",
     ),
-    "earthspin.checks.stability": ("stability",),
     "earthspin.checks.work_precision": ("accuracy",),
     "earthspin.errors": (
         "AccuracyError",

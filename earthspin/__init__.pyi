@@ -39,7 +39,6 @@ from earthspin.questions.polar_motion import excitation as excitation
 from earthspin.questions.polar_motion import fit_chandler as fit_chandler
 from earthspin.questions.polar_motion import polar_motion_from as polar_motion_from
 from earthspin.questions.polar_motion import read_excitation as read_excitation
-from earthspin.checks.stability import stability as stability
 from earthspin.checks.work_precision import accuracy as accuracy
 from earthspin.errors import AccuracyError as AccuracyError
 from earthspin.errors import ApartError as ApartError
@@ -409,7 +408,6 @@ __all__ = [
     "run",
     "run_tree",
     "spheroid_field",
-    "stability",
     "torque_series",
     "verify",
     "wobble_ladder",

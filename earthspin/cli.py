@@ -186,11 +186,6 @@ def _parser() -> ArgumentParser:
     add = command("verify", _verify, "compare a stored result with its checksums").add_argument
     add("file", metavar="FILE", help="a .nc file or a .zarr folder written by earthspin")
 
-    add = command("stability", _stability, "run the stiff and extreme cases").add_argument
-    add("--quick", **flag, help="only the fast cases")
-    add("--only", metavar="WORD", help="a part of the package, or a word of a case's title")
-    add("--long", **flag, help="also cases that take minutes")
-
     add = command("completion", _completion, "print the completion script of a shell").add_argument
     add("shell", choices=("bash", "zsh", "fish"))
     return parser
@@ -386,17 +381,6 @@ def _verify(options: Namespace) -> None:
     from earthspin.engine.store import verify
 
     print(f"{printable(str(verify(options.file)))} is what was written")
-
-
-def _stability(options: Namespace) -> int:
-    """Command `stability`: run the numerical tests of stiff and extreme cases."""
-    from earthspin.checks.case import FAILS
-    from earthspin.checks.stability import stability
-    from earthspin.views.stability_tables import print_verdicts, tally
-
-    result = stability(quick=options.quick, only=options.only, long=options.long)
-    print_verdicts(result)
-    return CHECK_FAILED if tally(result)[FAILS] else 0
 
 
 def _completion(options: Namespace) -> None:

@@ -41,7 +41,6 @@ def elsewhere() -> Iterator[None]:
     logging.getLogger("asyncio").setLevel(logging.CRITICAL)
     with (
         tempfile.TemporaryDirectory() as folder,
-        mock.patch("earthspin.checks.stability.judge", side_effect=UndefinedError("not tried")),
         mock.patch("webbrowser.open", return_value=False),
         warnings.catch_warnings(),
     ):

@@ -198,7 +198,7 @@ def command(rng: Random, folder: Path) -> list[str]:
 
 #: Options that keep a command cheap, always given.
 LIMITS = {
-    "accuracy": ("quantity",), "stability": ("only",), "ensemble": ("members",),
+    "accuracy": ("quantity",), "ensemble": ("members",),
     "report": ("no_figures",),
 }  # fmt: skip
 
