@@ -14,7 +14,7 @@ from earthspin.secular.insolation import Season, daily
 from earthspin.secular.lanes import solve_many
 from earthspin.secular.strength import Strength
 from earthspin.secular.trajectory import solve
-from tests.extreme import Distances, FloatArray, holds, refused
+from tests.extreme import Distances, FloatArray, holds
 from tests.reference.sky import BODY
 from tests.secular.setting import EARTHS, FixedOrbit, inclined_axis, turned
 
@@ -113,15 +113,6 @@ def test_all_but_round() -> Distances:
     """
     tree = run_tree(LongTerm(span=["-10 Myr", "0 kyr"], step="20 kyr"), sections="budget")
     yield tree["budget"].to_dataset().longitude_share.sel(cause="method").values
-
-
-@refused("was asked for")
-def test_too_accurate() -> None:
-    """refusal of an accuracy that the uncertainty of the body does not allow
-
-    Hard because: the solver itself would reach it
-    """
-    long_term(times=["-1 Myr"], accuracy="0.1 arcsec")
 
 
 @holds(bound=5e-15)

@@ -201,15 +201,6 @@ def test_short_span() -> None:
     precession(span=("1985-01-01", "2015-01-01"))
 
 
-@refused("was asked for")
-def test_too_accurate() -> None:
-    """refusal of an accuracy of the precession rate that no kernel allows
-
-    Hard because: the returned number would look the same
-    """
-    precession(accuracy=1e-12)
-
-
 @pytest.mark.slow
 @holds(bound=0.0)
 def test_ten_thousand() -> Distances:
