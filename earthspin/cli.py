@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import sys
+import time
 from argparse import Action, ArgumentParser, Namespace
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext, suppress
@@ -201,6 +202,7 @@ def _welcome(_: Namespace) -> None:
 def _report(options: Namespace) -> None:
     """Command `report`: write the report on precession or on the wobble, and print its tables."""
     from earthspin.views import report
+    from earthspin.views.closing import closing_line
     from earthspin.views.of_question import print_tables
 
     kernel, figures = options.ephemeris, not options.no_figures
@@ -215,6 +217,8 @@ def _report(options: Namespace) -> None:
     for answer in answers:
         print_tables(answer)
     _print_written(*written)
+    for answer in answers:
+        print(closing_line(answer))
     if options.open:
         _open(written[0])
 
@@ -234,6 +238,7 @@ def _run(options: Namespace) -> None:
     from earthspin.engine import drafts, store
     from earthspin.parts import times
     from earthspin.scenes import members_of, run_tree, series_length, write_series
+    from earthspin.views.closing import closing_line
 
     question, sections = _question(options), _sections(options)
     data = page = None
@@ -250,7 +255,9 @@ def _run(options: Namespace) -> None:
         if series_length(question) * members_of(question) > times.LONGEST_IN_MEMORY:
             if options.json:
                 raise SceneError("--json", "a long series", "leave it out; read the Zarr store")
+            begin = time.perf_counter()
             _print_written(write_series(question, long))
+            print(closing_line(store.open(long), time.perf_counter() - begin))
             return
         if sections is None and data.suffix != ".csv":
             sections = "all"
@@ -275,7 +282,9 @@ def _run(options: Namespace) -> None:
             others = [name for name in question.graph.sections if name not in tree.children]
             if others and not tree.children.keys() - {"plan"}:
                 print(f"More: --sections {','.join(others)}, or all")
-    _print_written(*filter(None, (page, data)), file=sys.stderr if options.json else sys.stdout)
+    stream = sys.stderr if options.json else sys.stdout
+    _print_written(*filter(None, (page, data)), file=stream)
+    print(closing_line(tree), file=stream)
 
 
 def _ensemble(options: Namespace) -> None:

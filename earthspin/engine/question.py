@@ -118,6 +118,8 @@ class Question:
         Module of `views` that makes the tables and figures.
     page : str
         Page of the documentation that explains the method; empty if there is none.
+    headline : str
+        Variable of the answer, or error of several variables, that is quoted first.
     positional : tuple of str
         Positional arguments of the call.
     exclusive : tuple of tuple of str
@@ -129,6 +131,7 @@ class Question:
     table: ClassVar[str]
     views: ClassVar[str] = "plain"
     page: ClassVar[str] = ""
+    headline: ClassVar[str] = ""
     positional: ClassVar[tuple[str, ...]]
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
     graph: ClassVar[Graph]

@@ -110,7 +110,7 @@ class FreeRotor(
     [ 1.    0.53 -1.  ]
     """
 
-    views, page = "free_rotor", "rotors"
+    views, page, headline = "free_rotor", "rotors", "attitude"
 
     exclusive = (("times",), ("duration", "points"))
 

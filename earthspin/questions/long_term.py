@@ -77,7 +77,7 @@ class LongTerm(
     101 23.439
     """
 
-    views, page = "long_term", "long_term"
+    views, page, headline = "long_term", "long_term", "obliquity"
 
     exclusive = (("times",), ("span", "step"))
     many_pulls = True

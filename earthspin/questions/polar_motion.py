@@ -84,7 +84,7 @@ class PolarMotion(Question, word="polar-motion", call="polar_motion", table="pol
     IERS c04
     """
 
-    views, page = "polar_motion", "wobble"
+    views, page, headline = "polar_motion", "wobble", "x"
 
     body: Body = key(EARTH, doc="body whose pole was observed")
     span: Span | None = key(None, doc="first and last date; the whole table if not given")

@@ -65,7 +65,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
     13 ['angular_momentum' 'rotation' 'figure']
     """
 
-    views, page = "pole", "pole"
+    views, page, headline = "pole", "pole", "direction_error"
 
     span: Span = key(("1980-01-01T12:00:00", "2020-01-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("5 d", doc="interval between dates")

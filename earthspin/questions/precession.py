@@ -66,7 +66,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     [81259. 37614. 25712.]
     """
 
-    views, page = "precession", "theory"
+    views, page, headline = "precession", "theory", "precession_rate"
 
     source: SourceName = key("skyfield", doc=SOURCE_DOC)
     span: Span | None = key(

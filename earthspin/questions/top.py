@@ -63,7 +63,7 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     cusp
     """
 
-    views, page = "top", "rotors"
+    views, page, headline = "top", "rotors", "theta"
 
     exclusive = (("times",), ("duration", "points"))
 

@@ -52,7 +52,7 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
     23.439
     """
 
-    views, page = "torque", "theory"
+    views, page, headline = "torque", "theory", "torque_magnitude"
 
     span: Span = key(("2000-01-01T12:00:00", "2001-01-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("6 h", doc="interval between dates")

@@ -117,17 +117,13 @@ def figures_of_fit(fit: xr.Dataset) -> list[Figure]:
 
 
 def print_tables(tree: Result, *, with_plan: bool = False) -> None:
-    """Print the tables of a result, then its run time or, if `with_plan`, its computations."""
+    """Print the tables of a result and, if `with_plan`, its computations."""
     from earthspin.views.terminal import Terminal
 
     console = Terminal()
-    parts = what_ran(tree)
-    for table in [*tables_for(tree), *(parts if with_plan else ())]:
+    for table in [*tables_for(tree), *(what_ran(tree) if with_plan else ())]:
         console.print_table(table)
         console.print()
-    if not with_plan:
-        for table in parts:
-            console.print(f"{table.cost}\n")
 
 
 def scene_page(tree: Result) -> str:
