@@ -386,8 +386,6 @@ class Graph:
         Names of the parts whose variables make up the answer.
     sections : dict of str to tuple of str
         Names of the parts whose variables make up each section.
-    without : tuple of str
-        Optional inputs of parts that the question does not have.
     together : tuple of str
         Keys whose numbers may be labelled arrays in every part of the answer, so that members of
         an ensemble are computed together.
@@ -398,7 +396,6 @@ class Graph:
     parts: dict[str, Part[..., Any]]
     answer: tuple[str, ...]
     sections: dict[str, tuple[str, ...]]
-    without: tuple[str, ...] = ()
     together: tuple[str, ...] = ()
     widest: int = 1
 
@@ -412,7 +409,6 @@ def define_parts(
     answer: Parts,
     sections: Mapping[str, Parts],
     parts: Iterable[Part[..., Any]] = (),
-    without: tuple[str, ...] = (),
     together: tuple[str, ...] = (),
     widest: int = 1,
 ) -> None:
@@ -427,8 +423,6 @@ def define_parts(
         Parts of further results by name of the section; `neglected` is required.
     parts : iterable of Part
         Intermediate parts.
-    without : tuple of str
-        Optional inputs of parts that the question does not have.
     together : tuple of str
         Keys whose numbers may be labelled arrays in every part of the answer.
     widest : int
@@ -437,8 +431,8 @@ def define_parts(
     Raises
     ------
     TypeError
-        If a parameter of a part is neither a key nor a part, a key and a part share a name, no part
-        uses a name in `without`, or the part `neglected` is missing.
+        If a parameter of a part is neither a key nor a part, a key and a part share a name, or the
+        part `neglected` is missing.
     """
     groups = {
         name: group if isinstance(group, tuple) else (group,)
@@ -449,21 +443,17 @@ def define_parts(
     names, keys = set(named), set(keys_of(question))
     if len({id(part) for part in all_parts}) != len(named) or names & keys:
         raise TypeError(f"{question.__name__}: two parts, or a part and a key, share a name")
-    used = {use for part in all_parts for use in part.uses}
-    for name in without:
-        if name in names | keys or name not in used:
-            raise TypeError(f"{question.__name__}: no part uses '{name}', or the question has it")
     for part in all_parts:
         for parameter in (*part.needs, *part.uses):
-            if parameter not in names | keys | {BLOCK, *without}:
+            if parameter not in names | keys | {BLOCK}:
                 raise TypeError(
                     f"{question.__name__}: {part.name} takes '{parameter}', which is neither a "
-                    "key nor a part; add it, or name it in without= if it is optional"
+                    "key nor a part; add it"
                 )
     if NEGLECTED not in names:
         raise TypeError(f"{question.__name__} has no part '{NEGLECTED}'")
     ends = {name: tuple(part.name for part in group) for name, group in groups.items()}
-    question.graph = Graph(named, ends.pop("answer"), ends, without, together, widest)
+    question.graph = Graph(named, ends.pop("answer"), ends, together, widest)
 
 
 # --- words for people ----------------------------------------------------------------------------

@@ -171,19 +171,6 @@ def test_a_parameter_that_is_neither_key_nor_part_is_refused() -> None:
             define_parts(Asked, answer=one, sections={"neglected": neglected})
 
 
-def test_a_question_may_be_without_what_its_parts_would_use_and_nothing_else() -> None:
-    @part
-    def hopeful(size: int, colour: str | None = None) -> int:
-        """Ask for it if it is there."""
-        return size
-
-    told = {"neglected": neglected}
-    define_parts(Asked, answer=hopeful, sections=told, without=("colour",))
-    for wrong in ("size", "shape", "hopeful"):
-        with pytest.raises(TypeError, match=f"Asked: no part uses '{wrong}'"):
-            define_parts(Asked, answer=hopeful, sections=told, without=("colour", wrong))
-
-
 def test_a_question_says_what_it_neglects() -> None:
     with pytest.raises(TypeError, match="Asked has no part"):
         define_parts(Asked, answer=answer, sections={})

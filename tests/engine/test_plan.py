@@ -59,7 +59,7 @@ def test_every_key_is_used_by_some_part(question: type[Question]) -> None:
     of_the_engine = {"title", "members", "uncertainty", "n"}
     assert set(keys_of(question)) - used == of_the_engine
     graph = question.graph
-    assert used <= {*keys_of(question), *graph.parts, *graph.without, BLOCK}
+    assert used <= {*keys_of(question), *graph.parts, BLOCK}
 
 
 def test_reasons() -> None:
