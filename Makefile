@@ -11,7 +11,7 @@ PYTHON_NEWEST ?= python3.13
 VERSIONS := not slow and not every_number and not every_kill and not any_version
 SPHINX := $(BIN)/python -m sphinx -q -W --keep-going -j auto -b html docs docs/_build/html
 
-.PHONY: report test slow test-lowest test-newest check docs numbers accuracy bench fuzz kills mutants clean
+.PHONY: report test slow test-lowest test-newest check docs numbers accuracy bench fuzz kills mutants extreme clean
 
 report: $(VENV)/.core
 	$(BIN)/earthspin report --out report
@@ -60,6 +60,10 @@ mutants: $(VENV)/.test
 # Error against run time of every method: the tables and figures of the page and of the README.
 accuracy: $(VENV)/.test
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m tests.benchmarks.accuracy
+
+# All extreme cases, also those that take minutes, and their table.
+extreme: $(VENV)/.test
+	$(BIN)/python -m pytest -q -m "" -p tests.extreme.table tests/extreme
 
 bench: $(VENV)/.test
 	$(BIN)/python tests/benchmarks/chebyshev.py

@@ -39,7 +39,6 @@ from earthspin.questions.polar_motion import excitation as excitation
 from earthspin.questions.polar_motion import fit_chandler as fit_chandler
 from earthspin.questions.polar_motion import polar_motion_from as polar_motion_from
 from earthspin.questions.polar_motion import read_excitation as read_excitation
-from earthspin.checks.stability import stability as stability
 from earthspin.errors import AccuracyError as AccuracyError
 from earthspin.errors import ApartError as ApartError
 from earthspin.errors import BodyError as BodyError
@@ -78,7 +77,6 @@ def precession(
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
     source: Literal["jplephem", "skyfield"] | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
-    accuracy: Pure | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -99,7 +97,6 @@ def torque_series(
     source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
     equator: Literal["mean", "true"] | None = ...,
-    accuracy: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -130,7 +127,6 @@ def pole(
     ]
     | None = ...,
     response: Literal["fitted", "predicted"] | None = ...,
-    accuracy: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -216,7 +212,6 @@ def long_term(
     j2_rate: Value | None = ...,
     obliquity_shift: Value | None = ...,
     longitude_shift: Value | None = ...,
-    accuracy: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -249,7 +244,7 @@ def rotation(
     start_attitude: Values | None = ...,
     start_omega: Values | None = ...,
     torque: Callable[[np.ndarray, np.ndarray, np.ndarray], ArrayLike] | None = ...,
-    accuracy: Value | None = ...,
+    tolerance: Pure | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -273,7 +268,7 @@ def polar_motion(
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
     file: str | PathLike[str] | None = ...,
     kind: Literal["c04", "c01", "finals2000A"] | None = ...,
-    method: Literal["burg", "likelihood", "least-squares"] | None = ...,
+    method: Literal["burg", "likelihood"] | None = ...,
     window: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
@@ -310,7 +305,6 @@ def free_rotor(
     *,
     duration: Value | None = ...,
     points: int | None = ...,
-    accuracy: Pure | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -329,7 +323,6 @@ def heavy_top(
     theta_rate: Value | None = ...,
     phi: Value | None = ...,
     psi: Value | None = ...,
-    accuracy: Pure | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -339,7 +332,6 @@ def spheroid_field(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     point_mass: Value | None = ...,
-    accuracy: Pure | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -358,14 +350,6 @@ def love_numbers(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     anelastic_exponent: Value | None = ...,
-    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
-) -> xr.Dataset: ...
-def compliances(
-    interior: str | LayeredBody | Mapping[str, Any] | None = ...,
-    *,
-    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -396,7 +380,6 @@ __all__ = [
     "VersionWarning",
     "cassini_states",
     "compare_iau",
-    "compliances",
     "daily_insolation",
     "ensemble",
     "excitation",
@@ -423,7 +406,6 @@ __all__ = [
     "run",
     "run_tree",
     "spheroid_field",
-    "stability",
     "torque_series",
     "verify",
     "wobble_ladder",

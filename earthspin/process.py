@@ -19,7 +19,7 @@ from types import FrameType
 
 from earthspin.errors import EarthspinError, one_line, printable
 
-CHECK_FAILED, USAGE_ERROR = 1, 2
+USAGE_ERROR = 2
 #: A defect of the program (EX_SOFTWARE of sysexits), and a reader who has gone.
 DEFECT, READER_GONE = 70, 141
 
@@ -33,20 +33,19 @@ TRACEBACK = "EARTHSPIN_TRACEBACK"
 _ENDINGS = [getattr(signal, n) for n in ("SIGTERM", "SIGHUP") if hasattr(signal, n)]
 
 
-def run_command(command: Callable[[], int | None], *, show_traceback: bool = False) -> int:
+def run_command(command: Callable[[], None], *, show_traceback: bool = False) -> int:
     """Run a command and turn every exception into an exit status.
 
     Parameters
     ----------
     command : callable
-        Gives an exit status, or None for 0.
     show_traceback : bool
         Whether to show where an error arose, after its line.
 
     Returns
     -------
     int
-        The exit status: that of the command; 2 if something given is wrong, or the output cannot
+        The exit status: 0; 2 if something given is wrong, or the output cannot
         be written; 70 for a defect of the program; 130 if interrupted, 143 if terminated, 129 if
         the terminal is gone; 141 if whoever read the output has gone.
     """
@@ -54,7 +53,7 @@ def run_command(command: Callable[[], int | None], *, show_traceback: bool = Fal
         _check_streams()
         logging.getLogger("matplotlib").setLevel(logging.ERROR)  # its own affairs
         with _endings(), warnings.catch_warnings(record=True) as held:
-            status = command()
+            command()
             sys.stdout.flush()
     except KeyboardInterrupt as ended:
         number = ended.args[0] if ended.args else signal.SIGINT
@@ -74,7 +73,7 @@ def run_command(command: Callable[[], int | None], *, show_traceback: bool = Fal
         return status
     for warning in held:
         _say(" ".join(str(warning.message).split()))
-    return status or 0
+    return 0
 
 
 def _judged(error: Exception) -> tuple[int, str]:

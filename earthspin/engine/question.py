@@ -118,6 +118,8 @@ class Question:
         Module of `views` that makes the tables and figures.
     page : str
         Page of the documentation that explains the method; empty if there is none.
+    headline : str
+        Variable of the answer, or error of several variables, that is quoted first.
     positional : tuple of str
         Positional arguments of the call.
     exclusive : tuple of tuple of str
@@ -129,6 +131,7 @@ class Question:
     table: ClassVar[str]
     views: ClassVar[str] = "plain"
     page: ClassVar[str] = ""
+    headline: ClassVar[str] = ""
     positional: ClassVar[tuple[str, ...]]
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
     graph: ClassVar[Graph]
@@ -364,7 +367,8 @@ def keys_of(question: type[Question]) -> dict[str, Key]:
 
 def unknown_key(question: type[Question], name: str) -> str:
     """Return the error message for an unknown key, with the most similar known keys."""
-    return f"compute = '{question.word}' has no such key; {nearest(name, keys_of(question))}"
+    allowed = nearest(name, keys_of(question))
+    return f"compute = '{question.word}' has no such key: delete or rename it; {allowed}"
 
 
 # --- what a question is made of ------------------------------------------------------------------
@@ -382,8 +386,6 @@ class Graph:
         Names of the parts whose variables make up the answer.
     sections : dict of str to tuple of str
         Names of the parts whose variables make up each section.
-    without : tuple of str
-        Optional inputs of parts that the question does not have.
     together : tuple of str
         Keys whose numbers may be labelled arrays in every part of the answer, so that members of
         an ensemble are computed together.
@@ -394,7 +396,6 @@ class Graph:
     parts: dict[str, Part[..., Any]]
     answer: tuple[str, ...]
     sections: dict[str, tuple[str, ...]]
-    without: tuple[str, ...] = ()
     together: tuple[str, ...] = ()
     widest: int = 1
 
@@ -408,7 +409,6 @@ def define_parts(
     answer: Parts,
     sections: Mapping[str, Parts],
     parts: Iterable[Part[..., Any]] = (),
-    without: tuple[str, ...] = (),
     together: tuple[str, ...] = (),
     widest: int = 1,
 ) -> None:
@@ -423,8 +423,6 @@ def define_parts(
         Parts of further results by name of the section; `neglected` is required.
     parts : iterable of Part
         Intermediate parts.
-    without : tuple of str
-        Optional inputs of parts that the question does not have.
     together : tuple of str
         Keys whose numbers may be labelled arrays in every part of the answer.
     widest : int
@@ -433,8 +431,8 @@ def define_parts(
     Raises
     ------
     TypeError
-        If a parameter of a part is neither a key nor a part, a key and a part share a name, no part
-        uses a name in `without`, or the part `neglected` is missing.
+        If a parameter of a part is neither a key nor a part, a key and a part share a name, or the
+        part `neglected` is missing.
     """
     groups = {
         name: group if isinstance(group, tuple) else (group,)
@@ -445,21 +443,17 @@ def define_parts(
     names, keys = set(named), set(keys_of(question))
     if len({id(part) for part in all_parts}) != len(named) or names & keys:
         raise TypeError(f"{question.__name__}: two parts, or a part and a key, share a name")
-    used = {use for part in all_parts for use in part.uses}
-    for name in without:
-        if name in names | keys or name not in used:
-            raise TypeError(f"{question.__name__}: no part uses '{name}', or the question has it")
     for part in all_parts:
         for parameter in (*part.needs, *part.uses):
-            if parameter not in names | keys | {BLOCK, *without}:
+            if parameter not in names | keys | {BLOCK}:
                 raise TypeError(
                     f"{question.__name__}: {part.name} takes '{parameter}', which is neither a "
-                    "key nor a part; add it, or name it in without= if it is optional"
+                    "key nor a part; add it"
                 )
     if NEGLECTED not in names:
         raise TypeError(f"{question.__name__} has no part '{NEGLECTED}'")
     ends = {name: tuple(part.name for part in group) for name, group in groups.items()}
-    question.graph = Graph(named, ends.pop("answer"), ends, without, together, widest)
+    question.graph = Graph(named, ends.pop("answer"), ends, together, widest)
 
 
 # --- words for people ----------------------------------------------------------------------------

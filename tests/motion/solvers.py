@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from earthspin.bodies import EARTH
-from tests.reference.sky import Tide
-from tests.reference.attitude import attitude_motion
-from tests.reference.momentum_and_figure import axisymmetric_motion
 from earthspin.motion.axes import AxisPath, axis_path
 from earthspin.motion.triaxial import equatorial_basis
 from earthspin.sky.ephemeris import Ephemeris
 from tests.motion.sky import NORTH, UAS, figure, forces
+from tests.reference.attitude import attitude_motion
+from tests.reference.momentum_and_figure import axisymmetric_motion
+from tests.reference.sky import Tide
 
 FloatArray = NDArray[np.float64]
 H, SPIN = EARTH.dynamical_flattening, float(EARTH.spin_rate)

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from earthspin.bodies import EARTH
-from tests.reference.sky import Tide
-from tests.reference.momentum_and_figure import axisymmetric_motion
 from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
 from earthspin.motion.axes import AXES, axis_path, error_of_input, window_count
 from earthspin.sky.ephemeris import Ephemeris
 from tests.motion.sky import NORTH, UAS, figure, forces
+from tests.reference.momentum_and_figure import axisymmetric_motion
+from tests.reference.sky import Tide
 
 H, SPIN = EARTH.dynamical_flattening, float(EARTH.spin_rate)
 YEAR = 365.25 * DAY

@@ -8,7 +8,6 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.special import ellipj, ellipk
 
-from tests.reference.attitude import attitude_motion
 from earthspin.errors import UndefinedError
 from earthspin.motion.equations import Equations, Pull
 from earthspin.motion.solution import Motion
@@ -26,6 +25,7 @@ from tests.motion.kepler import (
     rigid,
     start,
 )
+from tests.reference.attitude import attitude_motion
 
 #: H, (B - A)/C, spin and eccentricity: a tumbling moon, a moon that keeps its face, a fast planet.
 WORLDS = {

@@ -5,10 +5,10 @@ import pytest
 
 import earthspin
 from earthspin import EARTH, Scene
-from tests.reference.heavy_top import integrate_heavy_top
 from earthspin.rotor.euler import integrate_rotation
 from earthspin.scenes import QUESTIONS
 from earthspin.top.start import HeavyTop
+from tests.reference.heavy_top import integrate_heavy_top
 from tests.refusals import refused
 
 TIMES = np.linspace(0.0, 20.0, 41)

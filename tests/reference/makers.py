@@ -9,7 +9,6 @@ import mpmath as mp
 import numpy as np
 
 from earthspin.interior.prem import PREM
-from earthspin.secular.orbit import pull
 from earthspin.sky import iau
 from tests.benchmarks.accuracy import (
     compliances,
@@ -25,8 +24,9 @@ from tests.benchmarks.accuracy import (
 from tests.interior.another_integration import START, Slope, other_answers
 from tests.mass import spheroid_reference
 from tests.reference import figure_axis
-from tests.reference.extrapolation import LONG, LongArray, extrapolated, increment, states
+from tests.reference.extrapolation import LONG, LongArray, increment, states
 from tests.reference.sky import BODY
+from tests.reference.spin_axis import spin_axis
 from tests.rotor import textbook as rotor_textbook
 from tests.sky import textbook as sky_textbook
 from tests.top import textbook as top_textbook
@@ -100,34 +100,10 @@ def make_pole() -> Made:
 
 
 def make_long_term(step: float = 2 * long_term.KYR) -> Made:
-    """Spin axis over a million years, by extrapolation of order 14.
-
-    Each step lies in one window of the orbit, which is evaluated at all nodes at once.
-    """
-    count, parts = round(long_term.SPAN / step), 2 * np.arange(1, 8)
-    shares = np.unique(np.concatenate([np.arange(n + 1) / n for n in parts]))
-    # a hair inside, so that both ends of a step belong to its window
-    nodes = -step * (np.arange(count)[:, np.newaxis] + 1e-12 + (1 - 2e-12) * shares)
-    torque = pull(long_term.STRENGTH, long_term.orbit().at(nodes.ravel()), nodes.ravel())
-    root = (np.sqrt(torque.constant) * torque.axis).reshape(3, count, -1)
-    geodesic = torque.geodesic.reshape(3, count, -1)
-
-    def slope(number: int, node: int, s: LongArray) -> LongArray:
-        m = root[:, number, node]
-        return np.cross(geodesic[:, number, node] - (m @ s) * m, s)
-
-    places = [np.searchsorted(shares, np.arange(n + 1) / n - 1e-12) for n in parts]
-    steps = (
-        partial(
-            extrapolated,
-            length=-LONG(step),
-            rules=[[partial(slope, number, node) for node in rule] for rule in places],
-        )
-        for number in range(count)
-    )
-    start = np.asarray(BODY.needed("pole").mean(np.zeros(1))[0], dtype=LONG)
-    path = np.stack(list(states(start, steps)))
-    return long_term.inputs(), {"axes": path[:: -count // (long_term.TIMES - 1)].T.astype(float)}
+    """Spin axis over a million years."""
+    start = np.asarray(BODY.needed("pole").mean(np.zeros(1))[0])
+    path = spin_axis(long_term.STRENGTH, long_term.orbit(), start, -long_term.SPAN, step)
+    return long_term.inputs(), {"axes": path[:, :: -(path.shape[1] // (long_term.TIMES - 1))]}
 
 
 def make_rotation(steps: int = 64) -> Made:

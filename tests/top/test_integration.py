@@ -3,8 +3,8 @@
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from tests.reference.heavy_top import integrate_heavy_top
 from earthspin.top.start import HeavyTop
+from tests.reference.heavy_top import integrate_heavy_top
 
 BODY = {"transverse_moment": 1.25, "axial_moment": 0.75, "weight_moment": 2.0}
 

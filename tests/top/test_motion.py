@@ -8,10 +8,10 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from tests.reference.heavy_top import integrate_heavy_top
 from earthspin.top.motion import HeavyTopMotion, heavy_top_motion
 from earthspin.top.start import HeavyTop, top_constants
 from tests.conftest import load_pins
+from tests.reference.heavy_top import integrate_heavy_top
 from tests.top.families import cases
 
 PINS = load_pins("top")

@@ -6,7 +6,6 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from tests.reference.heavy_top import integrate_heavy_top
 from earthspin.errors import UndefinedError
 from earthspin.top.motion import heavy_top_motion
 from earthspin.top.start import HeavyTop
@@ -17,6 +16,7 @@ from earthspin.top.steady import (
     steady_precession,
 )
 from earthspin.top.turning import nutation_period, turning_angles
+from tests.reference.heavy_top import integrate_heavy_top
 
 I1, I3, WEIGHT = 1.25, 0.75, 2.0
 BODY = {"transverse_moment": I1, "axial_moment": I3, "weight_moment": WEIGHT}

@@ -9,12 +9,12 @@ from scipy.linalg import expm, solve_continuous_lyapunov, toeplitz
 
 import earthspin
 from earthspin import SceneError
-from tests.reference import simulation
 from earthspin.views.polar_motion import plot_modelled
 from earthspin.wobble import driven, likelihood, record, resonance
 from earthspin.wobble.observed import fit, fit_with_excitation
 from earthspin.wobble.oscillator import DrivenOscillator
 from earthspin.wobble.state_space import side_by_side
+from tests.reference import simulation
 
 MIDDLE, TAU = 2 * np.pi / record.NEAR, 500.0
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(40)

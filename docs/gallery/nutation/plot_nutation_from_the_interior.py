@@ -6,9 +6,9 @@ Which part of the Earth changes the nutation by how much.
 """
 
 import matplotlib.pyplot as plt
+from earthspin.views.compliances import plot_compliances
 
 import earthspin
-from earthspin.views.compliances import plot_compliances
 from earthspin.views.nutation import plot_nutation_ladder, plot_rung_residuals, plot_transfer
 
 # %%

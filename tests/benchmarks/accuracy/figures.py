@@ -25,7 +25,10 @@ PANELS = {
         *("windows of 8 d", "windows of 16 d", "windows of 32 d", "momentum and figure axis"),
         *(f"SciPy {name}, momentum alone" for name in ("RK45", "LSODA", "DOP853")),
     ),
-    "precession": ("hann", "sin4", "blackman-harris", "plain mean over years"),
+    "precession": (
+        *("hann window", "sin4 window", "blackman-harris window"),
+        "plain mean over years",
+    ),
 }
 
 

@@ -70,7 +70,7 @@ def ladder() -> Ladder:
         return axes - np.stack(tilts), evaluations
 
     return Ladder(
-        title="Figure axis under Sun and Moon, 2 years",
+        title="Pole: figure axis under Sun and Moon, 2 years",
         problem=f"{DAYS / 365:g} years of the figure axis of an axisymmetric body under Sun and "
         f"Moon of DE421, without free wobble, at {times.size} times; the error is the largest "
         "angle",

@@ -34,7 +34,7 @@ def ladder() -> Ladder:
         return float(window.mean(times, model_sky.precessing_at(times))), times.size
 
     return Ladder(
-        title="Mean rate of precession",
+        title="Precession: mean rate under a model Sun and Moon",
         problem="mean rate of precession under a model Sun and Moon (Kepler's ellipse; main terms "
         f"of ELP2000-82), from torques in a window; the error is the largest of {EPOCHS.size} "
         "epochs, relative",
@@ -44,7 +44,7 @@ def ladder() -> Ladder:
         floor=1e-14,
         error=lambda means: np.max(np.abs(np.asarray(means) / true - 1)),
         runs={
-            taper: {
+            f"{taper} window": {
                 f"{turns} turns, {step} d": partial(mean, taper, turns * cycle, step)
                 for turns, step in WINDOWS
             }
@@ -56,6 +56,6 @@ def ladder() -> Ladder:
                 for years in PLAIN_YEARS
             }
         },
-        bounds={"plain": 1e-3, "hann": 2e-7, "sin4": 2e-7, "blackman-harris": 2e-7},
+        bounds={f"{taper} window": 1e-3 if taper == "plain" else 2e-7 for taper in TAPERS},
         cases=EPOCHS.size,
     )

@@ -51,7 +51,7 @@ def ladder() -> Ladder:
         return np.stack(result), DAYS.size
 
     return Ladder(
-        title="Sun and Moon at the true equator of date",
+        title="Torque: directions of Sun and Moon at the true equator of date",
         problem="directions of Sun and Moon at the true equator and equinox of date (IAU "
         f"2006/2000A), positions of DE421, {DAYS.size:,} epochs in a year; the error is the "
         "largest angle",

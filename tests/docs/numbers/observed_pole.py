@@ -12,13 +12,13 @@ import numpy as np
 import earthspin
 from data_tools import driven_wobble
 from data_tools.free_wobble import DRAWS, RED
-from tests.reference import simulation
 from earthspin.sky import eop
 from earthspin.sky.eop import LONGEST_DAYS
 from earthspin.wobble import presence
 from earthspin.wobble.record import BAND, LONGEST_STEP, NEAR
 from tests.docs.numbers.answers import fitted, observed, of_c04, value
 from tests.docs.numbers.sentence import ROOT, Sentence, Told
+from tests.reference import simulation
 
 PAGE = "docs/wobble.md"
 #: Memories of red excitation that were tried, d, and the longer spans, years.
