@@ -27,7 +27,6 @@ import numpy as np
 from numpy.polynomial import Chebyshev
 from numpy.typing import NDArray
 
-from data_tools.windows import DEGREE, SPACING
 from earthspin.bodies import BODIES, EARTH, MARS, PLANETS, Body
 from earthspin.choosing.choice import DATA
 from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
@@ -39,6 +38,7 @@ from earthspin.sky.iau import NUTATION_MODELS, Nutation, precession_angles
 from earthspin.torque.average import Window
 from earthspin.torque.quadrupole import tidal_tensor
 
+DEGREE, SPACING = 6, 1500 * DAY
 FloatArray = NDArray[np.float64]
 Positions = Callable[[FloatArray], FloatArray]
 

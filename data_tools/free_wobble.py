@@ -7,7 +7,6 @@ intervals hold the truth.
 
 from __future__ import annotations
 
-import argparse
 import itertools
 import os
 from collections.abc import Iterable
@@ -18,10 +17,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from tests.reference.simulation import RED_MEMORY, red_size, simulate
 from earthspin.errors import UndefinedError
 from earthspin.wobble.observed import fit
 from earthspin.wobble.record import NEAR
+from tests.reference.simulation import RED_MEMORY, red_size, simulate
 
 QUALITY = {"burg": (50.0, 100.0, 180.0, 400.0), "likelihood": (50.0, 180.0)}
 YEARS = (25.0, 65.0, 130.0)
@@ -114,13 +113,11 @@ def page(draws: dict[str, int]) -> str:
             ]
             text.append(HEAD.format(method=method, draws=count))
             for row in workers.map(Cell.row, cells, itertools.repeat(count)):
-                print(method, row, flush=True)
                 text.append(f"{row}\n")
     return "".join(text).lstrip()
 
 
-def main(arguments: argparse.Namespace) -> int:
+def main() -> int:
     """Write the page."""
     PAGE.write_text(page(DRAWS), encoding="utf-8")
-    print(f"wrote {PAGE.name}")
     return 0
