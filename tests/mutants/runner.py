@@ -95,10 +95,11 @@ def last_witnesses() -> dict[str, str]:
 
 
 def defined(test: str) -> bool:
-    """Whether the file of a test, and the test if it is named, is there."""
+    """Whether a test, by file and name, is there: a function, or what a call returns."""
     file, _, name = test.partition("::")
     path = ROOT / file
-    return path.exists() and (not name or f"def {name}(" in path.read_text(encoding="utf-8"))
+    made = rf"^(def {name}\(|{name} = )"
+    return path.exists() and bool(re.search(made, path.read_text(encoding="utf-8"), re.M))
 
 
 def try_mutant(mutant: Mutant) -> Finding:
