@@ -6,7 +6,6 @@ The date in the history is the only thing about it that a file of ours has besid
 
 from __future__ import annotations
 
-import argparse
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -15,7 +14,6 @@ import xarray as xr
 
 import earthspin
 from earthspin.engine.store import write_netcdf
-from earthspin.progress import progress
 from earthspin.scenes import shipped_scenes
 
 STANDARD = "cf:1.11"
@@ -24,15 +22,11 @@ STANDARD = "cf:1.11"
 TIME_FROM_START = "Coordinate variable 'time' should have standard_name='time', found: 'None'"
 
 
-def main(_given: argparse.Namespace) -> int:
+def main() -> int:
     """Write and check; print every finding; 1 if one of them is an error."""
     with tempfile.TemporaryDirectory() as folder:
         files = sections(Path(folder))
-        problems = {}
-        with progress("CF", len(files)) as advance:
-            for name, path in files.items():
-                problems[name] = findings(path)
-                advance(1)
+        problems = {name: findings(path) for name, path in files.items()}
     for name, lines in problems.items():
         for line in lines:
             print(f"{name}: {line}")
@@ -65,13 +59,9 @@ def findings(path: Path) -> list[str]:
         problems += [f"the check failed: {name}: {why}" for name, why in failures.items()]
         for check in checks:
             problems += _errors(check)
-    from_start = _counts_from_start(path)
-    return [line for line in problems if not (from_start and TIME_FROM_START in line)]
-
-
-def _counts_from_start(path: Path) -> bool:
     with xr.open_dataset(path) as answer:
-        return "time" in answer.coords and answer.time.attrs.get("units") == "s"
+        from_start = "time" in answer.coords and answer.time.attrs.get("units") == "s"
+    return [line for line in problems if not (from_start and TIME_FROM_START in line)]
 
 
 def _errors(check: Any) -> list[str]:

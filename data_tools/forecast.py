@@ -3,23 +3,17 @@
 Hindcasts use C04 with origins from 2005 to 2025, beside least squares with autoregression. Monthly
 releases of astropy-iers-data hold what Bulletin A predicted at the time; pip downloads them, one
 after the other, into a folder that later runs use again.
-
-With folders of angular momentum functions (option `--excitation`), hindcasts with the excitation
-are scored instead. The excitation after the origin is the one that was observed later, so that the
-scores are those of a perfect forecast of the excitation.
 """
 
 from __future__ import annotations
 
-import argparse
 import json
 import re
 import subprocess
 import sys
 import time
 import zipfile
-from collections.abc import Callable, Iterator
-from functools import partial
+from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -28,9 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import MAS, NORMAL_95
-from earthspin.sky.angular_momentum import read_angular_momentum
 from earthspin.sky.eop import PoleSeries, read_bulletin_a, read_polar_motion
-from earthspin.wobble.forecast import SKILL, Forecast, fit, forecast, forecast_with_excitation
+from earthspin.wobble.forecast import SKILL, forecast
 from tests.benchmarks.accuracy.forecast import usual
 
 Array = NDArray[np.float64]
@@ -46,12 +39,8 @@ RELEASES = Path.home() / ".cache" / "earthspin" / PACKAGE
 PAGES = Path(__file__).parent.parent / "docs" / "measured"
 SKILL_PAGE = PAGES / "forecast-skill.inc"
 CORRELATION_PAGE = PAGES / "forecast-correlation.inc"
-EXCITATION_PAGE = PAGES / "forecast-excitation.inc"
 #: Horizons of the table of correlations, and squared radius of an ellipse of 95 %.
 CORRELATED, ELLIPSE = (5, 10, 30, 90, 365), -2 * np.log(0.05)
-#: Modified Julian date of the first origin with an excitation (2011-01-01), days between origins,
-#: and days after the origin up to which the excitation is known.
-FIRST_DRIVEN, EVERY_DRIVEN, KNOWN = 55562, 90, (1, 6, 10, 30)
 
 
 def pole(table: PoleSeries) -> Any:
@@ -68,16 +57,6 @@ def at_horizons(values: Any) -> Array:
     return rows
 
 
-def covariances(ahead: Forecast) -> Array:
-    """Covariances of x and y at the horizons, mas squared, shape (horizons, 2, 2)."""
-    return np.asarray(ahead.covariance[np.array(HORIZONS) - 1])
-
-
-def half_widths(covariance: Array) -> Array:
-    """Half-widths of x and y from their covariances."""
-    return np.asarray(NORMAL_95 * np.sqrt(np.diagonal(covariance, axis1=-2, axis2=-1)))
-
-
 def hindcasts() -> tuple[Array, Array, Array, Array]:
     """Origins, errors, covariances, and errors of least squares + AR, from C04."""
     table = read_polar_motion("c04")
@@ -89,7 +68,7 @@ def hindcasts() -> tuple[Array, Array, Array, Array]:
         truth = at_horizons(p[after:])
         ahead = forecast(p[:after], HORIZONS[-1])
         errors.append(at_horizons(ahead.pole) - truth)
-        spread.append(covariances(ahead))
+        spread.append(ahead.covariance[np.array(HORIZONS) - 1])
         others.append(at_horizons(usual(p[:after], HORIZONS[-1], USUAL_YEARS)) - truth)
     return origins.astype(float), np.array(errors), np.array(spread), np.array(others)
 
@@ -130,14 +109,14 @@ def of_releases(folder: Path) -> tuple[Array, Array, Array]:
         ahead = forecast(pole(table), HORIZONS[-1])
         later = at_horizons(truth[after:])
         errors.append(at_horizons(ahead.pole) - later)
-        spread.append(covariances(ahead))
+        spread.append(ahead.covariance[np.array(HORIZONS) - 1])
         others.append(at_horizons(pole(bulletin)) - later)
     return np.array(errors), np.array(spread), np.array(others)
 
 
 def numbers(name: str, errors: Array, spread: Array, others: Array) -> list[dict[str, Any]]:
     """Skill by horizon, a row for each at which both forecasts can be compared."""
-    rows, widths = [], half_widths(spread)
+    rows, widths = [], NORMAL_95 * np.sqrt(np.diagonal(spread, axis1=-2, axis2=-1))
     for k, day in enumerate(HORIZONS):
         known = np.isfinite(errors[:, k] + others[:, k]).all(axis=1)
         if not known.any():
@@ -187,49 +166,8 @@ def correlations(errors: Array, spread: Array) -> str:
     return "\n".join([*lines, ""])
 
 
-def with_excitation(folders: list[str]) -> str:
-    """Table of the errors of hindcasts from C04 with the excitation in folders of files."""
-    table = read_polar_motion("c04")
-    momentum = read_angular_momentum(folders, daily=True)
-    first = int(np.searchsorted(table.mjd, momentum.mjd[0] - 0.5))
-    p, chi = pole(table)[first:], momentum.chi / MAS
-    last = min(p.size, chi.size) - HORIZONS[-2]
-    origins = range(FIRST_DRIVEN - int(table.mjd[first]), last, EVERY_DRIVEN)
-    days = [day for day in HORIZONS if day <= HORIZONS[-2]]
-
-    def row(name: str, predict: Callable[[int], Forecast]) -> str:
-        errors, inside = [], []
-        for origin in origins:
-            ahead = predict(origin + 1)
-            error = at_horizons(ahead.pole)[: len(days)]
-            error -= at_horizons(p[origin + 1 :])[: len(days)]
-            widths = half_widths(ahead.covariance[np.array(days) - 1])
-            errors.append(abs(error))
-            inside.append(abs(error) <= widths)
-        means, shares = np.mean(errors, axis=(0, 2)), np.mean(inside, axis=(0, 2))
-        cells = [f"{m:.2f} ({100 * s:.0f} %)" for m, s in zip(means, shares, strict=True)]
-        return f"| {name} | {' | '.join(cells)} |"
-
-    def driven(after: int, known: int) -> Forecast:
-        return forecast_with_excitation(p[:after], chi[: after + known], days[-1])
-
-    rows = [
-        row("not given", lambda after: forecast(p[:after], days[-1])),
-        row("not given, fitted", lambda after: forecast(p[:after], days[-1], fit(p[:after]))),
-        *(row(f"known to {known} d", partial(driven, known=known)) for known in KNOWN),
-    ]
-    head = ["excitation", *(f"{day} d" for day in days)]
-    lines = [f"| {' | '.join(head)} |", "|---" * len(head) + "|", *rows]
-    return "\n".join([*lines, "", f"{len(origins)} origins, the first on 2011-01-01.", ""])
-
-
-def main(arguments: argparse.Namespace) -> int:
+def main() -> int:
     """Measure, and write the table that the package ships and those of the page."""
-    if arguments.excitation:
-        page = with_excitation(arguments.excitation)
-        EXCITATION_PAGE.write_text(page, encoding="utf-8")
-        print(page)
-        return 0
     origins, *scores = hindcasts()
     early = origins < MIDDLE
     scored = {
@@ -243,7 +181,5 @@ def main(arguments: argparse.Namespace) -> int:
     SKILL.write_text("[\n" + ",\n".join(rows) + "\n]\n", encoding="utf-8")
     page = "\n".join(table(name, rows_of) for name, rows_of in sets.items())
     SKILL_PAGE.write_text(page, encoding="utf-8")
-    correlation = correlations(scores[0], scores[1])
-    CORRELATION_PAGE.write_text(correlation, encoding="utf-8")
-    print(page, correlation, sep="\n")
+    CORRELATION_PAGE.write_text(correlations(scores[0], scores[1]), encoding="utf-8")
     return 0

@@ -7,7 +7,6 @@ intervals hold the truth.
 
 from __future__ import annotations
 
-import argparse
 import itertools
 import os
 from collections.abc import Iterable
@@ -114,13 +113,11 @@ def page(draws: dict[str, int]) -> str:
             ]
             text.append(HEAD.format(method=method, draws=count))
             for row in workers.map(Cell.row, cells, itertools.repeat(count)):
-                print(method, row, flush=True)
                 text.append(f"{row}\n")
     return "".join(text).lstrip()
 
 
-def main(arguments: argparse.Namespace) -> int:
+def main() -> int:
     """Write the page."""
     PAGE.write_text(page(DRAWS), encoding="utf-8")
-    print(f"wrote {PAGE.name}")
     return 0

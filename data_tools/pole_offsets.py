@@ -6,19 +6,18 @@ intervals of amplitude and period contain the truth in simulated series.
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
-from earthspin.constants import MAS
+from earthspin.constants import UAS
 from earthspin.errors import UndefinedError
 from earthspin.nutation import core_nutation
 from earthspin.nutation.offset_prediction import predict
 from earthspin.sky.eop import PoleSeries, read_pole_offsets
 from earthspin.wobble.observed import fit
+from tests.nutation.simulated_offsets import NOISES, excited, noise
 
 PAGE = Path(__file__).parent.parent / "docs" / "measured" / "pole-offsets.inc"
 #: Days ahead.
@@ -27,14 +26,6 @@ HORIZONS = np.array([1, 10, 30, 90, 180, 365, 730])
 CHOSEN, SCORED = (2003, 2015), (2015, 2026)
 #: Days between origins.
 EVERY = 10
-#: Noise of simulated series: name, size in mas and memory in days of each part of it.
-NOISES = {
-    "white": ((0.1, 0.0),),
-    "memory of 20 d": ((0.12, 20.0),),
-    "memory of 60 d": ((0.12, 60.0),),
-    "memory of 200 d": ((0.12, 200.0),),
-    "memories of 60 and 3 d": ((0.08, 60.0), (0.08, 3.0)),
-}
 AMPLITUDES = (0.0, 0.05, 0.2)  # mas
 #: Simulated windows of each kind, and simulated series for the period.
 WINDOWS, SERIES = 2000, 100
@@ -66,44 +57,20 @@ def scores(
     """
     first, last = (mjd_of(year) for year in years)
     eta = np.stack([table.x, table.y], axis=1)
-    origins = [
-        i
-        for i, mjd in enumerate(table.mjd)
-        if first <= mjd < last - HORIZONS[-1] and i % EVERY == 0
-    ]
+    inside = (table.mjd >= first) & (table.mjd < last - HORIZONS[-1])
+    series = (table.mjd, table.x, table.y, table.x_error, table.y_error)
     errors, widths, last_ones, zeros = [], [], [], []
-    for i in origins:
-        known = slice(None, i + 1)
-        values, half_widths = predict(
-            table.mjd[known],
-            table.x[known],
-            table.y[known],
-            table.x_error[known],
-            table.y_error[known],
-            table.mjd[i] + HORIZONS,
-        )
+    for i in np.flatnonzero(inside & (np.arange(inside.size) % EVERY == 0)):
+        known = [*(column[: i + 1] for column in series), table.mjd[i] + HORIZONS]
+        values, half_widths = predict(*known)
         truth = eta[i + HORIZONS]
         errors.append(values - truth)
         widths.append(half_widths)
         last_ones.append(eta[i] - truth)
         zeros.append(truth)
     absolute = [np.abs(e).mean(axis=(0, 2)) for e in (errors, last_ones, zeros)]
-    inside = (np.abs(errors) <= np.array(widths)).mean(axis=(0, 2))
-    uas = MAS / 1000
-    return np.stack([*absolute, np.mean(widths, axis=(0, 2))], axis=1) / uas, inside
-
-
-def noise(
-    rng: np.random.Generator, count: int, parts: tuple[tuple[float, float], ...]
-) -> NDArray[np.complex128]:
-    """Complex noise of given sizes and memories."""
-    total = np.zeros(count, dtype=complex)
-    for size, memory in parts:
-        fall = np.exp(-1 / memory) if memory else 0.0
-        start = round(10 * memory)
-        drive = rng.standard_normal((count + start, 2)) @ [1, 1j] * np.sqrt((1 - fall**2) / 2)
-        total += size * lfilter([1.0], [1.0, -fall], drive)[start:]
-    return total
+    share = (np.abs(errors) <= np.array(widths)).mean(axis=(0, 2))
+    return np.stack([*absolute, np.mean(widths, axis=(0, 2))], axis=1) / UAS, share
 
 
 def windows(parts: tuple[tuple[float, float], ...], amplitude: float) -> tuple[float, float]:
@@ -117,20 +84,6 @@ def windows(parts: tuple[tuple[float, float], ...], amplitude: float) -> tuple[f
         inside += int(abs(abs(fits.amplitude[0]) - amplitude) <= fits.error[0])
         detected += int(fits.detected[0])
     return inside / WINDOWS, detected / WINDOWS
-
-
-def excited(seed: int, years: float = 42.0) -> tuple[NDArray[np.float64], NDArray[np.complex128]]:
-    """Simulate offsets in mas with a core nutation that random excitation changes.
-
-    The complex amplitude starts at 0.2 mas and walks by 0.05 mas in a year in either coordinate,
-    about as observed.
-    """
-    rng = np.random.default_rng(seed)
-    days = np.arange(round(years * 365.25)).astype(float)
-    walk = rng.standard_normal((days.size, 2)) @ [1, 1j] * 0.05 / np.sqrt(365.25)
-    core = (0.2 + np.cumsum(walk)) * core_nutation.circle(days)
-    year = 0.03 * np.exp(2j * np.pi * days / 365.25)
-    return days, core + year + noise(rng, days.size, ((0.1, 40.0), (0.08, 3.0)))
 
 
 def periods() -> tuple[float, float, float, int]:
@@ -186,8 +139,7 @@ def page() -> str:
     return "\n".join(lines) + "\n"
 
 
-def main(arguments: argparse.Namespace) -> int:
+def main() -> int:
     """Write the page."""
     PAGE.write_text(page(), encoding="utf-8")
-    print(f"wrote {PAGE.name}")
     return 0

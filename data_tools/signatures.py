@@ -6,7 +6,6 @@ docs/reference/index.md, from the classes of the questions.
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
 import earthspin
@@ -85,9 +84,8 @@ def _hint(name: str, argument: Key | None) -> str:
     return argument.kind.hint if argument.required else f"{argument.kind.hint} | None = ..."
 
 
-def main(arguments: argparse.Namespace) -> int:
+def main() -> int:
     """Write the file."""
     FILE.write_text(signatures(), encoding="utf-8")
     INDEX.write_text(index(), encoding="utf-8")
-    print(f"wrote {FILE.name} and {INDEX.name}")
     return 0

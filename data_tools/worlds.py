@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import argparse
 import math
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -17,114 +18,119 @@ from earthspin.bodies.inner import MERCURY_OBLIQUITY, VENUS_PRECESSION
 from earthspin.bodies.mars import PRECESSION as MARS_PRECESSION
 from earthspin.bodies.moon import OBLIQUITY as MOON_OBLIQUITY
 from earthspin.bodies.moons import TITAN_OBLIQUITY, TITAN_OBLIQUITY_IF_SOLID
-from earthspin.constants import PSI_A_RATE, Constant
+from earthspin.constants import NORMAL_95, PSI_A_RATE
 from earthspin.errors import EarthspinError
 from earthspin.questions.cassini_states import CassiniStates
 from earthspin.questions.precession import Precession
 from earthspin.views.table import NUMBERS_ONLY, some_unknown
 
-#: Signs of units; smaller obliquities stand in minutes of arc, deg.
+#: Signs of units, and their size in degrees; obliquities below `SMALL` (deg) are in minutes of arc.
 UNITS, SMALL = {"arcmin": "′", "deg": "°"}, 0.1
-PAGE = Path(__file__).parents[1] / "docs" / "worlds.md"
-BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
-
-#: Said of a comparison with the observation that the body's own numbers come from.
+PAGE = Path(__file__).parents[1] / "docs" / "measured" / "worlds.inc"
+#: Start of the reason in a comparison with the observation that the body's numbers come from.
 CIRCULAR = "circular: "
 
 
 @dataclass(frozen=True)
 class Published:
-    """A published rate, and the reason for the difference from ours.
+    """A published number, and the reason for the difference from ours.
 
     Attributes
     ----------
-    rate : Constant
-        arcsec/yr.
-    of_constant : bool
-        Whether it is the rate over the cosine of the obliquity.
+    number : Constant or None
+        Rate (arcsec/yr) or obliquity (arcmin or deg); None if it is not known here.
     why : str
-        Reason for the difference; `CIRCULAR` first where ours comes from the same observation.
+        Reason for the difference, `CIRCULAR` first where ours comes from the same observation; or
+        what is missing.
+    of_constant : bool
+        Whether the number is the rate over the cosine of the obliquity.
     """
 
-    rate: Constant
-    of_constant: bool
+    number: Any
     why: str
+    of_constant: bool = False
+
+    @property
+    def half_width(self) -> str:
+        """Half-width of the 95 % interval as text; empty if it is not known."""
+        if self.number is None or self.number.uncertainty is None:
+            return ""
+        return f"{NORMAL_95 * self.number.uncertainty:.2g}"
 
 
+#: Rates of precession.
 PUBLISHED = {
-    "venus": Published(
-        VENUS_PRECESSION, False, f"{CIRCULAR}the moment was inferred from this rate"
-    ),
+    "venus": Published(VENUS_PRECESSION, f"{CIRCULAR}the moment was inferred from this rate"),
     "earth": Published(
         PSI_A_RATE,
-        False,
         f"{CIRCULAR}$H$ comes from observed precession; geodesic precession and other effects "
         "are left out",
     ),
     "mars": Published(
         MARS_PRECESSION,
-        False,
         f"{CIRCULAR}the moment was inferred from this rate; geodesic precession is left out",
     ),
-    "jupiter": Published(JUPITER_CONSTANT, True, "the published value has two digits"),
+    "jupiter": Published(JUPITER_CONSTANT, "the published value has two digits", True),
     "saturn": Published(
-        SATURN_CONSTANT, True, "Iapetus is excluded here and partly included in the published rate"
+        SATURN_CONSTANT, "Iapetus is excluded here and partly included in the published rate", True
     ),
+}
+
+
+#: Obliquities to the own orbit.
+OBSERVED = {
+    "mercury": Published(
+        MERCURY_OBLIQUITY, f"{CIRCULAR}the moment was inferred from this obliquity"
+    ),
+    "moon": Published(
+        MOON_OBLIQUITY,
+        "a solid body on a mean ellipse: the Sun disturbs the orbit (0.023°), another mean "
+        "inclination is in use (0.012°), turns count from the node (0.008°)",
+    ),
+    "titan": Published(
+        TITAN_OBLIQUITY,
+        f"a solid body: for one {TITAN_OBLIQUITY_IF_SOLID.value:g}° are published "
+        f"({TITAN_OBLIQUITY_IF_SOLID.source}); a shell on an ocean leans more",
+    ),
+    "phobos": Published(None, "no observed obliquity to its own orbit is known here"),
+    "iapetus": Published(None, "J2 and the moments were never measured"),
+    "triton": Published(None, "J2 and the moments were never measured"),
 }
 
 
 @dataclass(frozen=True)
 class World:
-    """One row: ours and theirs.
+    """One row: a rate of precession, or the obliquity of a locked spin.
 
     Attributes
     ----------
     name : str
     obliquity : float
-        To the orbit, degrees.
-    rate, error : float
-        Size of the rate of precession and its 95 % half-width from the input numbers, arcsec/yr.
+        To the orbit, deg; of a locked spin, that of the lowest upright Cassini state.
+    error : float
+        Half-width from the input numbers, of the rate (arcsec/yr) or of the obliquity (deg).
     left_out : float
-        Sum of the sizes of what the model leaves out, arcsec/yr; NaN if they are not known.
-    period, period_error : float
-        Years.
-    published : float
-        Size of the rate along the orbit, arcsec/yr.
+        Sum of the sizes of what the model leaves out, in the unit of `error`; NaN if not known.
+    rate, period, period_error, published : float
+        Size of the rate (arcsec/yr), its period and half-width (yr), and the published rate.
     refused : str
-        Why there is no rate; empty if there is.
+        Why there is no answer; empty if there is.
     """
 
     name: str
     obliquity: float = math.nan
-    rate: float = math.nan
     error: float = math.nan
     left_out: float = math.nan
+    rate: float = math.nan
     period: float = math.nan
     period_error: float = math.nan
     published: float = math.nan
     refused: str = ""
 
-
-def world(name: str) -> World:
-    """Row of a body, pulled on by what pulls on it."""
-    try:
-        tree = earthspin.run_tree(Precession(body=name), ["neglected"])
-    except EarthspinError as error:
-        return World(name, refused=str(error))
-    answer = tree.to_dataset().isel(perturber=-1)
-    obliquity = float(answer.obliquity)
-    published = PUBLISHED[name]
-    along = math.cos(math.radians(obliquity)) if published.of_constant else 1.0
-    return World(
-        name,
-        obliquity,
-        abs(float(answer.precession_rate)),
-        float(answer.precession_rate_error),
-        left_out(tree),
-        float(answer.precession_period),
-        float(answer.precession_period_error),
-        abs(published.rate.value) * along,
-    )
+    def in_all(self, factor: float = 1.0) -> str:
+        """Half-width plus the sizes of what is left out; `NUMBERS_ONLY` if these are not known."""
+        whole = factor * (self.error + self.left_out)
+        return NUMBERS_ONLY if math.isnan(whole) else f"{whole:.2g}"
 
 
 def left_out(tree: xr.DataTree) -> float:
@@ -134,14 +140,44 @@ def left_out(tree: xr.DataTree) -> float:
     return float(np.abs(sizes).sum()) if sizes.size and not some_unknown(section) else math.nan
 
 
-def in_all(error: float, left_out: float, sign: str = "") -> str:
-    """Write a half-width plus the sizes of what is left out; say so if these are not known."""
-    return NUMBERS_ONLY if math.isnan(left_out) else f"{error + left_out:.2g}{sign}"
+def world(name: str) -> World:
+    """Row of a body that precesses, with its own perturbers."""
+    try:
+        tree = earthspin.run_tree(Precession(body=name), ["neglected"])
+    except EarthspinError as error:
+        return World(name, refused=str(error))
+    answer = tree.to_dataset().isel(perturber=-1)
+    rate, half_width, period, period_error = (
+        float(answer[f"precession_{name}"])
+        for name in ("rate", "rate_error", "period", "period_error")
+    )
+    obliquity = float(answer.obliquity)
+    published = PUBLISHED[name]
+    along = math.cos(math.radians(obliquity)) if published.of_constant else 1.0
+    size = abs(published.number.value) * along
+    return World(
+        name, obliquity, half_width, left_out(tree), abs(rate), period, period_error, published=size
+    )
 
 
 def worlds() -> list[World]:
     """All planets and the Moon."""
     return [world(name) for name in (*PLANETS, "moon") if name in BODIES]
+
+
+def locked_spin(name: str) -> World:
+    """Row of a body in the Cassini state that it is in."""
+    try:
+        tree = earthspin.run_tree(CassiniStates(body=name), ["neglected"])
+    except EarthspinError as error:
+        return World(name, refused=str(error))
+    first = tree.to_dataset().isel(state=0)  # for the Moon state 2, the only upright one
+    return World(name, float(first.obliquity), float(first.obliquity_error), left_out(tree))
+
+
+def locked() -> list[World]:
+    """Mercury and the moons."""
+    return [locked_spin(name) for name in OBSERVED]
 
 
 def table(rows: list[World]) -> str:
@@ -152,99 +188,17 @@ def table(rows: list[World]) -> str:
         "|---|---:|---:|---:|---:|---:|---:|---:|---|",
     ]
     for row in rows:
-        if row.refused:
-            continue
-        known = PUBLISHED[row.name].rate
-        error = "" if known.uncertainty is None else f"{1.96 * known.uncertainty:.2g}"
-        lines.append(
-            f"| {proper(row.name)} | {row.obliquity:.2f} | {_to(row.error, row.rate)} "
-            f"| {row.error:.2g} | {in_all(row.error, row.left_out)} "
-            f"| {_to(row.period_error, row.period)} "
-            f"| {row.published:.4g} | {error} | {known.source} |"
-        )
-    lines += ["", "| world | reason for the difference |", "|---|---|"]
-    lines += [f"| {proper(name)} | {published.why} |" for name, published in PUBLISHED.items()]
-    lines += ["", "| world | why there is no rate |", "|---|---|"]
-    lines += [f"| {proper(row.name)} | {row.refused} |" for row in rows if row.refused]
-    return "\n".join([*lines, ""])
+        if not row.refused:
+            known = PUBLISHED[row.name]
+            lines.append(
+                f"| {proper(row.name)} | {row.obliquity:.2f} | {_to(row.error, row.rate)} "
+                f"| {row.error:.2g} | {row.in_all()} | {_to(row.period_error, row.period)} "
+                f"| {row.published:.4g} | {known.half_width} | {known.number.source} |"
+            )
+    return "\n".join([*lines, *_reasons("world", "rate", PUBLISHED, PUBLISHED, rows), ""])
 
 
-@dataclass(frozen=True)
-class Observed:
-    """Where an axis is observed to stand, and the reason for the difference from ours.
-
-    Attributes
-    ----------
-    obliquity : Constant or None
-        To its own orbit, arcmin or deg; None if it is not known here.
-    why : str
-        Reason for the difference, `CIRCULAR` first where ours comes from the same observation; or
-        what is missing.
-    """
-
-    obliquity: Constant | None
-    why: str
-
-
-OBSERVED = {
-    "mercury": Observed(
-        MERCURY_OBLIQUITY, f"{CIRCULAR}the moment was inferred from this obliquity"
-    ),
-    "moon": Observed(
-        MOON_OBLIQUITY,
-        "a solid body on a mean ellipse: the Sun disturbs the orbit (0.023°), another mean "
-        "inclination is in use (0.012°), turns count from the node (0.008°)",
-    ),
-    "titan": Observed(
-        TITAN_OBLIQUITY,
-        f"a solid body: for one {TITAN_OBLIQUITY_IF_SOLID.value:g}° are published "
-        f"({TITAN_OBLIQUITY_IF_SOLID.source}); a shell on an ocean leans more",
-    ),
-    "phobos": Observed(None, "no observed obliquity to its own orbit is known here"),
-    "iapetus": Observed(None, "J2 and the moments were never measured"),
-    "triton": Observed(None, "J2 and the moments were never measured"),
-}
-
-
-@dataclass(frozen=True)
-class Locked:
-    """A spin that is locked: where its axis stands, ours and observed.
-
-    Attributes
-    ----------
-    name : str
-    obliquity, error : float
-        To its own orbit, of the lowest upright Cassini state, and half-width from the input
-        numbers, deg.
-    left_out : float
-        Sum of the sizes of what the model leaves out, deg; NaN if they are not known.
-    refused : str
-        Why there is none; empty if there is.
-    """
-
-    name: str
-    obliquity: float = math.nan
-    error: float = math.nan
-    left_out: float = math.nan
-    refused: str = ""
-
-
-def locked_spin(name: str) -> Locked:
-    """Row of a body in the Cassini state that it is in."""
-    try:
-        tree = earthspin.run_tree(CassiniStates(body=name), ["neglected"])
-    except EarthspinError as error:
-        return Locked(name, refused=str(error))
-    first = tree.to_dataset().isel(state=0)  # for the Moon state 2, the only upright one
-    return Locked(name, float(first.obliquity), float(first.obliquity_error), left_out(tree))
-
-
-def locked() -> list[Locked]:
-    """Mercury and the moons."""
-    return [locked_spin(name) for name in OBSERVED]
-
-
-def table_of_locked(rows: list[Locked]) -> str:
+def table_of_locked(rows: list[World]) -> str:
     """The locked spins in Markdown: those that have states, then those that are refused."""
     lines = [
         "| locked spin | obliquity to its orbit | ± input numbers | ± in all | observed | ± "
@@ -254,27 +208,33 @@ def table_of_locked(rows: list[Locked]) -> str:
     for row in rows:
         if row.refused:
             continue
-        known = OBSERVED[row.name].obliquity
-        small = row.obliquity < SMALL
-        sign, factor = ("′", 60.0) if small else ("°", 1.0)
+        known = OBSERVED[row.name]
+        sign, factor = ("′", 60.0) if row.obliquity < SMALL else ("°", 1.0)
         error = f"{factor * row.error:.2g}{sign}" if row.error else ""
-        columns = ["", "", ""]
-        if known is not None:
-            half = (
-                ""
-                if known.uncertainty is None
-                else f"{1.96 * known.uncertainty:.2g}{UNITS[known.unit]}"
-            )
-            columns = [f"{known.value:g}{UNITS[known.unit]}", half, known.source]
+        whole = row.in_all(factor) + (sign if row.in_all() != NUMBERS_ONLY else "")
+        columns = " |  | "
+        if known.number is not None:
+            unit = UNITS[known.number.unit]
+            half = known.half_width and known.half_width + unit
+            columns = f"{known.number.value:g}{unit} | {half} | {known.number.source}"
         lines.append(
             f"| {proper(row.name)} | {factor * row.obliquity:.3g}{sign} | {error} "
-            f"| {in_all(factor * row.error, factor * row.left_out, sign)} | {' | '.join(columns)} |"
+            f"| {whole} | {columns} |"
         )
-    lines += ["", "| locked spin | reason for the difference |", "|---|---|"]
-    lines += [f"| {proper(row.name)} | {OBSERVED[row.name].why} |" for row in rows]
-    lines += ["", "| locked spin | why there is no state |", "|---|---|"]
-    lines += [f"| {proper(row.name)} | {row.refused} |" for row in rows if row.refused]
-    return "\n".join([*lines, ""])
+    names = [row.name for row in rows]
+    return "\n".join([*lines, *_reasons("locked spin", "state", OBSERVED, names, rows), ""])
+
+
+def _reasons(
+    head: str, answer: str, known: Mapping[str, Published], names: Iterable[str], rows: list[World]
+) -> list[str]:
+    """Tables of the reasons for differences, and for refusals."""
+    why = [f"| {proper(name)} | {known[name].why} |" for name in names]
+    refused = [f"| {proper(row.name)} | {row.refused} |" for row in rows if row.refused]
+    return [
+        *("", f"| {head} | reason for the difference |", "|---|---|", *why),
+        *("", f"| {head} | why there is no {answer} |", "|---|---|", *refused),
+    ]
 
 
 def _to(error: float, value: float) -> str:
@@ -283,11 +243,7 @@ def _to(error: float, value: float) -> str:
     return f"{round(value, digits):,.{max(0, digits)}f}"
 
 
-def main(arguments: argparse.Namespace) -> int:
-    """Write the table into the page."""
-    made = f"{table(worlds())}\n{table_of_locked(locked())}"
-    print(made)
-    before, rest = PAGE.read_text(encoding="utf-8").split(BEGIN)
-    after = rest.split(END)[1]
-    PAGE.write_text(f"{before}{BEGIN}\n\n{made}\n{END}{after}", "utf-8")
+def main() -> int:
+    """Write the tables."""
+    PAGE.write_text(f"{table(worlds())}\n{table_of_locked(locked())}", encoding="utf-8")
     return 0

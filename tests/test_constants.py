@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 import earthspin
-from data_tools import constants_page
+from data_tools import constants as constants_page
 from earthspin import EARTH, MOON, SUN
 from earthspin import constants as c
 from earthspin.engine.labels import FROM_SI

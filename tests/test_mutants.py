@@ -54,7 +54,6 @@ def test_every_kernel_has_one() -> None:
     } | {f"earthspin/{module}.py" for module in BORDER}
     assert len(kernels) > 70
     assert kernels <= {mutant.file for mutant in MUTANTS}
-    assert len(MUTANTS) >= 2 * len(kernels)
 
 
 @pytest.mark.slow

@@ -7,7 +7,6 @@ for each topic, for docs/coverage.md.
 
 from __future__ import annotations
 
-import argparse
 import importlib
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -58,15 +57,8 @@ class Row:
 
     def line(self) -> str:
         """Return the row as a line of a Markdown table."""
-        columns = (
-            self.quantity,
-            self.span,
-            self.counterpart,
-            f"{self.ratio:.2g}",
-            f"{100 * self.inside:.0f} %",
-            f"{self.count}",
-        )
-        return f"| {' | '.join(columns)} |\n"
+        numbers = f"{self.ratio:.2g} | {100 * self.inside:.0f} % | {self.count}"
+        return f"| {self.quantity} | {self.span} | {self.counterpart} | {numbers} |\n"
 
 
 def table(rows: Iterable[Row]) -> str:
@@ -74,11 +66,10 @@ def table(rows: Iterable[Row]) -> str:
     return HEAD + "".join(row.line() for row in rows)
 
 
-def main(arguments: argparse.Namespace) -> int:
-    """Measure all topics, or the one that was named, and write their tables."""
-    for topic in (arguments.only,) if arguments.only else TOPICS:
+def main(*topics: str) -> int:
+    """Measure the named topics, or all, and write their tables."""
+    for topic in topics or TOPICS:
         rows = importlib.import_module(f"data_tools.coverage.{topic}").rows()
         path = FOLDER / f"coverage-{topic.replace('_', '-')}.inc"
         path.write_text(table(rows), encoding="utf-8")
-        print(f"wrote {path.name}")
     return 0

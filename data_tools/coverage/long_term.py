@@ -9,10 +9,13 @@ from numpy.typing import NDArray
 
 import earthspin
 from data_tools.coverage import Row
-from data_tools.long_term import solution
-from earthspin.bodies import EARTH, MARS, Body
+from earthspin.bodies import EARTH, MARS, MOON, SUN, Body
 from earthspin.constants import ARCSEC, J2000_JD, JULIAN_YEAR, NORMAL_95
-from earthspin.secular.budget import changed
+from earthspin.parts import averages, orbits
+from earthspin.parts import sky as skies
+from earthspin.questions import long_term as question
+from earthspin.scenes import load_scene
+from earthspin.secular.budget import Solved, changed
 from earthspin.secular.reading import angle, followed_perihelion, moved_by, read
 from earthspin.secular.trajectory import solve
 
@@ -68,6 +71,21 @@ def beside_iau() -> list[Row]:
         )
         for name, difference in apart.items()
     ]
+
+
+def solution(body: Body, times: FloatArray) -> Solved:
+    """The axis of a body at times (s), and with each cause changed, as the question solves it."""
+    scene = load_scene("long-term")
+    assert isinstance(scene, question.LongTerm)
+    pulling = (SUN, MOON) if body == EARTH else (SUN,)
+    sky = skies.sky(scene.ephemeris, skies.places(body, pulling), scene.source)
+    samples = averages.torque_samples(sky, question.stretch(sky), body, pulling, None)
+    means = averages.mean_torques(averages.window_means(samples, pulling))
+    rates = averages.mean_rates(means, body, pulling)
+    table = orbits.orbit_table("own", body)
+    numbers = question.numbers(rates, body, pulling, 1.0, 1.0, None, 0.0, 0.0)
+    strength = question.strength(numbers, means, body, table)
+    return question.solved(strength, numbers, table, times, body)
 
 
 def of_body(body: Body, reach: int, members: int = MEMBERS, seed: int = SEED) -> list[Row]:

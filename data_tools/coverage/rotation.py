@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,14 +11,17 @@ from scipy.spatial.transform import Rotation
 
 import earthspin
 from data_tools.coverage import Row
-from data_tools.coverage.kepler_rotors import random_case, reference
-from data_tools.lunar_rotation import STARTS, librations
 from earthspin import MOON
-from earthspin.constants import ARCSEC, J2000_JD
+from earthspin.constants import ARCSEC, DAY, J2000_JD
 from earthspin.dates import datetime64
+from tests.reference.kepler_rotors import random_case, reference
 
 FloatArray = NDArray[np.float64]
 
+#: Librations of DE421 at some dates: Folkner, Williams & Boggs 2009, IPN Progress Report 42-178.
+LIBRATIONS = Path(__file__).parents[2] / "tests" / "data" / "de421-librations.txt"
+#: Starts, TDB Julian dates, each in the file.
+STARTS = tuple(2448545.0 + 500.0 * k for k in range(6))
 #: Random bodies, and the length of their motions in orbits.
 BODIES, ORBITS = 60, 5.0
 #: Days after each start at which the Moon is compared.
@@ -55,6 +59,21 @@ def _angle(p: FloatArray, q: FloatArray) -> float:
     """Angle between attitudes from the chord, which keeps its digits."""
     chord = min(np.linalg.norm(p - q), np.linalg.norm(p + q))
     return float(4 * np.arcsin(chord / 2))
+
+
+def librations() -> dict[float, tuple[Rotation, FloatArray]]:
+    """Attitude (body to ICRF) and angular velocity along the principal axes, rad/s, by date."""
+    table = {}
+    for jd, phi, theta, psi, d_phi, d_theta, d_psi in np.loadtxt(LIBRATIONS):
+        sine, cosine = np.sin(theta), np.cos(theta)
+        omega = [
+            d_phi * sine * np.sin(psi) + d_theta * np.cos(psi),
+            d_phi * sine * np.cos(psi) - d_theta * np.sin(psi),
+            d_phi * cosine + d_psi,
+        ]
+        attitude = Rotation.from_euler("ZXZ", [phi, theta, psi])
+        table[float(jd)] = attitude, np.array(omega) / DAY
+    return table
 
 
 def moon(start: float, days: tuple[float, ...]) -> tuple[FloatArray, FloatArray, FloatArray]:

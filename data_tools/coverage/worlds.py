@@ -110,7 +110,8 @@ def rates() -> Iterator[Row]:
     for world in worlds():
         if world.refused or math.isnan(world.left_out):
             continue
-        known = PUBLISHED[world.name].rate.uncertainty or 0.0
+        number = PUBLISHED[world.name].number
+        known = (number and number.uncertainty) or 0.0
         others = RATES_OF_MARS if world.name == "mars" else ((world.published, known),)
         yield Row.comparing(
             "rate of precession",

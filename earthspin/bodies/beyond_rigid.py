@@ -55,8 +55,8 @@ BEYOND_RIGID = {
             "tides on the Moon": (3.7e-4, 0.023, 0.054, 0.21, 0.64, 1.2, 3.1, 3.3),
             "flattening of the Earth": (7e-6, 5e-4, 6e-4, 0.0022, 0.013, 0.025, 0.064, 0.15),
         },
-        "the model of DE421, integrated with and without each effect: "
-        "python -m data_tools lunar-rotation",
+        "the model of DE421 (Folkner et al. 2009, IPN Progress Report 42-178), integrated by DOP853 "
+        "with and without each effect from its librations at 6 dates: largest differences",
     ),
     "earth": BeyondRigid(
         {
@@ -64,7 +64,7 @@ BEYOND_RIGID = {
             "polar motion": (0.0056, 0.053, 0.14, 0.4, 0.6, 0.6, 0.6, 0.6),
             "response of the inside to nutation": (0.0575,) * 8,
         },
-        "finals2000A of the IERS, 1973 to 2025, largest changes of UT1 and of the pole: "
-        "python -m data_tools earth-rotation; response: python -m data_tools neglected",
+        "finals2000A of the IERS, 1973 to 2025, largest changes of UT1 (less the mean spin) and of "
+        "the pole over intervals of each length; response: python -m data_tools neglected",
     ),
 }

@@ -75,7 +75,7 @@ MEAN_MOON = MOON.replace(
 #: Orbits referred to their Laplace planes, by name of the body.
 PRECESSING_ORBITS = {MOON.name: MEAN_MOON.orbit, MERCURY.name: MERCURY_ORBIT} | OF_MOONS
 
-_LUNAR_STATE = "data_tools/lunar_state.py, means over the orbit of DE421"
+_LUNAR_STATE = "energy of the figure averaged over four turns of the node in DE421"
 #: Effects not included in the Cassini-state equation, as changes of the obliquity in the upright
 #: state, by name of the body.
 LEFT_OUT_OF_STATES: dict[str, dict[str, Constant]] = {

@@ -35,10 +35,8 @@ from earthspin.errors import (
 from earthspin.sky.chebyshev import BLOCK, Epochs, Table
 from earthspin.sky.kernel_checks import (
     AGAIN,
-    ORBITS,
     PUBLISHED,
     Records,
-    check_bodies,
     check_summaries,
     check_words,
 )
@@ -73,8 +71,8 @@ class Ephemeris:
     ------
     KernelError
         If the file is missing, empty, truncated, not a kernel, or damaged. The consistency of its
-        parts and the positions of Sun, Moon and planets are checked when the file is opened, and
-        records when they are used (`earthspin.sky.kernel_checks`).
+        parts is checked when the file is opened, and records when they are used
+        (`earthspin.sky.kernel_checks`).
     """
 
     def __init__(self, path: str | Path, name: str | None = None) -> None:
@@ -92,30 +90,6 @@ class Ephemeris:
         self._tables: dict[tuple[int, int], Table] = {
             step: records.table() for step, records in self._records.items()
         }
-        if self._published is None:  # the hash of a named kernel is a stronger check
-            self._check_bodies()
-
-    def _check_bodies(self) -> None:
-        """Check that Sun, Moon and planets have plausible positions on the dates they all cover."""
-        bodies = {10, 301, *ORBITS, *(100 * planet + 99 for planet in ORBITS)} & self.targets
-        reached = {code for code in bodies if self._reaches_root(code)}
-        if not reached:
-            return
-        along: dict[Step, FloatArray] = {}
-
-        def place(code: int, days: FloatArray) -> FloatArray:
-            steps, epochs = self._path_to_root(code), Epochs(days)
-            along.update({step: self._along(step, epochs) for step in steps if step not in along})
-            total: FloatArray = np.sum([along[step] for step in steps], axis=0)
-            return total.T
-
-        check_bodies(place, reached, self.coverage(reached), self.path)
-
-    def _reaches_root(self, code: int) -> bool:
-        try:
-            return bool(self._path_to_root(code))
-        except _NoSegment:
-            return False
 
     @cached_property
     def sha256(self) -> str:
@@ -255,7 +229,7 @@ class Ephemeris:
         while place != 0:
             step = next((step for step in self._segments if step[1] == place), None)
             if step is None:
-                raise _NoSegment(self.path, f"no segment leads to NAIF {place}")
+                raise KernelError(self.path, f"no segment leads to NAIF {place}")
             if step in path:
                 raise KernelError(self.path, f"its segments lead NAIF {place} in a circle", AGAIN)
             path.append(step)
@@ -331,10 +305,6 @@ class Ephemeris:
         for step in {step for place in places for step in self._path_to_root(place)}:
             if isinstance(step, tuple):
                 self._records[step].check(days)
-
-
-class _NoSegment(KernelError):
-    """Error raised if no chain of kernel segments leads to a body."""
 
 
 @lru_cache

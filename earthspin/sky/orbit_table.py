@@ -72,10 +72,11 @@ class Growth(NamedTuple):
 _MYR = 1e6 * JULIAN_YEAR
 #: By body, measured. Eccentricities: La2010a to d (Laskar et al. 2011, A&A 532, A89) and La2004
 #: (Laskar et al. 2004, A&A 428, 261) for the Earth, ZB18a over the last million years; the file of
-#: La2004 for Mars. Normals, which none of these files contains: an integration that adds the Sun's
-#: flattening and three asteroids, and that is closer to La2010a by a factor of two beyond six
-#: million years. `python -m data_tools long-term --solutions` and `python -m data_tools orbits
-#: --left-out` repeat the measurements.
+#: La2004 for Mars; differences by span are in docs/long_term.md. Normals, which none of these
+#: files contains: the integration of `python -m data_tools orbits` repeated with what it leaves
+#: out, as mean motions of perihelia and nodes to first order: the Sun's flattening (J2 2.2e-7) and
+#: Ceres, Pallas and Vesta (7.2e-10 solar masses on a ring of 2.77 au). It is closer to La2010a by
+#: a factor of two beyond six million years.
 GROWTH = {
     "earth": Growth(4.5e-5, 4.0e-5 / _MYR, 1.8e-5 / _MYR),
     "mars": Growth(1.4e-4, 6.0e-5 / _MYR, 2.0e-5 / _MYR),

@@ -8,7 +8,7 @@ from earthspin.sky.ephemeris import open_ephemeris
 from earthspin.sky.kernel_differences import DIFFERENCES, drift_is_measured, growth
 
 #: Years from J2000.0, and how far the figure axes by DE421 and by DE440 are apart within 2.5 years
-#: of it, uas: `python -m data_tools kernels`, in steps of 20 d.
+#: of it, uas: paths of `pole` with either kernel from 1901 to 2050, in steps of 20 d.
 APART = {
     ("earth", "sun moon"): {-99: 6.816, -75: 5.375, -50: 3.577, -25: 2.083, 0: 0.209, 50: 3.731},
     ("earth", "sun"): {-99: 1.964, -75: 1.565, -50: 1.082, -25: 0.578, 0: 0.055, 50: 1.116},

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from data_tools.pole_offsets import NOISES, noise
 from earthspin import UndefinedError
 from earthspin.nutation import core_nutation
 from earthspin.nutation.core_nutation import PERIOD
+from tests.nutation.simulated_offsets import NOISES, noise
 
 DAYS = np.arange(1100.0) - 549.5
 DRAWS = 400

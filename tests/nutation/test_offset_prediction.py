@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from data_tools.pole_offsets import mjd_of, noise, scores
+from data_tools.pole_offsets import mjd_of, scores
 from earthspin import UndefinedError
 from earthspin.constants import MAS
 from earthspin.nutation.core_nutation import PERIOD
@@ -15,6 +15,7 @@ from earthspin.nutation.offset_prediction import (
     predict,
 )
 from earthspin.sky.eop import read_pole_offsets
+from tests.nutation.simulated_offsets import noise
 
 MJD = 50000.0 + np.arange(3000)
 ERRORS = np.full(MJD.size, 0.1 * MAS)

@@ -65,8 +65,8 @@ def test_the_period_with_an_honest_error(tree: xr.DataTree) -> None:
 
 def test_the_period_of_simulated_series() -> None:
     """Six series of known period, all inside intervals of 95 %, or five."""
-    from data_tools.pole_offsets import excited
     from earthspin.wobble.observed import fit
+    from tests.nutation.simulated_offsets import excited
 
     inside = 0
     for seed in range(6):

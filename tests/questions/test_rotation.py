@@ -12,14 +12,13 @@ import xarray as xr
 from scipy.spatial.transform import Rotation
 
 import earthspin
-from data_tools import lunar_rotation
-from data_tools.coverage.kepler_rotors import random_case
 from data_tools.coverage.rotation import kepler, moon
 from earthspin import BODIES, EARTH, Body, EarthspinError, SceneError, scenes
 from earthspin.bodies.moons import ORBITS as OF_MOONS
-from earthspin.constants import ARCSEC, DAY, G
+from earthspin.constants import DAY, G
 from earthspin.progress import lines_to
 from earthspin.units import FloatArray
+from tests.reference.kepler_rotors import random_case
 from tests.refusals import refused
 
 MONTH = ("2000-01-01T12:00", "2000-01-31T12:00", "1 d")
@@ -365,15 +364,6 @@ def test_the_moon_of_de421_is_within_its_error_and_what_is_neglected() -> None:
     assert np.all(neglected < 10 * apart)
     # the error of the rigid model alone does not contain the difference, and does not claim to
     assert np.all(apart > error)
-
-
-def test_an_independent_moon_with_all_effects_comes_back_to_de421() -> None:
-    """The sizes stand on it; 0.035" and 0.11" measured after 30 and 90 d, without them 8"."""
-    days, table = (30.0, 90.0), lunar_rotation.librations()
-    found = lunar_rotation.attitudes(2451545.0, days, lunar_rotation.EFFECTS)
-    for day, attitude in zip(days, found, strict=True):
-        away = (table[2451545.0 + day][0].inv() * attitude).magnitude() / ARCSEC
-        assert away < 0.0025 * day
 
 
 def every_body_that_rotates() -> list[dict[str, object]]:

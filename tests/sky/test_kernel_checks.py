@@ -1,13 +1,11 @@
-"""Damaged kernels: each kind of damage is refused, and layouts that are merely unusual are not."""
+"""Damaged kernels are refused, and kernels with an unusual layout are read."""
 
 from __future__ import annotations
 
 import shutil
 import struct
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -17,12 +15,13 @@ from earthspin import EarthspinError, KernelError
 from earthspin.bodies import MOON, SUN
 from earthspin.sky import ephemeris
 from earthspin.sky.ephemeris import Ephemeris, find_kernel, open_ephemeris
-from earthspin.sky.kernel_checks import ORBITS, PUBLISHED, Records
+from earthspin.sky.kernel_checks import DISTANCES, PUBLISHED
 from tests.sky.kernel_files import FIRST_SUMMARY, RECORD, SUMMARY, Piece, from_de421, write_kernel
 
 FloatArray = NDArray[np.float64]
 
 NAMES = {(0, 10): 0, (0, 3): 1, (3, 399): 2, (3, 301): 3}
+FIELDS = {"start": 0, "end": 8, "target": 16, "centre": 20, "first": 32, "last": 36}
 
 
 @pytest.fixture(scope="module")
@@ -43,11 +42,11 @@ def span(pieces: list[Piece]) -> tuple[float, float]:
 
 def torques(kernel: Ephemeris, days: FloatArray) -> FloatArray:
     """3 GM r (r . n) x n / r^5 of Sun and Moon on the Earth, about the axis n of the ICRF, s-2."""
-    found = kernel.positions({"sun": 10, "moon": 301}, 399, days)
+    places = kernel.positions({"sun": 10, "moon": 301}, 399, days)
     axis = np.array([0.0, 0.0, 1.0])
     each = []
     for body, gm in (("sun", float(SUN.gm)), ("moon", float(MOON.gm))):
-        r = found[body]
+        r = places[body]
         size = np.linalg.norm(r, axis=1)
         each.append(3 * gm * ((r @ axis) / size**5)[:, None] * np.cross(r, axis))
     return np.array(each)
@@ -67,7 +66,7 @@ def test_a_small_kernel_is_read_as_the_large_one(
 
 
 def test_records_of_velocities_are_read(tmp_path: Path, pieces: list[Piece]) -> None:
-    """Type 3: positions and velocities; the latter are not looked at."""
+    """Type 3: positions and velocities; the latter are not used."""
     both = [replace(p, series=np.concatenate([p.series, 0 * p.series], axis=1)) for p in pieces]
     days = np.linspace(*span(pieces), 50)
     one = Ephemeris(write_kernel(tmp_path / "2.bsp", pieces))
@@ -75,7 +74,7 @@ def test_records_of_velocities_are_read(tmp_path: Path, pieces: list[Piece]) -> 
     assert np.array_equal(torques(one, days), torques(two, days))
 
 
-def circle(count: int, terms: int, body: int = 2_000_001, centre: int = 10) -> Piece:
+def circle(count: int, terms: int) -> Piece:
     """An asteroid on a circle, fitted freely at Chebyshev nodes: records do not quite meet."""
     length, start = 32 * 86400.0, 0.0
     nodes = np.cos(np.pi * (np.arange(terms) + 0.5) / terms)
@@ -85,31 +84,31 @@ def circle(count: int, terms: int, body: int = 2_000_001, centre: int = 10) -> P
         angle = 2 * np.pi * t / (4.6 * 365.25 * 86400)
         xyz = 4.1e8 * np.stack([np.cos(angle), np.sin(angle), 0.1 * np.sin(angle)])
         rows.append(np.polynomial.chebyshev.chebfit(nodes, xyz.T, terms - 1).T)
-    return Piece(centre, body, start, length, np.array(rows))
+    return Piece(0, 2_000_001, start, length, np.array(rows))
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 40])
-@pytest.mark.parametrize("terms", [1, 2, 3, 5, 8, 14])
+@pytest.mark.parametrize("terms", [1, 2, 5, 14])
 def test_a_kernel_fitted_freely_is_read(tmp_path: Path, count: int, terms: int) -> None:
-    """From stairs of one term, which jump by 1e7 m, to fourteen: it is as good as it is."""
-    kernel = Ephemeris(write_kernel(tmp_path / "free.bsp", [circle(count, terms, centre=0)]))
+    """From stairs of one term, which jump by 1e7 m, to fourteen."""
+    kernel = Ephemeris(write_kernel(tmp_path / "free.bsp", [circle(count, terms)]))
     days = np.linspace(0.0, 32.0 * count, 400)
     assert np.isfinite(kernel.positions({"it": 2_000_001}, 0, days)["it"]).all()
 
 
 def test_series_padded_with_zeros_are_read(tmp_path: Path) -> None:
-    piece = circle(40, 5, centre=0)
+    piece = circle(40, 5)
     piece = replace(piece, series=np.pad(piece.series, ((0, 0), (0, 0), (0, 6))))
     kernel = Ephemeris(write_kernel(tmp_path / "padded.bsp", [piece]))
     kernel.positions({"it": 2_000_001}, 0, np.linspace(0, 1280, 400))
 
 
 def test_a_jump_in_a_free_fit_is_refused(tmp_path: Path) -> None:
-    piece = circle(40, 8, centre=0)
+    piece = circle(40, 8)
     piece.series[20, 1, 3] *= 1.5
     kernel = Ephemeris(write_kernel(tmp_path / "jump.bsp", [piece]))
     kernel.positions({"it": 2_000_001}, 0, np.linspace(0, 500, 400))
-    with pytest.raises(KernelError, match=r"jumps by .* km between records 20 and 21 of 40"):
+    with pytest.raises(KernelError, match="jumps between records 20 and 21"):
         kernel.positions({"it": 2_000_001}, 0, np.linspace(0, 1280, 400))
 
 
@@ -123,57 +122,35 @@ def test_records_that_are_not_used_are_not_read(tmp_path: Path, pieces: list[Pie
         torques(kernel, start + np.array([4 * 30 + 0.5]))
 
 
-def test_a_kernel_of_other_bodies_alone_is_read(tmp_path: Path) -> None:
-    """A short segment, and one body that nothing leads to: refused when asked for, as ever."""
-    kernel = Ephemeris(
-        write_kernel(tmp_path / "two.bsp", [circle(3, 8, 2_000_002, 0), circle(3, 8)])
-    )
-    kernel.positions({"it": 2_000_002}, 0, np.array([1.0, 2.0]))
-    with pytest.raises(KernelError, match="no segment leads to NAIF 10"):
-        kernel.positions({"it": 2_000_001}, 0, np.array([1.0]))
-
-
-def test_several_segments_for_one_body_are_refused_as_ever(tmp_path: Path) -> None:
-    early = circle(3, 8, centre=0)
+def test_several_segments_for_one_body_are_refused(tmp_path: Path) -> None:
+    early = circle(3, 8)
     late = replace(early, start=early.start + 3 * early.length)
     with pytest.raises(KernelError, match="several segments for one body"):
         Ephemeris(write_kernel(tmp_path / "two.bsp", [early, late]))
 
 
-# --- what DE421 shows of itself ---------------------------------------------------------------
-
-
-def test_records_of_de421_meet_and_carry_their_times(de421: Ephemeris) -> None:
-    """Over all 154 years; measured: at most 4.6 eps of the terms, 64 to 256 are allowed."""
+def test_de421_passes_without_its_hash(de421: Ephemeris) -> None:
+    """All records of all segments: times, distances (within 1 %), and joints to 8 eps."""
     for step, records in de421._records.items():
-        fresh = Records(records.segment, de421.path)
-        fresh.check(np.linspace(*de421._covered(step), 4 * fresh.count))
-        assert fresh._known.all()
-        if fresh.count > 1:
-            gaps, sizes, _ = fresh._gaps(np.arange(fresh.count - 1))
-            assert np.max(gaps / sizes) < 8 * np.finfo(float).eps
+        records.check(np.linspace(*de421._covered(step), 4 * records.count))
+        if records.count > 1:
+            assert np.max(records._gaps(np.arange(records.count - 1))[0]) < 8 * np.finfo(float).eps
+        low, high = DISTANCES[step[1]]
+        distance = 1e3 * np.linalg.norm(records._series.sum(axis=2), axis=1)
+        assert 1.01 * low <= distance.min() <= distance.max() < 0.99 * high, step
 
 
-def test_distances_of_de421_lie_well_within_what_is_possible(de421: Ephemeris) -> None:
-    days = np.arange(-36000.0, 19000.0, 5.0)
-    au = 149_597_870_700.0
-    for code, (near, far, _) in ORBITS.items():
-        size = np.linalg.norm(de421.positions({"it": code}, 10, days)["it"], axis=1) / au
-        assert 1.01 * near < size.min() < size.max() < 0.99 * far, code
+# --- what is damaged is refused ---------------------------------------------------------------
 
 
-# --- fields of the directory and the summaries ------------------------------------------------
-
-
-def poke(path: Path, offset: int, form: str, value: float) -> None:
-    data = bytearray(path.read_bytes())
-    struct.pack_into("<" + form, data, offset, value)
-    path.write_bytes(data)
+def poke(data: bytes, offset: int, form: str, value: float) -> bytes:
+    changed = bytearray(data)
+    struct.pack_into("<" + form, changed, offset, value)
+    return bytes(changed)
 
 
 def summary(step: tuple[int, int], field: str) -> int:
-    fields = {"start": 0, "end": 8, "target": 16, "centre": 20, "first": 32, "last": 36}
-    return RECORD + FIRST_SUMMARY + SUMMARY * NAMES[step] + fields[field]
+    return RECORD + FIRST_SUMMARY + SUMMARY * NAMES[step] + FIELDS[field]
 
 
 def directory(pieces: list[Piece], step: tuple[int, int], field: str) -> int:
@@ -181,145 +158,98 @@ def directory(pieces: list[Piece], step: tuple[int, int], field: str) -> int:
     return end - 8 * (4 - ["start", "length", "size", "count"].index(field))
 
 
-def test_a_list_of_segments_that_names_itself_as_the_next(small: Path) -> None:
-    """It ran to 3 GB before."""
-    poke(small, RECORD, "d", 2)
-    with pytest.raises(KernelError, match="comes back to record 2 and never ends"):
-        Ephemeris(small)
+def swapped(data: bytes, first: int, last: int) -> bytes:
+    """Bytes with the words between two places in the other order of bytes."""
+    return (
+        data[:first] + np.frombuffer(data[first:last], ">f8").astype("<f8").tobytes() + data[last:]
+    )
 
 
-def test_a_list_of_segments_in_a_circle_of_two(small: Path) -> None:
-    last = small.stat().st_size // RECORD + 1
-    data = small.read_bytes().ljust(last * RECORD, b"\0") + struct.pack("<3d", 2, 2, 0)
-    small.write_bytes(data.ljust((last + 2) * RECORD, b"\0"))
-    poke(small, RECORD, "d", last + 1)
-    with pytest.raises(KernelError, match="comes back to record 2 and never ends"):
-        Ephemeris(small)
-
-
-@pytest.mark.parametrize("count", [-1, 26, 1e300])
-def test_a_list_that_claims_more_segments_than_it_has_room_for(small: Path, count: float) -> None:
-    poke(small, RECORD + 16, "d", count)
-    with pytest.raises(KernelError, match="record 2 claims to list"):
-        Ephemeris(small)
-
-
-@pytest.mark.parametrize(
-    ("step", "field", "value"),
-    [
-        ((3, 399), "centre", 399),  # a circle of one
-        ((0, 3), "centre", 399),  # 3 hangs on 399, which hangs on 3
-        ((0, 3), "centre", 10),  # the Earth up to 0.01 au off
-        ((0, 10), "centre", 3),
-        ((3, 399), "centre", 0),
-        ((3, 399), "centre", 10),
-        ((3, 399), "centre", 301),
-        ((3, 301), "centre", 399),  # the Moon 1.2 % too near
-        ((3, 301), "centre", 0),
-        ((3, 301), "centre", 10),
-        ((0, 10), "target", 4),
-        ((0, 3), "target", 2),
-    ],
+DAMAGES = (
+    *("cut in the head", "cut in the list", "cut in the data", "cut by a word"),
+    *("head of zeros", "list of zeros", "a number of a summary zero", "records of zeros"),
+    *("coefficients of zeros", "data of the other byte order"),
+    *("one record of the other byte order", "list that comes back", "list of 26"),
+    *("segment before the data", "segment beyond the file", "two segments of the same words"),
+    *("more dates than records", "start a day off", "length a billionth off", "size of 3 more"),
+    *("count one less", "repeated record", "Moon and Earth exchanged", "Earth about the Sun"),
+    *("Moon about the Earth", "Moon about the barycentre", "Sun named Mars", "Moon too near"),
 )
-def test_a_wrong_centre_or_target(
-    small: Path, pieces: list[Piece], step: tuple[int, int], field: str, value: int
-) -> None:
-    poke(small, summary(step, field), "i", value)
+
+
+def damaged(damage: str, data: bytes, pieces: list[Piece]) -> bytes:
+    """A small kernel with one damage."""
+    moon = directory(pieces, (3, 301), "start")
+    row = 8 * (2 + pieces[3].series[0].size)
+    first = moon - row * len(pieces[3].series)
+    near = np.frombuffer(data[first:moon], "<f8").reshape(-1, row // 8).copy()
+    near[:, 2:] *= 0.8
+
+    def zeroed(place: int, size: int) -> bytes:
+        return data[:place] + bytes(size) + data[place + size :]
+
+    def labelled(*fields: tuple[tuple[int, int], str, int]) -> bytes:
+        changed = data
+        for step, field, value in fields:
+            changed = poke(changed, summary(step, field), "i", value)
+        return changed
+
+    def place(field: str, step: tuple[int, int]) -> int:
+        return int(struct.unpack_from("<i", data, summary(step, field))[0])
+
+    def directed(field: str, factor: float, more: float) -> bytes:
+        at = directory(pieces, (3, 301), field)
+        return poke(data, at, "d", struct.unpack_from("<d", data, at)[0] * factor + more)
+
+    made = {
+        "cut in the head": lambda: data[:100],
+        "cut in the list": lambda: data[: RECORD + 100],
+        "cut in the data": lambda: data[: len(data) // 2],
+        "cut by a word": lambda: data[:-8],
+        "head of zeros": lambda: zeroed(0, RECORD),
+        "list of zeros": lambda: zeroed(RECORD, RECORD),
+        "a number of a summary zero": lambda: zeroed(summary((3, 399), "first"), 4),
+        "records of zeros": lambda: zeroed(first + 5 * row, 2 * row),
+        "coefficients of zeros": lambda: zeroed(first + 5 * row + 64, 64),
+        "data of the other byte order": lambda: swapped(data, 3 * RECORD, len(data)),
+        "one record of the other byte order": lambda: swapped(data, first, first + row),
+        "list that comes back": lambda: poke(data, RECORD, "d", 2),
+        "list of 26": lambda: poke(data, RECORD + 16, "d", 26),
+        "segment before the data": lambda: labelled(((0, 10), "first", 0)),
+        "segment beyond the file": lambda: labelled(((3, 301), "last", 2_000_000_000)),
+        "two segments of the same words": lambda: labelled(
+            ((3, 301), "first", place("first", (3, 399))),
+            ((3, 301), "last", place("last", (3, 399))),
+        ),
+        "more dates than records": lambda: poke(data, summary((3, 301), "end"), "d", 1e9),
+        "start a day off": lambda: directed("start", 1, 86400),
+        "length a billionth off": lambda: directed("length", 1 + 1e-9, 0),
+        "size of 3 more": lambda: directed("size", 1, 3),
+        "count one less": lambda: directed("count", 1, -1),
+        "repeated record": lambda: (
+            data[: first + 10 * row + 16]
+            + data[first + 9 * row + 16 : first + 10 * row]
+            + data[first + 11 * row :]
+        ),
+        "Moon and Earth exchanged": lambda: labelled(
+            ((3, 301), "target", 399), ((3, 399), "target", 301)
+        ),
+        "Earth about the Sun": lambda: labelled(((0, 3), "centre", 10)),
+        "Moon about the Earth": lambda: labelled(((3, 301), "centre", 399)),
+        "Moon about the barycentre": lambda: labelled(((3, 301), "centre", 0)),
+        "Sun named Mars": lambda: labelled(((0, 10), "target", 4)),
+        "Moon too near": lambda: data[:first] + near.tobytes() + data[moon:],
+    }
+    assert made.keys() == set(DAMAGES)
+    return made[damage]()
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_kernel_is_refused(small: Path, pieces: list[Piece], damage: str) -> None:
+    """Without a hash. A former check of the list ran to 3 GB when it came back to itself."""
+    small.write_bytes(damaged(damage, small.read_bytes(), pieces))
     with pytest.raises(KernelError):
-        torques(Ephemeris(small), np.linspace(*span(pieces), 20))
-
-
-@pytest.mark.parametrize(
-    ("field", "change"),
-    [
-        ("start", lambda x: x + 4 * 86400),
-        ("start", lambda x: x + 1.0),
-        ("start", lambda x: np.nan),
-        ("length", lambda x: x * 2),
-        ("length", lambda x: x * (1 + 1e-9)),
-        ("length", lambda x: -x),
-        ("size", lambda x: x + 3),
-        ("size", lambda x: 2.0),
-        ("count", lambda x: x - 1),
-        ("count", lambda x: 1e300),
-        ("count", lambda x: np.inf),
-    ],
-)
-def test_a_directory_that_does_not_fit(
-    small: Path, pieces: list[Piece], field: str, change: Callable[[float], float]
-) -> None:
-    place = directory(pieces, (3, 301), field)
-    (old,) = struct.unpack_from("<d", small.read_bytes(), place)
-    poke(small, place, "d", change(old))
-    with pytest.raises(KernelError, match=r"directory|records of other times"):
-        Ephemeris(small)
-
-
-@pytest.mark.parametrize(
-    ("field", "form", "value", "words"),
-    [
-        ("first", "i", 0, "has no room|does not fit|share"),
-        ("first", "i", 2_000_000_000, "no room|does not fit"),
-        ("last", "i", 900, "no room|does not fit|share"),
-        ("start", "d", -1e9, "no records for"),
-        ("end", "d", 1e9, "no records for"),
-        ("end", "d", np.nan, "no records for"),
-    ],
-)
-def test_a_summary_that_does_not_fit(
-    small: Path, field: str, form: str, value: float, words: str
-) -> None:
-    poke(small, summary((3, 301), field), form, value)
-    with pytest.raises(KernelError, match=words):
-        Ephemeris(small)
-
-
-def test_two_segments_of_the_same_words(tmp_path: Path, pieces: list[Piece]) -> None:
-    path = write_kernel(tmp_path / "same.bsp", pieces)
-    for field in ("first", "last"):
-        (other,) = struct.unpack_from("<i", path.read_bytes(), summary((3, 399), field))
-        poke(path, summary((3, 301), field), "i", other)
-    with pytest.raises(KernelError, match="share the same words"):
-        Ephemeris(path)
-
-
-# --- records ----------------------------------------------------------------------------------
-
-
-def test_repeated_records(tmp_path: Path, pieces: list[Piece]) -> None:
-    """With their times they are of another time; without, they do not meet. Once nine times off."""
-    words = pieces[3].words()
-    rows = words[:-4].reshape(len(pieces[3].series), -1)
-    days = np.linspace(*span(pieces), 200)
-    for first, problem in ((0, "of other times"), (2, "jumps by")):
-        path = write_kernel(tmp_path / "repeated.bsp", pieces)
-        data = bytearray(path.read_bytes())
-        begin = directory(pieces, (3, 301), "start") - rows.nbytes
-        twice = rows.copy()
-        twice[11:13, first:] = twice[10, first:]
-        data[begin : begin + rows.nbytes] = twice.tobytes()
-        path.write_bytes(data)
-        with pytest.raises(KernelError, match=problem):
-            torques(Ephemeris(path), days)
-
-
-def test_the_sun_and_the_moon_at_impossible_distances(tmp_path: Path, pieces: list[Piece]) -> None:
-    """All of it smooth: each record of the Moon (of the Earth's barycentre) a tenth too small."""
-    for which, words in ((3, "NAIF 399"), (1, "NAIF 10")):
-        changed = list(pieces)
-        changed[which] = replace(pieces[which], series=0.8 * pieces[which].series)
-        with pytest.raises(KernelError, match=words):
-            Ephemeris(write_kernel(tmp_path / "near.bsp", changed))
-
-
-def test_the_moon_twice_as_fast(tmp_path: Path, pieces: list[Piece]) -> None:
-    """Smooth, at its distance, and yet not the Moon."""
-    fast = [replace(p, length=p.length / 2) if p.centre == 3 else p for p in pieces]
-    with pytest.raises(KernelError, match="does not move"):
-        Ephemeris(write_kernel(tmp_path / "fast.bsp", fast))
-
-
-# --- the named kernels ------------------------------------------------------------------------
+        torques(Ephemeris(small), np.linspace(*span(pieces), 200))
 
 
 def test_a_named_kernel_must_be_the_published_one(
@@ -337,63 +267,32 @@ def test_a_named_kernel_must_be_the_published_one(
     Ephemeris(copy).positions({"moon": 301}, 399, np.array([0.0]))
 
 
-# --- at random --------------------------------------------------------------------------------
+def test_random_damage_gives_no_wrong_torque(small: Path, pieces: list[Piece]) -> None:
+    """Flip 300 bits of the data and 100 of summaries and directories, one at a time.
 
-
-class Damaged(NamedTuple):
-    """Of 400 bits and bytes among the data and 200 of summaries and directories: refused ones.
-
-    `worst` is the largest error of a torque that was answered, over the largest torque.
+    Half of the flips lie too low in their number to matter and are answered. Measured: the largest
+    error of a torque that was answered is 1.5e-10 of the largest torque.
     """
-
-    data: int
-    directories: int
-    worst: float
-
-
-def damaged_at_random(path: Path, pieces: list[Piece]) -> Damaged:
-    """Flip six hundred bits and bytes of a small kernel, one at a time, with fixed seeds."""
-    write_kernel(path, pieces)
-    whole = path.read_bytes()
-    start, end = span(pieces)
-    days = np.linspace(start, end, 400)
-    truth = torques(Ephemeris(path), days)
+    whole, days = small.read_bytes(), np.linspace(*span(pieces), 400)
+    truth = torques(Ephemeris(small), days)
     largest = np.abs(truth).max(axis=(1, 2), keepdims=True)
     chance = np.random.default_rng(20)
-    places = [int(chance.integers(3 * RECORD, len(whole))) for _ in range(400)]
-    heads = [summary(step, "start") for step in NAMES]
-    tails = [directory(pieces, step, "start") for step in NAMES]
-    regions = [(0, 128), *((at, 40) for at in heads), *((at, 32) for at in tails)]
-    for _ in range(200):
+    heads = [(summary(step, "start"), 40) for step in NAMES]
+    tails = [(directory(pieces, step, "start"), 32) for step in NAMES]
+    regions = [*heads, *tails]
+    places = [int(chance.integers(3 * RECORD, len(whole))) for _ in range(300)]
+    for _ in range(100):
         first, size = regions[chance.integers(len(regions))]
         places.append(first + int(chance.integers(size)))
-    worst, refused = 0.0, {True: 0, False: 0}
-    for number, place in enumerate(places):
+    refused = 0
+    for place in places:
         data = bytearray(whole)
-        if number % 5:
-            data[place] ^= 1 << int(chance.integers(8))
-        else:
-            data[place] = int(chance.integers(256))
-        path.write_bytes(data)
+        data[place] ^= 1 << int(chance.integers(8))
+        small.write_bytes(data)
         try:
-            found = torques(Ephemeris(path), days)
+            answer = torques(Ephemeris(small), days)
         except EarthspinError:
-            refused[number < 400] += 1
+            refused += 1
             continue
-        off = float(np.max(np.abs(found - truth) / largest))
-        assert off <= 1e-9, f"byte {place} of {path.name}: torque off by {off:.2g}"
-        worst = max(worst, off)
-    return Damaged(refused[True], refused[False], worst)
-
-
-def test_random_damage_gives_no_wrong_torque(tmp_path: Path, pieces: list[Piece]) -> None:
-    """Half of the flips lie too low in their number to matter and are answered.
-
-    Measured: refused 50 % of 400 bits and bytes among the data, 79 % of 200 of the summaries and
-    directories; the largest error of a torque that was answered, 1.5e-10, came of a length of
-    records off by 2 us.
-    """
-    found = damaged_at_random(tmp_path / "small.bsp", pieces)
-    assert found.worst > 0  # some were answered: the bound was put to the test
-    assert found.data > 0.45 * 400
-    assert found.directories > 0.7 * 200
+        assert np.max(np.abs(answer - truth) / largest) <= 1e-9, place
+    assert 0.45 * len(places) < refused < len(places)

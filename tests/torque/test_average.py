@@ -7,7 +7,10 @@ from hypothesis import strategies as st
 from scipy.signal.windows import general_cosine
 
 from earthspin import UndefinedError
-from earthspin.constants import JULIAN_YEAR
+from earthspin.bodies import EARTH, MOON, SUN
+from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR
+from earthspin.sky.ephemeris import Ephemeris
+from earthspin.sky.poles import IAU_2006
 from earthspin.torque.average import (
     TAPERS,
     Window,
@@ -17,6 +20,8 @@ from earthspin.torque.average import (
     window_mean_and_error,
     with_total,
 )
+from earthspin.torque.gravity import torque_from_position
+from earthspin.torque.rates import precession_rate
 
 CYCLE = 18.6 * JULIAN_YEAR
 
@@ -172,3 +177,29 @@ def test_an_upright_axis_has_no_longitude() -> None:
     for axis in (up, -up):
         with pytest.raises(UndefinedError, match="normal to the orbit"):
             precessing_torque(np.ones((1, 3)), axis, up)
+
+
+@pytest.mark.parametrize(("taper", "turns"), [("hann", 3), ("sin4", 3)])
+def test_the_claimed_error_holds_in_the_last_century(
+    de421: Ephemeris, taper: str, turns: float
+) -> None:
+    """Rates by Sun and Moon in windows about many epochs, against a smooth curve through them."""
+    days = np.arange(-19_000.0, 19_001.0)
+    axis, normal = IAU_2006.equator(None, days)[:, 2], IAU_2006.orbit_normal(None)
+    place = de421.positions({"sun": 10, "moon": 301}, 399, days)
+    torques = [torque_from_position(b.gm, 1.0, place[b.name], axis) for b in (SUN, MOON)]
+    precessing = np.stack([precessing_torque(t, axis, normal) for t in torques], axis=1)
+    rate = precession_rate(precessing, EARTH.dynamical_flattening, EARTH.spin_rate)
+    swing = np.array([SUN.slow_swing, MOON.slow_swing])
+    centres, means, errors = np.arange(-8000, 8000, 700) * DAY, [], []
+    for centre in centres:
+        window = Window(float(centre), turns, MOON.cycle, taper)
+        inside = np.abs(days * DAY - centre) <= window.length / 2
+        mean, error = window_mean_and_error(window, days[inside] * DAY, rate[inside], swing)
+        means.append(mean[-1] / ARCSEC_PER_YEAR * 1e5)  # mas per century
+        errors.append(error[-1] / ARCSEC_PER_YEAR * 1e5)
+    apart = np.abs(means - np.polynomial.Chebyshev.fit(centres, means, 6)(centres))
+    assert np.mean(apart <= errors) >= 0.95
+    # the smooth curve takes part of the swing here
+    assert 0.05 < np.sqrt(np.mean(apart**2)) < 1.5
+    assert apart.max() < 5

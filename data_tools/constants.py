@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import importlib
 import pkgutil
 from collections.abc import Iterable, Iterator, Mapping
@@ -87,8 +86,7 @@ def page() -> str:
     return head + "".join(row(name, number) for name, number in numbers.items())
 
 
-def main(arguments: argparse.Namespace) -> int:
+def main() -> int:
     """Write the page."""
     PAGE.write_text(page(), encoding="utf-8")
-    print(f"wrote {PAGE.name}")
     return 0

@@ -1,6 +1,6 @@
 """The orbits of the Earth and of Mars over ten million years either way, from DE440 by REBOUND.
 
-    python -m data_tools orbits --kernel PATH     (needs `pip install rebound==5.2.2`, and AVX512)
+    python -m data_tools orbits [KERNEL]     (needs `pip install rebound==5.2.2`, and AVX512)
 
 Sun and eight planets (a planet with its moons is one mass at their barycentre) start from DE440 at
 J2000.0 TDB and go on by the symplectic map of Wisdom and Holman with a corrector of order 17
@@ -13,10 +13,7 @@ two things are added:
   barycentre by 3/4 (a_moon/a)^2 0.8525 m_e m_m/(m_e + m_m)^2 of its mean motion (Quinn, Tremaine &
   Duncan 1991, AJ 101, 2287, sect. 2), which is done by turning its orbit in its plane at each stop.
 
-Left out are asteroids, the flattening of the Sun, its loss of mass, and tides. `--left-out` adds
-the first two as mean motions of perihelia and nodes, turned at each stop, and prints how far
-normals and eccentricity vectors then go away from the tables: the growth of the normals' errors
-(`earthspin.sky.orbit_table.GROWTH`) was measured so, from DE421.
+Left out are asteroids, the flattening of the Sun, its loss of mass, and tides.
 
 Every 40 years the heliocentric orbit is read: unit normal n and eccentricity vector e. Short
 periods alias at such stops; a smoothing polynomial over 4,000 years and a least-squares fit of
@@ -26,7 +23,6 @@ How far steps of half the length lead away, window by window, stands in the tabl
 
 from __future__ import annotations
 
-import argparse
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -39,11 +35,8 @@ from scipy.spatial.transform import Rotation
 
 from earthspin.bodies import BODIES
 from earthspin.constants import AU, DAY, J2000_JD, JULIAN_YEAR
-from earthspin.progress import Advance, progress
 from earthspin.sky import iau, orbit_table
 from earthspin.sky.ephemeris import open_ephemeris
-from earthspin.sky.equator import direction as pole_of
-from earthspin.sky.orbit_files import SUN_POLE
 from earthspin.sky.orbit_table import OrbitTable, fitted, write
 
 FloatArray = NDArray[np.float64]
@@ -62,15 +55,6 @@ SOURCE = (
 )
 #: Stops under a smoothing polynomial, and its degree (Savitzky & Golay 1964).
 SMOOTHING, SMOOTHING_DEGREE = 101, 7
-
-#: J2 of the Sun and its radius, m: Will 2014 as cited by Verma, Margot & Greenberg 2017,
-#: arXiv:1707.08675; nominal, IAU 2015 Resolution B3.
-SUN_J2, SUN_RADIUS = 2.2e-7, 6.957e8
-#: Masses of Ceres, Pallas and Vesta over that of the Sun (INPOP10a; table 2 of the article
-#: aa19011-12 of A&A, 2012), and the radius of the ring that stands for them, AU.
-ASTEROIDS, RING = 4.75836e-10 + 1.11394e-10 + 1.33137e-10, 2.77
-#: Spans over which `--left-out` averages, Myr.
-BINS = (0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0)
 
 #: Mean distance of the Moon over that of the Sun, and the share of a circular, coplanar orbit's
 #: quadrupole that the Moon's true orbit has (Quinn, Tremaine & Duncan 1991).
@@ -94,8 +78,6 @@ def integrate(
     direction: int,
     reach: float = REACH,
     step: float = STEP,
-    advance: Advance = lambda stops: None,
-    complete: bool = False,
 ) -> FloatArray:
     """Normals and eccentricity vectors at the stops, shape (n, 2, 2, 3): body, vector, axis.
 
@@ -106,10 +88,6 @@ def integrate(
         1 forward; -1 backward, with all velocities turned round.
     reach, step : float
         How far, and in steps of what, s.
-    advance : Advance, optional
-        Told of each stop.
-    complete : bool
-        Whether to add the Sun's flattening and asteroids.
     """
     import rebound
 
@@ -129,21 +107,14 @@ def integrate(
     simulation.integrator.concatenate_steps = a_stop = round(STOP / step)
     stops = math.ceil(reach / STOP)
     angle = moons_turn(gm) * a_stop * step
-    turns = direction * a_stop * step * left_out(simulation.particles) if complete else ()
     samples = np.empty((stops + 1, len(WORLDS), 2, 3))
     for stop in range(stops + 1):
         if stop:
             simulation.steps(1)
             turn_in_plane(simulation.particles, EARTH, angle)
-            for planet, vector in enumerate(turns, start=1):
-                # the plane goes back about a pole, and the perihelion goes on in the plane
-                turn(simulation.particles, planet, -vector)
-                along = float(np.linalg.norm(vector))
-                turn_in_plane(simulation.particles, planet, 2 * along)
         for world, name in enumerate(WORLDS):
             place = 1 + PLANETS.index(name)
             samples[stop, world] = orbit(simulation.particles, place, direction)
-        advance(1)
     return samples
 
 
@@ -171,40 +142,12 @@ def moons_turn(gm: FloatArray) -> float:
 
 def turn_in_plane(particles: Any, planet: int, angle: float) -> None:
     """Turn the orbit of a planet about its own normal, in the sense in which it goes."""
-    normal = np.cross(*relative(particles, planet))
-    turn(particles, planet, angle * normal / np.linalg.norm(normal))
-
-
-def turn(particles: Any, planet: int, vector: FloatArray) -> None:
-    """Turn the orbit of a planet about the Sun by a rotation vector."""
     r, v = relative(particles, planet)
-    rotation, sun = Rotation.from_rotvec(vector), particles[0]
+    normal = np.cross(r, v)
+    rotation = Rotation.from_rotvec(angle * normal / np.linalg.norm(normal))
+    sun = particles[0]
     particles[planet].xyz = list(rotation.apply(r) + sun.xyz)
     particles[planet].vxyz = list(rotation.apply(v) + sun.vxyz)
-
-
-def left_out(particles: Any) -> FloatArray:
-    """Rates by which the Sun's flattening and a ring of asteroids turn orbits, rad/s, shape (8, 3).
-
-    Each is a vector along the pole of the Sun, or of the mean plane of the planets, as long as the
-    mean motion of the perihelion; nodes go back as fast. To first order in J2, eccentricities and
-    inclinations (the ring's by a Laplace coefficient).
-    """
-    states = [relative(particles, planet) for planet in range(1, 9)]
-    masses = [particles[planet].m for planet in range(1, 9)]
-    plane = sum(m * np.cross(r, v) for m, (r, v) in zip(masses, states, strict=True))
-    plane *= np.sign(plane[2]) / np.linalg.norm(plane)  # north, in either direction of time
-    pole = pole_of(*np.radians(SUN_POLE))
-    unit, rates = math.sqrt(BODIES["sun"].gm / AU**3), []
-    angles = 2 * np.pi * np.arange(1000) / 1000
-    for m, (r, v) in zip(masses, states, strict=True):
-        a = 1 / (2 / np.linalg.norm(r) - v @ v / (1 + m))
-        motion, alpha = unit * math.sqrt((1 + m) / a**3), min(a / RING, RING / a)
-        by_sun = 1.5 * SUN_J2 * (SUN_RADIUS / (a * AU)) ** 2
-        wave = np.cos(angles) / (1 - 2 * alpha * np.cos(angles) + alpha**2) ** 1.5
-        by_ring = 0.25 * ASTEROIDS * alpha * 2 * np.mean(wave) * min(a / RING, 1.0)
-        rates.append(motion * (by_sun * pole + by_ring * plane))
-    return np.array(rates)
 
 
 def table_of(world: int, samples: FloatArray, halved: FloatArray) -> OrbitTable:
@@ -220,14 +163,9 @@ def table_of(world: int, samples: FloatArray, halved: FloatArray) -> OrbitTable:
     times = STOP * (np.arange(len(samples)) - len(samples) // 2)
     first, half = (smoothed(of[:, world]) for of in (samples, halved))
     inside = np.abs(times) <= COVERS * (1 + 1e-12)
-    table = fitted(
-        WORLDS[world],
-        times[inside],
-        first[inside, 0],
-        first[inside, 1],
-        iau.fixed_ecliptic(),
-        SOURCE,
-    )
+    normals, eccentricities = first[inside, 0], first[inside, 1]
+    axes = iau.fixed_ecliptic()
+    table = fitted(WORLDS[world], times[inside], normals, eccentricities, axes, SOURCE)
     moved = np.linalg.norm(first - half, axis=2)
     starts = np.searchsorted(times, table.edges[:-1])
     by_steps = np.maximum.reduceat(moved, starts, axis=0).T
@@ -241,44 +179,13 @@ def smoothed(samples: FloatArray) -> FloatArray:
     return np.asarray(slow)
 
 
-def growth(kernel: Path) -> dict[str, FloatArray]:
-    """By world and vector: rms of each direction that the tables lack into the past, by `BINS`."""
-    with progress("with what is left out", math.ceil(REACH / STOP)) as advance:
-        samples = integrate(kernel, -1, advance=advance, complete=True)
-    times = -STOP * np.arange(len(samples))
-    inside = np.abs(times) < COVERS
-    bins = np.digitize(-times[inside] / (1e6 * JULIAN_YEAR), BINS) - 1
-    by_vector = {}
-    for world, name in enumerate(WORLDS):
-        table = orbit_table.shipped(name)
-        assert table is not None
-        slow = smoothed(samples[:, world])[inside]
-        for place, vector in enumerate(("normal", "eccentricity")):
-            apart = np.sum((slow[:, place] - table.at(times[inside])[place].T) ** 2, axis=1) / 2
-            counts = np.bincount(bins, minlength=len(BINS) - 1)
-            by_vector[f"{vector} of {name}"] = np.sqrt(np.bincount(bins, apart) / counts)
-    return by_vector
-
-
-def main(arguments: argparse.Namespace) -> int:
+def main(kernel: str = "de440") -> int:
     """Make the tables; more than an hour on one core."""
-    kernel = open_ephemeris(arguments.kernel).path
-    if arguments.left_out:
-        print("rms of each direction, 1e-5, by Myr into the past:", *BINS[1:])
-        for name, row in growth(kernel).items():
-            print(f"{name:24}", *(f"{1e5 * value:7.2f}" for value in row))
-        return 0
+    path = open_ephemeris(kernel).path
     runs = []
     for step in (STEP, STEP / 2):
-        ways = []
-        for direction in (-1, 1):
-            label = f"steps of {step / DAY:g} d, direction {direction:+d}"
-            with progress(label, math.ceil(REACH / STOP)) as advance:
-                ways.append(integrate(kernel, direction, step=step, advance=advance))
-        past, future = ways
+        past, future = (integrate(path, direction, step=step) for direction in (-1, 1))
         runs.append(np.concatenate([past[:0:-1], future]))
     for world, name in enumerate(WORLDS):
-        path = Path(orbit_table.__file__).parent / "orbits" / f"{name}.npz"
-        write(path, table_of(world, *runs))
-        print(f"{path}: {path.stat().st_size} bytes")
+        write(Path(orbit_table.__file__).parent / "orbits" / f"{name}.npz", table_of(world, *runs))
     return 0

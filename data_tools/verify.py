@@ -1,15 +1,11 @@
 """The kernels must be the ones that everything was measured with."""
 
-from __future__ import annotations
-
-import argparse
-
 from earthspin.errors import MissingExtraError
 from earthspin.sky.ephemeris import open_ephemeris
 from earthspin.sky.kernel_checks import PUBLISHED
 
 
-def main(arguments: argparse.Namespace) -> int:
+def main() -> int:
     """Compare each kernel that is installed with its known hash."""
     failed = 0
     for name, known in PUBLISHED.items():
@@ -18,7 +14,6 @@ def main(arguments: argparse.Namespace) -> int:
         except MissingExtraError as error:
             print(f"{name}: {error}")
             continue
-        same = digest == known
-        failed += not same
-        print(f"{name}: {digest} {'as known' if same else 'NOT the known ' + known}")
+        failed += digest != known
+        print(f"{name}: {digest} {'as known' if digest == known else 'NOT the known ' + known}")
     return int(failed > 0)
