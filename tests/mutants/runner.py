@@ -154,7 +154,7 @@ def _run(copy: Path, arguments: list[str]) -> tuple[str, str]:
     command = [
         *(sys.executable, "-m", "pytest", "-x", "-q", "--tb=no", "--no-header"),
         *("-p", "no:cacheprovider", "-p", "tests.mutants.witness"),
-        *("-m", "not every_number and not every_kill", *arguments),
+        *("-m", "not every_kill", *arguments),
     ]
     # Hypothesis draws the same examples each time, so that the control means something.
     environment = os.environ | {"PYTHONPATH": str(copy), "CI": "1", NOTE: str(note)}
