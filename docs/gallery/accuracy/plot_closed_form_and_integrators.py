@@ -18,7 +18,7 @@ from earthspin.rotor.triaxial import free_rotation
 # -------------------------------
 # Motion of a free rotor over a fixed time by Jacobi's functions (the solution mentioned below
 # I.4.4), and by integrators at many tolerances. Down and left is better. The closed form is
-# accurate to rounding at the cost of a coarse integration.
+# accurate to rounding, and takes less time than a coarse integration.
 #
 # *Next:* a longer motion, ``np.linspace(0, 1000, 501)``.
 
