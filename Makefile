@@ -11,7 +11,7 @@ PYTHON_NEWEST ?= python3.13
 VERSIONS := not slow and not every_kill and not any_version
 SPHINX := $(BIN)/python -m sphinx -q -W --keep-going -j auto -b html docs docs/_build/html
 
-.PHONY: report test slow test-lowest test-newest check docs bench fuzz kills mutants clean
+.PHONY: report test slow test-lowest test-newest check docs bench fuzz kills mutants extreme clean
 
 report: $(VENV)/.core
 	$(BIN)/earthspin report --out report
@@ -52,6 +52,10 @@ fuzz: $(VENV)/.test
 
 mutants: $(VENV)/.test
 	$(BIN)/python -m tests.mutants --page docs/measured/mutants.md
+
+# All extreme cases, also those that take minutes, and their table.
+extreme: $(VENV)/.test
+	$(BIN)/python -m pytest -q -m "" -p tests.extreme.table tests/extreme
 
 bench: $(VENV)/.test
 	$(BIN)/python tests/benchmarks/chebyshev.py

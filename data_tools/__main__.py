@@ -13,7 +13,6 @@ from data_tools import (
     coverage,
     driven_wobble,
     earth_rotation,
-    error_models,
     forecast,
     free_wobble,
     hashes,
@@ -26,7 +25,6 @@ from data_tools import (
     references,
     secular_orbits,
     signatures,
-    stability,
     windows,
     worlds,
 )
@@ -37,7 +35,6 @@ VERBS = {
     "verify": (hashes.main, "check the hashes of the kernels that are found"),
     "cf": (cf.main, "check files of every question against the CF conventions"),
     "kernels": (kernels.main, "measure how far two kernels are apart, body by body"),
-    "error-models": (error_models.main, "measure the error of each setting of each method"),
     "neglected": (neglected.main, "measure how far each effect moves the axis of the Earth"),
     "earth-rotation": (
         earth_rotation.main,
@@ -83,10 +80,9 @@ VERBS = {
         "measure predictions of the celestial pole offsets, for docs/pole_offsets.md",
     ),
     "worlds": (worlds.main, "measure the precession of every world, for docs/worlds.md"),
-    "stability": (stability.main, "run the stiff and extreme cases for their page in the docs"),
 }
 #: Verbs that compare with a kernel.
-WITH_KERNEL = ("kernels", "error-models", "windows", "orbits")
+WITH_KERNEL = ("kernels", "windows", "orbits")
 #: Verbs that read files of angular momentum.
 WITH_EXCITATION = ("driven-wobble", "forecast")
 #: Verbs that do several things, of which some may be named.

@@ -11,7 +11,6 @@ import numpy as np
 import xarray as xr
 
 import earthspin
-from data_tools.stability import with_tables
 from earthspin.bodies import BODIES, PLANETS, proper
 from earthspin.bodies.giants import JUPITER_CONSTANT, SATURN_CONSTANT
 from earthspin.bodies.inner import MERCURY_OBLIQUITY, VENUS_PRECESSION
@@ -27,7 +26,7 @@ from earthspin.views.table import NUMBERS_ONLY, some_unknown
 #: Signs of units; smaller obliquities stand in minutes of arc, deg.
 UNITS, SMALL = {"arcmin": "′", "deg": "°"}, 0.1
 PAGE = Path(__file__).parents[1] / "docs" / "worlds.md"
-
+BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
 
 #: Said of a comparison with the observation that the body's own numbers come from.
 CIRCULAR = "circular: "
@@ -288,5 +287,7 @@ def main(arguments: argparse.Namespace) -> int:
     """Write the table into the page."""
     made = f"{table(worlds())}\n{table_of_locked(locked())}"
     print(made)
-    PAGE.write_text(with_tables(PAGE.read_text(encoding="utf-8"), made), "utf-8")
+    before, rest = PAGE.read_text(encoding="utf-8").split(BEGIN)
+    after = rest.split(END)[1]
+    PAGE.write_text(f"{before}{BEGIN}\n\n{made}\n{END}{after}", "utf-8")
     return 0

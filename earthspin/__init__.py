@@ -29,7 +29,6 @@ _QUESTIONS = {
     "spheroid_field": "earthspin.questions.spheroid",
     "cassini_states": "earthspin.questions.cassini_states",
     "love_numbers": "earthspin.questions.love_numbers",
-    "compliances": "earthspin.questions.compliances",
 }
 #: The other public names, by their modules.
 _HOME = {
@@ -43,7 +42,6 @@ _HOME = {
         "polar_motion_from",
         "read_excitation",
     ),
-    "earthspin.checks.stability": ("stability",),
     "earthspin.checks.work_precision": ("accuracy",),
     "earthspin.errors": (
         "AccuracyError",

@@ -39,7 +39,6 @@ from earthspin.questions.polar_motion import excitation as excitation
 from earthspin.questions.polar_motion import fit_chandler as fit_chandler
 from earthspin.questions.polar_motion import polar_motion_from as polar_motion_from
 from earthspin.questions.polar_motion import read_excitation as read_excitation
-from earthspin.checks.stability import stability as stability
 from earthspin.checks.work_precision import accuracy as accuracy
 from earthspin.errors import AccuracyError as AccuracyError
 from earthspin.errors import ApartError as ApartError
@@ -79,7 +78,6 @@ def precession(
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
     source: Literal["jplephem", "skyfield"] | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
-    accuracy: Pure | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -100,7 +98,6 @@ def torque_series(
     source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
     equator: Literal["mean", "true"] | None = ...,
-    accuracy: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -131,7 +128,6 @@ def pole(
     ]
     | None = ...,
     response: Literal["fitted", "predicted"] | None = ...,
-    accuracy: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -217,7 +213,6 @@ def long_term(
     j2_rate: Value | None = ...,
     obliquity_shift: Value | None = ...,
     longitude_shift: Value | None = ...,
-    accuracy: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -250,7 +245,7 @@ def rotation(
     start_attitude: Values | None = ...,
     start_omega: Values | None = ...,
     torque: Callable[[np.ndarray, np.ndarray, np.ndarray], ArrayLike] | None = ...,
-    accuracy: Value | None = ...,
+    tolerance: Pure | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -274,7 +269,7 @@ def polar_motion(
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
     file: str | PathLike[str] | None = ...,
     kind: Literal["c04", "c01", "finals2000A"] | None = ...,
-    method: Literal["burg", "likelihood", "least-squares"] | None = ...,
+    method: Literal["burg", "likelihood"] | None = ...,
     window: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
@@ -311,7 +306,6 @@ def free_rotor(
     *,
     duration: Value | None = ...,
     points: int | None = ...,
-    accuracy: Pure | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -330,7 +324,6 @@ def heavy_top(
     theta_rate: Value | None = ...,
     phi: Value | None = ...,
     psi: Value | None = ...,
-    accuracy: Pure | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -340,7 +333,6 @@ def spheroid_field(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     point_mass: Value | None = ...,
-    accuracy: Pure | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -359,14 +351,6 @@ def love_numbers(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     anelastic_exponent: Value | None = ...,
-    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
-) -> xr.Dataset: ...
-def compliances(
-    interior: str | LayeredBody | Mapping[str, Any] | None = ...,
-    *,
-    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -398,7 +382,6 @@ __all__ = [
     "accuracy",
     "cassini_states",
     "compare_iau",
-    "compliances",
     "daily_insolation",
     "ensemble",
     "excitation",
@@ -425,7 +408,6 @@ __all__ = [
     "run",
     "run_tree",
     "spheroid_field",
-    "stability",
     "torque_series",
     "verify",
     "wobble_ladder",

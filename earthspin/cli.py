@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import sys
+import time
 from argparse import Action, ArgumentParser, Namespace
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext, suppress
@@ -166,7 +167,6 @@ def _parser() -> ArgumentParser:
         "plan", _plan, "show which parts a scene needs, and which it leaves out"
     ).add_argument
     add("--sections", metavar="NAMES|all", help=sections("none"))
-    add("--script", **flag, help="print the parts as a Python script")
 
     add = command("accuracy", _accuracy, "measure error against run time").add_argument
     add("quantity", nargs="?", metavar="QUANTITY", help="default: all")
@@ -187,11 +187,6 @@ def _parser() -> ArgumentParser:
     add = command("verify", _verify, "compare a stored result with its checksums").add_argument
     add("file", metavar="FILE", help="a .nc file or a .zarr folder written by earthspin")
 
-    add = command("stability", _stability, "run the stiff and extreme cases").add_argument
-    add("--quick", **flag, help="only the fast cases")
-    add("--only", metavar="WORD", help="a part of the package, or a word of a case's title")
-    add("--long", **flag, help="also cases that take minutes")
-
     add = command("completion", _completion, "print the completion script of a shell").add_argument
     add("shell", choices=("bash", "zsh", "fish"))
     return parser
@@ -207,6 +202,7 @@ def _welcome(_: Namespace) -> None:
 def _report(options: Namespace) -> None:
     """Command `report`: write the report on precession or on the wobble, and print its tables."""
     from earthspin.views import report
+    from earthspin.views.closing import closing_line
     from earthspin.views.of_question import print_tables
 
     kernel, figures = options.ephemeris, not options.no_figures
@@ -221,6 +217,8 @@ def _report(options: Namespace) -> None:
     for answer in answers:
         print_tables(answer)
     _print_written(*written)
+    for answer in answers:
+        print(closing_line(answer))
     if options.open:
         _open(written[0])
 
@@ -240,6 +238,7 @@ def _run(options: Namespace) -> None:
     from earthspin.engine import drafts, store
     from earthspin.parts import times
     from earthspin.scenes import members_of, run_tree, series_length, write_series
+    from earthspin.views.closing import closing_line
 
     question, sections = _question(options), _sections(options)
     data = page = None
@@ -256,7 +255,9 @@ def _run(options: Namespace) -> None:
         if series_length(question) * members_of(question) > times.LONGEST_IN_MEMORY:
             if options.json:
                 raise SceneError("--json", "a long series", "leave it out; read the Zarr store")
+            begin = time.perf_counter()
             _print_written(write_series(question, long))
+            print(closing_line(store.open(long), time.perf_counter() - begin))
             return
         if sections is None and data.suffix != ".csv":
             sections = "all"
@@ -281,7 +282,9 @@ def _run(options: Namespace) -> None:
             others = [name for name in question.graph.sections if name not in tree.children]
             if others and not tree.children.keys() - {"plan"}:
                 print(f"More: --sections {','.join(others)}, or all")
-    _print_written(*filter(None, (page, data)), file=sys.stderr if options.json else sys.stdout)
+    stream = sys.stderr if options.json else sys.stdout
+    _print_written(*filter(None, (page, data)), file=stream)
+    print(closing_line(tree), file=stream)
 
 
 def _ensemble(options: Namespace) -> None:
@@ -317,18 +320,9 @@ def _ensemble(options: Namespace) -> None:
 
 def _plan(options: Namespace) -> None:
     """Command `plan`: print the computations that a scene runs, and those that are left out."""
-    from earthspin.engine.asking import script_of
-    from earthspin.scenes import chosen, plan
+    from earthspin.scenes import plan
 
-    question = _question(options)
-    if options.script:
-        print(script_of(type(question)))
-        return
-    print(plan(question, _sections(options) or ()))
-    if getattr(question, "accuracy", None) is not None:
-        words = ", ".join(chosen(question)) or "no settings to choose"
-        print(f"\nchosen for an accuracy of {question.to_table()['accuracy']}: {words}")
-        print("(whether the body's numbers and the kernel allow it shows when it runs)")
+    print(plan(_question(options), _sections(options) or ()))
 
 
 def _accuracy(options: Namespace) -> int:
@@ -396,17 +390,6 @@ def _verify(options: Namespace) -> None:
     from earthspin.engine.store import verify
 
     print(f"{printable(str(verify(options.file)))} is what was written")
-
-
-def _stability(options: Namespace) -> int:
-    """Command `stability`: run the numerical tests of stiff and extreme cases."""
-    from earthspin.checks.case import FAILS
-    from earthspin.checks.stability import stability
-    from earthspin.views.stability_tables import print_verdicts, tally
-
-    result = stability(quick=options.quick, only=options.only, long=options.long)
-    print_verdicts(result)
-    return CHECK_FAILED if tally(result)[FAILS] else 0
 
 
 def _completion(options: Namespace) -> None:

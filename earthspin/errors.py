@@ -303,7 +303,7 @@ class SeriesError(EarthspinError, ValueError):
 
 
 class AccuracyError(EarthspinError, ValueError):
-    """Error raised if the requested accuracy cannot be reached.
+    """Error raised if a quadrature cannot reach the requested accuracy.
 
     Attributes
     ----------
@@ -313,8 +313,9 @@ class AccuracyError(EarthspinError, ValueError):
     Examples
     --------
     >>> import earthspin
+    >>> from earthspin.mass.legendre import legendre_coefficients
     >>> try:
-    ...     earthspin.precession(accuracy=1e-15)
+    ...     legendre_coefficients(lambda x: abs(x) ** 0.1, 2, accuracy=1e-16)
     ... except earthspin.AccuracyError as error:
     ...     print(error.best > error.asked)
     True

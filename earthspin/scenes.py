@@ -18,7 +18,6 @@ from earthspin.bodies import Body
 from earthspin.bodies.body import members
 from earthspin.engine import answering, loop
 from earthspin.engine import plan as planning
-from earthspin.engine import run as running
 from earthspin.engine.part import BLOCK as BY_BLOCK
 from earthspin.engine.question import Question, keys_of
 from earthspin.engine.series import Series
@@ -450,16 +449,6 @@ def run_blocks(scene: Any) -> Iterator[xr.Dataset]:
     series = _series(load_scene(scene))
     for number in range(series.layout.count):
         yield series.make(number)
-
-
-def chosen(question: Question) -> list[str]:
-    """Describe in words the settings chosen for the accuracy that a question requests.
-
-    Whether the numbers of the body and the kernel allow it shows when it runs.
-    """
-    choices = running.run_choosing(question)
-    first = (next(iter(c), None) if isinstance(c, list) else c for c in choices)
-    return [choice.words if choice is not None else "the finest settings" for choice in first]
 
 
 # --- reading -------------------------------------------------------------------------------------

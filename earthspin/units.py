@@ -619,7 +619,3 @@ def kind_of(annotation: Any) -> Kind[Any]:
 Duration = Annotated[float, Number("s", "6 h")]
 #: A length of time in days, for the equations of the wobble, which count in them.
 Days = Annotated[float, Number("d", "433 d", above=0.0)]
-#: The largest relative error allowed.
-Relative = Annotated[float, Number("", "1e-6", above=0.0, high=1e100, text=False)]
-#: The largest angle allowed, rad.
-AngleError = Annotated[float, Number("rad", "1 mas", above=0.0, plain=False)]

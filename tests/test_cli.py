@@ -227,12 +227,6 @@ def test_keys_and_help_come_from_the_classes(capsys: pytest.CaptureFixture[str])
     assert "did you mean 'top-loop'" in err
 
 
-def test_the_plan_as_a_script(capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, _ = run(capsys, "plan", "wobble", "--script")
-    assert status == 0
-    compile(out, "wobble.py", "exec")
-
-
 COMPLETIONS = {
     "earthspin sc": {"scenes"},
     "earthspin run top-l": {"top-loop"},

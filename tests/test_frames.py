@@ -193,14 +193,6 @@ def test_matrices_cannot_be_changed(now: EquatorOfDate) -> None:
         now.matrix[:] = 0
 
 
-def test_an_answer_with_a_requested_accuracy() -> None:
-    answer = earthspin.pole("2000-01-01", "2001-01-01", "30 d", accuracy="30 mas")
-    exact = earthspin.pole("2000-01-01", "2001-01-01", "30 d")
-    frames = [EquatorOfDate(obstime=NOW, model=one) for one in (answer, exact)]
-    assert frames[0].error.to_value("mas") < 30 / np.sin(np.radians(23.4))
-    assert turn(*(frame.matrix for frame in frames)) < frames[0].error.to_value("arcsec")
-
-
 def test_times_finer_than_a_microsecond() -> None:
     """Times of answers are rounded; the error of a fast body contains what it turns meanwhile."""
     fast = earthspin.EARTH.replace(spin_period="10 h")

@@ -15,7 +15,7 @@ MUTANTS = load()
 #: formulas of these packages, so it needs no entry of its own.
 PACKAGES = (
     *("numerics", "mass", "rotor", "top", "torque", "motion", "motion/effects", "interior"),
-    *("wobble", "nutation", "sky", "choosing", "parts"),
+    *("wobble", "nutation", "sky", "parts"),
 )
 NO_KERNEL = {"__init__", "_checks"}
 #: Modules between what is given and the kernels, and between the kernels and the answer.

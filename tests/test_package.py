@@ -111,7 +111,7 @@ def test_the_wheel_holds_every_module_and_nothing_else(wheel: Path, tmp_path: Pa
 
 #: Folders that docs/architecture.md describes as a whole: one file a question, an effect, a
 #: quantity, a world.
-AS_A_WHOLE = {"questions", "bodies", "motion/effects", "checks/ladders", "checks/cases"}
+AS_A_WHOLE = {"questions", "bodies", "motion/effects", "checks/ladders"}
 
 
 def described() -> set[str]:

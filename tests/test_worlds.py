@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import earthspin
-from data_tools.stability import BEGIN, END
-from data_tools.worlds import PAGE, locked, table, table_of_locked, worlds
+from data_tools.worlds import BEGIN, END, PAGE, locked, table, table_of_locked, worlds
 from earthspin import BODIES, MARS, MOON, BodyError, SceneError, UndefinedError
 from earthspin.bodies import JUPITER, SATURN, TRITON, URANUS
 from earthspin.bodies.giants import OF_JUPITER, OF_SATURN, SATURN_MOMENT

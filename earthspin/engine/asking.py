@@ -1,4 +1,4 @@
-"""Generate the public Python function, and a script, from the class of a question."""
+"""Generate the public Python function of a question from its class."""
 
 from __future__ import annotations
 
@@ -117,48 +117,3 @@ _END = {
     "start": "First time; plain dates mean TDB, others are converted.",
     "stop": "Last time, which is included if the step meets it.",
 }
-
-
-# --- the graph as a script -----------------------------------------------------------------------
-
-
-def script_of(question: type[Question]) -> str:
-    """Write a Python script that calls all functions (parts) behind a question, in order.
-
-    Parameters
-    ----------
-    question : type
-
-    Returns
-    -------
-    str
-        Python source; a type checker can check in it that results and parameters agree.
-    """
-    from graphlib import TopologicalSorter
-
-    parts, keys = question.graph.parts, keys_of(question)
-    needs = {n: [i for i in (*p.needs, *p.uses) if i in parts] for n, p in parts.items()}
-    order = list(TopologicalSorter(needs).static_order())
-    modules = sorted({parts[name].__module__ for name in order} | {question.__module__})
-    lines = [f'"""{question.__name__}: inputs of each part, in the order in which they run."""', ""]
-    lines += [f"import {module}" for module in modules]
-    lines += ["", "", f"def {question.word.replace('-', '_')}("]
-    lines += [f"    question: {question.__module__}.{question.__name__},", ") -> None:"]
-    lines.append(f'    """{_head(question)}"""')
-    lines.append("    # every part, including those that a plan may leave out")
-    used = {i for name in order for i in (*parts[name].needs, *parts[name].uses)}
-    lines += [f"    {name} = question.{name}" for name in keys if name in used]
-    for name in order:
-        part = parts[name]
-        inputs = [i for i in (*part.needs, *part.uses) if i in parts or i in keys]
-        arguments = ", ".join(f"{i}={i}" for i in inputs)
-        laid = ".dataset()" if part.gives else ""
-        lines.append(f"    {name} = {part.__module__}.{name}({arguments}){laid}")
-    ends = {"answer": question.graph.answer} | question.graph.sections
-    for section, names in ends.items():
-        lines.append(f"    _{section} = {', '.join(names)}")
-    return "\n".join([*lines, ""])
-
-
-def _head(question: type[Question]) -> str:
-    return inspect.cleandoc(question.__doc__ or "").split("\n")[0]

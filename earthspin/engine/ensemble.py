@@ -160,8 +160,8 @@ class Ensemble:
             return rows * ROW or 1  # one answer for each combination of names is computed
         together = self.question.graph.together
         fit = all(entry.key in together and entry.labelled for entry in self.numbers.values())
-        if not fit or getattr(self.question, "accuracy", None) is not None:
-            return 1  # settings for an accuracy are chosen for each member
+        if not fit:
+            return 1
         return min(rows * ROW, self.question.graph.widest) or 1
 
     @cached_property

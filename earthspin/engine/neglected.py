@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
 
@@ -14,6 +15,25 @@ from earthspin.engine.variables import Labels, Value, Variables, labels, number
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+class Effect(NamedTuple):
+    """A neglected effect with its size in a unit of results."""
+
+    name: str
+    size: float
+    unit: str
+
+
+def largest_of(text: str) -> Effect | None:
+    """Read the largest neglected effect from the text that `Neglected.largest` writes.
+
+    The result is None if the text gives no size.
+    """
+    written = re.match(r"(?P<name>[^:]+): (?P<size>[-+.e\d]+) (?P<unit>[^(]+) \(", text)
+    if written is None:
+        return None
+    return Effect(written["name"], float(written["size"]), written["unit"])
 
 
 BOUND = "this is a bound on a neglected effect, or its published size"

@@ -59,8 +59,6 @@ class Part(Generic[P, R]):
         The variables that the part adds to an answer or section; empty for an intermediate part.
     unless : tuple of callable
         Each takes keys of the question by name and returns a reason for leaving the part out.
-    chooses : bool
-        Whether the part chooses settings for a requested accuracy.
     describe : callable or None
         Takes keys of the question by name and returns a description of the part.
     same_for : callable or None
@@ -71,11 +69,10 @@ class Part(Generic[P, R]):
         self,
         function: Callable[P, R],
         unless: tuple[Reason, ...],
-        chooses: bool,
         describe: Describer | None = None,
         same_for: SameFor | None = None,
     ) -> None:
-        self.function, self.unless, self.chooses = function, unless, chooses
+        self.function, self.unless = function, unless
         self.describe, self.same_for = describe, same_for
         self._stored: OrderedDict[Hashable, R] = OrderedDict()
         self._lock = Lock()
@@ -146,7 +143,6 @@ def part(function: Callable[P, R], /) -> Part[P, R]: ...
 def part(
     *,
     unless: Reason | tuple[Reason, ...] = ...,
-    chooses: bool = ...,
     describe: Describer | None = ...,
     same_for: SameFor | None = ...,
 ) -> Callable[[Callable[P, R]], Part[P, R]]: ...
@@ -155,7 +151,6 @@ def part(
     /,
     *,
     unless: Reason | tuple[Reason, ...] = (),
-    chooses: bool = False,
     describe: Describer | None = None,
     same_for: SameFor | None = None,
 ) -> Part[P, R] | Callable[[Callable[P, R]], Part[P, R]]:
@@ -167,8 +162,6 @@ def part(
         Its parameters are names of keys of the question and of other parts.
     unless : callable or tuple of callable
         Functions of keys of the question that return a reason for leaving the part out, or None.
-    chooses : bool
-        Whether the part chooses settings for a requested accuracy.
     describe : callable, optional
         Function of keys of the question that describes the part in a plan; the first line of the
         docstring by default.
@@ -179,8 +172,8 @@ def part(
     reasons = unless if isinstance(unless, tuple) else (unless,)
 
     if function is None:
-        return lambda function: Part(function, reasons, chooses, describe, same_for)
-    return Part(function, reasons, chooses, describe, same_for)
+        return lambda function: Part(function, reasons, describe, same_for)
+    return Part(function, reasons, describe, same_for)
 
 
 def _arguments(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any]:

@@ -118,6 +118,8 @@ class Question:
         Module of `views` that makes the tables and figures.
     page : str
         Page of the documentation that explains the method; empty if there is none.
+    headline : str
+        Variable of the answer, or error of several variables, that is quoted first.
     positional : tuple of str
         Positional arguments of the call.
     exclusive : tuple of tuple of str
@@ -129,6 +131,7 @@ class Question:
     table: ClassVar[str]
     views: ClassVar[str] = "plain"
     page: ClassVar[str] = ""
+    headline: ClassVar[str] = ""
     positional: ClassVar[tuple[str, ...]]
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
     graph: ClassVar[Graph]
@@ -364,7 +367,8 @@ def keys_of(question: type[Question]) -> dict[str, Key]:
 
 def unknown_key(question: type[Question], name: str) -> str:
     """Return the error message for an unknown key, with the most similar known keys."""
-    return f"compute = '{question.word}' has no such key; {nearest(name, keys_of(question))}"
+    allowed = nearest(name, keys_of(question))
+    return f"compute = '{question.word}' has no such key: delete or rename it; {allowed}"
 
 
 # --- what a question is made of ------------------------------------------------------------------

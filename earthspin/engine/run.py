@@ -125,20 +125,6 @@ class Rerun:
         return run_parts(plan, before | values)
 
 
-def run_choosing(question: Question) -> list[Any]:
-    """Run only the functions that choose numerical settings; return these settings.
-
-    Parameters
-    ----------
-    question : Question
-    """
-    plan = plan_parts(question)
-    needed = behind(plan, (part.name for part in plan.parts if part.chooses))
-    few = tuple(part for part in plan.parts if part.name in needed)
-    results = run_parts(replace(plan, parts=few)).results
-    return [results[part.name] for part in few if part.chooses]
-
-
 def run_parts(plan: Plan, before: Mapping[str, Any] | None = None) -> Run:
     """Run the parts (functions) of a plan in order, except those with a result in `before`."""
     values = plan.question.keys() | dict(before or {})

@@ -1,47 +1,8 @@
-"""Published compliances, coupling constants and Love numbers of PREM and of the Earth."""
+"""Published free core nutation, ellipticity of the core, and coupling at its boundaries."""
 
 from __future__ import annotations
 
 from earthspin.constants import IERS, UNVERIFIED, Constant
-
-_MBHS = "Mathews, Buffett, Herring & Shapiro 1991, JGR 96, 8219"
-_CODE = "codes of the nutation of PREM in public repositories"
-
-#: By the name in that paper; a_1 to a_3 are the paper's alpha_1 to alpha_3.
-PREM_PUBLISHED: dict[str, Constant] = {
-    name: Constant(value, "", None, _MBHS, read_in)
-    for name, value, read_in in (
-        ("kappa", 1.039e-3, _CODE),
-        ("xi", 2.222e-4, _CODE),
-        ("zeta", 4.964e-9, UNVERIFIED),
-        ("gamma", 1.965e-3, _CODE),
-        ("beta", 6.16e-4, _CODE),
-        ("delta", -4.869e-7, UNVERIFIED),
-        ("theta", 6.794e-6, UNVERIFIED),
-        ("chi", -7.536e-5, UNVERIFIED),
-        ("nu", 7.984e-5, UNVERIFIED),
-        ("e", 3.247e-3, UNVERIFIED),
-        ("e_f", 2.548e-3, UNVERIFIED),
-        ("e_s", 2.422e-3, UNVERIFIED),
-        ("a1", 0.9463, UNVERIFIED),
-        ("a2", 0.8294, UNVERIFIED),
-        ("a3", 0.0537, UNVERIFIED),
-        ("fluid", 0.113066, _CODE + ": moments 9.0583e36 (there e37) over 8.0115e37"),
-        ("inner", 7.3059e-4, UNVERIFIED),
-    )
-}
-
-_GROSS = "Gross 2007, Treatise on Geophysics 3.09, table 1"
-_TIDES_READ = "codes of the solid tides of the Conventions in public repositories"
-
-#: Love numbers of the Earth: tidal ones with rotation and ellipticity, load ones for PREM.
-LOVE_PUBLISHED: dict[str, Constant] = {
-    "k2": Constant(0.29525, "", None, IERS + ", table 6.3, elastic, zonal", _TIDES_READ),
-    "h2": Constant(0.6078, "", None, IERS + ", tables 7.3a and 7.3b, nominal", _TIDES_READ),
-    "l2": Constant(0.0847, "", None, IERS + ", tables 7.3a and 7.3b, nominal", _TIDES_READ),
-    "k2_load": Constant(-0.305, "", None, _GROSS, UNVERIFIED),
-    "h2_load": Constant(-0.990, "", None, _GROSS, UNVERIFIED),
-}
 
 _MHB = "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068"
 _MHB_2 = _MHB + ", table 2"

@@ -39,9 +39,8 @@ _EPS = float(np.finfo(float).eps)
 #: Safety factor: the claimed error is twice the difference of the two solutions, since the rounding
 #: errors of both may be similar.
 TWICE = 2.0
-#: Tolerance per window, as a fraction of the requested total error; and the largest tolerance, for
-#: which windows are shorter than a rotation.
-_SHARE, COARSEST = 1e-4, 1e-6
+#: Largest tolerance, for which windows are shorter than a rotation.
+COARSEST = 1e-6
 #: Quantities with errors: attitude, rad; angular velocity, rad/s; angular momentum, C u.
 KINDS = ("attitude", "omega", "angular_momentum")
 
@@ -102,17 +101,6 @@ def start_of(body: Rigid, attitude: FloatArray, omega: FloatArray) -> State:
     spin = np.repeat(omega[:, np.newaxis], body.lanes, axis=1)
     q = np.repeat((attitude / np.linalg.norm(attitude))[:, np.newaxis], body.lanes, axis=1)
     return State(momentum=body.moments * spin / body.unit, attitude=q, spin=spin)
-
-
-def tolerance_for(accuracy: float | None) -> float:
-    """Tolerance of the integrator in each time window for a requested attitude error.
-
-    Parameters
-    ----------
-    accuracy : float or None
-        Requested error, rad; None requests the smallest tolerance.
-    """
-    return FINEST if accuracy is None else min(max(FINEST, _SHARE * accuracy), COARSEST)
 
 
 class Motion:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,8 +11,6 @@ import numpy as np
 from earthspin._version import version
 from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.bodies.limits import OF_AVERAGE, largest, refuse_fast_axis
-from earthspin.choosing.averages import Averaging
-from earthspin.choosing.choice import Choice
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
@@ -78,16 +76,10 @@ class Samples:
     are_stored: bool = False
 
 
-def _same_samples(
-    sky: Sky,
-    stretch: Stretch,
-    body: Body,
-    perturbers: tuple[Body, ...],
-    chosen_average: Choice[Averaging] | None = None,
-) -> Hashable:
+def _same_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]) -> Hashable:
     """Inputs on which samples depend; None if they contain arrays or objects, which may change."""
     bodies, places = (body, *perturbers), (sky.centre, *sky.targets.values())
-    if chosen_average is not None or any(member.labelled for member in bodies):
+    if any(member.labelled for member in bodies):
         return None
     if not all(isinstance(place, int) for place in places):
         return None
@@ -97,21 +89,12 @@ def _same_samples(
 
 
 @part(unless=exact_means, same_for=_same_samples)
-def torque_samples(
-    sky: Sky,
-    stretch: Stretch,
-    body: Body,
-    perturbers: tuple[Body, ...],
-    chosen_average: Choice[Averaging] | None = None,
-) -> Samples:
+def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]) -> Samples:
     """Sample the torques of all perturbers, from their declinations, over the averaging time."""
     pole, orbit = body.needed("pole"), body.orbit_pole
     cycle = max(map(slowest_cycle, perturbers))
-    window, step = best_window(stretch.first * DAY, stretch.last * DAY, cycle), SAMPLING
-    if chosen_average is not None:
-        chosen = chosen_average.settings
-        window, step = replace(window, cycles=chosen.cycles), chosen.step
-    times = window.sample_times(step)
+    window = best_window(stretch.first * DAY, stretch.last * DAY, cycle)
+    times = window.sample_times(SAMPLING)
     days = times / DAY
 
     normal = pole.orbit_normal(orbit)
@@ -136,7 +119,7 @@ def torque_samples(
         unmeasured=sky.unmeasured,
         no_error=sky.no_error,
         strength=strength,
-        are_stored=_same_samples(sky, stretch, body, perturbers, chosen_average) is not None,
+        are_stored=_same_samples(sky, stretch, body, perturbers) is not None,
     )
 
 
@@ -231,43 +214,26 @@ class MeanTorques:
     cases: Mapping[str, int] = field(default_factory=dict)
 
 
-def _same_means(
-    torque_samples: Samples,
-    perturbers: tuple[Body, ...],
-    chosen_average: Choice[Averaging] | None = None,
-) -> Hashable:
+def _same_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> Hashable:
     """Samples from which means are computed; None if these samples are not stored."""
     return torque_samples if torque_samples.are_stored else None
 
 
 @part(unless=exact_means, same_for=_same_means)
-def window_means(
-    torque_samples: Samples,
-    perturbers: tuple[Body, ...],
-    chosen_average: Choice[Averaging] | None = None,
-) -> MeanTorques:
+def window_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> MeanTorques:
     """Mean torques, computed as weighted means of samples in a time window, with errors.
 
-    Errors are measured ones, or estimates from neighbouring windows.
+    The errors are estimates from neighbouring windows.
     """
     samples = torque_samples
     window, times = samples.window, samples.times
     swing = np.array([np.nan if p.name in samples.unmeasured else p.slow_swing for p in perturbers])
-    precessing_measured, torque_measured = _measured_errors(perturbers, chosen_average)
     strength = samples.strength
     many = None if strength is None else strength.values.reshape(len(perturbers), -1)
     precessing, precessing_error = window_mean_and_error(
-        window, times, samples.precessing, swing, precessing_measured, many
+        window, times, samples.precessing, swing, many
     )
-    if precessing_measured is not None and times[1] - times[0] == SAMPLING:
-        # With daily samples, the estimate from neighbouring windows is valid too: take the smaller.
-        _, by_neighbours = window_mean_and_error(
-            window, times, samples.precessing, swing, strength=many
-        )
-        precessing_error = np.minimum(precessing_error, by_neighbours)
-    vector, vector_error = window_mean_and_error(
-        window, times, samples.torque, swing, torque_measured, many
-    )
+    vector, vector_error = window_mean_and_error(window, times, samples.torque, swing, many)
     spacing = np.median(np.diff(times)) / DAY
     return MeanTorques(
         labels=_labels(perturbers),
@@ -449,17 +415,3 @@ MEANS = (torque_samples, window_means, orbit_means, mean_torques, mean_rates)
 def window_words(window: Window) -> str:
     """Describe the time window of an average in words: taper, number of cycles, cycle length."""
     return f"{window.taper} taper over {window.cycles:g} cycles of {window.cycle / DAY:.2f} d"
-
-
-def _measured_errors(
-    perturbers: tuple[Body, ...], choice: Choice[Averaging] | None
-) -> tuple[FloatArray, FloatArray] | tuple[None, None]:
-    """Measured errors of the averaged torques for the chosen window and step, by perturber, s-2.
-
-    They are those of the precessing torque and of the torque vector.
-    """
-    if choice is None:
-        return None, None
-    precessing, torque = choice.settings.precessing_errors, choice.settings.torque_errors
-    names = [p.name for p in perturbers]
-    return np.array([precessing[n] for n in names]), np.array([torque[n] for n in names])

@@ -102,9 +102,3 @@ def layers_of(body: Body) -> LayeredBody:
 def layers(interior: LayeredBody | None, body: Body) -> LayeredBody:
     """Layers that the user gives as input, or by default those of the body."""
     return layers_of(body) if interior is None else interior
-
-
-def not_prem(interior: LayeredBody | None, body: Body) -> str | None:
-    """Return the reason (text) to omit published numbers if layers are not PREM's, else None."""
-    name = (interior or layers_of(body)).name
-    return None if name == "prem" else f"no published numbers of '{name}' are known"

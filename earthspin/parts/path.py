@@ -11,8 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body
-from earthspin.choosing.choice import Choice
-from earthspin.choosing.windows import PoleWindows
 from earthspin.constants import ARCSEC, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
 from earthspin.dates import Epochs, Span, Step
 from earthspin.engine.part import part
@@ -26,7 +24,7 @@ from earthspin.nutation.angles import followed, on_fixed_ecliptic
 from earthspin.nutation.budget import published_effects
 from earthspin.parts.predicted import CHOSEN, Prediction, no_layers, prediction
 from earthspin.parts.pulls import AxisMotion, Pulls, forces_of, start_of
-from earthspin.parts.reasons import no_accuracy, no_iau_model
+from earthspin.parts.reasons import no_iau_model
 from earthspin.parts.times import days_of
 from earthspin.progress import progress
 from earthspin.sky.kernel_differences import DRIFT_FROM, growth
@@ -47,9 +45,6 @@ HALF_SPAN = 27200.0  # d
 SHORTEST_SPAN = 45 * JULIAN_YEAR / DAY  # d
 SAMPLING = 4.0  # d
 
-#: Number of times for which errors are computed in one call.
-_CHUNK = 1 << 16
-
 
 @part
 def axis_path(
@@ -57,30 +52,21 @@ def axis_path(
     epochs: Epochs,
     body: Body,
     effects: tuple[str, ...],
-    accuracy: float | None,
-    chosen_windows: list[Choice[PoleWindows]] | None = None,
     interior_shift: Shift | None = None,
 ) -> AxisPath:
     """Integrate the axes of the body from J2000.0 to all dates, by Picard iteration.
 
-    The chosen windows are used if they are accurate enough, else the finest. With the response of
-    the interior, the rigid axes start such that their mean pole agrees with that of the IAU.
+    With the response of the interior, the rigid axes start such that their mean pole agrees with
+    that of the IAU.
     """
-    start = None if interior_shift is None else interior_shift.start
-    tried: list[AxisPath] = []
-    for choice in (*(chosen_windows or ()), None):
-        try:
-            path = _integrate(body, pulls, effects, epochs, choice, start)
-        except UndefinedError:
-            if choice is None and not tried:
-                raise
-            continue  # these windows are too long for the slow manifold of this spin
-        tried.append(path)
-        if choice and PathErrors(path, epochs, body, pulls).total <= (accuracy or 0.0):
-            break
-    if len(tried) == 1:
-        return tried[0]
-    return min(tried, key=lambda path: PathErrors(path, epochs, body, pulls).total)
+    pulls.sky.check_times(epochs.span(), pulls.targets)
+    own, epoch = start_of(body, pulls)
+    axis = own if interior_shift is None else interior_shift.start
+    first, last = epochs.span()
+    span = first * DAY, last * DAY
+    forces = forces_of(body, pulls, effects)
+    with progress("pole", axes.window_count(epoch, span, axes.WINDOW)) as advance:
+        return axes.axis_path(forces, axis, epoch, span, limits=pulls.limits, advance=advance)
 
 
 @dataclass(frozen=True)
@@ -157,59 +143,6 @@ class PathErrors:
         grown = max(map(growth, self.epochs.span()))
         return grown * axes.error_of_sky(self.path, figure, drift, speed, DRIFT_FROM)
 
-    def largest(self) -> dict[str, float]:
-        """Largest error of the axis directions over the series, in total and by cause, rad."""
-        largest: dict[str, float] = {}
-        for first in range(0, self.epochs.size, _CHUNK):
-            days = self.epochs.days(first, min(first + _CHUNK, self.epochs.size))
-            errors = self.at(days, self.path.at(days * DAY)["figure"])
-            for name, share in {"total": errors.total, **vars(errors)}.items():
-                largest[name] = float(np.maximum(largest.get(name, 0.0), share.max()))
-        return largest
-
-    @property
-    def total(self) -> float:
-        """Largest total error of the axis directions over the series, rad."""
-        return self.largest()["total"]
-
-
-@dataclass(frozen=True)
-class LargestError:
-    """Largest error of the axis directions in a series, with advice to reduce it.
-
-    Attributes
-    ----------
-    error : float
-        Largest error, rad.
-    remedy : str
-        Advice to reduce the largest contribution.
-    """
-
-    error: float
-    remedy: str
-
-
-@part(unless=no_accuracy)
-def largest_error(
-    axis_path: AxisPath,
-    epochs: Epochs,
-    body: Body,
-    pulls: Pulls,
-    interior_shift: Shift | None = None,
-) -> LargestError:
-    """Largest error of the axis directions over a whole series, and advice to reduce it.
-
-    It is computed before the first block of the series is written.
-    """
-    remedies = {
-        "kernel": "the positions are not known better so far from J2000.0",
-        "given": "choose dates nearer to J2000.0, or give a more accurate H",
-        "response": "the response of the interior is not known better; remove nonrigid",
-        "method": "the integration already uses the finest windows",
-    }
-    shares = PathErrors(axis_path, epochs, body, pulls, interior_shift).largest()
-    return LargestError(shares["total"], remedies[max(remedies, key=lambda name: shares[name])])
-
 
 @dataclass(frozen=True)
 class LongitudeCycles:
@@ -244,39 +177,6 @@ def longitude_cycles(path: AxisPath, first: float, ecliptic: FloatArray) -> Long
     principal = on_fixed_ecliptic(path.at(np.array([first]))["angular_momentum"], ecliptic)[0, 0]
     difference = np.interp(first, times, psi) - principal
     return LongitudeCycles(times, psi - 2 * np.pi * np.rint(difference / (2 * np.pi)))
-
-
-def _integrate(
-    body: Body,
-    pulls: Pulls,
-    effects: Sequence[str],
-    epochs: Epochs,
-    choice: Choice[PoleWindows] | None,
-    start: FloatArray | None,
-) -> AxisPath:
-    """Integrate the axes with time windows of the chosen length, by default the most accurate.
-
-    The initial axis is that of the body, unless `start` is given.
-    """
-    pulls.sky.check_times(epochs.span(), pulls.targets)
-    own, epoch = start_of(body, pulls)
-    axis = own if start is None else start
-    first, last = epochs.span()
-    span = first * DAY, last * DAY
-    settings = {} if choice is None else vars(choice.settings)
-    window = axes.WINDOW if choice is None else choice.settings.window
-    with progress("pole", axes.window_count(epoch, span, window)) as advance:
-        path = axes.axis_path(
-            forces_of(body, pulls, effects),
-            axis,
-            epoch,
-            span,
-            limits=pulls.limits,
-            advance=advance,
-            **settings,
-        )
-    # The measured error of the settings is a bound; the path estimates its error from last terms.
-    return path if choice is None else replace(path, interpolation_error=choice.error)
 
 
 # --- comparison with the IAU ---------------------------------------------------------------------

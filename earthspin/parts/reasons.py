@@ -53,11 +53,6 @@ def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     return None if has_moon else "the moon is not among the perturbers"
 
 
-def no_accuracy(accuracy: float | None) -> str | None:
-    """Return the reason (text) to omit chosen settings if no accuracy is requested, else None."""
-    return "no accuracy is requested, so the finest settings are used" if accuracy is None else None
-
-
 def many_pulls(perturbers: tuple[Body, ...]) -> str | None:
     """Return the reason (text) to omit results if a perturber's mass is an array, else None.
 

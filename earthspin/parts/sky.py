@@ -125,16 +125,7 @@ class PerturbedBody(Question):
             raise self.error("perturbers", names, "'total' is the label of the sum; rename it")
         if self.body.name in names:
             raise self.error("perturbers", names, "a body does not pull on itself")
-        # This call also refuses inconsistent elements.
-        mixed = not all_by_elements(self.body, self.perturbers)
-        accuracy = getattr(self, "accuracy", None)
-        for member in (self.body, *self.perturbers) if accuracy is not None else ():
-            if unmeasured(member) or (mixed and member.orbit is not None):
-                problem = (
-                    f"the error of the positions of '{member.name}' was not measured, so no "
-                    "accuracy can be guaranteed; remove accuracy"
-                )
-                raise self.error("accuracy", accuracy, problem)
+        all_by_elements(self.body, self.perturbers)  # refuses inconsistent elements
 
     def needed(self) -> tuple[str, ...]:
         """Names of the body's properties that the question needs."""

@@ -22,7 +22,6 @@ from earthspin.units import FloatArray, Numbers
 Seconds = Annotated[FloatArray, Numbers("s", "1 s", (None,))]
 
 #: Descriptions of keys that several questions declare with different defaults.
-DIRECTION_DOC = "largest allowed error of a direction, for which the fastest settings are chosen"
 SPAN_DOC = "first and last date, TDB; the last is included if the step meets it"
 
 

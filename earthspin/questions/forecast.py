@@ -153,7 +153,7 @@ class Forecast(
     0.043 ± 0.018, 0.311 ± 0.010 arcsec
     """
 
-    views, page = "forecast", "forecast"
+    views, page, headline = "forecast", "forecast", "x"
 
     body: Body = key(EARTH, doc="body whose pole is forecast")
     days: Annotated[float, Number("d", "365 d", above=0.0)] = key(

@@ -8,17 +8,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
-from earthspin.choosing.promises import Report
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, key, setting
+from earthspin.engine.question import Question, define_parts, setting
 from earthspin.engine.variables import Labels, Value, labels, number
 from earthspin.errors import Where
-from earthspin.parts.reasons import no_accuracy
 from earthspin.parts.times import FromStart, Seconds, instants
 from earthspin.rotor.moments import KEYS
-from earthspin.units import Duration, FloatArray, Numbers, Plain, Relative, Whole, quantity
+from earthspin.units import Duration, FloatArray, Numbers, Plain, Whole, quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -112,7 +110,7 @@ class FreeRotor(
     [ 1.    0.53 -1.  ]
     """
 
-    views, page = "free_rotor", "rotors"
+    views, page, headline = "free_rotor", "rotors", "attitude"
 
     exclusive = (("times",), ("duration", "points"))
 
@@ -125,7 +123,6 @@ class FreeRotor(
     times: Seconds | None = setting(None, doc="times from the start")
     duration: Duration = setting("20 s", doc="last time, if times are not given")
     points: Annotated[int, Whole()] = setting(401, doc="number of evenly spaced times")
-    accuracy: Relative | None = key(None, doc="largest allowed relative error")
 
 
 _SERIES = ("time", "component")
@@ -250,17 +247,6 @@ def poinsot(moments: Moments, omega: FloatArray, instants: FloatArray) -> Poinso
     )
 
 
-class RotationAccuracy(Report, units="1", error_of="relative, of angular velocity and attitude"):
-    """Estimated error of the rotation, the accuracy that was requested, and the method used."""
-
-
-@part(unless=no_accuracy)
-def rotation_accuracy(free_rotation: xr.Dataset, accuracy: float | None) -> RotationAccuracy:
-    """Estimated error of the rotation, the accuracy that was requested, and the method used."""
-    size, bound = free_rotation.attitude.size // 4, float(free_rotation.relative_error)
-    return RotationAccuracy.closed_form(accuracy, bound, "Jacobi's closed form", size)
-
-
 @part
 def neglected() -> Neglected:
     """Report that no effect is neglected, as the question is about a rigid body without torque."""
@@ -269,7 +255,7 @@ def neglected() -> Neglected:
 
 define_parts(
     FreeRotor,
-    answer=(free_rotation, rotation_accuracy),
+    answer=(free_rotation,),
     sections={"poinsot": poinsot, "neglected": neglected},
     parts=(instants,),
     together=("moments", "omega"),

@@ -89,7 +89,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     computed pole minus the IAU's in obliquity, nothing removed
     """
 
-    views, page = "iau", "pole"
+    views, page, headline = "iau", "pole", "closure"
 
     def check(self) -> None:
         """Refuse bodies whose position errors are unknown, as the comparison needs them."""
@@ -341,27 +341,6 @@ def residuals(differences: Differences) -> Residuals:
         dpsi_sineps_unfitted=plain[:, 0],
         deps_unfitted=plain[:, 1],
         unfitted_error=differences.unfitted_error,
-    )
-
-
-class ResidualsByModel(Dated, along=("time", "model"), error="error_by_model"):
-    """Time series of computed pole minus IAU pole, for different sets of effects."""
-
-    dpsi_sineps_by_model: Value = number("mas", _LONGITUDE)
-    deps_by_model: Value = number("mas", _OBLIQUITY)
-    error_by_model: Value = number("mas", _HALF_WIDTH, along=())
-    model: Labels = labels()
-
-
-@part
-def residuals_by_model(differences: Differences) -> ResidualsByModel:
-    """Return the time series of computed pole minus IAU pole, for different sets of effects."""
-    return ResidualsByModel(
-        time=datetime64(differences.days),
-        dpsi_sineps_by_model=differences.fitted[..., 0],
-        deps_by_model=differences.fitted[..., 1],
-        error_by_model=differences.error,
-        model=list(differences.models),
     )
 
 
@@ -642,7 +621,6 @@ define_parts(
     answer=budget,
     sections={
         "residuals": residuals,
-        "residuals_by_model": residuals_by_model,
         "residual_sizes": residual_sizes,
         "observed": observed,
         "nutation": nutation,

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated, Self
 import numpy as np
 
 from earthspin.bodies import MOON, SUN, Body, Numeric, in_a_sentence
-from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
@@ -19,7 +18,7 @@ from earthspin.errors import Where
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, item_of
 from earthspin.parts.orbits import OrbitChoice, orbit_table
 from earthspin.parts.pulls import start_error
-from earthspin.parts.reasons import no_accuracy, no_iau_model, not_sun_and_moon
+from earthspin.parts.reasons import no_iau_model, not_sun_and_moon
 from earthspin.parts.side_by_side import SideBySide
 from earthspin.parts.sky import PerturbedBody, Sky, Stretch, places, sky
 from earthspin.secular import budget as solutions
@@ -30,7 +29,7 @@ from earthspin.secular.strength import Strength, Tides, geodesic_precession
 from earthspin.sky.orbit_table import OrbitTable, shipped
 from earthspin.torque import rates
 from earthspin.torque.quadrupole import dot
-from earthspin.units import AngleError, FloatArray, Number
+from earthspin.units import FloatArray, Number
 from earthspin.years import YearList, YearSpan, YearStep, grid
 
 if TYPE_CHECKING:
@@ -78,7 +77,7 @@ class LongTerm(
     101 23.439
     """
 
-    views, page = "long_term", "long_term"
+    views, page, headline = "long_term", "long_term", "obliquity"
 
     exclusive = (("times",), ("span", "step"))
     many_pulls = True
@@ -112,15 +111,9 @@ class LongTerm(
             "of the orbital motion"
         ),
     )
-    accuracy: AngleError | None = key(
-        None, doc=("largest allowed error of the direction of the pole")
-    )
 
     def check(self) -> None:
-        """Set default perturbers, and refuse any other than the Sun and the Moon.
-
-        An accuracy can be requested only if the uncertainty of the body's pole is known.
-        """
+        """Set default perturbers, and refuse any other than the Sun and the Moon."""
         super().check()
         if "perturbers" not in self.given and no_iau_model(self.body):
             object.__setattr__(self, "perturbers", (SUN,))
@@ -128,9 +121,6 @@ class LongTerm(
         if "sun" not in names or set(names) - {"sun", "moon"}:
             problem = "over millennia it is the Sun, or Sun and Moon; give no others"
             raise self.error("perturbers", names, problem)
-        if self.accuracy is not None and self.body.pole_uncertainty is None:
-            wanted = f"{self.accuracy / ARCSEC:.4g} arcsec"
-            raise self.error("accuracy", wanted, _unknown_start(self.body))
 
 
 def _unknown_start(body: Body) -> str:
@@ -376,17 +366,10 @@ def series(
     solved: solutions.Solved,
     orbit_table: OrbitTable,
     body: Body,
-    accuracy: float | None,
 ) -> LongTermSeries:
     """Return obliquity, precession, eccentricity, poles and rates at every epoch, with errors."""
     nominal, lay = readings.mine, numbers.lay
     pole_error = readings.direction_half_width("pole")
-    refuse_unkept(
-        accuracy,
-        float(pole_error.max()),
-        "arcsec",
-        "what is known of the body allows no more that far from J2000.0: stay nearer to it",
-    )
     with_moon = solved.setting.strength.node_rate < math.inf
     names = ["sun", "moon", "total"] if with_moon else ["sun", "total"]
     rate = np.stack([nominal.values[name] for name in names], axis=-2)
@@ -420,16 +403,6 @@ def series(
         )
         .started_from(body)
     )
-
-
-class PoleAccuracy(Report, units="arcsec", error_of="in direction"):
-    """Estimated error of the pole, the accuracy that was requested, and the method used."""
-
-
-@part(unless=no_accuracy)
-def long_term_accuracy(series: xr.Dataset, accuracy: float | None) -> PoleAccuracy:
-    """Estimated error of the pole, the accuracy that was requested, and the method used."""
-    return PoleAccuracy.of_series(accuracy, series.pole_error)
 
 
 # --- sections ------------------------------------------------------------------------------------
@@ -517,13 +490,12 @@ def neglected() -> Neglected:
 
 define_parts(
     LongTerm,
-    answer=(series, long_term_accuracy),
+    answer=(series,),
     sections={"budget": budget, "matrices": matrices, "neglected": neglected},
     parts=(
         places, sky, stretch, wanted, *MEANS, orbit_table,
         numbers, strength, solved, readings,
     ),
-    without=("chosen_average",),
     together=(
         *("body", "perturbers", "tides", "ellipticity", "j2_rate"),
         *("obliquity_shift", "longitude_shift"),

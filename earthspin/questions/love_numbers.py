@@ -1,4 +1,4 @@
-"""Love numbers of any layered body."""
+"""Love numbers of any layered body, its compliances and its free modes."""
 
 from __future__ import annotations
 
@@ -7,19 +7,21 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import EARTH, Body
+from earthspin.bodies import EARTH, Body, in_a_sentence
+from earthspin.bodies.limits import refuse_break_up
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key
-from earthspin.engine.variables import Labels, Value, Variables, labels, number, words
+from earthspin.engine.variables import Labels, Value, Variables, labels, number
 from earthspin.interior.anelastic import anelastic_strain
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import Yielding, elastic, yielding
+from earthspin.interior.modes import free_modes, mode_period, numbers_of, parts_of
 from earthspin.interior.named import ANELASTIC_EXPONENT
-from earthspin.interior.published import LOVE_PUBLISHED
-from earthspin.parts.layered import FROM_LAYERS, LayeredInterior, layers, not_prem, require_layers
+from earthspin.mass.inertia import ellipticity_from_h
+from earthspin.parts.layered import FROM_LAYERS, LayeredInterior, layers, require_layers
 from earthspin.units import Number
 
 
@@ -33,7 +35,10 @@ class LoveNumbers(
     Dataset
         Along `love` (k2, h2, l2 of a tide, k2_load, h2_load, l2_load): `love_number`, and
         `love_number_imaginary`, negative where the body lags. `earthspin.run_tree` adds the
-        published ones of the Earth, and all of them by period.
+        sections `by_period`; `compliances`, in the notation of Mathews et al. (1991): kappa to nu,
+        e, e_f and e_s of hydrostatic equilibrium, the coupling numbers a1 to a3, and A_f/A and
+        A_s/A as `fluid` and `inner`, without those of regions that the body does not have; and
+        `modes`, the periods of its free modes.
 
     Raises
     ------
@@ -48,12 +53,17 @@ class LoveNumbers(
     >>> month = earthspin.love_numbers("mars-layers", period="5.55 h", anelastic_exponent=0.15)
     >>> print(month.love_number.sel(love="k2").round(3).values)
     0.18
+    >>> tree = earthspin.run_tree("love-numbers", ["compliances", "modes"])
+    >>> print(f"{tree['compliances'].number_value.sel(number='kappa'):.4e}")
+    1.0369e-03
+    >>> print(tree["modes"].compliance_mode_period.round(1).values)
+    [ 393.6 -455.6  475.5 2411. ]
     """
 
-    views, page = "love_numbers", "wobble"
+    views, page, headline = "love_numbers", "wobble", "love_number"
 
     interior: LayeredInterior | None = key(None, doc="layers; those of the body if not given")
-    body: Body = key(EARTH, doc="body with the layers")
+    body: Body = key(EARTH, doc="body with the layers, the spin and the dynamical flattening")
     period: Annotated[float, Number("s", "1 d", low=200.0, high=1e12)] | None = key(
         None,
         doc="period of the deformation; elastic at the seismic period of 1 s if not given",
@@ -103,24 +113,6 @@ def love(layers: LayeredBody, period: float | None, anelastic_exponent: float) -
     )
 
 
-class Published(Variables, along=("published_love",), no_error="the source gives none"):
-    """Published Love numbers of the Earth."""
-
-    published_love_number: Value = number("1", "published Love number")
-    published_love_source: Value = words("where it is published")
-    published_love: Labels = labels()
-
-
-@part(unless=not_prem)
-def published() -> Published:
-    """Published Love numbers of the Earth, each with its source."""
-    return Published(
-        published_love_number=[constant.value for constant in LOVE_PUBLISHED.values()],
-        published_love_source=[constant.source for constant in LOVE_PUBLISHED.values()],
-        published_love=list(LOVE_PUBLISHED),
-    )
-
-
 #: Periods from which the loss grows to thirty years, s.
 PERIODS = np.geomspace(200.0, 30 * JULIAN_YEAR, 25)
 
@@ -148,6 +140,66 @@ def by_period(layers: LayeredBody, anelastic_exponent: float) -> ByPeriod:
     )
 
 
+def not_turning(body: Body) -> str | None:
+    """Return the reason (text) to omit compliances if the body's rotation is unknown, else None."""
+    if body.labelled:
+        return "it is computed for one body at a time"
+    missing = [n for n in ("spin_period", "dynamical_flattening") if getattr(body, n) is None]
+    return f"{in_a_sentence(body.name)} has no {missing[0]}" if missing else None
+
+
+class Compliances(Variables, along=("number",), no_error=FROM_LAYERS):
+    """Compliances, ellipticities and coupling numbers of a body, as values with names."""
+
+    number_value: Value = number(
+        "1",
+        "number of the body, in units of its moments",
+        short="value",
+        comment="compliances are products of inertia over the moment of a region (whole: kappa, "
+        "xi, zeta; fluid core: gamma, beta, delta; inner core: theta, chi, nu), for a wobble of "
+        "size 1 of mantle, fluid core and inner core",
+    )
+    number: Labels = labels()
+
+
+@part(unless=not_turning)
+def compliances(layers: LayeredBody, body: Body) -> Compliances:
+    """Compute the compliances, ellipticities and coupling numbers of a layered body."""
+    refuse_break_up(body)
+    by_name = numbers_of(layers, abs(float(body.spin_rate)))
+    return Compliances(number_value=list(by_name.values()), number=list(by_name)).with_attributes(
+        number_value={"references": layers.reference}
+    )
+
+
+class Modes(Variables, along=("free_mode",), no_error=FROM_LAYERS):
+    """Periods of the free modes (wobbles and nutations) of a layered elastic body."""
+
+    compliance_mode_period: Value = number(
+        "d",
+        "period of a free mode of the elastic body: of a nutation in space, negative if "
+        "retrograde; else in the body",
+        short="period",
+    )
+    free_mode: Labels = labels()
+
+
+@part(unless=not_turning)
+def modes(layers: LayeredBody, body: Body) -> Modes:
+    """Compute the periods of the free modes (wobbles and nutations) of the body without ocean.
+
+    The dynamical flattening H is the observed one.
+    """
+    refuse_break_up(body)
+    e = float(ellipticity_from_h(body.number("dynamical_flattening")))
+    spin_rate = abs(float(body.spin_rate))
+    frequencies = free_modes(parts_of(layers, spin_rate, elastic(layers).answers, e))
+    return Modes(
+        compliance_mode_period=[mode_period(n, s, spin_rate) for n, s in frequencies.items()],
+        free_mode=list(frequencies),
+    )
+
+
 @part
 def neglected() -> Neglected:
     """Effects that the model, a non-rotating sphere, neglects."""
@@ -157,7 +209,12 @@ def neglected() -> Neglected:
 define_parts(
     LoveNumbers,
     answer=love,
-    sections={"published": published, "by_period": by_period, "neglected": neglected},
+    sections={
+        "by_period": by_period,
+        "compliances": compliances,
+        "modes": modes,
+        "neglected": neglected,
+    },
     parts=(layers,),
 )
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from earthspin.bodies import Body
 from earthspin.constants import DAYS_PER_CENTURY
-from earthspin.dates import Epochs, datetime64
+from earthspin.dates import Epochs
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
@@ -29,7 +29,6 @@ from earthspin.engine.variables import (
 from earthspin.interior.modes import mode_period
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.nutation import ladder
-from earthspin.parts.observed_sky import ObservedSizes, ObservedSky, observed_sky
 from earthspin.parts.path import (
     Comparison,
     PoleComparison,
@@ -41,7 +40,6 @@ from earthspin.parts.path import (
 )
 from earthspin.parts.predicted import SOURCES, Prediction, no_layers, predict
 from earthspin.parts.pulls import PULLS, Pulls
-from earthspin.parts.times import Dated
 from earthspin.progress import progress
 from earthspin.units import Number
 
@@ -67,8 +65,8 @@ class NutationLadder(
     Dataset
         Along `rung`: `rms_dpsi_sineps` and `rms_deps` (mas), what is left against IAU 2000A after
         a constant and a rate, and `adds`, what the rung adds. `earthspin.run_tree` adds the
-        sections: two models outside the ladder, the main circular terms, the free modes, the
-        transfer function, compliances, and the residuals in time.
+        sections: two models outside the ladder, the main circular terms, the free modes, and the
+        transfer function.
 
     Raises
     ------
@@ -83,7 +81,7 @@ class NutationLadder(
     [21.7 22.5  2.8  2.7  2.   1.9  0.4]
     """
 
-    views, page = "nutation", "nutation"
+    views, page, headline = "nutation", "nutation", "rms_dpsi_sineps"
 
     coupling: Literal["none", "inferred"] = setting(
         "none",
@@ -113,23 +111,18 @@ def models(body: Body, coupling: str, anelastic_exponent: float) -> Prediction:
 
 @dataclass(frozen=True)
 class RungResiduals:
-    """Predicted pole minus IAU 2000A for each model, with and without a linear trend removed.
+    """Predicted pole minus IAU 2000A for each model, with a linear trend removed.
 
     Attributes
     ----------
-    days : ndarray, shape (t,)
     series : dict of str to ndarray, shape (t, 2)
         dpsi sin(eps0) and deps, rad, by rung.
-    plain : dict of str to ndarray, shape (t, 2)
-        The same with nothing removed.
     error : float
         95 % half-width of either angle, from the integration and H; what the interior adds is what
         the ladder is about.
     """
 
-    days: NDArray[np.float64]
     series: dict[str, NDArray[np.float64]]
-    plain: dict[str, NDArray[np.float64]]
     error: float
 
     def rms(self, names: list[str]) -> NDArray[np.float64]:
@@ -161,14 +154,14 @@ def left(
         added = np.array([*responses(circles, iau.delaunay_arguments(at), factors).values()])
         return np.stack([added.real, added.imag], axis=-1).swapaxes(0, 1)
 
-    series, plain = {}, {}
+    series = {}
     with progress("residuals", len(factors)) as advance:
         for name, shift in zip(factors, iau.at_days(shifts, days).swapaxes(0, 1), strict=True):
             eta = own + shift[:, 0] + 1j * shift[:, 1] - theirs
-            plain[name] = np.stack([eta.real, eta.imag], axis=1)
-            series[name] = without_line(days / DAYS_PER_CENTURY, plain[name])
+            plain = np.stack([eta.real, eta.imag], axis=1)
+            series[name] = without_line(days / DAYS_PER_CENTURY, plain)
             advance(1)
-    return RungResiduals(days, series, plain, residual_error(done, body, theirs, days))
+    return RungResiduals(series, residual_error(done, body, theirs, days))
 
 
 _RMS = "root mean square of computed minus IAU 2000A in"
@@ -348,57 +341,6 @@ def transfer(models: Prediction) -> Transfer:
     return Transfer(transfer_real=response.real, transfer_imaginary=response.imag, rung=names)
 
 
-class Residuals(Dated, along=("time", "rung"), error="residual_error"):
-    """Time series of predicted pole minus IAU pole, for each model of the ladder."""
-
-    dpsi_sineps: Value = number("mas", f"predicted pole minus the IAU's in {_LONGITUDE}")
-    deps: Value = number("mas", f"predicted pole minus the IAU's in {_OBLIQUITY}")
-    residual_error: Value = number(
-        "mas", "95 % half-width of a residual, from H and integration", along=()
-    )
-    rung: Labels = labels()
-
-
-@part
-def residuals(left: RungResiduals, models: Prediction) -> Residuals:
-    """Return the time series of predicted pole minus IAU pole, for each model of the ladder."""
-    series = np.stack([left.series[name] for name in models.ladder], axis=1)
-    return Residuals(
-        time=datetime64(left.days),
-        dpsi_sineps=series[..., 0],
-        deps=series[..., 1],
-        residual_error=left.error,
-        rung=models.ladder,
-    )
-
-
-@part
-def observed(left: RungResiduals, models: Prediction, observed_sky: ObservedSky) -> ObservedSizes:
-    """Compute the root mean square of predicted minus observed pole, for each model."""
-    return observed_sky.sizes({name: left.plain[name] for name in models.ladder}, left.error)
-
-
-class Compliances(
-    Variables,
-    along=("compliance_name",),
-    no_error="they follow from the layers; the relative uncertainty of the interior is that of k2",
-):
-    """Compliances of the elastic Earth: its deformation by wobbles of mantle and cores."""
-
-    compliance: Value = number("1", "answer of a part to a wobble of size 1", short="value")
-    compliance_name: Labels = labels()
-
-
-@part
-def compliances(models: Prediction) -> Compliances:
-    """Compliances of the elastic Earth, in the notation of Mathews et al. (1991)."""
-    parts = models.rungs["inner-core"].parts(np.array(-1.0))
-    return Compliances(
-        compliance=[float(value) for value in parts.compliances.values()],
-        compliance_name=list(parts.compliances),
-    )
-
-
 @part
 def neglected() -> Neglected:
     """Effects on nutation that even the most detailed model neglects."""
@@ -413,12 +355,9 @@ define_parts(
         "terms": terms,
         "modes": modes,
         "transfer": transfer,
-        "compliances": compliances,
-        "residuals": residuals,
-        "observed": observed,
         "neglected": neglected,
     },
-    parts=(*PULLS, pole_analysis, models, left, observed_sky),
+    parts=(*PULLS, pole_analysis, models, left),
 )
 
 nutation_ladder = public_call(NutationLadder)

@@ -52,7 +52,7 @@ if TYPE_CHECKING:
 ComplexArray = NDArray[np.complex128]
 
 #: How the free wobble is found.
-Method = Literal["burg", "likelihood", "least-squares"]
+Method = Literal["burg", "likelihood"]
 #: Days that are closer than this are the same, d.
 SAME_DAY = 1e-6
 #: Cycles per day up to which a spectrum is given: three in a year.
@@ -84,7 +84,7 @@ class PolarMotion(Question, word="polar-motion", call="polar_motion", table="pol
     IERS c04
     """
 
-    views, page = "polar_motion", "wobble"
+    views, page, headline = "polar_motion", "wobble", "x"
 
     body: Body = key(EARTH, doc="body whose pole was observed")
     span: Span | None = key(None, doc="first and last date; the whole table if not given")
@@ -94,9 +94,7 @@ class PolarMotion(Question, word="polar-motion", call="polar_motion", table="pol
     kind: Literal["c04", "c01", "finals2000A"] | None = setting(
         None, doc="layout of the table; recognised from the file if not given"
     )
-    method: Method = setting(
-        "burg", doc="how the free wobble is fitted; least squares give no quality factor"
-    )
+    method: Method = setting("burg", doc="method that fits the free wobble")
     window: Days | None = setting(
         None, doc="length of the sliding windows; one beat of annual and free wobble if not given"
     )
@@ -155,23 +153,17 @@ class FreeWobble(
         "mas", "amplitude of the annual wobble, retrograde", error="chandler_amplitude_error"
     )
     mean_pole: Value = number("mas", "mean position of the pole", along=("middle", "axis"))
-    chandler_quality_factor: Value | None = number(
+    chandler_quality_factor: Value = number(
         "1",
         "quality factor of the free wobble",
         along=(),
         error="chandler_quality_factor_low chandler_quality_factor_high",
-        default=None,
     )
-    chandler_quality_factor_low: Value | None = number(
-        "1", "lower end of its 95 % interval", along=(), no_error=_END, default=None
+    chandler_quality_factor_low: Value = number(
+        "1", "lower end of its 95 % interval", along=(), no_error=_END
     )
-    chandler_quality_factor_high: Value | None = number(
-        "1",
-        "upper end of its 95 % interval",
-        along=(),
-        no_error=_END,
-        default=None,
-        comment="infinite if open",
+    chandler_quality_factor_high: Value = number(
+        "1", "upper end of its 95 % interval", along=(), no_error=_END, comment="infinite if open"
     )
     middle: Labels = labels("middle of a window")
     axis: Labels = labels(default=["x", "y"])
@@ -193,11 +185,7 @@ def _free_wobble(
     from earthspin.wobble.resonance import coordinates_of
 
     wobbles = envelope(time, p, fit.period, window)
-    period, quality, low, high = {"method": fit.method}, None, None, None
-    if fit.gives_quality:
-        quality, (low, high) = fit.quality_factor, fit.quality_bounds
-    else:
-        period["quality_factor"] = "refused: a sinusoid cannot give it"
+    low, high = fit.quality_bounds
     return FreeWobble(
         chandler_period=(fit.period * DAY, fit.period_error * DAY),
         chandler_amplitude=(abs(wobbles.chandler) * MAS, wobbles.error * MAS),
@@ -205,11 +193,11 @@ def _free_wobble(
         annual_amplitude=abs(wobbles.annual) * MAS,
         annual_retrograde_amplitude=abs(wobbles.annual_retrograde) * MAS,
         mean_pole=np.column_stack(coordinates_of(wobbles.drift)) * MAS,
-        chandler_quality_factor=quality,
+        chandler_quality_factor=fit.quality_factor,
         chandler_quality_factor_low=low,
         chandler_quality_factor_high=high,
         middle=datetime64(wobbles.time),
-    ).with_attributes(chandler_period=period)
+    ).with_attributes(chandler_period={"method": fit.method})
 
 
 class Spectrum(
@@ -275,8 +263,7 @@ def fit_chandler(
     ds : Dataset
         `x` and `y` over `time`, evenly spaced, with units ("arcsec" or "mas").
     method : str, optional
-        ``"burg"`` (the default), ``"likelihood"``, or ``"least-squares"``, which gives no quality
-        factor.
+        ``"burg"`` (the default) or ``"likelihood"``.
     window : duration, optional
         Length of the sliding windows (a number is in days); one beat of annual and free wobble by
         default.

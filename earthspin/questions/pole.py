@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from earthspin.bodies import Body, in_a_sentence, proper
-from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY
 from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.asking import public_call
@@ -18,22 +17,18 @@ from earthspin.engine.variables import Labels, Value, labels, number
 from earthspin.motion.axes import AXES, AxisPath
 from earthspin.motion.effects import EFFECTS, NONRIGID, SOURCE
 from earthspin.nutation.angles import on_fixed_ecliptic
-from earthspin.parts.choices import chosen_windows
 from earthspin.parts.path import (
     INTERIOR,
-    LargestError,
     LongitudeCycles,
     PathErrors,
     Shift,
     axis_path,
-    largest_error,
     longitude_cycles,
 )
 from earthspin.parts.predicted import SOURCES, no_layers
 from earthspin.parts.pulls import PULLS, AxisMotion, Pulls, start_error, start_note
-from earthspin.parts.reasons import no_accuracy, no_iau_model
-from earthspin.parts.times import DIRECTION_DOC, SPAN_DOC, Dated, by_region, days_of
-from earthspin.units import AngleError
+from earthspin.parts.reasons import no_iau_model
+from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -70,7 +65,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
     13 ['angular_momentum' 'rotation' 'figure']
     """
 
-    views, page = "pole", "pole"
+    views, page, headline = "pole", "pole", "direction_error"
 
     span: Span = key(("1980-01-01T12:00:00", "2020-01-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("5 d", doc="interval between dates")
@@ -81,7 +76,6 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
             "IAU 2000A, or predicted from the layers of the body"
         ),
     )
-    accuracy: AngleError | None = key(None, doc=DIRECTION_DOC)
 
     def check(self) -> None:
         """Refuse the non-rigid effect for a body whose interior response is not known."""
@@ -168,14 +162,10 @@ def axes(
     epochs: Epochs,
     pulls: Pulls,
     body: Body,
-    accuracy: float | None,
-    largest_error: LargestError | None = None,
     interior_shift: Shift | None = None,
     block: Block | None = None,
 ) -> Directions:
     """Compute unit vectors of the angular momentum, rotation and figure axes at every time."""
-    if largest_error is not None:
-        refuse_unkept(accuracy, largest_error.error, "mas", largest_error.remedy)
     now = days_of(epochs, block, by_region("pole.zarr"))
     directions = axis_path.at(now * DAY)
     path_errors = PathErrors(axis_path, epochs, body, pulls, interior_shift)
@@ -271,24 +261,6 @@ def pole_angles(
     return Angles(time=axes.time, axis=axes.axis, psi=psi, eps=angles[..., 1])
 
 
-class DirectionAccuracy(Report, units="arcsec", error_of="in direction"):
-    """Estimated error of the pole, the accuracy that was requested, and the method used."""
-
-
-@part(unless=no_accuracy)
-def pole_accuracy(
-    axes: xr.Dataset, largest_error: LargestError, accuracy: float | None
-) -> DirectionAccuracy:
-    """Estimated error of the pole, the accuracy that was requested, and the method used."""
-    by = axes.direction_error.attrs
-    return DirectionAccuracy(
-        error_asked=accuracy,
-        error_estimated=largest_error.error,
-        method_chosen=by["method"],
-        evaluations=by["evaluations"],
-    )
-
-
 @part
 def neglected(body: Body, effects: tuple[str, ...], epochs: Epochs) -> Neglected:
     """Sizes of the effects that are switched off, at the date farthest from J2000.0."""
@@ -309,12 +281,9 @@ def neglected(body: Body, effects: tuple[str, ...], epochs: Epochs) -> Neglected
 
 define_parts(
     Pole,
-    answer=(axes, response_error, pole_angles, pole_accuracy),
+    answer=(axes, response_error, pole_angles),
     sections={"neglected": neglected},
-    parts=(
-        *PULLS, chosen_windows, axis_path, largest_error, turns,
-        *INTERIOR, as_fitted, as_predicted, interior_shift,
-    ),
-)  # fmt: skip
+    parts=(*PULLS, axis_path, turns, *INTERIOR, as_fitted, as_predicted, interior_shift),
+)
 
 pole = public_call(Pole)

@@ -53,7 +53,7 @@ class PoleOffsets(Question, word="pole-offsets", call="pole_offsets", table="pol
     mas 7306
     """
 
-    views, page = "pole_offsets", "pole_offsets"
+    views, page, headline = "pole_offsets", "pole_offsets", "dX"
 
     body: Body = key(EARTH, doc="body whose pole was observed")
     span: Span | None = key(None, doc="first and last date; the whole table if not given")

@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from earthspin.bodies import Body, all_of, in_a_sentence
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
-from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.dates import Span, datetime64
 from earthspin.engine.asking import public_call
@@ -24,13 +23,11 @@ from earthspin.engine.variables import (
     number,
     words,
 )
-from earthspin.errors import UndefinedError
 from earthspin.mass import inertia
 from earthspin.nutation import seasons as calendar
 from earthspin.nutation.budget import closure, published_effects
 from earthspin.parts import reasons
-from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples, total_of
-from earthspin.parts.choices import chosen_average
+from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples
 from earthspin.parts.elements import no_exact_means
 from earthspin.parts.observed_wobble import observed_wobble
 from earthspin.parts.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
@@ -38,7 +35,6 @@ from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
 from earthspin.sky.sources import SourceName
 from earthspin.torque import rates
 from earthspin.torque.average import convergence_curve
-from earthspin.units import Relative
 
 #: Points of a curve of convergence.
 CURVE_POINTS = 81
@@ -70,31 +66,19 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     [81259. 37614. 25712.]
     """
 
-    views, page = "precession", "theory"
+    views, page, headline = "precession", "theory", "precession_rate"
 
     source: SourceName = key("skyfield", doc=SOURCE_DOC)
     span: Span | None = key(
         None, doc="first and last date of the average; all that the kernel covers if not given"
     )
-    accuracy: Relative | None = key(
-        None,
-        doc=(
-            "largest allowed relative error of the total rate; the cheapest settings that "
-            "reach it are chosen"
-        ),
-    )
 
     many_pulls = True
 
     def check(self) -> None:
-        """Refuse an array of masses for one perturber if the method can use only one mass.
-
-        That is, if an accuracy is requested, or if all orbits are given by elements.
-        """
+        """Refuse an array of masses for one perturber if all orbits are given by elements."""
         super().check()
         many = reasons.many_pulls(self.perturbers)
-        if many and self.accuracy is not None:
-            raise self.error("accuracy", self.accuracy, f"{many}; ask for one at a time")
         if many and no_exact_means(self.body, self.perturbers) is None:
             raise self.error("perturbers", "orbits by their elements", f"{many}; give one mass")
 
@@ -167,34 +151,6 @@ def _plane(body: Body) -> str:
     if body.needed("pole").of_the_iau:
         return "ecliptic of J2000.0"
     return f"orbit whose normal has {body.orbit_pole} (ICRF)"
-
-
-class RateAccuracy(Report, units="1", error_of="relative, of the rate by all perturbers"):
-    """Estimated error of the precession rate, the accuracy that was requested, and the method."""
-
-
-@part(unless=reasons.no_accuracy)
-def rate_accuracy(mean_rates: MeanRates, accuracy: float | None) -> RateAccuracy:
-    """Estimated error of the precession rate, the accuracy that was requested, and the method."""
-    rate = mean_rates.rate
-    size = abs(total_of(rate.value))
-    if not all_of(size != 0):
-        raise UndefinedError("the rate is zero and has no relative error; leave accuracy out")
-    method, by_input, best = (
-        float((total_of(share) / size).max()) for share in (rate.method, rate.given, rate.error)
-    )
-    remedy = (
-        f"the given numbers are known to {by_input:.2g}: give the body a better known H"
-        if by_input > method
-        else f"the average is known to {method:.2g}: give a longer span"
-    )
-    refuse_unkept(accuracy, best, "1", remedy)
-    return RateAccuracy(
-        error_asked=accuracy,
-        error_estimated=best,
-        method_chosen=mean_rates.means.method,
-        evaluations=mean_rates.means.evaluations,
-    )
 
 
 # --- sections ------------------------------------------------------------------------------------
@@ -449,7 +405,7 @@ def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -
 
 define_parts(
     Precession,
-    answer=(precession_rates, rate_accuracy),
+    answer=(precession_rates,),
     sections={
         "convergence": convergence,
         "figure_models": figure_models,
@@ -459,7 +415,7 @@ define_parts(
         "standstills": standstills,
         "neglected": neglected,
     },
-    parts=(places, sky, stretch, chosen_average, *MEANS),
+    parts=(places, sky, stretch, *MEANS),
     together=("body", "perturbers"),
     widest=16384,
 )

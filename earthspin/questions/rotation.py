@@ -11,7 +11,6 @@ from earthspin.bodies import Body
 from earthspin.bodies.beyond_rigid import BEYOND_RIGID
 from earthspin.bodies.limits import refuse_break_up
 from earthspin.bodies.planets import pulled_by
-from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
 from earthspin.engine.asking import public_call
@@ -26,13 +25,13 @@ from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY, 
 from earthspin.motion.forces import Forces
 from earthspin.motion.march import FINEST, Masses
 from earthspin.motion.solution import (
+    COARSEST,
     KINDS,
     Motion,
     RotationSeries,
     State,
     shares_of,
     start_of,
-    tolerance_for,
 )
 from earthspin.parts.custom_torque import CustomTorque
 from earthspin.parts.elements import all_by_elements
@@ -45,15 +44,13 @@ from earthspin.parts.pulls import (
     start_note,
     switched_on,
 )
-from earthspin.parts.reasons import no_accuracy, no_iau_model
+from earthspin.parts.reasons import no_iau_model
 from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
 from earthspin.progress import progress
 from earthspin.sky.elements import ByElements, Elements
-from earthspin.units import AngleError, FloatArray, Numbers
+from earthspin.units import FloatArray, Number, Numbers
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from earthspin.motion.divergence import Divergence
 
 #: Largest difference from 1 of the length of a unit quaternion.
@@ -92,7 +89,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
     [7.2722e-06 7.2722e-06 7.2722e-06]
     """
 
-    views, page = "rotation", "rotation"
+    views, page, headline = "rotation", "rotation", "attitude"
 
     span: Span = key(("2000-01-01T12:00:00", "2000-02-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("6 h", doc="interval between dates")
@@ -106,11 +103,8 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
     torque: CustomTorque | None = key(
         None, doc="custom torque: a Python function, along the principal axes, in N m"
     )
-    accuracy: AngleError | None = key(
-        None,
-        doc=(
-            "largest allowed error of the attitude; the cheapest settings that reach it are chosen"
-        ),
+    tolerance: Annotated[float, Number("", "1e-10", low=FINEST, high=COARSEST, text=False)] = key(
+        FINEST, doc="relative tolerance of the integrator in each of its time windows"
     )
 
     needs = ("radius", "j2", "dynamical_flattening")
@@ -246,10 +240,6 @@ class Rotor:
         """Time from the start to the end, s."""
         return float(self.since(self.end))
 
-    def motion(self, tolerance: float) -> Motion:
-        """Prepare the integration of the rotation for a given error tolerance per time window."""
-        return Motion(self.body, self.masses, self.start, self.duration, tolerance=tolerance)
-
     def turns(self, seconds: float) -> float:
         """Number of rotations of the body in a given time (s), at its initial spin rate."""
         return float(np.linalg.norm(self.start.spin[:, 0])) * seconds / (2 * np.pi)
@@ -331,9 +321,9 @@ def rotor(
 
 
 @part
-def motion(rotor: Rotor, accuracy: float | None) -> Motion:
-    """Prepare the integration of the rotation, with the tolerance for the requested accuracy."""
-    return rotor.motion(tolerance_for(accuracy))
+def motion(rotor: Rotor, tolerance: float) -> Motion:
+    """Prepare the integration of the rotation with the requested tolerance."""
+    return Motion(rotor.body, rotor.masses, rotor.start, rotor.duration, tolerance=tolerance)
 
 
 #: Shares of the errors.
@@ -408,7 +398,6 @@ def turning(
     epochs: Epochs,
     body: Body,
     start_attitude: FloatArray | None,
-    accuracy: float | None,
     neglected: Neglected,
     block: Block | None = None,
 ) -> Attitudes:
@@ -419,9 +408,6 @@ def turning(
     begin = 0.0 if block is None or block.first == 0 else float(seconds[0])
     rotor.refuse_many_turns(begin, float(seconds[-1]))
     series = _followed(motion, rotor, seconds, begin)
-    if accuracy is not None and float(series.error[0, 0].max()) > accuracy:
-        motion = rotor.motion(FINEST)
-        series = _followed(motion, rotor, seconds, begin)
     back = np.argsort(order, kind="stable")
     size = rotor.polar_moment * abs(rotor.body.unit)
     shares = shares_of(series, rotor.changed, rotor.pulling.doubt)
@@ -430,8 +416,6 @@ def turning(
         for kind, (name, factor) in enumerate(zip(KINDS, (1.0, 1.0, size), strict=True))
         for share, error in shares.items()
     }
-    worst = float(np.max(shares[""][0])) if not rotor.pulling.no_error else float("nan")
-    refuse_unkept(accuracy, worst, "mas", "the motion is known no better that long; ask for less")
     comment = {"comment": f"error of the rigid model; not included: {neglected.largest}"}
     return Attitudes(
         time=datetime64(now),
@@ -450,16 +434,6 @@ def turning(
         omega_error=comment,
         angular_momentum_error=comment,
     )
-
-
-class AttitudeAccuracy(Report, units="mas", error_of="of the attitude"):
-    """Estimated error of the attitude, the accuracy that was requested, and the method used."""
-
-
-@part(unless=no_accuracy)
-def rotation_accuracy(turning: xr.Dataset, accuracy: float | None) -> AttitudeAccuracy:
-    """Estimated error of the attitude, the accuracy that was requested, and the method used."""
-    return AttitudeAccuracy.of_series(accuracy, turning.attitude_error)
 
 
 class Growth(Dated):
@@ -579,7 +553,7 @@ def _switched_off(body: Body, perturbers: tuple[Body, ...], effects: tuple[str, 
 
 define_parts(
     Rotation,
-    answer=(turning, rotation_accuracy),
+    answer=(turning,),
     sections={"divergence": divergence, "neglected": neglected},
     parts=(*PULLS, pulling, rotor, motion, parting),
 )

@@ -7,18 +7,16 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from earthspin.bodies import EARTH, Body, all_of, proper
-from earthspin.choosing.promises import Report
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key, setting
 from earthspin.engine.variables import Labels, Value, Variables, labels, number
-from earthspin.parts.reasons import no_accuracy
 from earthspin.parts.side_by_side import SideBySide
-from earthspin.units import FloatArray, Number, Numbers, Relative
+from earthspin.units import FloatArray, Number, Numbers
 
 if TYPE_CHECKING:
-    import xarray as xr
+    pass
 
 
 class Spheroid(
@@ -47,7 +45,7 @@ class Spheroid(
     [-8.148] m/s2
     """
 
-    views, page = "spheroid", "rotors"
+    views, page, headline = "spheroid", "rotors", "potential"
 
     body: Body = key(EARTH, doc="body whose mass and figure the spheroid has")
     position: Annotated[FloatArray, Numbers("m", "7000 km", (None, 3))] = setting(
@@ -56,7 +54,6 @@ class Spheroid(
     point_mass: Annotated[float, Number("kg", "1 kg", low=0.0, high=1e60)] = setting(
         "1 kg", doc="mass at each point; its torque on the body is computed"
     )
-    accuracy: Relative | None = key(None, doc="largest allowed relative error")
 
     def check(self) -> None:
         """Refuse a body without mass, radius or flattening."""
@@ -106,17 +103,6 @@ def field(body: Body, position: FloatArray, point_mass: float) -> Field:
     )
 
 
-class FieldAccuracy(Report, units="1", error_of="relative, of potential, attraction and torque"):
-    """Estimated error of the gravity field, the accuracy that was requested, and the method."""
-
-
-@part(unless=no_accuracy)
-def field_accuracy(field: xr.Dataset, accuracy: float | None) -> FieldAccuracy:
-    """Estimated error of the gravity field, the accuracy that was requested, and the method."""
-    points, worst = field.sizes["point"], float(field.relative_error.max())
-    return FieldAccuracy.closed_form(accuracy, worst, "exact closed form", points)
-
-
 @part
 def neglected(body: Body, position: FloatArray) -> Neglected:
     """Effect of the assumption of uniform density; real bodies have a smaller J2."""
@@ -142,7 +128,7 @@ def neglected(body: Body, position: FloatArray) -> Neglected:
 
 define_parts(
     Spheroid,
-    answer=(field, field_accuracy),
+    answer=(field,),
     sections={"neglected": neglected},
     together=("body", "point_mass"),
     widest=16_384,

@@ -6,17 +6,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
-from earthspin.choosing.promises import Report
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, key, setting
+from earthspin.engine.question import Question, define_parts, setting
 from earthspin.engine.variables import Labels, Value, Variables, labels, number, words
-from earthspin.parts.reasons import no_accuracy
 from earthspin.parts.side_by_side import SideBySide
 from earthspin.parts.times import FromStart, Seconds, instants
 from earthspin.top.start import HeavyTop
-from earthspin.units import Duration, FloatArray, Number, Relative, Whole
+from earthspin.units import Duration, FloatArray, Number, Whole
 
 if TYPE_CHECKING:
     from earthspin.top.motion import HeavyTopMotion
@@ -65,7 +63,7 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     cusp
     """
 
-    views, page = "top", "rotors"
+    views, page, headline = "top", "rotors", "theta"
 
     exclusive = (("times",), ("duration", "points"))
 
@@ -85,7 +83,6 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     theta_rate: Rate = setting("0 rad/s", doc="rate of theta at t = 0")
     phi: Angle = setting("0 deg", doc="azimuth of the axis about the vertical at t = 0")
     psi: Angle = setting("0 deg", doc="rotation angle of the body about its axis at t = 0")
-    accuracy: Relative | None = key(None, doc="largest allowed relative error")
 
     def check(self) -> None:
         """Refuse a top whose moments or initial motion are impossible."""
@@ -132,7 +129,7 @@ def motion(heavy_top_start: HeavyTop, instants: FloatArray) -> HeavyTopMotion:
     return heavy_top_motion(heavy_top_start, instants)
 
 
-#: Instants at which the error is computed where no accuracy is asked for.
+#: Instants at which the error is computed.
 ERROR_POINTS = 64
 
 
@@ -231,21 +228,6 @@ def potential(heavy_top_start: HeavyTop) -> Potential:
     )
 
 
-class TopAccuracy(Report, units="1", error_of="relative, of angles, angular velocity and attitude"):
-    """Estimated error of the top's motion, the accuracy that was requested, and the method."""
-
-
-@part(unless=no_accuracy)
-def top_accuracy(
-    heavy_top_start: HeavyTop, instants: FloatArray, accuracy: float | None
-) -> TopAccuracy:
-    """Estimated error of the top's motion, the accuracy that was requested, and the method."""
-    from earthspin.top.rounding import error_bound
-
-    bound = float(error_bound(heavy_top_start, instants))
-    return TopAccuracy.closed_form(accuracy, bound, "elliptic functions", instants.size)
-
-
 @part
 def neglected() -> Neglected:
     """Report that no effect is neglected, as the question is about a rigid top without friction."""
@@ -254,7 +236,7 @@ def neglected() -> Neglected:
 
 define_parts(
     Top,
-    answer=(euler_angles, top_accuracy),
+    answer=(euler_angles,),
     sections={"turning": turning, "potential": potential, "neglected": neglected},
     parts=(instants, numbers, heavy_top_start, motion),
     together=_OF_THE_TOP,

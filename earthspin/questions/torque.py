@@ -9,9 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body, Numeric, in_a_sentence
-from earthspin.choosing.choice import Choice
-from earthspin.choosing.nutation import NutationNodes
-from earthspin.choosing.promises import Report, refuse_unkept
 from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
@@ -19,13 +16,12 @@ from earthspin.engine.part import Block, part
 from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Pair, Value, labels, measured, number
 from earthspin.mass.inertia import moment_difference
-from earthspin.parts.choices import chosen_nutation, on_mean_equator, source_has_equator
-from earthspin.parts.reasons import no_accuracy, no_iau_model
+from earthspin.parts.reasons import no_iau_model
 from earthspin.parts.sky import Sky, places, sky
-from earthspin.parts.times import DIRECTION_DOC, SPAN_DOC, Dated, Series, by_region, days_of, epochs
+from earthspin.parts.times import SPAN_DOC, Dated, Series, by_region, days_of, epochs
+from earthspin.sky.sources import OF_DATE, SourceName
 from earthspin.torque.gravity import torque_error, torque_from_declination
 from earthspin.torque.neglected import largest_torque_on_figure
-from earthspin.units import AngleError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -56,14 +52,13 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
     23.439
     """
 
-    views, page = "torque", "theory"
+    views, page, headline = "torque", "theory", "torque_magnitude"
 
     span: Span = key(("2000-01-01T12:00:00", "2001-01-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("6 h", doc="interval between dates")
     equator: Literal["mean", "true"] = key(
         "mean", doc="equator and equinox of date that directions refer to"
     )
-    accuracy: AngleError | None = key(None, doc=DIRECTION_DOC)
 
     needs = ("radius", "j2", "pole")
 
@@ -75,20 +70,26 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
             raise self.error("equator", "true", why)
 
 
+def on_mean_equator(equator: str) -> str | None:
+    """Return the reason (text) to omit nutation if the mean equator is requested, else None."""
+    return "the equator is the mean one" if equator == "mean" else None
+
+
+def source_has_equator(source: SourceName) -> str | None:
+    """Return the reason (text) to omit nutation if the source has its own equator, else None.
+
+    This is a source of positions that has the equator of date.
+    """
+    return f"{source} has the equator of date" if source in OF_DATE else None
+
+
 @part(unless=(on_mean_equator, source_has_equator))
-def nutation(
-    epochs: Epochs, chosen_nutation: Choice[NutationNodes | None] | None = None
-) -> Nutation | None:
-    """Interpolated IAU nutation for the true equator; None if the mean equator is sufficient."""
+def nutation(epochs: Epochs) -> Nutation:
+    """Interpolated IAU nutation for the true equator."""
     from earthspin.sky.iau import Nutation
 
     start, end = epochs.span()
-    if chosen_nutation is None:
-        return Nutation(start, end, epochs.size)
-    nodes = chosen_nutation.settings
-    if nodes is None:
-        return None
-    return Nutation(start, end, epochs.size, model=nodes.model, spacing=nodes.spacing)
+    return Nutation(start, end, epochs.size)
 
 
 class Torques(Dated, along=("time", "perturber")):
@@ -121,9 +122,7 @@ def torques(
     body: Body,
     perturbers: tuple[Body, ...],
     equator: str,
-    accuracy: float | None,
     nutation: Nutation | None = None,
-    chosen_nutation: Choice[NutationNodes | None] | None = None,
     block: Block | None = None,
 ) -> Torques:
     """Compute declination, distance and torque of each perturber at every time."""
@@ -132,11 +131,7 @@ def torques(
     now = days_of(epochs, block, by_region("series.zarr"), (body, *perturbers))
     names = list(sky.targets)
     seen = sky.radec(body, now, true=equator == "true", nutation=nutation)
-    turned = 0.0 if chosen_nutation is None else chosen_nutation.error
-    bounds = {name: sky.error(sky.targets[name], epochs.span()) for name in names}
-    kernel_error = {name: (turned + angle, far) for name, (angle, far) in bounds.items()}
-    worst = max(angle for angle, _ in kernel_error.values())
-    refuse_unkept(accuracy, worst, "mas", "that is what the kernel is known to; ask for less")
+    kernel_error = {name: sky.error(sky.targets[name], epochs.span()) for name in names}
 
     def stack(
         values: list[NDArray[np.float64]], *dims: str, times: Numeric | None = None
@@ -177,31 +172,17 @@ def torques(
         no_error=sky.no_error,
         torque={"frame": f"{equator} equator and equinox of date"},
         direction_error={
-            "method": _equator_words(equator, nutation, chosen_nutation),
+            "method": _equator_words(equator, nutation),
             "evaluations": epochs.size * len(names) + getattr(nutation, "evaluations", 0),
         },
     )
 
 
-def _equator_words(
-    equator: str, nutation: Nutation | None, chosen: Choice[NutationNodes | None] | None
-) -> str:
+def _equator_words(equator: str, nutation: Nutation | None) -> str:
     """Describe the model of the equator in words, for the attributes of the result."""
     if nutation is not None:
         return f"IAU {nutation.model} nutation, a node each {nutation.spacing:g} d"
-    if chosen is not None:
-        return chosen.words
     return "mean equator" if equator == "mean" else "IAU 2000A nutation at each time"
-
-
-class DirectionAccuracy(Report, units="arcsec", error_of="in direction"):
-    """Estimated error of the directions, the accuracy that was requested, and the method used."""
-
-
-@part(unless=no_accuracy)
-def series_accuracy(torques: xr.Dataset, accuracy: float | None) -> DirectionAccuracy:
-    """Estimated error of the directions, the accuracy that was requested, and the method used."""
-    return DirectionAccuracy.of_series(accuracy, torques.direction_error)
 
 
 @part
@@ -223,9 +204,9 @@ def neglected(torques: xr.Dataset, body: Body, perturbers: tuple[Body, ...]) -> 
 
 define_parts(
     Torque,
-    answer=(torques, series_accuracy),
+    answer=(torques,),
     sections={"neglected": neglected},
-    parts=(places, sky, epochs, chosen_nutation, nutation),
+    parts=(places, sky, epochs, nutation),
     together=("body",),
     widest=256,
 )

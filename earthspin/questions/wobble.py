@@ -19,21 +19,14 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key, setting
 from earthspin.engine.variables import (
-    Labels,
     Pair,
     Value,
     Variables,
-    labels,
     measured,
     number,
     words,
 )
-from earthspin.interior.equilibrium import equilibrium
-from earthspin.interior.love import elastic
-from earthspin.interior.modes import chandler_by_core
 from earthspin.interior.named import ANELASTIC_EXPONENT, Interior
-from earthspin.interior.ocean import global_ocean
-from earthspin.mass.inertia import ellipticity_from_h
 from earthspin.parts import layered
 from earthspin.parts.observed_wobble import observed_wobble
 from earthspin.rotor.axisymmetric import free_wobble_error
@@ -81,7 +74,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
     [297.4 303.6 303.6 444.4 393.9 423.7 431.6]
     """
 
-    views, page = "wobble", "wobble"
+    views, page, headline = "wobble", "wobble", "period_solar"
 
     body: Body = key(EARTH, doc="body that wobbles")
     ocean: Literal["real", "global", "none"] = setting("real", doc="kind of ocean on the body")
@@ -325,38 +318,6 @@ def _along(values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
 # --- sections --------------------------------------------------------------------------------
 
 
-class InteriorNumbers(
-    Variables, no_error="the section sensitivity gives the effect of its uncertainty on the period"
-):
-    """Love numbers and moments of inertia of the layered interior."""
-
-    love_number: Value = number("1", "Love number of degree two, elastic, at 1 s", along=("love",))
-    moment_factor: Value = number("1", "moment of inertia of the model, divided by M R2")
-    core_fraction: Value = number(
-        "1", "ratio of the moment of inertia of the core to that of the body"
-    )
-    fluid_love_number: Value = number("1", "k2 if the body were liquid throughout")
-    global_ocean_love_number: Value = number(
-        "1", "increase of k2 by an ocean that covers the whole body, in closed form"
-    )
-    love: Labels = labels(default=["k2", "h2", "l2", "k2_load", "h2_load"])
-
-
-@part(unless=layered.not_layered)
-def interior_response(body: Body) -> InteriorNumbers:
-    """Compute Love numbers and moments of inertia of the layered interior, by integration."""
-    layers = layered.layers_of(body)
-    love = elastic(layers)
-    numbers = (love.k, love.h, love.l, love.k_load, love.h_load)
-    return InteriorNumbers(
-        love_number=np.array([float(value) for value in numbers]),
-        moment_factor=layers.moment_factor,
-        core_fraction=layers.core_fraction,
-        fluid_love_number=equilibrium(layers).k,
-        global_ocean_love_number=global_ocean(layers),
-    ).with_attributes(love_number={"references": layers.reference})
-
-
 class Sensitivity(Variables, along=("input",), no_error="a share of an error, or an input of it"):
     """Derivative of the wobble period with respect to each input, and error of that input.
 
@@ -420,39 +381,6 @@ def core_nutation(inside: Inside, body: Body) -> CoreNutation:
     ).with_attributes(free_core_nutation=attributes)
 
 
-def no_inner_core(body: Body) -> str | None:
-    """Return the reason (text) to omit the inner core model if it cannot be used, else None."""
-    if layered.not_layered(body):
-        return layered.not_layered(body)
-    if body.labelled:
-        return "it is computed for one body at a time"
-    return None if layered.layers_of(body).inner_core_radius else "it has no inner core"
-
-
-class InnerCore(
-    Variables,
-    along=("core_model",),
-    no_error="the section interior has the numbers that it follows from, which have none",
-):
-    """Period of the free wobble, for different models of the inner core."""
-
-    chandler_by_core: Value = number(
-        "d", "period of the free wobble of the elastic body without an ocean, by the inner core"
-    )
-    core_model: Labels = labels()
-
-
-@part(unless=(why_rigid, no_inner_core))
-def inner_core(body: Body) -> InnerCore:
-    """Compute the free wobble period for different models of the inner core."""
-    e = float(ellipticity_from_h(body.number("dynamical_flattening")))
-    turns = chandler_by_core(layered.layers_of(body), e, abs(float(body.spin_rate)))
-    day = abs(body.number("spin_period"))
-    return InnerCore(
-        chandler_by_core=[day * turn for turn in turns.values()], core_model=list(turns)
-    )
-
-
 @part
 def neglected(body: Body, inside: Inside | None = None) -> Neglected:
     """Effects on the free wobble that the last, most detailed model neglects."""
@@ -476,8 +404,6 @@ define_parts(
         "observed": observed_wobble,
         "sensitivity": sensitivity,
         "core_nutation": core_nutation,
-        "inner_core": inner_core,
-        "interior": interior_response,
         "neglected": neglected,
     },
     parts=(inside,),

@@ -161,7 +161,6 @@ def window_mean_and_error(
     times: FloatArray,
     values: FloatArray,
     slow_swing: FloatArray,
-    measured_error: FloatArray | None = None,
     strength: FloatArray | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Weighted mean of each torque and of their sum, with the error as a long-term mean.
@@ -175,9 +174,6 @@ def window_mean_and_error(
     slow_swing : ndarray, shape (perturber,)
         Relative variation of each torque on time scales longer than any window, which no comparison
         of windows can detect.
-    measured_error : ndarray, shape (perturber,), optional
-        Measured errors of the means for this window and time step; if given, no other windows are
-        computed.
     strength : ndarray, shape (perturber, m), optional
         Factors of the torques in m cases that are otherwise equal. The means are linear in them, so
         each window is computed only once.
@@ -194,12 +190,9 @@ def window_mean_and_error(
     all_values = with_total(values)
     mean = window.mean(times, all_values)
     along = (-1, *(1,) * (values.ndim - 2))
-    if measured_error is None:
-        others = [w.mean(times, all_values) for w in neighbours(window)]
-        others.append(window.mean(times[::2], all_values[::2]))
-        spread = np.max(np.abs(np.stack(others) - mean), axis=0)
-    else:
-        spread = with_total(np.broadcast_to(measured_error.reshape(along), values[:1].shape))[0]
+    others = [w.mean(times, all_values) for w in neighbours(window)]
+    others.append(window.mean(times[::2], all_values[::2]))
+    spread = np.max(np.abs(np.stack(others) - mean), axis=0)
     size = window.mean(times, np.abs(values))  # the plain mean may vanish by symmetry
     swing = slow_swing.reshape(along) * size
     return mean, spread + with_total(swing[np.newaxis])[0]
@@ -292,23 +285,3 @@ def precessing_torque(torque: FloatArray, axis: FloatArray, normal: FloatArray) 
             "not defined"
         )
     return np.asarray(np.sum(torque * across, axis=-1) / sine_squared)
-
-
-def precessing_of_tensor(in_plane: Numeric, out_of_plane: Numeric, obliquity: float) -> Numeric:
-    """Size of the torque that causes precession, from mean tidal tensor components, s-2.
-
-    From bounds on the errors of the components, it is a bound on the torque's error.
-
-    With z along the orbit's normal and x below the spin axis,
-
-        N . (k x n)/sin2(eps) = 3 ((Qxx - Qzz) cos(eps) + Qxz cos(2 eps)/sin(eps))
-
-    Parameters
-    ----------
-    in_plane, out_of_plane : float or ndarray
-        Qxx - Qzz and Qxz, or bounds on their errors, s-2.
-    obliquity : float
-        eps, rad; not 0.
-    """
-    tilt = abs(math.cos(2 * obliquity)) / math.sin(obliquity)
-    return 3 * (in_plane * abs(math.cos(obliquity)) + out_of_plane * tilt)

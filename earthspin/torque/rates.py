@@ -145,22 +145,3 @@ def circular_orbit_torque(gm: float, distance: float, obliquity: float) -> float
         rad.
     """
     return 1.5 * gm / distance**3 * math.cos(obliquity)
-
-
-def left_for_method(asked: float, *relative_uncertainties: float) -> float:
-    """Relative error that an average may have if the total error has a given limit.
-
-    Parameters
-    ----------
-    asked : float
-        Limit of the total error, as a relative 95 % half-width.
-    *relative_uncertainties : float
-        Relative standard deviation of each factor of the rate.
-
-    Returns
-    -------
-    float
-        0 if the uncertainties of the numbers alone exceed the limit.
-    """
-    half_width_of_numbers = half_width(1.0, *relative_uncertainties)
-    return math.sqrt(max(asked**2 - half_width_of_numbers**2, 0.0))

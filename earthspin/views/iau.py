@@ -7,7 +7,7 @@ import xarray as xr
 
 from earthspin.interior.published import CORE_NUTATION, CORE_NUTATION_QUALITY
 from earthspin.views import drawing, table
-from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
+from earthspin.views.drawing import Axes, PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed, section
 from earthspin.views.table import Column, Table, table_along
 
@@ -62,7 +62,7 @@ def budget(tree: Result) -> Table:
 
 def residuals(tree: Result) -> Table:
     """Table of the rms and maximum of computed minus IAU pole, for different sets of effects."""
-    series = section(tree, "residuals_by_model")
+    series = section(tree, "residuals")
     dates = ""
     if series is not None:
         dates = f", {table.date(series.time[0])} to {table.date(series.time[-1])}"
@@ -252,28 +252,24 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
-@drawing.style()
-def plot_pole_residuals(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Draw the computed pole minus the IAU pole over time, one panel for each set of effects.
+def plot_pole_residuals(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Draw the computed pole minus the IAU pole over time, in longitude and in obliquity.
 
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``iau``; without its sections ``residuals_by_model`` and
-        ``residual_sizes`` it is run again.
-    figure : Figure, optional
+        Of the question ``iau``; without its section ``residuals`` it is run again.
+    ax : Axes, optional
     """
-    series, sizes = needed(result, "residuals_by_model"), needed(result, "residual_sizes")
-    figure, rows = drawing.stacked(series.sizes["model"], 2.1 * series.sizes["model"], figure)
-    for ax, (model, part) in zip(rows, table.along(series, "model"), strict=True):
-        offset = part.dpsi_sineps_by_model, part.deps_by_model
-        rms = sizes.residual_rms.sel(model=model, direction=["dpsi_sineps", "deps"]).values
-        # one title of two lines: side by side they would meet on a narrow figure
-        words = f"{MODELS[model]}\nrms {' and '.join(f'{size:.2f}' for size in rms)} mas"
-        drawing.plot_both_angles(ax, part.time, *offset, words, "residual (mas)")
-    rows[-1].set_xlabel("time (TDB); constant and rate removed")
-    rows[0].legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)
-    return figure
+    series = needed(result, "residuals")
+    ax = axes(ax, 7.5, 3)
+    offset = series.dpsi_sineps, series.deps
+    sizes = (float(np.sqrt(np.mean(part**2))) for part in offset)
+    title = f"computed pole minus IAU 2006/2000A; rms {' and '.join(f'{s:.2f}' for s in sizes)} mas"
+    drawing.plot_both_angles(ax, series.time, *offset, title, "residual (mas)")
+    ax.set_xlabel("time (TDB); constant and rate removed")
+    ax.legend(loc="best", ncols=2)
+    return ax
 
 
 def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -319,8 +315,7 @@ FIGURES = [
         "Residuals in time",
         "The computed pole minus the IAU's; a fitted constant and rate are removed.",
         plot_pole_residuals,
-        section="residuals_by_model",
-        uses=["residual_sizes"],
+        section="residuals",
     ),
     PageFigure(
         "Response of the deformable body",

@@ -1,4 +1,4 @@
-"""Tables and figure of Love numbers: published values, and dependence on the tidal period."""
+"""Tables and figure of Love numbers, compliances and free modes of a layered body."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import numpy as np
 import xarray as xr
 
 from earthspin.views.drawing import CYCLE, GREY, Figure, PageFigure, note, stacked, style
-from earthspin.views.reading import Result, answer_of, needed, section
-from earthspin.views.table import Column, Table, along, beside_published, table_along
+from earthspin.views.reading import Result, answer_of, needed
+from earthspin.views.table import Column, Table, along, table_along
 
 #: How a number is written in a figure.
 SYMBOLS = {
@@ -23,22 +23,15 @@ MARKS = {"a day": 1.0, "14 months": 430.0, "the node": 6798.4}
 
 
 def numbers(tree: Result) -> Table:
-    """Table of the Love numbers, with published values where they exist."""
+    """Table of the Love numbers."""
     answer = answer_of(tree)
-    published, sources = beside_published(section(tree, "published"), "love", "love_number")
 
     def unless_zero(row: xr.Dataset) -> str:
         return f"{float(row.love_number_imaginary):.5f}" if row.love_number_imaginary else ""
 
     imaginary = Column("love_number_imaginary", unless_zero)
     words = f"Layers: {answer.love_number.attrs['references']}."
-    if sources:
-        words += (
-            f" Published: {sources}. The tidal ones are of a body that turns and is "
-            "flattened, which this sphere is not."
-        )
-    title = "Love numbers of degree two"
-    columns: list[Column | str] = ["love_number:.5f", imaginary, *published]
+    title, columns = "Love numbers of degree two", ("love_number:.5f", imaginary)
     return table_along(answer, "love", title, columns, words, first="Love number")
 
 
@@ -65,7 +58,22 @@ def by_period(tree: Result) -> Table:
     return table_along(data, "love_period", title, columns, first="", words=())
 
 
-TABLES = [("", numbers), ("by_period", by_period)]
+def compliances(tree: Result) -> Table:
+    """Table of a body's compliances and coupling numbers."""
+    data = needed(tree, "compliances")
+    note = f"{data.number_value.attrs['comment'].capitalize()}."
+    return table_along(data, "number", "Compliances", ["number_value:.6g"], note)
+
+
+def modes(tree: Result) -> Table:
+    """Table of the periods of the free modes (wobbles, nutations) of the elastic body."""
+    columns = Column("free_mode", head="mode"), "compliance_mode_period:.1f"
+    note = "Nutations have their periods in space, negative if retrograde; wobbles in the body."
+    title = "Free modes of the elastic body"
+    return table_along(needed(tree, "modes"), "free_mode", title, columns, note, first="")
+
+
+TABLES = [("", numbers), ("by_period", by_period), ("compliances", compliances), ("modes", modes)]
 
 
 @style()

@@ -7,10 +7,9 @@ import xarray as xr
 
 from earthspin.interior.published import CORE_NUTATION
 from earthspin.views import drawing
-from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
-from earthspin.views.iau import observed
+from earthspin.views.drawing import Axes, PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed
-from earthspin.views.table import Column, Table, date, quality, table_along, with_error
+from earthspin.views.table import Column, Table, quality, table_along, with_error
 
 #: Frequencies in space between which the transfer function is shown, cycles per year.
 SHOWN = 6.0
@@ -93,27 +92,7 @@ def terms(tree: Result) -> Table:
     return table_along(data.isel(rung=-1), "term", title, columns, note, first="l l' F D node")
 
 
-def compliances(tree: Result) -> Table:
-    """Table of the compliances of the elastic body."""
-    note = (
-        "Product of inertia over the moment of the part (whole: kappa, xi, zeta; fluid core: "
-        "gamma, beta, delta; inner core: theta, chi, nu), for a wobble of size 1 of the mantle, "
-        "the fluid core and the inner core."
-    )
-    data, columns = needed(tree, "compliances"), ["compliance:.6e"]
-    return table_along(data, "compliance_name", "Compliances", columns, note, first="name")
-
-
-TABLES = [
-    ("", ladder),
-    *[
-        ("observed", observed),
-        ("beside", beside),
-        ("modes", modes),
-        ("terms", terms),
-        ("compliances", compliances),
-    ],
-]
+TABLES = [("", ladder), ("beside", beside), ("modes", modes), ("terms", terms)]
 
 
 # --- figures -------------------------------------------------------------------------------------
@@ -185,30 +164,6 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
-@drawing.style()
-def plot_rung_residuals(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Draw the predicted pole minus the IAU pole over time, one panel for each model.
-
-    Parameters
-    ----------
-    result : Dataset or DataTree
-        Of the question ``nutation``; without its section ``residuals`` it is run again.
-    figure : Figure, optional
-    """
-    series, sizes = needed(result, "residuals"), answer_of(result)
-    shown = [str(rung) for rung in series.rung.values if rung not in ("elastic", "inner-core")]
-    figure, rows = drawing.stacked(len(shown), 1.5 * len(shown), figure)
-    for ax, rung in zip(rows, shown, strict=True):
-        part, size = series.sel(rung=rung), sizes.sel(rung=rung)
-        offset = part.dpsi_sineps, part.deps
-        drawing.plot_both_angles(ax, part.time, *offset, rung, "left (mas)")
-        words = f"{float(size.rms_dpsi_sineps):.2f} and {float(size.rms_deps):.2f}"
-        ax.set_title(f"rms {words} mas", loc="right", fontsize=8)
-    rows[-1].set_xlabel(f"time (TDB), {date(series.time[0], 'Y')} to {date(series.time[-1], 'Y')}")
-    rows[0].legend(loc="lower right", bbox_to_anchor=(1, 1.12), ncols=2, borderaxespad=0.1)
-    return figure
-
-
 FIGURES = [
     PageFigure(
         "From a rigid body to half a milliarcsecond",
@@ -222,11 +177,5 @@ FIGURES = [
         plot_transfer,
         section="transfer",
         uses=["terms"],
-    ),
-    PageFigure(
-        "Residuals in time, rung by rung",
-        "Predicted pole minus the IAU's; a fitted constant and rate are removed.",
-        plot_rung_residuals,
-        section="residuals",
     ),
 ]

@@ -17,7 +17,7 @@ from earthspin.views import ensemble
 from earthspin.views.drawing import Drawing, Figure, PageFigure, style
 from earthspin.views.reading import Result, answer_of, changes_of, question_of, section, views_of
 from earthspin.views.solids import Solid
-from earthspin.views.table import BRACKETS, Column, Table, along, quantities
+from earthspin.views.table import BRACKETS, Table, along
 
 T = TypeVar("T")
 
@@ -47,8 +47,6 @@ def tables_for(tree: Result) -> list[Table]:
     """
     answer = answer_of(tree)
     tables: list[Table] = _made(tree, _view(tree).TABLES)
-    if "error_asked" in answer:
-        tables = [_accuracy(answer), *tables]
     first, *others = [table for table in tables if table.rows]
     left_out = f"Left out: {answer.attrs['neglected']}."
     note = "\n".join(filter(None, [first.note, *changes_of(answer), left_out]))
@@ -119,17 +117,13 @@ def figures_of_fit(fit: xr.Dataset) -> list[Figure]:
 
 
 def print_tables(tree: Result, *, with_plan: bool = False) -> None:
-    """Print the tables of a result, then its run time or, if `with_plan`, its computations."""
+    """Print the tables of a result and, if `with_plan`, its computations."""
     from earthspin.views.terminal import Terminal
 
     console = Terminal()
-    parts = what_ran(tree)
-    for table in [*tables_for(tree), *(parts if with_plan else ())]:
+    for table in [*tables_for(tree), *(what_ran(tree) if with_plan else ())]:
         console.print_table(table)
         console.print()
-    if not with_plan:
-        for table in parts:
-            console.print(f"{table.cost}\n")
 
 
 def scene_page(tree: Result) -> str:
@@ -225,20 +219,6 @@ def _explained(tree: Result) -> str:
     page = question.page if (question := question_of(tree)) else ""
     method = f'the method under "{PAGES[page]}" (docs/{page}.md), ' if page else ""
     return f'In the documentation: {method}the errors under "{ERRORS[1]}" (docs/{ERRORS[0]}.md).'
-
-
-def _accuracy(answer: xr.Dataset) -> Table:
-    """Table of the requested error, the estimated error, and the chosen settings of a result."""
-    unit = answer.error_asked.attrs["units"]
-    shown = "" if unit == "1" else f", {unit}"
-    columns = (
-        Column("method_chosen", head="method chosen"),
-        Column("error_asked", ".3g", f"requested error{shown}"),
-        Column("error_estimated", ".3g", f"error claimed{shown}"),
-        Column("evaluations", ",.0f", "evaluations"),
-    )
-    headers, row = zip(*quantities(answer, *columns), strict=True)
-    return Table("Accuracy", headers, [row])
 
 
 def _footer(answer: xr.Dataset) -> str:

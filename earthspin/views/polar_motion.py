@@ -46,10 +46,9 @@ def observed(tree: Result) -> Table:
     """Table of period, quality factor and present amplitude of the observed free wobble."""
     fit = needed(tree, "chandler")
     rows = quantities(fit, "chandler_period")
-    if "chandler_quality_factor" in fit:
-        low, high = (float(fit[f"chandler_quality_factor_{end}"]) for end in ("low", "high"))
-        ends = f"{low:.0f} to {high:.0f}" if math.isfinite(high) else f"{low:.0f} or more"
-        rows.append(("quality factor", f"{float(fit.chandler_quality_factor):.0f} ({ends})"))
+    low, high = (float(fit[f"chandler_quality_factor_{end}"]) for end in ("low", "high"))
+    ends = f"{low:.0f} to {high:.0f}" if math.isfinite(high) else f"{low:.0f} or more"
+    rows.append(("quality factor", f"{float(fit.chandler_quality_factor):.0f} ({ends})"))
     size = fit.chandler_amplitude.values
     for words, at in (("largest", size.argmax()), ("smallest", size.argmin()), ("last", -1)):
         window = fit.isel(middle=at)

@@ -133,36 +133,6 @@ def table_along(
     return Table(title, headers, [*rows, *more], note, words)
 
 
-def beside_published(known: xr.Dataset | None, dim: str, value: str) -> tuple[list[Column], str]:
-    """Columns with published values, and with the difference of computed values in per cent.
-
-    Parameters
-    ----------
-    known : Dataset or None
-        Published numbers and their sources, by the labels of the rows.
-    dim : str
-        Dimension of the rows.
-    value : str
-        Name of the computed numbers.
-
-    Returns
-    -------
-    columns : list of Column
-    sources : str
-        All of them; empty if nothing is published.
-    """
-    published, sources = {}, ""
-    if known is not None:
-        numbers, source = known.data_vars.values()
-        published = dict(zip(numbers[numbers.dims[0]].values, numbers.values, strict=True))
-        sources = "; ".join(dict.fromkeys(source.values))
-
-    def text(place: int) -> Callable[[xr.Dataset], str]:
-        return lambda row: beside(row[value], published.get(row[dim].item()))[place]
-
-    return [Column("", text(0), "published"), Column("", text(1), "difference, %")], sources
-
-
 def quantities(data: xr.Dataset, *rows: Column | str) -> list[tuple[str, str]]:
     """Rows of a table with one quantity in each row: its label, and its value as text."""
     return [(row.header(data), row.text(data)) for row in map(_column, rows)]
@@ -218,15 +188,6 @@ def two_digits(value: SupportsFloat) -> str:
 def quality(row: xr.Dataset, name: str = "quality_factor", shown: str = ".0f") -> str:
     """Format a quality factor as text; the text is empty if the factor is infinite."""
     return f"{float(row[name]):{shown}}" if math.isfinite(row[name]) else ""
-
-
-def beside(value: SupportsFloat, published: SupportsFloat | None) -> tuple[str, str]:
-    """Format a published number, and the difference of a computed value from it in per cent."""
-    if published is None:
-        return "", ""
-    known = float(published)
-    over = round(100 * (float(value) / known - 1), 2)
-    return short_exponents(f"{known:g}"), f"{over + 0.0:+.2f}"  # no minus before zero
 
 
 def beside_observed(

@@ -63,8 +63,9 @@ def fit_burg(time: Array, p: Complex) -> WobbleFit:
     period, decay = 2 * np.pi / wobble.real, abs(wobble.imag)
     error = PERIOD_EXCESS * period * np.sqrt(decay / span) / wobble.real
     low, high = _decay_interval(decay, span)
-    quality = tuple(float(wobble.real / (2 * v)) for v in (decay, high, low))
-    return WobbleFit("burg", float(period), float(NORMAL_95 * error), quality)
+    quality, *bounds = (float(wobble.real / (2 * v)) for v in (decay, high, low))
+    half_width = float(NORMAL_95 * error)
+    return WobbleFit("burg", float(period), half_width, quality, (bounds[0], bounds[1]))
 
 
 def _decay_interval(decay: float, span: float) -> tuple[float, float]:

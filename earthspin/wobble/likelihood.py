@@ -268,9 +268,8 @@ def largest(likelihood: Likelihood, method: str, widening: float = 1.0) -> Wobbl
         slowest = 0.0
     with np.errstate(divide="ignore"):
         quality = np.pi / period / np.array([np.exp(at[1]), fastest, slowest])
-    return WobbleFit(
-        method, float(period), float((slow - fast) / 2), tuple(float(q) for q in quality)
-    )
+    best, low, high = map(float, quality)
+    return WobbleFit(method, float(period), float((slow - fast) / 2), best, (low, high))
 
 
 def _risen(

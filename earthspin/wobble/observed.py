@@ -1,10 +1,9 @@
-"""Fit of the free wobble in observed polar motion, by one of three methods.
+"""Fit of the free wobble in observed polar motion, by one of two methods.
 
 - Burg: an autoregressive model of block means; the pole nearest to the wobble gives
   period and quality factor. A millisecond, no starting values.
 - likelihood: a damped oscillator driven by white and red noise, a red background and seasonal
   terms together, by maximum likelihood; errors from the likelihood itself.
-- least squares: a sinusoid of fixed size. A quick look.
 
 An oscillator that is driven at random and observed over a span L tells its frequency no
 better than sqrt(T/(4 pi Q L)) of itself, however well it is measured; formal errors from
@@ -24,7 +23,6 @@ from earthspin.wobble.estimate import WobbleFit
 from earthspin.wobble.likelihood import fit_likelihood
 from earthspin.wobble.presence import need_wobble
 from earthspin.wobble.record import Array, Complex, check
-from earthspin.wobble.sinusoid import fit_least_squares
 
 #: Factor by which intervals of a fit with excitation are widened: without it 89 % of them held the
 #: truth in 300 simulated records of 30 years (`python -m data_tools driven-wobble`).
@@ -33,7 +31,6 @@ WIDENING = 1.2
 METHODS: dict[str, Callable[[Array, Complex], WobbleFit]] = {
     "burg": fit_burg,
     "likelihood": fit_likelihood,
-    "least-squares": fit_least_squares,
 }
 
 
@@ -47,7 +44,7 @@ def fit(time: Array, p: Complex, method: str = "burg") -> WobbleFit:
     p : complex array, shape (n,)
         x - i y in any unit.
     method : str
-        ``"burg"``, ``"likelihood"`` or ``"least-squares"``.
+        ``"burg"`` or ``"likelihood"``.
 
     Raises
     ------

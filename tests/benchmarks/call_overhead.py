@@ -26,7 +26,7 @@ CALLS: dict[str, Callable[[], xr.Dataset]] = {
     "precession": earthspin.precession,
     "precession by elements": lambda: earthspin.precession(perturbers=[MEAN_SUN, MEAN_MOON]),
     "precession, one of many": lambda: earthspin.precession(
-        body=earthspin.EARTH.replace(spin_period=82800.0), accuracy=1e-3
+        body=earthspin.EARTH.replace(spin_period=82800.0)
     ),
     "torque_series, a date": lambda: earthspin.torque_series(times=["2000-01-01"]),
     "torque_series, a year": lambda: earthspin.torque_series("2000-01-01", "2001-01-01", "6 h"),

@@ -5,12 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from data_tools import error_models, free_wobble, long_term, neglected
+from data_tools import free_wobble, long_term, neglected
 from data_tools.__main__ import main
 from data_tools.kernels import largest_differences
 from data_tools.windows import rates, scatter
-from earthspin.bodies import EARTH, MARS, MOON, SUN
-from earthspin.choosing.choice import models
 from earthspin.constants import DAY
 from earthspin.motion.effects import EFFECTS, MEASURED
 from earthspin.sky.ephemeris import Ephemeris
@@ -39,52 +37,6 @@ def test_the_claimed_error_holds_in_the_last_century(de421: Ephemeris) -> None:
         assert share >= 0.95
         assert 0.05 < rms < 1.5  # mas a century; the smooth curve takes part of the swing here
         assert largest < 5
-
-
-def test_errors_of_windows_are_as_stored(de421: Ephemeris, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(error_models, "NODES", {16: (6, 8, 12), 64: (4,)})
-    monkeypatch.setattr(error_models, "REACH", (0.1, 1.0, 3.0, 10.0, 30.0))
-    monkeypatch.setattr(error_models, "SAMPLES", 4000)
-    place = error_models.place_of(de421, EARTH, MOON)
-    found = error_models.window_errors(error_models.tensor_rate(place), error_models.spread)
-    table = models()["pole"]
-    stored = table["tensor"]["399"]["301"]
-    for row, setting in enumerate(error_models.settings()):
-        place_in_file = table["settings"].index(list(setting))
-        for name in ("value", "derivative"):
-            # fewer samples, a shorter span: at most as large, by no more than a factor of 4
-            assert -0.6 < found[name][row] - stored[name][place_in_file] < 0.02
-        # the largest of few samples in the shortest reaches is left out
-        off = np.subtract(found["integral"][row][1:], stored["integral"][place_in_file][1:5])
-        assert np.all((off > -0.6) & (off < 0.02)), (setting, off)
-
-
-@pytest.mark.slow
-def test_errors_of_nutation_are_as_stored(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(error_models, "NUTATION_STEPS", (2.0, 5.0))
-    monkeypatch.setattr(error_models, "SAMPLES", 6000)
-    stored = {(row["model"], row["step"]): row["error"] for row in models()["nutation"]}
-    for row in error_models.nutation_models():
-        assert abs(row["error"] - stored[row["model"], row["step"]]) < 0.15, (
-            row
-        )  # measured: 0.09, for fewer samples
-
-
-def test_means_sampled_sparsely_are_as_stored(de421: Ephemeris) -> None:
-    place = error_models.place_of(de421, MARS, SUN)
-    start, end = de421.coverage([4, 10])
-    days = np.arange(np.ceil(start), np.floor(end))
-    turned = np.einsum("tij,jt->it", error_models.orbit_frame(MARS, days), place(days * DAY))
-    cycle = SUN.cycle / DAY
-    margin = int(np.ceil(4 * cycle)) + 1
-    centres = np.arange(margin, days.size - margin, 200)
-    found = error_models.average_errors(error_models.tidal_tensor([(1.0, turned)]), cycle, centres)
-    stored = models()["average"]["tensor"]["499"][f"{cycle:.2f}"]["10"]
-    assert found["mean"] == pytest.approx(stored["mean"], rel=1e-4, abs=0)
-    # fifty years of centres instead of a thousand: never worse, where sampling decides, alike
-    off = np.subtract(found["in_plane"], stored["in_plane"])
-    assert off.max() < 0.3
-    assert abs(off[0, -1]) < 0.5
 
 
 @pytest.mark.parametrize("bent", [False, True])

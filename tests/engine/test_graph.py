@@ -5,12 +5,12 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from graphlib import TopologicalSorter
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from earthspin.engine.asking import script_of
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import BLOCK, Part, part
 from earthspin.engine.question import Question, define_parts, key, keys_of
@@ -24,56 +24,38 @@ PARTS = {
 }
 
 
-def type_check(folder: Path, scripts: dict[str, str], cache: Path) -> subprocess.CompletedProcess:
-    paths = []
-    for name, text in scripts.items():
-        paths.append(folder / f"{name}.py")
-        paths[-1].write_text(text, encoding="utf-8")
-    return subprocess.run(
-        [
-            *(sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(cache)),
-            *("--config-file", str(ROOT / "pyproject.toml"), *map(str, paths)),
-        ],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+def calls_of(question: type[Question]) -> list[str]:
+    """A function that calls each part with the results of the others, for the type checker."""
+    parts, keys = question.graph.parts, keys_of(question)
+    names = {
+        n: [i for i in (*p.needs, *p.uses) if i in parts or i in keys] for n, p in parts.items()
+    }
+    needs = {n: [i for i in inputs if i in parts] for n, inputs in names.items()}
+    lines = [f"def {question.call}(question: {question.__module__}.{question.__name__}) -> None:"]
+    for name in TopologicalSorter(needs).static_order():
+        given = ", ".join(f"{i}={i if i in parts else f'question.{i}'}" for i in names[name])
+        laid = ".dataset()" if parts[name].gives else ""
+        lines.append(f"    {name} = {parts[name].__module__}.{name}({given}){laid}")
+    return lines
 
 
-def of_scripts(lines: str, folder: Path) -> list[str]:
-    return [line for line in lines.splitlines() if folder.name in line]
-
-
-def test_the_script_of_every_question_passes_the_type_checker(
-    tmp_path: Path, pytestconfig: pytest.Config
-) -> None:
-    """And one in which a part gets what another gives does not, so that the checker looks."""
-    scripts = {q.word.replace("-", "_"): script_of(q) for q in QUESTIONS.values()}
-    wrong = scripts["precession"].replace("samples(sky=sky", "samples(sky=stretch")
-    assert wrong != scripts["precession"]
+def test_results_and_parameters_agree_in_type(tmp_path: Path, pytestconfig: pytest.Config) -> None:
+    """In one function more, a part gets what another gives, so that the checker is seen to look."""
+    lines = [line for question in QUESTIONS.values() for line in calls_of(question)]
+    wrong = [line.replace("samples(sky=sky", "samples(sky=stretch") for line in lines]
+    assert wrong != lines
+    modules = {part.__module__ for part in PARTS.values()}
+    modules |= {question.__module__ for question in QUESTIONS.values()}
+    head = [f"import {module}" for module in sorted(modules)]
+    for name, text in (("right", lines), ("wrong", wrong)):
+        (tmp_path / f"{name}.py").write_text("\n".join([*head, *text, ""]), encoding="utf-8")
     cache = getattr(pytestconfig, "cache", None)  # none where its plugin is off
     kept = Path(cache.mkdir("mypy")) if cache is not None else tmp_path / "cache"
-    done = type_check(tmp_path, scripts | {"wrong": wrong}, kept)
-    told = of_scripts(done.stdout, tmp_path)
-    assert [line for line in told if "wrong.py" not in line] == [], done.stdout
-    assert [line for line in told if "arg-type" in line], done.stdout + done.stderr
-
-
-@pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)
-def test_a_script_holds_every_part_in_order(question: type[Question]) -> None:
-    text = script_of(question)
-    compile(text, question.word, "exec")
-    place = {}
-    for name in question.graph.parts:
-        (call,) = re.finditer(rf"^    {name} = [\w.]+\.{name}\(", text, flags=re.MULTILINE)
-        place[name] = call.start()
-    for name, one in question.graph.parts.items():
-        for other in (*one.needs, *one.uses):
-            if other in place:
-                assert place[other] < place[name], (name, other)
-    for section in question.graph.sections:
-        assert f"    _{section} = " in text
+    words = [*(sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(kept))]
+    words += ["--config-file", str(ROOT / "pyproject.toml"), *map(str, tmp_path.glob("*.py"))]
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert "right.py" not in done.stdout, done.stdout
+    assert "arg-type" in done.stdout, done.stdout + done.stderr
 
 
 # --- types -----------------------------------------------------------------------------------

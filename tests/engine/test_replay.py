@@ -47,13 +47,10 @@ CALLS: dict[str, Callable[[], xr.Dataset]] = {
     "several starts": lambda: earthspin.free_rotor(
         [1.0, 2.0, 3.0], [[0.3, 1.0, 0.1], [0.0, 0.0, 1.0]], MANY
     ),
-    "accuracy of a rate": lambda: earthspin.precession(accuracy=1e-3),
-    "accuracy of a direction": lambda: earthspin.pole(
-        "2000-01-01", "2001-01-01", "30 d", accuracy="1 mas"
+    "true equator": lambda: earthspin.torque_series(
+        "2000-01-01", "2001-01-01", "30 d", equator="true"
     ),
-    "accuracy at the true equator": lambda: earthspin.torque_series(
-        "2000-01-01", "2001-01-01", "30 d", equator="true", accuracy="1 arcsec"
-    ),
+    "tolerance": lambda: earthspin.rotation("2000-01-01", "2000-01-03", "6 h", tolerance=1e-8),
     "a top": lambda: earthspin.heavy_top(
         MANY,
         transverse_moment=1 / 3,
@@ -61,7 +58,6 @@ CALLS: dict[str, Callable[[], xr.Dataset]] = {
         weight_moment=1.5,
         theta="40 deg",
         spin="200 deg/s",
-        accuracy=1e-6,
     ),
     "many points": lambda: earthspin.spheroid_field(np.full((40, 3), 1e7) / 3, point_mass="1 g"),
     "a perturber by its numbers": lambda: earthspin.torque_series(
@@ -273,18 +269,14 @@ def test_bodies_are_written_exactly(body: earthspin.Body, title: str) -> None:
     first=COUNTS,
     length=st.integers(0, 10**15),
     step=st.floats(1e-6, 1e11),
-    accuracy=st.none() | POSITIVE,
 )
-def test_series_are_written_exactly(
-    first: int, length: int, step: float, accuracy: float | None
-) -> None:
+def test_series_are_written_exactly(first: int, length: int, step: float) -> None:
     span = [np.datetime64("2000-01-01T12", "us") + np.timedelta64(n, "us") for n in (first, first)]
     span[1] += np.timedelta64(length, "us")
-    asked = None if accuracy is None else f"{accuracy!r} mas"
     keys = {"perturbers": ["sun", "jupiter"], "span": span, "step": step}
-    assert_same_bits(Torque(**keys, accuracy=asked))
-    assert_same_bits(Pole(**keys, accuracy=asked, effects=["j3", "planets"]))
-    assert_same_bits(Precession(perturbers="sun", span=span, accuracy=accuracy))
+    assert_same_bits(Torque(**keys))
+    assert_same_bits(Pole(**keys, effects=["j3", "planets"]))
+    assert_same_bits(Precession(perturbers="sun", span=span))
 
 
 @given(counts=st.lists(COUNTS, min_size=1, max_size=60))
@@ -321,7 +313,6 @@ def test_rotors_are_written_exactly(
     theta=st.floats(0.0, math.pi),
     rates=st.lists(st.floats(-1e100, 1e100), min_size=3, max_size=3),
     angles=st.lists(FINITE, min_size=2, max_size=2),
-    accuracy=st.none() | POSITIVE,
 )
 def test_tops_are_written_exactly(
     transverse: float,
@@ -330,7 +321,6 @@ def test_tops_are_written_exactly(
     theta: float,
     rates: list[float],
     angles: list[float],
-    accuracy: float | None,
 ) -> None:
     assert_same_bits(
         Top(
@@ -340,7 +330,6 @@ def test_tops_are_written_exactly(
             theta=theta,
             **dict(zip(("spin", "phi_rate", "theta_rate"), rates, strict=True)),
             **dict(zip(("phi", "psi"), angles, strict=True)),
-            accuracy=accuracy,
         )
     )
 

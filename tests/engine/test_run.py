@@ -13,7 +13,7 @@ import xarray as xr
 from astropy.time import Time
 
 import earthspin
-from earthspin import AccuracyError, CoverageError, Scene, SceneError, load_scene
+from earthspin import CoverageError, Scene, SceneError, load_scene
 from earthspin.parts import averages
 from earthspin.scenes import run, run_blocks
 from earthspin.sky import ephemeris
@@ -218,13 +218,6 @@ def test_blocks_are_the_series() -> None:
     whole = run(scene)
     joined = np.concatenate([b.torque.values for b in blocks])
     assert np.array_equal(joined, whole.torque.values)
-
-
-def test_an_accuracy_that_cannot_be_met() -> None:
-    assert earthspin.precession(accuracy=1e-5).precession_rate.size == 3
-    with pytest.raises(AccuracyError) as error:
-        earthspin.precession(accuracy=1e-12)
-    assert 1e-7 < error.value.best < 1e-5
 
 
 def test_a_scene_that_cannot_be_written_by_region(tmp_path: Path) -> None:

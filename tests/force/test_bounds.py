@@ -176,7 +176,6 @@ def test_what_is_given_is_cut_and_does_nothing_to_the_terminal() -> None:
         lambda: earthspin.polar_motion(file=evil + "/"),
         lambda: earthspin.open(evil),
         lambda: earthspin.accuracy(evil),
-        lambda: earthspin.stability(only=evil),
         lambda: earthspin.Scene(compute=evil),
     ):
         with pytest.raises(EarthspinError) as error:

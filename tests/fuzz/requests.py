@@ -160,15 +160,6 @@ def malformed(rng: Random) -> Any:
         return "x"
 
 
-def with_accuracy(rng: Random) -> tuple[dict[str, Any], Any, Any]:
-    """A request of a question that takes an accuracy, with an accuracy and the half of it."""
-    words = [word for word, question in QUESTIONS.items() if "accuracy" in keys_of(question)]
-    scene = request(rng, tuple(words), odd=0.0)
-    kind: Any = keys_of(QUESTIONS[scene["compute"]])["accuracy"].kind
-    size = 10 ** rng.uniform(-9, 0)
-    return scene, *(f"{x!r} {kind.unit}" if kind.unit else x for x in (size, size / 2))
-
-
 def question_of(scene: dict[str, Any]) -> Question:
     """Read the question of a request."""
     return earthspin.Scene(**scene)
@@ -207,7 +198,7 @@ def command(rng: Random, folder: Path) -> list[str]:
 
 #: Options that keep a command cheap, always given.
 LIMITS = {
-    "accuracy": ("quantity",), "stability": ("only",), "ensemble": ("members",),
+    "accuracy": ("quantity",), "ensemble": ("members",),
     "report": ("no_figures",),
 }  # fmt: skip
 

@@ -9,7 +9,6 @@ import contextlib
 import random
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import earthspin
@@ -58,7 +57,6 @@ def test_what_escapes_is_seen() -> None:
 WRONG = {
     "ORBIT.to_file": lambda: inputs.ORBIT.to_file([1]),
     "ensemble": lambda: earthspin.ensemble("precession", 2, path=[1]),
-    "stability": lambda: earthspin.stability(quick=np.zeros(2)),
     "to_skycoord": lambda: inputs.ANSWER.earthspin.to_skycoord([1]),
     "rotation": lambda: earthspin.rotation(start_omega=[1e200, 0, 0]),
     "attitude": lambda: earthspin.rotation(start_attitude=[1e200, 0, 0, 0]),

@@ -46,13 +46,6 @@ def test_the_rungs_come_nearer(tree: xr.DataTree) -> None:
     assert left[-1] < 0.5
 
 
-def test_residuals_are_what_the_sizes_are_of(tree: xr.DataTree) -> None:
-    residuals = tree["residuals"].to_dataset()
-    for name in ("dpsi_sineps", "deps"):
-        sizes = np.sqrt((residuals[name] ** 2).mean("time"))
-        assert np.allclose(sizes, tree[f"rms_{name}"], rtol=1e-12, atol=0)
-
-
 def test_terms_of_the_last_rung_are_those_of_the_iau(tree: xr.DataTree) -> None:
     """Nothing of what is left in the main terms is larger than half a milliarcsecond."""
     terms = tree["terms"].to_dataset().sel(rung="core-ellipticity")

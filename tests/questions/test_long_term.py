@@ -289,7 +289,6 @@ test_what_cannot_be_answered_is_refused = refused(
     ({"body": "venus", "times": ["-1 kyr"]}, EarthspinError, "venus"),
     ({"tides": 100.0}, SceneError, "between -10 and 10"),
     ({"ellipticity": 0.0}, SceneError, "greater than zero"),
-    ({"times": ["-1 Myr"], "accuracy": "1 mas"}, EarthspinError, "stay nearer"),
     ({"times": ["-1 kyr"], "orbit": "nowhere.npz"}, EarthspinError, "cannot be read"),
     ({"times": ["-1 kyr"], "orbit": 5}, SceneError, "path of a table"),
     ({"times": ["-1 kyr"], "orbit": {"name": "x"}}, SceneError, "needs axes, coefficients"),
@@ -356,15 +355,6 @@ def test_members_have_the_same_bits_alone_where_half_widths_are_sampled() -> Non
 def test_an_upright_axis_has_no_longitudes() -> None:
     with pytest.raises(UndefinedError, match="is normal to the orbit"):
         earthspin.long_term(times=["0 kyr"], body=upright(0.0), perturbers=["sun"])
-
-
-def test_an_accuracy_that_is_kept_is_told() -> None:
-    found = earthspin.long_term(times=["-1 kyr", "1 kyr"], accuracy="1 arcsec")
-    assert float(found.error_asked) == pytest.approx(1.0, rel=1e-12, abs=0)
-    assert float(found.error_estimated) == pytest.approx(
-        float(found.pole_error.max()), rel=1e-9, abs=0
-    )
-    assert "Newton" in str(found.method_chosen.values)
 
 
 def test_what_the_answer_says_of_itself(million: xr.Dataset) -> None:

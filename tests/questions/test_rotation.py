@@ -121,18 +121,17 @@ def test_a_long_run_by_region_gives_the_same_bits(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("accuracy", ["1 mas", "1 arcsec"])
-def test_an_accuracy_is_kept_or_refused(accuracy: str) -> None:
+@pytest.mark.parametrize("tolerance", [1e-11, 1e-8, 1e-6])
+def test_a_coarser_tolerance_is_cheaper_and_keeps_its_error(tolerance: float) -> None:
     fine = earthspin.rotation(*MONTH)
-    found = earthspin.rotation(*MONTH, accuracy=accuracy)
-    assert float(found.error_estimated) <= float(found.error_asked)
+    found = earthspin.rotation(*MONTH, tolerance=tolerance)
+    evaluations = [run.attitude_error.attrs["evaluations"] for run in (found, fine)]
+    assert evaluations[0] < evaluations[1]
     turned = Rotation.from_quat(fine.attitude, scalar_first=True).inv() * Rotation.from_quat(
         found.attitude, scalar_first=True
     )
     away = np.degrees(turned.magnitude())
     assert np.all(away <= found.attitude_error_method + fine.attitude_error_method + 1e-13)
-    with pytest.raises(earthspin.AccuracyError, match="ask for less"):
-        earthspin.rotation(*MONTH, accuracy="1e-12 arcsec")
 
 
 # --- a torque of one's own -----------------------------------------------------------------------

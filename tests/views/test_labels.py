@@ -106,8 +106,8 @@ def test_words_on_the_circle_of_the_pole_keep_apart(width: float) -> None:
 @pytest.mark.parametrize("width", [5.5, 6.4, 8.0])
 def test_words_above_the_residuals_keep_apart(width: float) -> None:
     with style():
-        figure = plot_pole_residuals(shipped.tree("iau"), figure=empty(width, 6))
-    assert collisions(figure) == []
+        ax = plot_pole_residuals(shipped.tree("iau"), ax=empty(width, 3).add_subplot())
+    assert collisions(ax.figure) == []
 
 
 def test_words_that_collide_are_seen() -> None:

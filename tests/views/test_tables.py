@@ -39,7 +39,6 @@ def test_rows_match_headers_and_what_ran_is_named(precession_tree: xr.DataTree) 
         assert all(len(row) == len(table.headers) for row in table.rows)
     cost = {row[0]: row[2] for row in ran.rows}
     assert float(cost["figure-models"]) > 0
-    assert cost["rate-accuracy"] == ""
     assert float(ran.cost.split()[0]) > 0
 
 
@@ -62,15 +61,6 @@ def test_what_is_left_out_stands_under_the_first_table() -> None:
         answer = earthspin.run(word)
         *_, last = tables_for(answer)[0].note.splitlines()
         assert last == f"Left out: {answer.attrs['neglected']}."
-
-
-def test_an_accuracy_that_was_asked_for_has_its_table() -> None:
-    first, second = tables_for(
-        earthspin.run(earthspin.load_scene("torque", {"accuracy": "10 mas"}))
-    )
-    assert (first.title, second.title) == ("Accuracy", "Torque")
-    assert first.headers[1] == "requested error, arcsec"
-    assert first.rows[0][1] == "0.01"
 
 
 def test_another_earth_says_so_and_shows_nothing_observed() -> None:

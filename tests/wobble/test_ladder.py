@@ -9,9 +9,7 @@ from scipy.integrate import solve_ivp
 
 import earthspin
 from earthspin import EARTH, SceneError, UndefinedError, UnitsError, load_scene
-from earthspin.interior.love import elastic
 from earthspin.interior.named import INTERIORS
-from earthspin.interior.prem import PREM
 from earthspin.wobble import ladder
 from tests.conftest import load_pins
 from tests.refusals import refused
@@ -252,12 +250,6 @@ test_wrong_settings_are_one_line = refused(
     call=lambda changes: earthspin.run(load_scene("wobble", changes)),
     kind=(SceneError, UnitsError, UndefinedError),
 )
-
-
-def test_love_numbers_stand_in_the_result() -> None:
-    tree = earthspin.run_tree("wobble", ["interior"])
-    assert float(tree["interior/love_number"].sel(love="k2")) == float(elastic(PREM).k)
-    assert "interior" not in earthspin.run_tree(load_scene("wobble", {"body": "mars"}))
 
 
 def test_many_bodies_have_an_error_each() -> None:

@@ -13,11 +13,11 @@ from scipy.signal import lfilter
 
 import earthspin
 from earthspin import SceneError, UndefinedError
-from tests.reference import simulation
 from earthspin.constants import ARCSEC, DAY, MAS, TROPICAL_YEAR
 from earthspin.sky.eop import read_polar_motion
 from earthspin.wobble import burg, envelope, observed, record, spectrum
 from tests.conftest import load_pins
+from tests.reference import simulation
 
 PINS = load_pins("wobble")
 
@@ -78,8 +78,6 @@ def test_seasons_are_those_of_the_tropical_year(turns_per_year: int) -> None:
         # Measured: docs/measured/free-wobble.inc.
         ("burg", 60, 1.0, 3.0, 0.9),
         ("likelihood", 12, 2.0, 3.5, 0.8),
-        # In 200 runs: -0.8, 3.9, 0.92.
-        ("least-squares", 30, 2.5, 5.5, 0.85),
     ],
 )
 def test_bias_scatter_and_coverage(
@@ -94,19 +92,9 @@ def test_bias_scatter_and_coverage(
     assert np.mean(abs(off) < error) >= coverage
     # And not by claiming too little: no more than twice what the scatter asks for.
     assert error.mean() < 2 * 1.96 * max(off.std(), 1.65)
-    if method != "least-squares":
-        ends = np.array([fit.quality_bounds for fit in fits])
-        assert np.mean((ends[:, 0] < 100) & (ends[:, 1] > 100)) >= coverage - 0.1
-        assert 60 < np.median([fit.quality_factor for fit in fits]) < 160
-
-
-def test_least_squares_refuses_to_give_q() -> None:
-    fit = observed.fit(*simulation.simulate(40, seed=1), "least-squares")
-    assert not fit.gives_quality
-    with pytest.raises(UndefinedError, match="no quality factor"):
-        _ = fit.quality_factor
-    with pytest.raises(UndefinedError, match="use method 'burg'"):
-        _ = fit.quality_bounds
+    ends = np.array([fit.quality_bounds for fit in fits])
+    assert np.mean((ends[:, 0] < 100) & (ends[:, 1] > 100)) >= coverage - 0.1
+    assert 60 < np.median([fit.quality_factor for fit in fits]) < 160
 
 
 def test_envelope_of_steady_wobbles() -> None:
@@ -174,11 +162,6 @@ def test_a_short_span_may_leave_the_quality_factor_open(
     assert high == np.inf
 
 
-def test_quick_look_agrees(c04: tuple[np.ndarray, np.ndarray]) -> None:
-    fit = observed.fit(*c04, "least-squares")
-    assert abs(fit.period - 432.5) < fit.period_error
-
-
 @pytest.mark.parametrize("year", [1965, 1986, 1992, 2001, 2010, 2015, 2018, 2020])
 def test_amplitudes(c04: tuple[np.ndarray, np.ndarray], year: int) -> None:
     seen = envelope.envelope(*c04, 432.5)
@@ -238,9 +221,6 @@ def test_contract(tree: xr.DataTree, pole: xr.Dataset) -> None:
     low, high = fit.chandler_quality_factor_low, fit.chandler_quality_factor_high
     assert float(low) < float(fit.chandler_quality_factor) < float(high)
     assert float(fit.chandler_period) == float(tree["chandler/chandler_period"])
-    quick = earthspin.fit_chandler(pole, method="least-squares")
-    assert "chandler_quality_factor" not in quick
-    assert "refused" in quick.chandler_period.attrs["quality_factor"]
 
 
 def test_excitation_there_and_back(pole: xr.Dataset) -> None:

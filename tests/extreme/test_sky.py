@@ -1,4 +1,4 @@
-"""Stiff and extreme test cases of ephemeris kernels, equators and nutation."""
+"""Ephemeris kernels, equators and nutation."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ import erfa
 import numpy as np
 
 from earthspin.bodies import MARS, MOON
-from earthspin.checks.case import Distances, holds, refused, relative_error, temporary
-from tests.reference.sky import BODY, CENTRE, CODES, kernel, positions
 from earthspin.constants import DAY, J2000_JD
 from earthspin.questions.torque import torque_series
 from earthspin.sky.ephemeris import Ephemeris
 from earthspin.sky.equator import fixed_equator, spherical
 from earthspin.sky.iau import Nutation
 from earthspin.sky.standstill import find_standstills
+from tests.extreme import Distances, holds, refused, relative_error, temporary
+from tests.reference.sky import BODY, CENTRE, CODES, kernel, positions
 
 
 def _ends() -> tuple[float, float]:
@@ -23,7 +23,7 @@ def _ends() -> tuple[float, float]:
 
 
 @holds(bound=0.02)
-def _first_and_last() -> Distances:
+def test_first_and_last() -> Distances:
     """position of the Moon in the first and last minutes of the kernel
 
     Hard because: a wrong record would be extrapolated without an error
@@ -41,7 +41,7 @@ def _first_and_last() -> Distances:
 
 
 @holds(bound=3e-11)
-def _torque_at_the_ends() -> Distances:
+def test_torque_at_the_ends() -> Distances:
     """torques at the first and last epoch of the kernel
 
     Hard because: nutation is interpolated with nodes beyond the ends, where the kernel has no data
@@ -55,7 +55,7 @@ def _torque_at_the_ends() -> Distances:
 
 
 @refused("jumps")
-def _metre_off() -> None:
+def test_metre_off() -> None:
     """refusal of a kernel with an error of one metre in a coefficient of the Moon
 
     Hard because: one record of 14080 is wrong by 3e-9 of the distance
@@ -71,7 +71,7 @@ def _metre_off() -> None:
 
 
 @holds(bound=1e-11, unit="rad")
-def _nutation_ends() -> Distances:
+def test_nutation_ends() -> Distances:
     """interpolated nutation near both ends of a time span
 
     Hard because: a spline is least accurate at its ends
@@ -84,7 +84,7 @@ def _nutation_ends() -> Distances:
 
 
 @holds(bound=5e-15)
-def _no_equinox() -> Distances:
+def test_no_equinox() -> Distances:
     """axes of the equator of a body whose spin axis is normal to its orbit
 
     Hard because: there is no equinox, because the node is a zero vector
@@ -98,7 +98,7 @@ def _no_equinox() -> Distances:
 
 
 @holds(bound=5e-15, unit="rad")
-def _beside_the_pole() -> Distances:
+def test_beside_the_pole() -> Distances:
     """declination of directions near the celestial poles
 
     Hard because: an arc sine has only half the digits there
@@ -113,7 +113,7 @@ def _beside_the_pole() -> Distances:
 
 
 @holds(bound=5e-15)
-def _both_ways() -> Distances:
+def test_both_ways() -> Distances:
     """position of Mars relative to the Earth, by kernel segments of barycentres
 
     Hard because: common segments of the two paths must cancel instead of being subtracted
@@ -127,7 +127,7 @@ def _both_ways() -> Distances:
 
 
 @holds(bound=1e-14)
-def _legs() -> Distances:
+def test_legs() -> Distances:
     """position of the Moon from the Earth by two chains of kernel segments
 
     Hard because: the barycentre of Earth and Moon lies inside the Earth
@@ -140,7 +140,7 @@ def _legs() -> Distances:
 
 
 @holds(bound=0.0)
-def _no_standstill() -> Distances:
+def test_no_standstill() -> Distances:
     """search for lunar standstills in a span too short to contain one
 
     Hard because: an empty search must not return a result

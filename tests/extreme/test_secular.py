@@ -1,22 +1,22 @@
-"""Stiff and extreme test cases of the spin axis over millennia to millions of years."""
+"""Spin axis over millennia to millions of years."""
 
 from __future__ import annotations
 
 import math
 
 import numpy as np
+import pytest
 
-from earthspin.checks.case import Distances, FloatArray, holds, refused
-from earthspin.checks.ladders.of_long_term import orbit
-from tests.reference.sky import BODY
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, JULIAN_YEAR
 from earthspin.questions.long_term import LongTerm, long_term
 from earthspin.scenes import run_tree
 from earthspin.secular.insolation import Season, daily
 from earthspin.secular.lanes import solve_many
-from earthspin.secular.orbit import Shape
 from earthspin.secular.strength import Strength
 from earthspin.secular.trajectory import solve
+from tests.extreme import Distances, FloatArray, holds
+from tests.reference.sky import BODY
+from tests.secular.setting import EARTHS, FixedOrbit, inclined_axis, turned
 
 MYR = 1e6 * JULIAN_YEAR
 NORTH = np.array([0.0, 0.0, 1.0])
@@ -26,27 +26,8 @@ STRENGTH = Strength(
 )
 
 
-class _FixedOrbit:
-    """A circular orbit that does not change in time."""
-
-    edges = MYR / 50 * np.arange(-60.0, 61.0)
-    coverage = float(edges[0]), float(edges[-1])
-
-    def at(self, times: FloatArray) -> Shape:
-        zero = 0 * times
-        normal = np.stack([zero, zero, zero + 1])
-        return normal, 0 * normal, 0 * normal
-
-
-def _axis_at(obliquity: float, normal: FloatArray = NORTH) -> FloatArray:
-    """Unit vector of a spin axis with a given obliquity from the orbit normal."""
-    across = np.cross(normal, [1.0, 0.3, 0.2])
-    across /= np.linalg.norm(across)
-    return math.cos(obliquity) * normal + math.sin(obliquity) * across
-
-
 @holds(bound=3e-7, unit="arcsec")
-def _near_upright() -> Distances:
+def test_near_upright() -> Distances:
     """spin axis within 8 degrees of the orbit normal and of its opposite
 
     Hard because: the longitude about the normal is undefined there, so another reference axis is
@@ -55,65 +36,63 @@ def _near_upright() -> Distances:
     """
     times = np.linspace(-MYR, MYR, 101)
     for degrees in (1e-6, 0.5, 5, 7.9, 172.1, 179.5, 180):
-        axis = _axis_at(math.radians(degrees))
+        axis = inclined_axis(math.radians(degrees))
         constant = STRENGTH.sun + STRENGTH.moon
         angle = (STRENGTH.geodesic - constant * math.cos(math.radians(degrees))) * times
-        c, s = np.cos(angle), np.sin(angle)
-        cone = np.stack([c * axis[0] - s * axis[1], s * axis[0] + c * axis[1], axis[2] + 0 * c])
-        yield (
-            solve(STRENGTH, _FixedOrbit(), axis, (-MYR, MYR), pieces=2).at(times) - cone
-        ) / ARCSEC
-        yield (
-            solve_many(STRENGTH, _FixedOrbit(), axis[:, np.newaxis], times)[..., 0] - cone
-        ) / ARCSEC
+        cone = turned(axis, angle)
+        path = solve(STRENGTH, FixedOrbit(), axis, (-MYR, MYR), pieces=2)
+        many = solve_many(STRENGTH, FixedOrbit(), axis[:, np.newaxis], times)
+        yield (path.at(times) - cone) / ARCSEC
+        yield (many[..., 0] - cone) / ARCSEC
 
 
 def _both(span: tuple[float, float], axis: FloatArray, step: float) -> Distances:
     """Solve for the spin axis by two solvers, and yield the angles between the results, arcsec."""
     times = np.linspace(*span, 51)
-    path = solve(STRENGTH, orbit(), axis, (min(span[0], 0.0), max(span[1], 0.0)), pieces=2)
-    many = solve_many(STRENGTH, orbit(), axis[:, np.newaxis], times, step)
+    path = solve(STRENGTH, EARTHS, axis, (min(span[0], 0.0), max(span[1], 0.0)), pieces=2)
+    many = solve_many(STRENGTH, EARTHS, axis[:, np.newaxis], times, step)
     yield np.linalg.norm(many[..., 0] - path.at(times), axis=0) / ARCSEC
 
 
 @holds(bound=2e-6, unit="arcsec")
-def _lying() -> Distances:
+def test_lying() -> Distances:
     """spin axis with a mean obliquity of 90 degrees
 
     Hard because: the mean precession is zero and reverses with the inclination of the orbit
     Compared with: the other solver over a million years
     """
-    normal = orbit().at(np.zeros(1))[0][:, 0]
-    yield from _both((-MYR, 0.0), _axis_at(math.pi / 2, normal), 1e3 * JULIAN_YEAR)
+    normal = EARTHS.at(np.zeros(1))[0][:, 0]
+    yield from _both((-MYR, 0.0), inclined_axis(math.pi / 2, normal), 1e3 * JULIAN_YEAR)
 
 
-@holds(bound=0.05, unit="arcsec", slow=True)
-def _ends() -> Distances:
+@pytest.mark.slow
+@holds(bound=0.05, unit="arcsec")
+def test_ends() -> Distances:
     """spin axis over ten million years, to both ends of the orbit table
 
     Hard because: the axis precesses four hundred times in fifty blocks, and the last window has no
         neighbour
     Compared with: the other solver
     """
-    normal = orbit().at(np.zeros(1))[0][:, 0]
+    normal = EARTHS.at(np.zeros(1))[0][:, 0]
     for span in ((-10 * MYR, 0.0), (0.0, 10 * MYR)):
-        yield from _both(span, _axis_at(0.41, normal), 2e3 * JULIAN_YEAR)
+        yield from _both(span, inclined_axis(0.41, normal), 2e3 * JULIAN_YEAR)
 
 
 @holds(bound=1e-9, unit="arcsec")
-def _now() -> Distances:
+def test_now() -> Distances:
     """spin axis at J2000.0 only
 
     Hard because: the span has zero length, so no window would be solved
     Compared with: initial axis
     """
-    yield (solve(STRENGTH, orbit(), NORTH, (0.0, 0.0)).at(np.zeros(1))[:, 0] - NORTH) / ARCSEC
+    yield (solve(STRENGTH, EARTHS, NORTH, (0.0, 0.0)).at(np.zeros(1))[:, 0] - NORTH) / ARCSEC
     asked = long_term(times=["0 kyr"])
     yield (asked.pole.values[0] - BODY.needed("pole").mean(np.zeros(1))[0]) / ARCSEC
 
 
 @holds(bound=0.0, unit="deg")
-def _coarse() -> Distances:
+def test_coarse() -> Distances:
     """spin axis at only two epochs, a million years apart
 
     Hard because: forty precession cycles lie between the two epochs, which do not show their number
@@ -124,8 +103,9 @@ def _coarse() -> Distances:
         yield few[name].values - many[name].sel(epoch=few.epoch).values
 
 
-@holds(bound=2e-4, unit="deg", slow=True)
-def _all_but_round() -> Distances:
+@pytest.mark.slow
+@holds(bound=2e-4, unit="deg")
+def test_all_but_round() -> Distances:
     """longitude of perihelion of a nearly circular orbit
 
     Hard because: at an eccentricity of 1.6e-4 a perihelion moves by a radian in two hundred years
@@ -135,17 +115,8 @@ def _all_but_round() -> Distances:
     yield tree["budget"].to_dataset().longitude_share.sel(cause="method").values
 
 
-@refused("was asked for")
-def _too_accurate() -> None:
-    """refusal of an accuracy that the uncertainty of the body does not allow
-
-    Hard because: the solver itself would reach it
-    """
-    long_term(times=["-1 Myr"], accuracy="0.1 arcsec")
-
-
 @holds(bound=5e-15)
-def _light() -> Distances:
+def test_light() -> Distances:
     """daily insolation on a circular orbit at obliquities from 0 to 180 degrees
 
     Hard because: the longitude of perihelion is undefined, and the length of the day reaches its

@@ -1,4 +1,4 @@
-"""Stiff and extreme test cases of torque-free rotation."""
+"""Torque-free rotation."""
 
 from __future__ import annotations
 
@@ -6,9 +6,8 @@ import math
 from fractions import Fraction
 
 import numpy as np
+import pytest
 
-from earthspin.checks.case import Distances, FloatArray, holds, refused, relative_error
-from tests.reference.sky import BODY, J2, SPIN, H
 from earthspin.constants import JULIAN_YEAR, UAS
 from earthspin.mass.inertia import ellipticity_from_h
 from earthspin.numerics import quaternion
@@ -17,6 +16,8 @@ from earthspin.rotor.constants_of_motion import jacobi_motion
 from earthspin.rotor.euler import integrate_rotation
 from earthspin.rotor.moments import principal_moments
 from earthspin.rotor.triaxial import FreeRotation, free_rotation
+from tests.extreme import Distances, FloatArray, holds, refused, relative_error
+from tests.reference.sky import BODY, J2, SPIN, H
 
 EPS = float(np.finfo(float).eps)
 MOMENTS = [1.0, 2.0, 2.5]
@@ -37,7 +38,7 @@ def _as_triaxial(rotor: SymmetricRotor, times: FloatArray) -> FreeRotation:
 
 
 @holds(bound=2e-11)
-def _axisymmetric() -> Distances:
+def test_axisymmetric() -> Distances:
     """free rotor with A = B exactly, over 10^4 wobble periods
 
     Hard because: the elliptic functions degenerate to circular functions
@@ -49,7 +50,7 @@ def _axisymmetric() -> Distances:
 
 
 @holds(bound=1e-12)
-def _one_ulp() -> Distances:
+def test_one_ulp() -> Distances:
     """free rotor whose A and B differ by one unit in the last place
 
     Hard because: the last bit decides which axis is the intermediate one
@@ -65,7 +66,7 @@ def _one_ulp() -> Distances:
 
 
 @holds(bound=5e-15)
-def _nearly_sphere() -> Distances:
+def test_nearly_sphere() -> Distances:
     """free rotor whose three moments differ by one unit in the last place
 
     Hard because: a wobble period lasts 10^16 rotations, and two bits decide the polhode
@@ -76,7 +77,7 @@ def _nearly_sphere() -> Distances:
 
 
 @holds(bound=1e-14)
-def _prolate() -> Distances:
+def test_prolate() -> Distances:
     """prolate and retrograde free rotors
 
     Hard because: the wobble or the spin has the opposite sense
@@ -94,7 +95,7 @@ def _prolate() -> Distances:
 
 
 @holds(bound=5e-15)
-def _leaf() -> Distances:
+def test_leaf() -> Distances:
     """precession of a thin plate with I3 = 2 I1 exactly
 
     Hard because: it is the limiting case of possible bodies (Feynman's plate)
@@ -105,7 +106,7 @@ def _leaf() -> Distances:
 
 
 @holds(bound=5e-15)
-def _separatrix() -> Distances:
+def test_separatrix() -> Distances:
     """free rotor exactly on the separatrix
 
     Hard because: the period is infinite, and elliptic functions become hyperbolic functions
@@ -123,7 +124,7 @@ def _separatrix() -> Distances:
 
 
 @holds(bound=1e-14)
-def _near_separatrix() -> Distances:
+def test_near_separatrix() -> Distances:
     """period of a free rotor one unit in the last place from the separatrix
 
     Hard because: k' is 1e-8 and follows from the difference of two nearly equal numbers
@@ -142,8 +143,9 @@ def _near_separatrix() -> Distances:
         yield result / exact - 1
 
 
-@holds(bound=5e-9, slow=True)
-def _racket() -> Distances:
+@pytest.mark.slow
+@holds(bound=5e-9)
+def test_racket() -> Distances:
     """free rotor (tennis racket) over five flips about its intermediate axis
 
     Hard because: a perturbation of 1e-3 grows a thousandfold before each flip, and errors grow
@@ -158,7 +160,7 @@ def _racket() -> Distances:
 
 
 @holds(bound=1e-14)
-def _energy() -> Distances:
+def test_energy() -> Distances:
     """conservation of the energy of a free rotor over 10^4 periods
 
     Hard because: errors that grow with time would become visible
@@ -169,7 +171,7 @@ def _energy() -> Distances:
 
 
 @holds(bound=1e-14)
-def _momentum() -> Distances:
+def test_momentum() -> Distances:
     """conservation of the size of the angular momentum of a free rotor over 10^4 periods
 
     Hard because: errors that grow with time would become visible
@@ -180,7 +182,7 @@ def _momentum() -> Distances:
 
 
 @holds(bound=1e-14)
-def _direction() -> Distances:
+def test_direction() -> Distances:
     """conservation of the direction of the angular momentum over 10^4 periods
 
     Hard because: errors of attitude and angular velocity would have to cancel
@@ -192,7 +194,7 @@ def _direction() -> Distances:
 
 
 @holds(bound=1e-14)
-def _unit() -> Distances:
+def test_unit() -> Distances:
     """norm of the attitude quaternion of a free rotor over 10^4 periods
 
     Hard because: the quaternion is never normalized
@@ -202,7 +204,7 @@ def _unit() -> Distances:
 
 
 @holds(bound=7e-8, unit="uas")
-def _polhode() -> Distances:
+def test_polhode() -> Distances:
     """polhode of the Earth over 60 years
 
     Hard because: the cone of 0.2 arcsec is traversed 72 times in 22,000 rotations, and A and B
@@ -221,7 +223,7 @@ def _polhode() -> Distances:
 
 
 @holds(bound=5e-15)
-def _tiny_cones() -> Distances:
+def test_tiny_cones() -> Distances:
     """free rotor whose body cone has a half-angle of one microarcsecond
 
     Hard because: the body cone is 5e-12 rad and the space cone 300 times smaller, too small for
@@ -234,7 +236,7 @@ def _tiny_cones() -> Distances:
 
 
 @holds(bound=5e-15)
-def _batch() -> Distances:
+def test_batch() -> Distances:
     """ten thousand free rotors computed in one array
 
     Hard because: the array contains tumbling rotors, a separatrix, a sphere and a thin plate
@@ -254,7 +256,7 @@ def _batch() -> Distances:
 
 
 @refused("may exceed the sum of the other two")
-def _triangle() -> None:
+def test_triangle() -> None:
     """refusal of principal moments with C above A + B by one part in 10^9
 
     Hard because: no such body exists, but the closed form gives numbers

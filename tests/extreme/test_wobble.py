@@ -1,4 +1,4 @@
-"""Stiff and extreme test cases of the free wobble and its excitation."""
+"""Free wobble and its excitation."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.checks.case import Distances, holds, refused, relative_error, temporary
 from earthspin.constants import UAS
 from earthspin.questions.polar_motion import excitation, polar_motion
 from earthspin.rotor.axisymmetric import free_wobble_period
 from earthspin.sky.eop import c04_path, read_polar_motion
 from earthspin.wobble import resonance
 from earthspin.wobble.ladder import turns_rigid
+from tests.extreme import Distances, holds, refused, relative_error, temporary
 
 PERIOD = 433.0
 DAYS = 64 * 365 + 16
@@ -36,7 +36,7 @@ def _round_trip(
 
 
 @holds(bound=2e-11, unit="mas")
-def _no_loss() -> Distances:
+def test_no_loss() -> Distances:
     """free wobble without damping (infinite quality factor)
 
     Hard because: errors of the start never decay
@@ -46,7 +46,7 @@ def _no_loss() -> Distances:
 
 
 @holds(bound=1e-11, unit="mas")
-def _all_loss() -> Distances:
+def test_all_loss() -> Distances:
     """free wobble with a quality factor of one half
 
     Hard because: the wobble decays within a period; the start decays to 1e-60
@@ -56,7 +56,7 @@ def _all_loss() -> Distances:
 
 
 @holds(bound=5e-12, unit="mas")
-def _resonant_step() -> Distances:
+def test_resonant_step() -> Distances:
     """excitation of polar motion with time steps of exactly one free period
 
     Hard because: the pole returns to its position except for damping of 3 per cent, which
@@ -67,7 +67,7 @@ def _resonant_step() -> Distances:
 
 
 @holds(bound=1e-6, unit="mas")
-def _tiny_steps() -> Distances:
+def test_tiny_steps() -> Distances:
     """excitation of polar motion with time steps of one second
 
     Hard because: the pole moves by only 1e-7 of its distance in each step
@@ -78,7 +78,7 @@ def _tiny_steps() -> Distances:
 
 
 @refused("a gap of 21.0 d")
-def _gap() -> None:
+def test_gap() -> None:
     """refusal of observed polar motion with a gap of twenty days
 
     Hard because: interpolated values in the gap would be mistaken for data
@@ -92,7 +92,7 @@ def _gap() -> None:
 
 
 @refused("even")
-def _uneven() -> None:
+def test_uneven() -> None:
     """refusal of excitation from polar motion at unevenly spaced times
 
     Hard because: each step has its own response; a common one would be wrong by per cents
@@ -101,7 +101,7 @@ def _uneven() -> None:
 
 
 @holds(bound=0.0)
-def _sphere() -> Distances:
+def test_sphere() -> Distances:
     """free wobble period of a sphere
 
     Hard because: (C - A)/A is zero and appears in a denominator
@@ -112,7 +112,7 @@ def _sphere() -> Distances:
 
 
 @holds(bound=5e-15)
-def _prolate() -> Distances:
+def test_prolate() -> Distances:
     """free wobble periods of prolate and oblate bodies
 
     Hard because: the wobble of a prolate body is retrograde, but its period is positive
@@ -124,7 +124,7 @@ def _prolate() -> Distances:
 
 
 @holds(bound=2e-14)
-def _microarcsecond() -> Distances:
+def test_microarcsecond() -> Distances:
     """excitation from a free wobble with an amplitude of one microarcsecond
 
     Hard because: it is the smallest amplitude that is ever resolved, in a pole given in arcseconds

@@ -1,4 +1,4 @@
-"""Stiff and extreme test cases of the motion of the Earth's axes in time.
+"""Motion of the Earth's axes in time.
 
 The spin is 10^7 times faster than the precession. The averaged rate does not depend on the phase of
 the spin, the axis solver uses windows of several days, and the two other solvers resolve every
@@ -12,12 +12,9 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import pytest
 
 from earthspin.bodies import MOON, SUN
-from earthspin.checks.case import Distances, FloatArray, holds, relative_error
-from tests.reference.sky import BODY, CENTRE, CODES, FORCES, J2, SPIN, H, Tide, kernel, positions
-from tests.reference.attitude import attitude_about, attitude_motion, figure_axis
-from tests.reference.momentum_and_figure import axisymmetric_motion
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, PUBLISHED_EFFECTS, UAS
 from earthspin.motion.axes import AxisPath, axis_path
 from earthspin.motion.forces import Figure, Forces
@@ -27,6 +24,10 @@ from earthspin.parts.sky import Stretch, places, sky, stretch
 from earthspin.questions.pole import pole
 from earthspin.sky.iau import fixed_ecliptic
 from earthspin.torque.rates import precession_rate
+from tests.extreme import Distances, FloatArray, holds, relative_error
+from tests.reference.attitude import attitude_about, attitude_motion, figure_axis
+from tests.reference.momentum_and_figure import axisymmetric_motion
+from tests.reference.sky import BODY, CENTRE, CODES, FORCES, J2, SPIN, H, Tide, kernel, positions
 
 YEAR = JULIAN_YEAR
 ROUND = FORCES.figure
@@ -71,7 +72,7 @@ def _attitude(start: FloatArray, tide: Tide, times: FloatArray) -> FloatArray:
 
 
 @holds(bound=0.01, unit="uas")
-def _pole_and_exact() -> Distances:
+def test_pole_and_exact() -> Distances:
     """Earth's pole for 30 d: axis solver and integration of (L, F)
 
     Hard because: the spin is 10^7 times faster than the precession; one solver uses windows of 8 d,
@@ -82,7 +83,7 @@ def _pole_and_exact() -> Distances:
 
 
 @holds(bound=2e-4, unit="uas")
-def _exact_and_attitude() -> Distances:
+def test_exact_and_attitude() -> Distances:
     """Earth's pole for 10 d: integration of (L, F) and of the full attitude
 
     Hard because: the two systems of equations have different sizes and need a thousand steps per
@@ -95,7 +96,7 @@ def _exact_and_attitude() -> Distances:
 
 
 @holds(bound=5e-3, unit="uas")
-def _triaxial() -> Distances:
+def test_triaxial() -> Distances:
     """Earth's pole with three unequal moments of inertia
 
     Hard because: the semidiurnal motion of 34 uas is added to a precession that is 10^6 times
@@ -112,7 +113,7 @@ def _triaxial() -> Distances:
 
 
 @holds(bound=2e-5, unit="arcsec/yr")
-def _average_and_pole() -> Distances:
+def test_average_and_pole() -> Distances:
     """averaged precession rate and Earth's pole over 93 years
 
     Hard because: a nutation of 9 arcsec, half a million times the error per year, must average to
@@ -165,7 +166,7 @@ def _cost(
 
 
 @holds(bound=3e-4)
-def _cost_of_average() -> Distances:
+def test_cost_of_average() -> Distances:
     """growth with the span of the cost of the averaged precession rate
 
     Hard because: a cost that grows faster than the span would prevent long spans
@@ -175,7 +176,7 @@ def _cost_of_average() -> Distances:
 
 
 @holds(bound=0.02)
-def _cost_of_pole() -> Distances:
+def test_cost_of_pole() -> Distances:
     """growth with the span of the cost of the axis solver
 
     Hard because: each iteration covers all windows, and more iterations would increase the exponent
@@ -190,7 +191,7 @@ def _cost_of_pole() -> Distances:
 
 
 @holds(bound=0.1)
-def _cost_of_exact() -> Distances:
+def test_cost_of_exact() -> Distances:
     """growth with the span of the cost of integrating momentum and figure axis
 
     Hard because: the step is limited by the rotation of the body
@@ -199,8 +200,9 @@ def _cost_of_exact() -> Distances:
     yield _cost(_exact, (8.0, 16.0, 32.0, 64.0))
 
 
-@holds(bound=0.1, slow=True)
-def _cost_of_attitude() -> Distances:
+@pytest.mark.slow
+@holds(bound=0.1)
+def test_cost_of_attitude() -> Distances:
     """growth with the span of the cost of integrating the full attitude
 
     Hard because: the step is limited by the rotation of the body
@@ -210,7 +212,7 @@ def _cost_of_attitude() -> Distances:
 
 
 @holds(bound=0.01, unit="uas")
-def _retrograde() -> Distances:
+def test_retrograde() -> Distances:
     """pole of an Earth that rotates in the opposite sense
 
     Hard because: the free mode has the opposite sense, and A/(C Omega) is negative
@@ -220,7 +222,7 @@ def _retrograde() -> Distances:
 
 
 @holds(bound=10.0, unit="uas")
-def _thousandfold() -> Distances:
+def test_thousandfold() -> Distances:
     """Earth's pole with a Sun and Moon of a thousand times their mass
 
     Hard because: the axis precesses once in 26 years and is tilted by 9 arcsec from L
@@ -231,7 +233,7 @@ def _thousandfold() -> Distances:
 
 
 @holds(bound=5e-7)
-def _fast_spin() -> Distances:
+def test_fast_spin() -> Distances:
     """pole of an Earth with a rotation period of ten seconds
 
     Hard because: the period of the free mode and the window differ by a factor of 70,000
@@ -247,7 +249,7 @@ def _fast_spin() -> Distances:
 
 
 @holds(bound=2e-4, unit="uas")
-def _tiny_h() -> Distances:
+def test_tiny_h() -> Distances:
     """pole of an Earth with a dynamical flattening of 1e-9
 
     Hard because: the precession in a year is 6 uas, 10^-11 of the vector
@@ -260,7 +262,7 @@ def _tiny_h() -> Distances:
 
 
 @holds(bound=0.02, unit="uas")
-def _there_and_back() -> Distances:
+def test_there_and_back() -> Distances:
     """Earth's pole integrated 20 years forward and back
 
     Hard because: the figure axis at the end contains the tilt of that day, which enters the new
@@ -276,7 +278,7 @@ def _there_and_back() -> Distances:
 
 
 @holds(bound=1e-4, unit="uas")
-def _backwards() -> Distances:
+def test_backwards() -> Distances:
     """Earth's pole with the positions of Sun and Moon in reversed time
 
     Hard because: time and spin are both reversed, so every odd term must change sign
@@ -291,7 +293,7 @@ def _backwards() -> Distances:
 
 
 @holds(bound=0.01, unit="uas")
-def _resonant_windows() -> Distances:
+def test_resonant_windows() -> Distances:
     """Earth's pole by integration windows in resonance with the free wobble
 
     Hard because: windows of 0.5, 1, 2 and 3 rotations alias the free motion
@@ -304,8 +306,9 @@ def _resonant_windows() -> Distances:
         yield _angle(_path(60.0, window=rotations * rotation).at(times)["figure"], usual)
 
 
-@holds(bound=0.03, unit="uas", slow=True)
-def _whole_kernel() -> Distances:
+@pytest.mark.slow
+@holds(bound=0.03, unit="uas")
+def test_whole_kernel() -> Distances:
     """Earth's pole over the whole span of the ephemeris kernel
 
     Hard because: 154 years take 7000 windows in segments that are joined outward from J2000
@@ -323,7 +326,7 @@ def _whole_kernel() -> Distances:
 
 
 @holds(bound=5e-15)
-def _obliquities() -> Distances:
+def test_obliquities() -> Distances:
     """motion of the pole at obliquities of 0, 90 and 180 degrees
 
     Hard because: longitudes are undefined at 0 and 180 degrees, but vectors are not
@@ -343,7 +346,7 @@ def _obliquities() -> Distances:
 
 
 @holds(bound=3.0, unit="uas")
-def _kernel_ends() -> Distances:
+def test_kernel_ends() -> Distances:
     """Earth's pole in the first and last second of the ephemeris kernel
 
     Hard because: windows must not extend beyond the kernel, and no very short window may remain at
@@ -358,7 +361,7 @@ def _kernel_ends() -> Distances:
 
 
 @holds(bound=9e-4)
-def _geodesic_alone() -> Distances:
+def test_geodesic_alone() -> Distances:
     """geodesic precession of a body with almost no bulge
 
     Hard because: only the frame rotates, prograde, at 1/2600 of the rate that torques produce
@@ -372,7 +375,7 @@ def _geodesic_alone() -> Distances:
 
 
 @holds(bound=4e-18)
-def _three_axes() -> Distances:
+def test_three_axes() -> Distances:
     """position of the rotation axis between the figure axis and the angular momentum
 
     Hard because: the three axes are a few milliarcseconds apart on one great circle
@@ -389,7 +392,7 @@ def _three_axes() -> Distances:
 
 
 @holds(bound=0.03)
-def _slow_bulge() -> Distances:
+def test_slow_bulge() -> Distances:
     """motion of the pole with a J2 that changes by 3e-6 of its value per century
 
     Hard because: in 40 years it moves the pole by two milliarcseconds, compared with thirty

@@ -1,4 +1,4 @@
-"""Stiff and extreme test cases of ensembles: joint computation, random draws and statistics."""
+"""Ensembles: joint computation, random draws and statistics."""
 
 from __future__ import annotations
 
@@ -9,8 +9,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from earthspin.checks.case import Distances, FloatArray, holds, refused
-from tests.reference.sky import BODY, J2, H
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.member_values import MEMBER
 from earthspin.engine.question import Question
@@ -22,6 +20,8 @@ from earthspin.questions.precession import precession
 from earthspin.questions.spheroid import spheroid_field
 from earthspin.questions.top import heavy_top
 from earthspin.scenes import QUESTIONS
+from tests.extreme import Distances, FloatArray, holds, refused
+from tests.reference.sky import BODY, J2, H
 
 H_OF_BODY, J2_OF_BODY = "body.dynamical_flattening", "body.j2"
 #: Names of the inputs: the moment and the angular velocity for each axis.
@@ -52,7 +52,7 @@ def _rotors(rows: ArrayLike) -> Iterator[ArrayLike]:
 
 
 @holds(bound=0.0)
-def _scales() -> Distances:
+def test_scales() -> Distances:
     """free rotors with moments that differ by twenty orders of magnitude, computed together
 
     Hard because: scaling one rotor to the numbers of another would lose all digits
@@ -64,7 +64,7 @@ def _scales() -> Distances:
 
 
 @holds(bound=0.0)
-def _degenerate_rotors() -> Distances:
+def test_degenerate_rotors() -> Distances:
     """free rotation of a sphere and on the separatrix, computed together with other rotors
 
     Hard because: a sphere has no polhode and a separatrix no period, but arrays have no exceptions
@@ -82,7 +82,7 @@ def _degenerate_rotors() -> Distances:
 
 
 @holds(bound=0.0)
-def _tops() -> Distances:
+def test_tops() -> Distances:
     """upright, hanging and sleeping tops computed together with a top that traces loops
 
     Hard because: the azimuth of vertical tops is undefined, and a sleeping top has no nutation
@@ -97,7 +97,7 @@ def _tops() -> Distances:
 
 
 @holds(bound=0.0)
-def _spheroids() -> Distances:
+def test_spheroids() -> Distances:
     """gravity fields of a sphere, a disc and a needle, computed together
 
     Hard because: each has its own closed form, and a series where that form loses digits
@@ -114,7 +114,7 @@ def _spheroids() -> Distances:
 
 
 @holds(bound=0.0)
-def _discs() -> Distances:
+def test_discs() -> Distances:
     """precession of a thin disc and a near-sphere computed together
 
     Hard because: their rates differ by eleven orders of magnitude in one product
@@ -141,7 +141,7 @@ def _drawn(n: int, **settings: Any) -> dict[str, FloatArray]:
 
 
 @holds(bound=0.0)
-def _last() -> Distances:
+def test_last() -> Distances:
     """random inputs of the last of ten million ensemble members, drawn alone
 
     Hard because: each member has its own generator, so the members before it must not be drawn
@@ -155,7 +155,7 @@ def _last() -> Distances:
 
 
 @holds(bound=2e-13)
-def _correlated() -> Distances:
+def test_correlated() -> Distances:
     """random inputs of an ensemble with a correlation of 0.999999
 
     Hard because: 1 - r2 loses six digits, and the second input is nearly the first
@@ -170,7 +170,7 @@ def _correlated() -> Distances:
 
 
 @refused("write them to a store")
-def _too_many() -> None:
+def test_too_many() -> None:
     """refusal of an ensemble of thirty thousand torque series that exceeds the memory
 
     Hard because: each series alone fits into memory, and so do all drawn numbers
@@ -183,7 +183,7 @@ def _too_many() -> None:
 
 
 @holds(bound=0.0)
-def _one() -> Distances:
+def test_one() -> Distances:
     """quantiles of an ensemble of one member
 
     Hard because: there is no spread, and the row of members is not full
@@ -196,7 +196,7 @@ def _one() -> Distances:
 
 
 @refused("need at least 3 members")
-def _one_slope() -> None:
+def test_one_slope() -> None:
     """refusal of a sensitivity to an input from an ensemble of one member
 
     Hard because: any line passes through one point
@@ -205,7 +205,7 @@ def _one_slope() -> None:
 
 
 @holds(bound=0.0)
-def _no_spread() -> Distances:
+def test_no_spread() -> Distances:
     """sensitivity to an ensemble input whose spread is smaller than its last bit
 
     Hard because: shares of zero variance are 0/0
@@ -217,7 +217,7 @@ def _no_spread() -> Distances:
 
 
 @holds(bound=2e-14)
-def _additive() -> Distances:
+def test_additive() -> Distances:
     """sensitivity of a sum of inputs that differ by twenty-four orders of magnitude
 
     Hard because: a fit in the original units would ignore the small inputs

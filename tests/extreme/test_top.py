@@ -1,33 +1,27 @@
-"""Stiff and extreme test cases of the heavy symmetric top."""
+"""Heavy symmetric top."""
 
 from __future__ import annotations
 
 import math
-from typing import Any
+from functools import partial
 
 import numpy as np
 from scipy.special import ellipkm1
 
-from earthspin.checks.case import Distances, FloatArray, holds, refused
 from earthspin.top.motion import heavy_top_motion
 from earthspin.top.patterns import nutation_pattern, pattern_limits
 from earthspin.top.start import HeavyTop
 from earthspin.top.steady import sleeping_top, steady_precession
 from earthspin.top.turning import mean_precession_rate, nutation_period, turning_angles
+from tests.extreme import Distances, FloatArray, holds, refused
 
 #: I1 = 2, I3 = 1, m g r = 2: the critical spin is 4 rad/s exactly.
 CRITICAL = 4.0
 
 
-def _top(**changes: Any) -> HeavyTop:
-    numbers: dict[str, Any] = {
-        "transverse_moment": 2.0,
-        "axial_moment": 1.0,
-        "weight_moment": 2.0,
-        "theta": 0.4,
-        "spin": 10.0,
-    }
-    return HeavyTop(**(numbers | changes))
+_top = partial(
+    HeavyTop, transverse_moment=2.0, axial_moment=1.0, weight_moment=2.0, theta=0.4, spin=10.0
+)
 
 
 def _energy_drift(top: HeavyTop, times: FloatArray) -> FloatArray:
@@ -40,7 +34,7 @@ def _energy_drift(top: HeavyTop, times: FloatArray) -> FloatArray:
 
 
 @holds(bound=1e-14)
-def _just_below() -> Distances:
+def test_just_below() -> Distances:
     """sleeping top with a spin one unit in the last place below the critical spin
 
     Hard because: the growth rate is the square root of a difference of 1e-15
@@ -56,7 +50,7 @@ def _just_below() -> Distances:
 
 
 @holds(bound=5e-15)
-def _just_above() -> Distances:
+def test_just_above() -> Distances:
     """sleeping top with a spin one unit in the last place above the critical spin
 
     Hard because: the top is stable only because of the last bit of the spin
@@ -71,7 +65,7 @@ def _just_above() -> Distances:
 
 
 @holds(bound=3e-13)
-def _pushed_above() -> Distances:
+def test_pushed_above() -> Distances:
     """tilted top with a spin a millionth above the critical spin
 
     Hard because: two circling rates differ by 1e-3, so the tilt first grows a thousandfold and then
@@ -85,7 +79,7 @@ def _pushed_above() -> Distances:
 
 
 @holds(bound=0.0)
-def _upright() -> Distances:
+def test_upright() -> Distances:
     """exactly upright top below its critical spin
 
     Hard because: the position is unstable, and every formula divides by sin(theta)
@@ -95,7 +89,7 @@ def _upright() -> Distances:
 
 
 @holds(bound=1e-14)
-def _creeping() -> Distances:
+def test_creeping() -> Distances:
     """top that approaches the upright position without reaching it
 
     Hard because: k'2 is 2e-16, so the start is within rounding of a motion with infinite period
@@ -109,7 +103,7 @@ def _creeping() -> Distances:
 
 
 @holds(bound=1e-14)
-def _nearly_weightless() -> Distances:
+def test_nearly_weightless() -> Distances:
     """top with a weight of 1e-200 of its gyroscopic resistance
 
     Hard because: squares of the weight underflow, so the cubic seems to lose a root
@@ -123,7 +117,7 @@ def _nearly_weightless() -> Distances:
 
 
 @holds(bound=2e-13)
-def _fast_top() -> Distances:
+def test_fast_top() -> Distances:
     """top that spins 10^7 times faster than it precesses
 
     Hard because: the nutation has an amplitude of 10^-14 revolutions and is 10^7 times faster than
@@ -136,7 +130,7 @@ def _fast_top() -> Distances:
 
 
 @holds(bound=1e-14)
-def _fast_top_for_a_day() -> Distances:
+def test_fast_top_for_a_day() -> Distances:
     """top that spins fast, after a day with 10^10 rotations
 
     Hard because: phi and psi grow to 10^11 rad, and their sum must keep the precession
@@ -153,7 +147,7 @@ def _fast_top_for_a_day() -> Distances:
 
 
 @holds(bound=1e-14)
-def _inverted_pendulum() -> Distances:
+def test_inverted_pendulum() -> Distances:
     """top without spin (pendulum) that starts 1e-9 rad from its upright position
 
     Hard because: the spin is zero, and k differs from 1 by 1e-19
@@ -166,7 +160,7 @@ def _inverted_pendulum() -> Distances:
 
 
 @holds(bound=1e-14)
-def _grazing() -> Distances:
+def test_grazing() -> Distances:
     """top whose axis passes the upward vertical at a distance of 1e-12 rad
 
     Hard because: phi changes by half a revolution within a picosecond
@@ -178,7 +172,7 @@ def _grazing() -> Distances:
 
 
 @holds(bound=0.0)
-def _cusp() -> Distances:
+def test_cusp() -> Distances:
     """top that starts exactly at a cusp
 
     Hard because: the start is on the border between waves and loops, where the tip comes to rest
@@ -191,7 +185,7 @@ def _cusp() -> Distances:
 
 
 @holds(bound=1e-14)
-def _hanging() -> Distances:
+def test_hanging() -> Distances:
     """top that hangs exactly downward, and a top described upside down
 
     Hard because: no float equals pi, and the inverted top is described by the opposite end of its
@@ -206,7 +200,7 @@ def _hanging() -> Distances:
 
 
 @holds(bound=1e-14)
-def _shapes() -> Distances:
+def test_shapes() -> Distances:
     """energy of needle-shaped and disc-shaped tops
 
     Hard because: I3 is 1e-12 I1 for the needle, and the largest possible value 2 I1 for the disc
@@ -218,7 +212,7 @@ def _shapes() -> Distances:
 
 
 @refused("no body has more than twice its transverse moment")
-def _impossible() -> None:
+def test_impossible() -> None:
     """refusal of a top with a moment I3 above 2 I1
 
     Hard because: no such body exists, but all formulas give numbers

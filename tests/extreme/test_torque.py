@@ -1,16 +1,15 @@
-"""Stiff and extreme test cases of torques, at an instant and averaged over orbits."""
+"""Torques, at an instant and averaged over orbits."""
 
 from __future__ import annotations
 
 import math
 
 import numpy as np
+import pytest
 import xarray as xr
 from scipy.special import eval_legendre
 
 from earthspin.bodies import MOON, SUN, Body
-from earthspin.checks.case import Distances, holds, refused, relative_error
-from tests.reference.sky import BODY, J2, H
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, G
 from earthspin.questions.pole import pole
 from earthspin.questions.precession import precession
@@ -22,6 +21,8 @@ from earthspin.torque.gravity import torque_from_declination, torque_from_positi
 from earthspin.torque.harmonics import zonal_torque
 from earthspin.torque.quadrupole import quadrupole_torque, tidal_tensor
 from earthspin.torque.rates import circular_orbit_torque
+from tests.extreme import Distances, holds, refused, relative_error
+from tests.reference.sky import BODY, J2, H
 
 NORTH = np.array([0.0, 0.0, 1.0])
 
@@ -32,7 +33,7 @@ def _rate(body: Body = BODY, perturber: Body = SUN) -> xr.Dataset:
 
 
 @holds(bound=0.0)
-def _no_mass() -> Distances:
+def test_no_mass() -> Distances:
     """torque and precession rate by a perturber without mass
 
     Hard because: rates are zero and periods infinite, so every ratio may become 0/0
@@ -47,7 +48,7 @@ def _no_mass() -> Distances:
 
 
 @holds(bound=5e-15)
-def _tiny_h() -> Distances:
+def test_tiny_h() -> Distances:
     """averaged precession with a dynamical flattening of 1e-12
 
     Hard because: the precession period is 10^14 years
@@ -58,7 +59,7 @@ def _tiny_h() -> Distances:
 
 
 @holds(bound=1e-14)
-def _nearly_upright() -> Distances:
+def test_nearly_upright() -> Distances:
     """averaged torque at obliquities of 1e-6 rad and pi - 1e-6 rad
 
     Hard because: the longitude is almost undefined, because the torque and sin2 nearly vanish
@@ -74,7 +75,7 @@ def _nearly_upright() -> Distances:
 
 
 @holds(bound=5e-15)
-def _over_the_pole() -> Distances:
+def test_over_the_pole() -> Distances:
     """torque by a perturber above the pole of the body
 
     Hard because: the right ascension is undefined at a declination of 90 degrees
@@ -90,7 +91,7 @@ def _over_the_pole() -> Distances:
 
 
 @holds(bound=5e-15)
-def _far() -> Distances:
+def test_far() -> Distances:
     """torque by a perturber at distances of a million au to 10^90 m
 
     Hard because: r5 overflows, and the torque falls to 10^-271
@@ -107,7 +108,7 @@ SWOLLEN = 5e8  # m, beyond the Moon
 
 
 @refused("valid only outside")
-def _inside_a_series() -> None:
+def test_inside_a_series() -> None:
     """refusal of a torque series with a perturber inside the body
 
     Hard because: the formula gives a plausible wrong number inside the body
@@ -116,7 +117,7 @@ def _inside_a_series() -> None:
 
 
 @refused("valid only outside")
-def _inside_an_average() -> None:
+def test_inside_an_average() -> None:
     """refusal of an averaged torque of a perturber inside the body
 
     Hard because: the formula gives a plausible wrong number inside the body
@@ -125,7 +126,7 @@ def _inside_an_average() -> None:
 
 
 @refused("valid only outside")
-def _inside_the_pole() -> None:
+def test_inside_the_pole() -> None:
     """refusal of pole motion of a body with a perturber inside it
 
     Hard because: the formula gives a plausible wrong number inside the body
@@ -134,7 +135,7 @@ def _inside_the_pole() -> None:
 
 
 @holds(bound=5e-15)
-def _three_forms() -> Distances:
+def test_three_forms() -> Distances:
     """torque by three formulas, with perturbers of 1e-30 kg and 1e40 kg
 
     Hard because: one tensor sums terms that differ by seventy orders of magnitude
@@ -154,7 +155,7 @@ def _three_forms() -> Distances:
 
 
 @holds(bound=1e-13)
-def _harmonics() -> Distances:
+def test_harmonics() -> Distances:
     """torque on a zonal harmonic of degree 30 by a mass on the surface
 
     Hard because: P_30 has coefficients of 10^8 that nearly cancel
@@ -169,7 +170,7 @@ def _harmonics() -> Distances:
 
 
 @holds(bound=2e-13)
-def _weights() -> Distances:
+def test_weights() -> Distances:
     """weighted mean with sampling steps in resonance with the month and the Moon's node
 
     Hard because: there are few samples, and some of them are exactly at the edge of the window
@@ -183,7 +184,7 @@ def _weights() -> Distances:
 
 
 @refused("needs three turns of the slowest cycle")
-def _too_short() -> None:
+def test_too_short() -> None:
     """refusal of an average over fewer than three of the slowest cycles
 
     Hard because: two cycles do not show how large the error of the mean is
@@ -192,7 +193,7 @@ def _too_short() -> None:
 
 
 @refused("needs three turns of the slowest cycle")
-def _short_span() -> None:
+def test_short_span() -> None:
     """refusal of an averaged precession rate over a span of only 30 years
 
     Hard because: the span covers only one and a half periods of the Moon's node
@@ -200,17 +201,9 @@ def _short_span() -> None:
     precession(span=("1985-01-01", "2015-01-01"))
 
 
-@refused("was asked for")
-def _too_accurate() -> None:
-    """refusal of an accuracy of the precession rate that no kernel allows
-
-    Hard because: the returned number would look the same
-    """
-    precession(accuracy=1e-12)
-
-
-@holds(bound=0.0, slow=True)
-def _ten_thousand() -> Distances:
+@pytest.mark.slow
+@holds(bound=0.0)
+def test_ten_thousand() -> Distances:
     """averaged precession rates of ten thousand bodies in one call
 
     Hard because: prolate, spherical, retrograde and slowly rotating bodies are in the same arrays
@@ -232,7 +225,7 @@ def _ten_thousand() -> Distances:
 
 
 @holds(bound=5e-15)
-def _sky_poles() -> Distances:
+def test_sky_poles() -> Distances:
     """unit vectors to the celestial poles
 
     Hard because: at a declination of exactly 90 degrees the cosine is 6e-17
@@ -243,7 +236,7 @@ def _sky_poles() -> Distances:
 
 
 @holds(bound=1e-14)
-def _next_to_a_parabola() -> Distances:
+def test_next_to_a_parabola() -> Distances:
     """averaged torque of the Sun on a nearly parabolic ellipse
 
     Hard because: e is 1 - 1e-9, so almost the whole torque acts near the pericentre

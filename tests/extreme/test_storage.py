@@ -1,4 +1,4 @@
-"""Stiff and extreme test cases of results on disk."""
+"""Results on disk."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from contextlib import suppress
 import numpy as np
 import xarray as xr
 
-from earthspin.checks.case import Distances, holds, temporary
 from earthspin.engine import drafts, store
+from tests.extreme import Distances, holds, temporary
 
 TIMES = np.array(
     ["1550-01-01T00:00:00.000001", "2000-02-29", "2650-12-31T23:59:59.999999"], "M8[us]"
@@ -26,7 +26,7 @@ class _InterruptionError(Exception):
 
 
 @holds(bound=0.0)
-def _odd_numbers() -> Distances:
+def test_odd_numbers() -> Distances:
     """writing and reading of infinity and extreme floats
 
     Hard because: files mark missing values by fill values, and some of these are such numbers
@@ -39,7 +39,7 @@ def _odd_numbers() -> Distances:
 
 
 @holds(bound=0.0)
-def _half_netcdf() -> Distances:
+def test_half_netcdf() -> Distances:
     """writing of a netCDF file that fails halfway
 
     Hard because: half a file looks like a file
@@ -55,7 +55,7 @@ def _half_netcdf() -> Distances:
 
 
 @holds(bound=0.0)
-def _half_zarr() -> Distances:
+def test_half_zarr() -> Distances:
     """writing of a Zarr store that fails halfway
 
     Hard because: a store consists of many files, which are replaced together

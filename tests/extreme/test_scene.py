@@ -1,19 +1,17 @@
-"""Stiff and extreme test cases of scenes (input files) and of long time series."""
+"""Scenes and long time series."""
 
 from __future__ import annotations
 
-import subprocess
-import sys
-
 import numpy as np
+import pytest
 
-from earthspin.checks.case import Distances, holds, refused
-from tests.reference.sky import BODY
-from earthspin.errors import UndefinedError
 from earthspin.questions.free_rotor import free_rotor
 from earthspin.questions.top import heavy_top
 from earthspin.questions.torque import torque_series
 from earthspin.scenes import Scene
+from tests.extreme import Distances, holds, refused
+from tests.processes import printed
+from tests.reference.sky import BODY
 
 #: Program for a new process that prints the extra memory (MB) of a long series.
 _GROWTH = """
@@ -44,16 +42,12 @@ print(peak({span!r}, {step!r}) - short)
 
 def _memory_growth(span: tuple[str, str], step: str) -> float:
     """Peak memory (MB) of a torque series computed in blocks, minus that of 10^5 epochs."""
-    program = _GROWTH.format(span=span, step=step)
-    process = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
-    if process.returncode != 0:
-        last = (process.stderr.strip().splitlines() or ["no message"])[-1]
-        raise UndefinedError(f"the process that measures its memory ended early: {last}")
-    return float(process.stdout)
+    return float(printed(_GROWTH.format(span=span, step=step)))
 
 
-@holds(bound=80.0, unit="MB", slow=True)
-def _million() -> Distances:
+@pytest.mark.slow
+@holds(bound=80.0, unit="MB")
+def test_million() -> Distances:
     """memory needed for a torque series of 10^6 epochs
 
     Hard because: they would take 120 MB if all were stored
@@ -62,8 +56,9 @@ def _million() -> Distances:
     yield _memory_growth(("1980-01-01", "2020-01-01"), "21 min")
 
 
-@holds(bound=80.0, unit="MB", slow=True, long=True)
-def _hundred_million() -> Distances:
+@pytest.mark.slow
+@holds(bound=80.0, unit="MB")
+def test_hundred_million() -> Distances:
     """memory needed for a torque series of 10^8 epochs
 
     Hard because: they would take 12 GB if all were stored, and their index alone 0.8 GB
@@ -73,7 +68,7 @@ def _hundred_million() -> Distances:
 
 
 @holds(bound=0.0)
-def _twice() -> Distances:
+def test_twice() -> Distances:
     """torque series computed twice, and with its times in reverse order
 
     Hard because: effects of caches, orders of summation and shared arrays would become visible
@@ -87,7 +82,7 @@ def _twice() -> Distances:
 
 
 @holds(bound=1e-14)
-def _rotor_without_period() -> Distances:
+def test_rotor_without_period() -> Distances:
     """free rotors without a period: separatrix, principal axis, equal moments
 
     Hard because: the polhode has no period, and the herpolhode no advance
@@ -103,7 +98,7 @@ def _rotor_without_period() -> Distances:
 
 
 @holds(bound=0.0)
-def _still_top() -> Distances:
+def test_still_top() -> Distances:
     """heavy top that is at rest and has no weight
 
     Hard because: there is no spin, weight or push, so every rate and its scale are zero
@@ -117,7 +112,7 @@ def _still_top() -> Distances:
 
 
 @refused("did you mean 'torque'")
-def _unknown_question() -> None:
+def test_unknown_question() -> None:
     """refusal of a scene (input file) that asks for an unknown quantity
 
     Hard because: a misspelled name must not select the nearest one
@@ -126,7 +121,7 @@ def _unknown_question() -> None:
 
 
 @refused("at most 0.5")
-def _too_flat() -> None:
+def test_too_flat() -> None:
     """refusal of a dynamical flattening larger than that of a disc
 
     Hard because: no body has C above A + B, but all formulas give numbers

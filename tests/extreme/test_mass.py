@@ -1,4 +1,4 @@
-"""Stiff and extreme test cases of mass distributions and their gravity fields."""
+"""Mass distributions and their gravity fields."""
 
 from __future__ import annotations
 
@@ -6,30 +6,22 @@ import math
 
 import numpy as np
 
-from earthspin.checks.case import Distances, holds, refused
 from earthspin.constants import G
 from earthspin.mass.figure import layered_moments, spheroid_mass, spheroid_moments
 from earthspin.mass.legendre import orthonormal_functions
 from earthspin.mass.maccullagh import maccullagh_potential
-from earthspin.mass.multipoles import (
-    exterior_multipoles,
-    inverse_distance,
-    inverse_distance_bound,
-)
+from earthspin.mass.multipoles import exterior_multipoles, inverse_distance, inverse_distance_bound
 from earthspin.mass.principal_axes import principal_axes
-from earthspin.mass.spheroid import (
-    spheroid_attraction,
-    spheroid_potential,
-    spheroid_torque,
-)
+from earthspin.mass.spheroid import spheroid_attraction, spheroid_potential, spheroid_torque
 from earthspin.mass.tensor import check_inertia_tensor, inertia_tensor
 from earthspin.mass.zonal import spheroid_zonals
+from tests.extreme import Distances, holds, refused
 
 EPS = float(np.finfo(float).eps)
 
 
 @holds(bound=0.0)
-def _one_ulp() -> Distances:
+def test_one_ulp() -> Distances:
     """principal moments of inertia that differ by one unit in the last place
 
     Hard because: C - A is the smallest possible difference and comes from eigenvalues
@@ -40,7 +32,7 @@ def _one_ulp() -> Distances:
 
 
 @holds(bound=5e-15)
-def _flat() -> Distances:
+def test_flat() -> Distances:
     """principal moments of a flat body with C = A + B exactly
 
     Hard because: the triangle inequality of the moments holds with equality
@@ -52,7 +44,7 @@ def _flat() -> Distances:
 
 
 @refused("none may exceed the sum of the other two")
-def _triangle() -> None:
+def test_triangle() -> None:
     """refusal of an inertia tensor that violates the triangle inequality
 
     Hard because: no body has C above A + B, but every formula would give numbers
@@ -61,7 +53,7 @@ def _triangle() -> None:
 
 
 @holds(bound=5e-15)
-def _scales() -> Distances:
+def test_scales() -> Distances:
     """moments of inertia of bodies of 1e-30 kg and 1e40 kg
 
     Hard because: one formula has to cover seventy orders of magnitude
@@ -75,7 +67,7 @@ def _scales() -> Distances:
 
 
 @holds(bound=1e-11)
-def _nearly_round() -> Distances:
+def test_nearly_round() -> Distances:
     """torque on a spheroid with a flattening of 1e-12
 
     Hard because: A3 - A1 is 1e-12 of either integral, so their difference keeps only four digits
@@ -93,7 +85,7 @@ def _nearly_round() -> Distances:
 
 
 @holds(bound=5e-15)
-def _far_field() -> Distances:
+def test_far_field() -> Distances:
     """gravitational potential of a spheroid from its surface to a million radii
 
     Hard because: the potential falls by 6 orders of magnitude, and its quadrupole part by 18
@@ -112,7 +104,7 @@ def _far_field() -> Distances:
 
 
 @holds(bound=0.0)
-def _centre() -> Distances:
+def test_centre() -> Distances:
     """attraction of a spheroid at its centre, and torque on its axis and in its equator
 
     Hard because: directions are undefined there: 0/0 in spherical coordinates
@@ -124,7 +116,7 @@ def _centre() -> Distances:
 
 
 @holds(bound=5e-15)
-def _mass_inside() -> Distances:
+def test_mass_inside() -> Distances:
     """torque on a spheroid by a point mass inside it
 
     Hard because: no series in the inverse distance converges there
@@ -136,7 +128,7 @@ def _mass_inside() -> Distances:
 
 
 @holds(bound=5e-15)
-def _far_multipoles() -> Distances:
+def test_far_multipoles() -> Distances:
     """gravitational potential by multipoles at a distance of a billion radii
 
     Hard because: each degree is nine orders of magnitude smaller, down to 1e-100 and below
@@ -152,7 +144,7 @@ def _far_multipoles() -> Distances:
 
 
 @holds(bound=1.0)
-def _hardly_converging() -> Distances:
+def test_hardly_converging() -> Distances:
     """expansion of an inverse distance to degree 300 where it converges slowly
 
     Hard because: the distances of the two points differ by 10 per cent, so 300 terms have similar
@@ -167,7 +159,7 @@ def _hardly_converging() -> Distances:
 
 
 @holds(bound=5e-12)
-def _legendre() -> Distances:
+def test_legendre() -> Distances:
     """values of Legendre functions of degree 1000 at the poles
 
     Hard because: the recurrence takes a thousand steps in which neighbouring terms nearly cancel
@@ -178,7 +170,7 @@ def _legendre() -> Distances:
 
 
 @holds(bound=5e-15)
-def _layers() -> Distances:
+def test_layers() -> Distances:
     """mass and moments of a body of 1000 layers with the same density
 
     Hard because: mass and moments are sums of small differences

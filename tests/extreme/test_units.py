@@ -1,4 +1,4 @@
-"""Stiff and extreme test cases of dates, calendars and units."""
+"""Dates, calendars and units."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ import xarray as xr
 from astropy.time import Time
 
 from earthspin import dates
-from earthspin.checks.case import Distances, FloatArray, holds, refused
-from tests.reference.sky import BODY
 from earthspin.constants import DAY
 from earthspin.errors import Where
 from earthspin.questions.free_rotor import free_rotor
 from earthspin.questions.polar_motion import excitation, polar_motion, polar_motion_from
 from earthspin.scenes import Scene
+from tests.extreme import Distances, FloatArray, holds, refused
+from tests.reference.sky import BODY
 
 
 def _days(times: object) -> FloatArray:
@@ -31,7 +31,7 @@ def _grid(first: object, last: object, step: object) -> dates.TimeGrid:
 
 
 @holds(bound=2e-8, unit="s")
-def _leap_second() -> Distances:
+def test_leap_second() -> Distances:
     """through the leap second of 2016-12-31
 
     Hard because: 23:59:60 is a valid time, and the day is longer than 86400 s
@@ -43,7 +43,7 @@ def _leap_second() -> Distances:
 
 
 @holds(bound=2e-3, unit="s")
-def _all_leap_seconds() -> Distances:
+def test_all_leap_seconds() -> Distances:
     """every leap second since 1972
 
     Hard because: UTC has 27 discontinuities with respect to TDB, which must have none
@@ -58,7 +58,7 @@ def _all_leap_seconds() -> Distances:
 
 
 @holds(bound=0.0, unit="d")
-def _reform() -> Distances:
+def test_reform() -> Distances:
     """day count across the Gregorian calendar reform, 4 and 15 October 1582
 
     Hard because: the civil calendar omits ten days there, but a count of days must not
@@ -71,7 +71,7 @@ def _reform() -> Distances:
 
 
 @holds(bound=0.0, unit="d")
-def _leap_day() -> Distances:
+def test_leap_day() -> Distances:
     """day count at 29 February of 1600, 2000 and 2400
 
     Hard because: these centuries are leap years, unlike 1900 and 2100
@@ -83,7 +83,7 @@ def _leap_day() -> Distances:
 
 
 @refused("there is no such date")
-def _no_leap_day() -> None:
+def test_no_leap_day() -> None:
     """refusal of the date 29 February 1900
 
     Hard because: the day does not exist; date arithmetic would make it 1 March
@@ -92,7 +92,7 @@ def _no_leap_day() -> None:
 
 
 @refused("years run from 1 to 9999")
-def _year_zero() -> None:
+def test_year_zero() -> None:
     """refusal of a date in the year 0
 
     Hard because: astronomers use the year 0, but calendars do not have it and files cannot hold it
@@ -101,7 +101,7 @@ def _year_zero() -> None:
 
 
 @holds(bound=0.0)
-def _one_time() -> Distances:
+def test_one_time() -> Distances:
     """evenly spaced times over a span of zero length, or with a step longer than the span
 
     Hard because: the number of steps is zero
@@ -119,7 +119,7 @@ _RACKET = {"moments": [1.0, 2.0, 2.5], "omega": [0.1, 1.0, 0.1]}
 
 
 @holds(bound=0.0)
-def _hours() -> Distances:
+def test_hours() -> Distances:
     """times of a free rotor given in hours
 
     Hard because: an array with a unit is also an array, so 1 h might be read as 1 s
@@ -133,7 +133,7 @@ def _hours() -> Distances:
 
 
 @holds(bound=0.0, unit="arcsec")
-def _years() -> Distances:
+def test_years() -> Distances:
     """wobble period given as 1.2 years
 
     Hard because: the value is plausible, but a number without unit means days
@@ -146,7 +146,7 @@ def _years() -> Distances:
 
 
 @refused("required: ")
-def _no_top() -> None:
+def test_no_top() -> None:
     """refusal of a heavy top without its required numbers
 
     Hard because: a default value would give an answer to a different question
@@ -155,7 +155,7 @@ def _no_top() -> None:
 
 
 @refused("they differ from those of j2")
-def _not_aligned() -> None:
+def test_not_aligned() -> None:
     """refusal of body fields whose labels along `member` differ
 
     Hard because: arrays without a common label multiply to an empty array, after all checks

@@ -1,4 +1,4 @@
-"""Stiff and extreme test cases of numerical methods: products of quaternions."""
+"""Products of quaternions."""
 
 from __future__ import annotations
 
@@ -6,13 +6,15 @@ import math
 from fractions import Fraction
 
 import numpy as np
+import pytest
 
-from earthspin.checks.case import Distances, holds
 from earthspin.numerics import quaternion
+from tests.extreme import Distances, holds
 
 
-@holds(bound=2e-11, slow=True)
-def _products() -> Distances:
+@pytest.mark.slow
+@holds(bound=2e-11)
+def test_products() -> Distances:
     """norm of a quaternion after 10^5 products
 
     Hard because: each product is rounded, and the quaternion is never normalized

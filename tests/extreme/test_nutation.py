@@ -1,11 +1,10 @@
-"""Stiff and extreme test cases of precession angles, nutation terms and the Earth's response."""
+"""Precession angles, nutation terms and the Earth's response."""
 
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
-from earthspin.checks.case import Distances, holds, refused
-from tests.reference.sky import SPIN, H
 from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, SIDEREAL_YEAR, UAS
 from earthspin.interior.equilibrium import equilibrium
 from earthspin.interior.layers import Layer, LayeredBody
@@ -19,13 +18,15 @@ from earthspin.nutation.response import Response, fit_response
 from earthspin.nutation.seasons import general_precession, tropical_year
 from earthspin.sky import iau
 from earthspin.torque.rates import period, period_error, rate_ratio
+from tests.extreme import Distances, holds, refused
+from tests.reference.sky import SPIN, H
 
 #: Times over a century, days from J2000.0.
 DAYS = np.arange(-18000.0, 18000.0, 9.7)
 
 
 @holds(bound=5e-15)
-def _angles_at_the_pole() -> Distances:
+def test_angles_at_the_pole() -> Distances:
     """longitude and inclination of a pole 1e-12 rad from the ecliptic pole
 
     Hard because: the longitude is that of a vector of length 1e-12; an arc cosine would give zero
@@ -39,7 +40,7 @@ def _angles_at_the_pole() -> Distances:
 
 
 @holds(bound=2e-4, unit="uas")
-def _still_ecliptic() -> Distances:
+def test_still_ecliptic() -> Distances:
     """precession angles with respect to an ecliptic that does not move
 
     Hard because: chi_A and p_A are angles between equal directions
@@ -52,7 +53,7 @@ def _still_ecliptic() -> Distances:
 
 
 @holds(bound=2000.0, unit="uas")
-def _angles_of_eleven_centuries() -> Distances:
+def test_angles_of_eleven_centuries() -> Distances:
     """precession angles from the year 1550 to 2650
 
     Hard because: five angles from vectors are compared with five polynomials far from their epoch
@@ -65,8 +66,9 @@ def _angles_of_eleven_centuries() -> Distances:
     yield (result - exact) / UAS
 
 
-@holds(bound=1e-7, slow=True)
-def _faint_line() -> Distances:
+@pytest.mark.slow
+@holds(bound=1e-7)
+def test_faint_line() -> Distances:
     """fit of a nutation term with 1e-9 of the amplitude of the largest term
 
     Hard because: 153 terms are fitted together, and some have neighbours that a century hardly
@@ -81,7 +83,7 @@ def _faint_line() -> Distances:
 
 
 @holds(bound=1e-9, unit="d")
-def _resonance() -> Distances:
+def test_resonance() -> Distances:
     """fit of a free core nutation period close to that of the annual nutation term
 
     Hard because: a term at a relative distance of 3e-4 from the resonance is amplified a
@@ -99,7 +101,7 @@ def _resonance() -> Distances:
 
 
 @holds(bound=5e-15)
-def _budget() -> Distances:
+def test_budget() -> Distances:
     """budget of the precession rate in which large contributions cancel
 
     Hard because: effects of both signs are a million times larger than their sum
@@ -110,7 +112,7 @@ def _budget() -> Distances:
 
 
 @holds(bound=0.0)
-def _at_rest() -> Distances:
+def test_at_rest() -> Distances:
     """periods derived from the precession rate of an Earth without precession
 
     Hard because: periods are infinite, and ratios are 0/0
@@ -125,7 +127,7 @@ def _at_rest() -> Distances:
 
 
 @holds(bound=5e-7)
-def _near_resonance() -> Distances:
+def test_near_resonance() -> Distances:
     """transfer function of nutation at 1e-8 of the spin rate from a resonance
 
     Hard because: four modes that each grow without limit must be separated
@@ -142,7 +144,7 @@ def _near_resonance() -> Distances:
 
 
 @holds(bound=1e-3)
-def _soft_mantle() -> Distances:
+def test_soft_mantle() -> Distances:
     """Love number with a mantle rigidity ten thousand times smaller than the pressure
 
     Hard because: boundary layers form at the core and the surface, and shear stress carries no load
@@ -154,7 +156,7 @@ def _soft_mantle() -> Distances:
 
 
 @refused("has 2 liquids with solids between")
-def _two_liquids() -> None:
+def test_two_liquids() -> None:
     """refusal of an interior with two liquid layers that are separated by rock
 
     Hard because: the solid between two liquids rotates independently, which no equation in the

@@ -1,14 +1,10 @@
-"""Stiff and extreme test cases of the full attitude of a body in time."""
+"""Full attitude of a body in time."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from earthspin.bodies import Body
-from earthspin.checks.case import Distances, FloatArray, holds
-from earthspin.checks.ladders import of_rotation
-from tests.reference.sky import eccentric_anomaly
-from tests.reference.stored import attitude_error, load
 from earthspin.constants import G
 from earthspin.motion.equations import Rigid
 from earthspin.motion.march import Masses
@@ -16,6 +12,10 @@ from earthspin.motion.solution import Motion, start_of
 from earthspin.questions.rotation import rotation
 from earthspin.rotor.triaxial import free_rotation
 from earthspin.sky.poles import FixedPole
+from tests.extreme import Distances, FloatArray, holds
+from tests.reference import tumbling_moon
+from tests.reference.sky import eccentric_anomaly
+from tests.reference.stored import attitude_error, load
 
 UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
 
@@ -42,7 +42,7 @@ def _angle(a: FloatArray, b: FloatArray) -> float:
 
 
 @holds(bound=1e-11, unit="rad")
-def _nearly_round() -> Distances:
+def test_nearly_round() -> Distances:
     """attitude of a nearly spherical body over a thousand rotations
 
     Hard because: the moments agree to 1e-12, so the pole moves once around in 1e12 rotations
@@ -52,7 +52,7 @@ def _nearly_round() -> Distances:
 
 
 @holds(bound=9e-10, unit="rad")
-def _racket() -> Distances:
+def test_racket() -> Distances:
     """attitude of a tennis racket that flips
 
     Hard because: near the intermediate axis each flip multiplies rounding errors by a thousand
@@ -62,7 +62,7 @@ def _racket() -> Distances:
 
 
 @holds(bound=1e-8, unit="rad")
-def _rod() -> Distances:
+def test_rod() -> Distances:
     """attitude of a thin tumbling rod
 
     Hard because: one moment is 1e-4 of the others, and the spin about its axis is fast
@@ -72,19 +72,19 @@ def _rod() -> Distances:
 
 
 @holds(bound=2e-13, unit="rad")
-def _tumbling() -> Distances:
+def test_tumbling() -> Distances:
     """attitude of a tumbling moon over two and a half orbits
 
     Hard because: differences between neighbouring motions grow fifteenfold in that time
     Compared with: extrapolation of order 20 in long double
     """
-    times = of_rotation.times()
-    (_, attitude), _ = of_rotation._windows(times, 1e-13)
-    yield attitude_error(attitude, load("rotation", of_rotation.INPUTS)["attitude"])
+    times, true = tumbling_moon.times(), load("rotation", tumbling_moon.INPUTS)
+    motion = tumbling_moon.motion(times[-1], tolerance=1e-13)
+    yield attitude_error(motion.at(times).attitude, true["attitude"])
 
 
 @holds(bound=1.0)
-def _close_passage() -> Distances:
+def test_close_passage() -> Distances:
     """attitude while the perturber passes at a hundredth of its mean distance
 
     Hard because: the tide grows a million times within a thousandth of the orbit, and decreases
@@ -120,7 +120,7 @@ TOP = Body(
 
 
 @holds(bound=0.0, unit="rad")
-def _at_rest() -> Distances:
+def test_at_rest() -> Distances:
     """attitude of a body without initial rotation
 
     Hard because: there is no angular velocity to set a unit of time or the length of the first

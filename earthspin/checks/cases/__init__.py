@@ -1,1 +1,0 @@
-"""Stiff and extreme test cases of the self-checks, one module for each part of the package."""

@@ -1,0 +1,107 @@
+"""One line that says how well the headline number of a result is known, and what it cost."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+
+import numpy as np
+import xarray as xr
+
+from earthspin.engine.labels import from_si
+from earthspin.engine.neglected import largest_of
+from earthspin.engine.plan import IMPORTS
+from earthspin.rounded import plain, shown_unit
+from earthspin.views.reading import Result, question_of
+from earthspin.views.table import date
+
+#: Words for the shares of an error, by the endings of their names.
+SHARES = {"method": "method", "input": "inputs", "kernel": "positions", "response": "response"}
+_ERROR = "_error"
+
+
+def closing_line(result: Result, seconds: float | None = None) -> str:
+    """Error of the headline number of a result, and its run time, as one line.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Answer to a question. In a series, the largest error is given, with its place. The largest
+        neglected effect is named if it is larger than the error.
+    seconds : float, optional
+        Run time, s; that of the parts in the plan of the tree by default.
+
+    Returns
+    -------
+    str
+        Such as ``"precession rate: 95 % error 3.3e-5 arcsec/yr (method 1.3e-5, inputs 3e-5); 0.09 s
+        (+ 0.5 s imports)"``. Without an error it gives the reason.
+    """
+    answer = result.to_dataset() if isinstance(result, xr.DataTree) else result
+    cost = "" if seconds is None else f"{plain(seconds)} s"
+    if isinstance(result, xr.DataTree) and "plan" in result.children:
+        run_time = result["plan"].run_time
+        imports = float(run_time.sel(part=IMPORTS)) if IMPORTS in run_time.part else 0.0
+        cost = f"{plain(float(run_time.sum()) - imports)} s (+ {plain(imports)} s imports)"
+    return "; ".join(filter(None, (_error(answer), cost)))
+
+
+def _error(answer: xr.Dataset) -> str:
+    """Largest 95 % error of the headline number, with its shares, or why there is none."""
+    question = question_of(answer)
+    if question is None or question.headline not in answer:
+        return ""
+    name = question.headline
+    value = answer[name]
+    label = name.removesuffix(_ERROR).replace("_", " ")
+    error_name = name if name.endswith(_ERROR) else _first(value.attrs, "ancillary_variables")
+    if not error_name:
+        return f"{label}: no error: {value.attrs['no_error']}"
+    answer = _of_all_perturbers(answer)
+    value, error = answer[name], answer[error_name]
+    if not np.isfinite(error).any():
+        return f"{label}: no error: {error.attrs.get('no_error', 'it is not finite')}"
+    largest = np.unravel_index(np.nanargmax(error.values), error.shape)
+    place = {dim: int(index) for dim, index in zip(error.dims, largest, strict=True)}
+    size, unit = float(error[place]), error.attrs["units"]
+    shares = [
+        f"{words} {plain(float(answer[f'{error_name}_{ending}'][place]))}"
+        for ending, words in SHARES.items()
+        if f"{error_name}_{ending}" in answer
+    ]
+    relative = unit == "1" != value.attrs["units"]
+    text = f"{label}: {'largest ' if place else ''}{'relative ' if relative else ''}95 % error "
+    text += plain(size) + shown_unit(unit)
+    text += f" ({', '.join(shares)})" if shares else ""
+    if place:
+        text += f" at {', '.join(_label(error[place], dim, index) for dim, index in place.items())}"
+    if relative:
+        size *= float(np.abs(value).max())
+        unit = value.attrs["units"]
+    effect = largest_of(answer.attrs.get("neglected", ""))
+    if effect and abs(effect.size) / from_si(effect.unit) > size / from_si(unit):
+        text += f"; not modelled: {effect.name}, {plain(effect.size)}{shown_unit(effect.unit)}"
+    return text
+
+
+def _first(attributes: dict[str, str], key: str) -> str:
+    """First word of an attribute; empty if there is none."""
+    return next(iter(attributes.get(key, "").split()), "")
+
+
+def _of_all_perturbers(answer: xr.Dataset) -> xr.Dataset:
+    """Select the total of all perturbers, if the answer has one."""
+    if "perturber" in answer.dims and answer.perturber[-1] in ("total", *answer.perturber[:1]):
+        return answer.isel(perturber=-1)
+    return answer
+
+
+def _label(point: xr.DataArray, dim: Hashable, index: int) -> str:
+    """Label of one place along a dimension, as text; its index if the dimension has no labels."""
+    if dim not in point.coords:
+        return f"{dim} {index}"
+    label = point[dim]
+    if label.dtype.kind == "M":
+        return date(label)
+    if label.dtype.kind in "fiu":
+        return f"{dim} {plain(float(label))}{shown_unit(label.attrs.get('units', '1'))}"
+    return str(label.item())

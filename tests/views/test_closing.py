@@ -1,0 +1,70 @@
+"""The line that ends `run` and `report`: the error of the headline number, and its cost."""
+
+import re
+
+import astropy.units as u
+import numpy as np
+import pytest
+import xarray as xr
+
+import earthspin
+from earthspin import EARTH, cli
+from earthspin.engine.neglected import largest_of
+from earthspin.scenes import QUESTIONS
+from earthspin.views.closing import closing_line
+from tests import shipped
+
+
+@pytest.mark.parametrize("word", QUESTIONS)
+def test_every_question_has_a_headline_with_an_error_or_a_reason(word: str) -> None:
+    answer = shipped.answer(shipped.SCENES[word])
+    assert QUESTIONS[word].headline in answer
+    line = closing_line(answer)
+    assert re.search(r"95 % error [\d.e-]+|no error: \w", line), line
+    effect = largest_of(answer.attrs["neglected"])
+    if effect is not None:  # its size can be compared with the error
+        value = answer[QUESTIONS[word].headline]
+        names = [value.name, *value.attrs.get("ancillary_variables", "").split()]
+        units = [answer[name].attrs["units"] for name in names]
+        assert any(u.Unit(effect.unit).is_equivalent(u.Unit(unit)) for unit in units)
+
+
+def test_the_numbers_of_the_line_are_those_of_the_answer(precession_tree: xr.DataTree) -> None:
+    line, total = closing_line(precession_tree), precession_tree.sel(perturber="total")
+    shown = [float(number) for number in re.findall(r"(?<= )\d[\d.]*e-\d+", line)]
+    names = ["precession_rate_error" + share for share in ("", "_method", "_input")]
+    assert np.allclose(shown, [float(total[name]) for name in names], rtol=0.05, atol=0)
+    run_time = precession_tree["plan"].run_time
+    work, imports = map(float, re.findall(r"([\d.e-]+) s(?: \(| imports)", line))
+    assert work == pytest.approx(float(run_time.drop_sel(part="imports").sum()), rel=0.05, abs=0)
+    assert imports == pytest.approx(float(run_time.sel(part="imports")), rel=0.05, abs=0)
+
+
+def test_a_series_gives_its_largest_error_and_the_date() -> None:
+    answer = earthspin.torque_series("2000-01-01", "2000-03-01", "1 d")
+    largest = answer.torque_magnitude_error.where(
+        answer.torque_magnitude_error == answer.torque_magnitude_error.max(), drop=True
+    )
+    date, name = str(largest.time.values[0])[:10], str(largest.perturber.values[0])
+    assert f"at {date}, {name}" in closing_line(answer)
+
+
+def test_an_effect_is_named_only_where_it_exceeds_the_error() -> None:
+    assert "not modelled: geodesic" in closing_line(earthspin.precession())
+    vague = EARTH.replace(relative_uncertainty={"dynamical_flattening": 0.01})
+    assert "not modelled" not in closing_line(earthspin.precession(body=vague))
+
+
+def test_an_unmeasured_error_gives_its_reason() -> None:
+    answer = earthspin.precession().copy()
+    answer["precession_rate_error"] = answer.precession_rate_error * np.nan
+    answer.precession_rate_error.attrs |= {"no_error": "its positions were not compared"}
+    assert closing_line(answer) == "precession rate: no error: its positions were not compared"
+
+
+def test_it_is_the_last_line_of_the_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["run", "wobble"]) == 0
+    last = capsys.readouterr().out.splitlines()[-1]
+    assert re.fullmatch(
+        r"period solar: largest 95 % error .* d at \w+; .* s \(\+.* imports\)", last
+    )
