@@ -7,11 +7,11 @@ NEWEST := .venv-newest
 # Another Python than that of $(VENV), by name or by path.
 PYTHON_NEWEST ?= python3.13
 # What test-lowest and test-newest repeat: the quick tests that another version of a library can
-# change. `any_version` marks the others: text and numbers of pages, catalogues, style.
-VERSIONS := not slow and not every_number and not every_kill and not any_version
+# change. `any_version` marks the others: text of pages, catalogues, style.
+VERSIONS := not slow and not every_kill and not any_version
 SPHINX := $(BIN)/python -m sphinx -q -W --keep-going -j auto -b html docs docs/_build/html
 
-.PHONY: report test slow test-lowest test-newest check docs numbers accuracy bench fuzz kills mutants extreme clean
+.PHONY: report test slow test-lowest test-newest check docs accuracy bench fuzz kills mutants extreme clean
 
 report: $(VENV)/.core
 	$(BIN)/earthspin report --out report
@@ -42,10 +42,6 @@ check: $(VENV)/.check
 
 docs: $(VENV)/.check
 	$(SPHINX)
-
-# Every measured number of the pages, made again: an hour; those by DE440 if it is installed.
-numbers: $(VENV)/.test
-	$(BIN)/python -m pytest -q -m every_number --numprocesses=auto tests/docs/test_numbers.py
 
 # Runs, their workers and their schedulers, each killed after every so many blocks.
 kills: $(VENV)/.test

@@ -174,7 +174,7 @@ def _run(copy: Path, arguments: list[str]) -> tuple[str, str]:
         *(sys.executable, "-m", "pytest", "-x", "-q", "--tb=no", "--no-header"),
         # zarr's plugin would import all of zarr, for more than a second each time.
         *("-p", "no:cacheprovider", "-p", "no:zarr", "-p", "tests.mutants.witness"),
-        *("-m", "not every_number and not every_kill", *arguments),
+        *("-m", "not every_kill", *arguments),
     ]
     # Hypothesis draws the same examples each time, so that the control means something.
     environment = os.environ | {"PYTHONPATH": str(copy), "CI": "1", NOTE: str(note)}

@@ -6,10 +6,9 @@ Which part of the Earth changes the nutation by how much.
 """
 
 import matplotlib.pyplot as plt
-from earthspin.views.compliances import plot_compliances
 
 import earthspin
-from earthspin.views.nutation import plot_nutation_ladder, plot_rung_residuals, plot_transfer
+from earthspin.views.nutation import plot_nutation_ladder, plot_transfer
 
 # %%
 # From a rigid Earth to half a milliarcsecond
@@ -25,20 +24,6 @@ fig, ax = plt.subplots(figsize=(7.2, 4.2))
 plot_nutation_ladder(earthspin.nutation_ladder(), ax=ax)
 
 # %%
-# Residuals in time
-# -----------------
-# Predicted pole minus that of the IAU for each step. A rigid Earth errs in the terms of half a
-# year, a month and the Moon's node; with a fluid core the annual term remains, near the core's
-# resonance, until the core has the flattening that its observed free nutation requires (Mathews,
-# Herring & Buffett 2002).
-#
-# *Next:* ``anelastic_exponent=0.0`` makes the mantle stiffer.
-
-tree = earthspin.run_tree("nutation", sections=["residuals"])
-fig = plt.figure(figsize=(6.4, 7.6), layout="constrained")
-plot_rung_residuals(tree, figure=fig)
-
-# %%
 # Resonances in the transfer function
 # -----------------------------------
 # Nutation of the Earth divided by that of a rigid Earth, over frequency. An elastic mantle alone
@@ -51,18 +36,3 @@ plot_rung_residuals(tree, figure=fig)
 tree = earthspin.run_tree("nutation", sections=["transfer", "terms"])
 fig, ax = plt.subplots(figsize=(7.2, 4.4))
 plot_transfer(tree, ax=ax)
-
-# %%
-# Compliances of mantle, core and inner core
-# ------------------------------------------
-# A wobble of the mantle, of the fluid core or of the inner core deforms all three. Compliances
-# give the size of the deformations, beside the flattening and the moment of each region. Dots:
-# integrated from the layers of PREM. Rings: published values (Mathews, Buffett, Herring & Shapiro
-# 1991). They span eight orders of magnitude; :math:`\zeta` and :math:`\theta`, which belong to
-# the inner core, are the least certain.
-#
-# *Next:* leave the inner core out: ask for the interior ``"mars-layers"``.
-
-tree = earthspin.run_tree("compliances", sections=["published"])
-fig, ax = plt.subplots(figsize=(7.2, 5))
-plot_compliances(tree, ax=ax)

@@ -8,7 +8,6 @@ Nutation in the path of the pole, and the difference from IAU 2000A.
 import matplotlib.pyplot as plt
 
 import earthspin
-from earthspin.views.iau import plot_pole_residuals
 from earthspin.views.pole import plot_pole_path
 
 # %%
@@ -24,18 +23,23 @@ fig, ax = plt.subplots(figsize=(6.4, 4.8))
 plot_pole_path(earthspin.pole("1980-01-01", "2020-01-01", "5 d"), ax=ax)
 
 # %%
-# Difference from IAU 2000A for four models
-# -----------------------------------------
+# Difference from IAU 2000A for two models
+# ----------------------------------------
 # Our pole minus IAU 2000A. Better celestial mechanics of a rigid Earth does not change the
-# residual; the response of the Earth's interior removes it (Mathews, Herring & Buffett 2002),
-# fitted in the third panel, predicted from the Earth's layers in the last. The residual of the
-# third panel contains what the series of the IAU includes and no response explains, such as an
-# annual atmospheric tide.
+# residual; the response of the Earth's interior removes it (Mathews, Herring & Buffett 2002). The
+# remaining residual contains what the series of the IAU includes and no response explains, such as
+# an annual atmospheric tide. A constant and a rate are removed.
 #
 # *Next:* ``effects=[...]`` in ``earthspin.compare_iau`` switches each effect separately.
 
-sections = ["residuals_by_model", "residual_sizes"]
-tree = earthspin.run_tree(earthspin.load_scene("iau"), sections=sections)
+models = {"rigid, all effects": {}, "with the response of the interior": {"effects": "all"}}
 
-fig = plt.figure(figsize=(6.4, 8.0), layout="constrained")
-plot_pole_residuals(tree, figure=fig)
+fig, axes = plt.subplots(2, sharex=True, figsize=(6.4, 4.6))
+for ax, (words, keys) in zip(axes, models.items(), strict=True):
+    tree = earthspin.run_tree(earthspin.load_scene("iau", keys), sections=["residuals"])
+    residuals = tree["residuals"].to_dataset(inherit=False)
+    ax.plot(residuals.time, residuals.dpsi_sineps, lw=0.7, label="dψ sin ε")
+    ax.plot(residuals.time, residuals.deps, lw=0.7, label="dε")
+    ax.set(title=words, ylabel="residual (mas)")
+axes[0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2)
+axes[1].set_xlabel("time (TDB)")

@@ -32,7 +32,7 @@ def gravity_and_friction(t: np.ndarray, q: np.ndarray, omega: np.ndarray) -> np.
 top = earthspin.Body(name="top", gm=6.6743e-11 * MASS, radius=RADIUS, j2=BULGE,
                      dynamical_flattening=FLAT)  # fmt: skip
 turned = earthspin.rotation("2000-01-01T00:00:00", "2000-01-01T00:00:03", "2 ms", body=top,
-                            perturbers=[], torque=gravity_and_friction, accuracy="1 arcsec",
+                            perturbers=[], torque=gravity_and_friction,
                             start_attitude=[np.cos(0.15), np.sin(0.15), 0, 0],
                             start_omega=[0, 0, 150])  # fmt: skip
 seconds = (turned.time - turned.time[0]).values / np.timedelta64(1, "s")
