@@ -7,7 +7,6 @@ import pytest
 
 from tests.mutants.catalogue import ROOT, Mutant, load
 from tests.mutants.runner import Finding, failing_without_error, try_mutant
-from tests.mutants.tables import page, tally
 
 pytestmark = pytest.mark.any_version
 MUTANTS = load()
@@ -63,38 +62,6 @@ def test_one_is_caught_from_end_to_end(capsys: pytest.CaptureFixture[str]) -> No
     assert finding.caught
     assert finding.witness == "tests/mass/test_relations.py::test_j2_and_back"
     assert failing_without_error([finding.witness]) == set()
-
-
-@pytest.mark.slow
-def test_an_error_that_no_test_notices_is_a_survivor() -> None:
-    harmless = Mutant(
-        name="a comment",
-        kind="term",
-        file="earthspin/mass/inertia.py",
-        old="h / (1 - h)",
-        new="h / (1 - h)  # as it was",
-        tests=("tests/mass/test_relations.py",),
-    )
-    finding = try_mutant(harmless)
-    assert not finding.caught
-    assert not finding.trouble
-    assert "survived: a comment" in tally([finding], 1.0)
-    assert "SURVIVED" in page([finding], 1.0)
-
-
-@pytest.mark.slow
-def test_tests_that_never_run_do_not_count() -> None:
-    broken = Mutant(
-        name="a module that cannot be imported",
-        kind="term",
-        file="earthspin/mass/inertia.py",
-        old="Numeric = Any",
-        new="Numeric = Many",
-        tests=("tests/mass/test_relations.py",),
-    )
-    finding = try_mutant(broken)
-    assert not finding.caught
-    assert "pytest ended with" in finding.trouble
 
 
 def test_what_stands_twice_cannot_be_planted(tmp_path: Path) -> None:

@@ -55,8 +55,8 @@ BEYOND_RIGID = {
             "tides on the Moon": (3.7e-4, 0.023, 0.054, 0.21, 0.64, 1.2, 3.1, 3.3),
             "flattening of the Earth": (7e-6, 5e-4, 6e-4, 0.0022, 0.013, 0.025, 0.064, 0.15),
         },
-        "the model of DE421 (Folkner et al. 2009, IPN Progress Report 42-178), integrated by DOP853 "
-        "with and without each effect from its librations at 6 dates: largest differences",
+        "the model of DE421 (Folkner et al. 2009, IPN Progress Report 42-178), integrated by "
+        "DOP853 with and without each effect from its librations at 6 dates: largest differences",
     ),
     "earth": BeyondRigid(
         {

@@ -1,10 +1,10 @@
 """Error bounds of kernels: largest differences between DE421 and DE440, by pair of bodies.
 
 Each is the largest difference of the direction (angle between positions) and of the distance at
-steps of 1.7 d over the coverage of DE421, 1899 to 2053, as both kernels give them. Outside that span nothing was measured, and the bound grows with the square of the time from
-J2000.0, as a difference of lunar tidal accelerations does (DE421 and DE440 differ by 7.3 mas per
-century squared along the track). The bound for a pair does not depend on which body is the
-reference.
+steps of 1.7 d over the coverage of DE421, 1899 to 2053, as both kernels give them. Outside that
+span nothing was measured, and the bound grows with the square of the time from J2000.0, as a
+difference of lunar tidal accelerations does (DE421 and DE440 differ by 7.3 mas per century squared
+along the track). The bound for a pair does not depend on which body is the reference.
 """
 
 from __future__ import annotations

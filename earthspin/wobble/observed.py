@@ -25,8 +25,8 @@ from earthspin.wobble.presence import need_wobble
 from earthspin.wobble.record import Array, Complex, check
 
 #: Factor by which intervals of a fit with excitation are widened: without it 89 % of them held the
-#: truth in 300 simulated records of 30 years: poles with a period of 433 d and Q of 50, 100 and 180,
-#: driven by AAM and OAM and a rest of 2600 mas2 d at the wobble, half white, half of 365 d memory.
+#: truth in 300 simulated records of 30 years: poles with a period of 433 d and Q of 50, 100 and
+#: 180, driven by AAM and OAM and a rest of 2600 mas2 d at the wobble, half white, half of 365 d memory.
 WIDENING = 1.2
 
 METHODS: dict[str, Callable[[Array, Complex], WobbleFit]] = {

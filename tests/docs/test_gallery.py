@@ -1,24 +1,12 @@
-"""Scripts of the gallery: the figures of the quick ones.
-
-The build of the pages runs all of them, and refuses a picture by the same rules.
-"""
+"""Rules by which the build of the pages refuses a figure of the gallery."""
 
 import json
 import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
 DOCS = Path(__file__).parents[2] / "docs"
 CHECK = DOCS / "_ext" / "gallery_figures.py"
-
-#: Some seconds together; they touch the packages that draw at once.
-QUICK = (
-    "bodies/plot_gravity_of_a_body", "bodies/plot_inertia", "bodies/plot_spheroids_and_rings",
-    "free_rotors/plot_cones_and_stability", "many/plot_many_bodies",
-    "top/plot_nutation_of_a_top", "top/plot_steady_and_sleeping_tops", "torques/plot_torques",
-)  # fmt: skip
 
 
 def faults_of(*scripts: Path) -> dict[str, list[str]]:
@@ -31,17 +19,6 @@ def faults_of(*scripts: Path) -> dict[str, list[str]]:
     assert out.returncode == 0, out.stderr
     found = [json.loads(line) for line in out.stdout.splitlines()]
     return {line["script"]: line["faults"] for line in found}
-
-
-@pytest.fixture(scope="module")
-def faults() -> dict[str, list[str]]:
-    return faults_of(*(DOCS / "gallery" / f"{script}.py" for script in QUICK))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("script", QUICK)
-def test_figures_whose_axes_name_their_units(script: str, faults: dict[str, list[str]]) -> None:
-    assert faults[str(DOCS / "gallery" / f"{script}.py")] == []
 
 
 def test_the_rules_see_what_is_wrong(tmp_path: Path) -> None:

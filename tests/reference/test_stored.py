@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from earthspin.errors import UndefinedError
-from earthspin.numerics.double_double import DoubleDouble
 from tests.benchmarks.accuracy import compliances, long_term, pole
 from tests.reference import figure_axis, makers, stored
 
@@ -18,14 +17,6 @@ needs_long_double = pytest.mark.skipif(
 def test_stored_references_are_refused_for_other_problems(name: str) -> None:
     with pytest.raises(UndefinedError, match=r"python -m tests\.reference"):
         stored.load(name, {"moments": [1, 2, 3]})
-
-
-def test_stored_values_have_more_digits_than_a_float() -> None:
-    third = DoubleDouble(np.array(1 / 3), np.array(1 / 3 * 2**-54))
-    assert (np.array(1 / 3) - third).hi == -1 / 3 * 2**-54
-    q = DoubleDouble(np.array([[1.0, 0, 0, 0]]), np.zeros((1, 4)))
-    error = stored.attitude_error(np.array([[-1.0, 0, 0, 1e-9]]), q)
-    assert error == pytest.approx(2e-9, rel=1e-9, abs=0)
 
 
 def differences(name: str) -> dict[str, np.ndarray]:

@@ -1,21 +1,15 @@
 """Methods of the package hold their bounds; the ladders' own truths; no run time is tested."""
 
-import itertools
-
 import numpy as np
 import pytest
 
 from tests.benchmarks.accuracy import (
     LADDERS,
-    __main__,
     chandler,
     ensemble,
     excitation,
-    ladder,
     spheroid,
 )
-from tests.benchmarks.accuracy.figures import table
-from tests.benchmarks.accuracy.ladder import Ladder, measured
 from tests.reference.stored import load
 
 #: Ladders whose errors are taken from many records, seeds or epochs.
@@ -33,59 +27,6 @@ def test_finest_settings_hold_their_bounds(quantity: str) -> None:
         *_, finest = methods.runs[method].values()
         assert methods.error_of(finest) <= bound, method
         assert 100 * methods.floor <= bound, method
-
-
-def planted(error: float) -> Ladder:
-    """One method of the package with a bound of 0.1, and another method with two settings."""
-    return Ladder(
-        title="planted",
-        problem="a planted problem",
-        reference="itself",
-        unit="mas",
-        floor=1e-9,
-        error=float,
-        runs={
-            "own": {"": lambda: (error, 1)},
-            "other": {"a": lambda: (1e-3, 5), "b": lambda: (0, 9)},
-        },
-        bounds={"own": 0.1},
-    )
-
-
-def test_measured_rows(monkeypatch: pytest.MonkeyPatch) -> None:
-    seconds = itertools.chain(*([value] * ladder.SAMPLES for value in (0.2, 0.1, 0.3)))
-    monkeypatch.setattr(ladder, "_seconds", lambda run: next(seconds))
-    rows = measured(planted(0.05))
-    assert rows.error.tolist() == [0.05, 1e-3, 1e-9]  # not below that of the reference
-    assert rows.seconds.tolist() == [0.2, 0.1, 0.3]
-    assert rows.evaluations.tolist() == [1, 5, 9]
-    assert rows.leads.tolist() == [False, True, True]
-    lines = table(planted(0.05), rows).splitlines()
-    assert lines[2:5] == [
-        "| own |  | 0.05 | 200 ms | 1 |  |",
-        "| other (other) | a | 0.001 | 100 ms | 5 | front |",
-        "| other (other) | b | 1e-9 | 300 ms | 9 | front |",
-    ]
-
-
-@pytest.mark.parametrize("error", [0.05, 0.5])
-def test_exceeded_bounds_are_reported(
-    error: float,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-    tmp_path: object,
-) -> None:
-    monkeypatch.setitem(LADDERS, "planted", lambda: planted(error))
-    monkeypatch.setattr(__main__, "DOCS", tmp_path)
-    (tmp_path / "measured").mkdir()  # type: ignore[operator]
-    assert __main__.main(["planted"]) == (error > 0.1)
-    assert ("FAILS: planted, own: error 0.5, bound 0.1" in capsys.readouterr().out) == (error > 0.1)
-    assert len(list((tmp_path / "measured").iterdir())) == 2  # type: ignore[operator]
-
-
-def test_error_over_several_cases() -> None:
-    mean = Ladder("t", "p", "r", "1", 1e-9, np.mean, {"m": {"": lambda case=0: (case, 1)}}, {}, 3)
-    assert mean.error_of(mean.runs["m"][""]) == 1.0
 
 
 def test_known_polar_motion_solves_its_equation() -> None:
