@@ -144,7 +144,7 @@ def test_no_public_name_is_a_modules_name() -> None:
 
 def test_public_names_alone_are_shown() -> None:
     program = (
-        "import earthspin; earthspin.plan('wobble'); earthspin.stability\n"
+        "import earthspin; earthspin.plan('wobble'); earthspin.ensemble\n"
         "assert dir(earthspin) == sorted(earthspin.__all__)\n"
         "for name in dir(earthspin): getattr(earthspin, name)\n"
         "assert dir(earthspin) == sorted(earthspin.__all__)"
