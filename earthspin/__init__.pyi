@@ -244,7 +244,7 @@ def rotation(
     start_attitude: Values | None = ...,
     start_omega: Values | None = ...,
     torque: Callable[[np.ndarray, np.ndarray, np.ndarray], ArrayLike] | None = ...,
-    tolerance: Pure | None = ...,
+    tolerance: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,

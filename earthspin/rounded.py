@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 
 def shown_unit(unit: str) -> str:
     """Return a unit with a space before it; for a pure number, return an empty text."""
@@ -17,18 +15,3 @@ def plain(value: float) -> str:
         return f"{value:g}"
     digits, power = f"{value:.1e}".split("e")
     return f"{digits.removesuffix('.0')}e{int(power)}"
-
-
-def duration(seconds: float) -> str:
-    """Format a duration as text with two digits and a unit, from microseconds to years."""
-    for unit, size in (("s", 1.0), ("ms", 1e-3)):
-        if seconds >= 0.9995 * size:
-            return f"{_two_digits(seconds / size)} {unit}"
-    return f"{_two_digits(seconds * 1e6)} µs"
-
-
-def _two_digits(value: float) -> str:
-    if not value > 0:
-        return "0"
-    digits = max(0, 1 - math.floor(math.log10(float(f"{value:.1e}"))))
-    return f"{value:.{digits}f}"

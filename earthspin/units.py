@@ -291,8 +291,6 @@ class Number:
         Smallest and largest allowed.
     above : float
         Bound that the number must exceed.
-    text : bool
-        Whether text is accepted.
     plain : bool
         Whether a number without a unit is accepted and taken to be in `unit`.
     """
@@ -302,13 +300,9 @@ class Number:
     low: float = -math.inf
     high: float = math.inf
     above: float = -math.inf
-    text: bool = True
     plain: bool = True
 
-    @property
-    def hint(self) -> str:
-        """Type hint of the allowed number, as code editors show it."""
-        return "Value" if self.text else "Pure"
+    hint = "Value"
 
     @property
     def words(self) -> str:
@@ -318,10 +312,8 @@ class Number:
     def read(self, value: object, where: Where) -> float:
         """Check a number, given with or without a unit, and convert it to a float in `unit`."""
         real = isinstance(value, (int, float)) and not hasattr(value, "to_value")
-        if (isinstance(value, str) and not self.text) or (real and not self.plain):
-            form = f"it with its unit, like '{self.example}'"
-            bare = f"a number without quotes, like {self.example}"
-            raise where.error(value, f"give {form if self.unit else bare}")
+        if real and not self.plain:
+            raise where.error(value, f"give it with its unit, like '{self.example}'")
         number = quantity(value, self.unit, where, self.example)
         if np.ndim(number) != 0:
             raise where.error(value, f"give one number, {self.words}")

@@ -108,40 +108,6 @@ def test_the_wheel_holds_every_module_and_nothing_else(wheel: Path, tmp_path: Pa
 
 # --- the architecture ----------------------------------------------------------------------------
 
-#: Folders that docs/architecture.md describes as a whole: one file a question, an effect, a
-#: quantity, a world.
-AS_A_WHOLE = {"questions", "bodies", "motion/effects"}
-
-
-def described() -> set[str]:
-    """Modules and folders of the tree in docs/architecture.md, as paths from the package."""
-    page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
-    (tree,) = re.findall(r"^earthspin/\n(.*?)^data_tools/", page, re.DOTALL | re.MULTILINE)
-    found, folders = set(), {0: ""}
-    for line in tree.splitlines():
-        depth = len(line) - len(line.lstrip())
-        inside = folders[max(d for d in folders if d < depth)]
-        folders = {d: folder for d, folder in folders.items() if d < depth}
-        names = re.findall(r"(?<![\w/*.])([a-z_]\w*(?:\.py\b|/))", line)
-        if re.match(r" *\w+/", line):
-            inside += names.pop(0)
-            folders[depth] = inside
-            found.add(inside)
-        found |= {inside + name for name in names}
-    return found
-
-
-def test_the_architecture_names_every_module_and_none_besides() -> None:
-    named = described()
-    assert len(named) > 150
-    missing = {name for name in named if not (PACKAGE / name).exists()}
-    assert not missing, f"docs/architecture.md names what is not there: {sorted(missing)}"
-    there = {str(path.relative_to(PACKAGE)) for path in PACKAGE.rglob("*.py")}
-    plain = {p for p in there if not p.endswith("/__init__.py")}
-    left = {p for p in plain - named if str(Path(p).parent) not in AS_A_WHOLE}
-    assert not left, f"docs/architecture.md does not name {sorted(left)}"
-    assert {f"{folder}/" for folder in AS_A_WHOLE} <= named
-
 
 def test_the_conda_recipe_asks_for_what_the_package_asks_for() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]

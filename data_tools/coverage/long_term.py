@@ -79,7 +79,7 @@ def solution(body: Body, times: FloatArray) -> Solved:
     assert isinstance(scene, question.LongTerm)
     pulling = (SUN, MOON) if body == EARTH else (SUN,)
     sky = skies.sky(scene.ephemeris, skies.places(body, pulling), scene.source)
-    samples = averages.torque_samples(sky, question.stretch(sky), body, pulling, None)
+    samples = averages.torque_samples(sky, question.stretch(sky), body, pulling)
     means = averages.mean_torques(averages.window_means(samples, pulling))
     rates = averages.mean_rates(means, body, pulling)
     table = orbits.orbit_table("own", body)

@@ -51,8 +51,6 @@ class Carry(Protocol):
         ...
 
 
-#: Regions in which a potential r2 is applied: the whole body, its fluid core, its inner core.
-PARTS = ("whole", "fluid", "inner")
 #: Amplitude of each potential, and of a load's potential, in inner core, fluid core and mantle.
 _ACTS_IN = np.array([[1.0, 0.0, 1.0, 1.0], [1.0, 1.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0]])
 _LOAD = 3

@@ -165,14 +165,6 @@ def system(parts: Parts) -> tuple[Array, Array, Array, Array]:
     return p[..., :n, :n], q[..., :n, :n], right[..., :n], left[..., :n]
 
 
-def held_by_mantle(parts: Parts) -> Parts:
-    """Parameters of coupled rotation if the inner core is locked to the mantle."""
-    answers = np.array(parts.answers)
-    answers[..., 2, :] = answers[..., :, 2] = 0
-    none = dict.fromkeys(("e_s", "inner", "a1", "a2", "a3"), 0.0)
-    return replace(parts, answers=answers, k_icb=0.0, **none)
-
-
 def wobble_response(parts: Parts, sigma: Array) -> Array:
     """Wobble m of the mantle per unit tidal potential, at frequencies in cycles per rotation."""
     p, q, right, left = system(parts)
@@ -239,31 +231,6 @@ def parts_of(layers: LayeredBody, spin_rate: float, answers: Array, e: float) ->
         e=e, e_f=f.e_f, e_s=f.e_s, fluid=f.fluid, inner=f.inner, a1=f.a1, a2=f.a2, a3=f.a3,
         answers=f.unit * answers,
     )  # fmt: skip
-
-
-def chandler_by_core(layers: LayeredBody, e: float, spin_rate: float) -> dict[str, float]:
-    """Free wobble period, in rotations, with inner core locked, fluid or free to move.
-
-    Parameters
-    ----------
-    layers : LayeredBody
-    e : float
-        (C - A)/A of the whole.
-    spin_rate : float
-        rad/s.
-
-    Returns
-    -------
-    dict of str to float
-        With the inner core locked to the mantle, treated as fluid, and free.
-    """
-    free = parts_of(layers, spin_rate, elastic(layers).answers, e)
-    models = {
-        "bound to the mantle": held_by_mantle(free),
-        "counted with the fluid": all_fluid(free, figure(layers, spin_rate).e_core),
-        "free": free,
-    }
-    return {name: 1 / free_modes(model)["chandler_wobble"].real for name, model in models.items()}
 
 
 def numbers_of(layers: LayeredBody, spin_rate: float) -> dict[str, float]:

@@ -43,8 +43,6 @@ BESIDE = {
     "core-in-rigid-mantle": "a fluid core in a rigid mantle",
     "hydrostatic": "the inner-core rung with the H of hydrostatic equilibrium",
 }
-#: Rungs that use a number inferred from observed nutation.
-INFERRED = ("core-ellipticity", "coupling")
 
 #: Effects not included in the last rung, by their size in one term, mas.
 LEFT_OUT = {

@@ -43,7 +43,7 @@ from earthspin.units import (
     kind_of,
 )
 from earthspin.wobble.envelope import envelope
-from earthspin.wobble.estimate import WobbleFit
+from earthspin.wobble.record import WobbleFit
 from earthspin.wobble.spectrum import spectrum as amplitude_spectrum
 
 if TYPE_CHECKING:

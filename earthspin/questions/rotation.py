@@ -103,7 +103,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
     torque: CustomTorque | None = key(
         None, doc="custom torque: a Python function, along the principal axes, in N m"
     )
-    tolerance: Annotated[float, Number("", "1e-10", low=FINEST, high=COARSEST, text=False)] = key(
+    tolerance: Annotated[float, Number("", "1e-10", low=FINEST, high=COARSEST)] = key(
         FINEST, doc="relative tolerance of the integrator in each of its time windows"
     )
 

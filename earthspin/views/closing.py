@@ -56,7 +56,8 @@ def _error(answer: xr.Dataset) -> str:
     error_name = name if name.endswith(_ERROR) else _first(value.attrs, "ancillary_variables")
     if not error_name:
         return f"{label}: no error: {value.attrs['no_error']}"
-    answer = _of_all_perturbers(answer)
+    if answer.sizes.get("perturber", 0) == 1 or "total" in answer.get("perturber", ()):
+        answer = answer.isel(perturber=-1)
     value, error = answer[name], answer[error_name]
     if not np.isfinite(error).any():
         return f"{label}: no error: {error.attrs.get('no_error', 'it is not finite')}"
@@ -86,13 +87,6 @@ def _error(answer: xr.Dataset) -> str:
 def _first(attributes: dict[str, str], key: str) -> str:
     """First word of an attribute; empty if there is none."""
     return next(iter(attributes.get(key, "").split()), "")
-
-
-def _of_all_perturbers(answer: xr.Dataset) -> xr.Dataset:
-    """Select the total of all perturbers, if the answer has one."""
-    if "perturber" in answer.dims and answer.perturber[-1] in ("total", *answer.perturber[:1]):
-        return answer.isel(perturber=-1)
-    return answer
 
 
 def _label(point: xr.DataArray, dim: Hashable, index: int) -> str:

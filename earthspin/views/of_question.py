@@ -34,7 +34,7 @@ PAGES = {
     "pole_offsets": "Celestial pole offsets and the free core nutation",
     "forecast": "Forecast of the pole",
 }
-ERRORS = ("accuracy", "Errors and run times")
+ERRORS = ("work_precision", "Error against run time")
 
 
 def tables_for(tree: Result) -> list[Table]:

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
 from earthspin.engine.labels import si
+from earthspin.engine.neglected import largest_of
 from earthspin.units import FloatArray
 from earthspin.views import drawing, reading, stars, table, torque
 from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
@@ -126,9 +127,9 @@ def rates(tree: Result) -> Table:
 
 def _largest_left_out(answer: xr.Dataset) -> str:
     """Name and size, as text, of the largest effect on the precession rate that is not modelled."""
-    name, _, rest = answer.attrs["neglected"].partition(": ")
-    size, unit, more = rest.partition(" arcsec/yr")
-    return f"{size} ({name})" if unit and "unknown size" not in more else "size unknown"
+    text = answer.attrs["neglected"]
+    effect = None if "unknown size" in text else largest_of(text)
+    return "size unknown" if effect is None else f"{effect.size:g} ({effect.name})"
 
 
 def sky_and_calendar(tree: Result) -> Table:

@@ -6,8 +6,7 @@ import numpy as np
 
 from earthspin.constants import NORMAL_95
 from earthspin.errors import UndefinedError
-from earthspin.wobble.estimate import WobbleFit
-from earthspin.wobble.record import BAND, Array, Complex, in_blocks, without_known_terms
+from earthspin.wobble.record import BAND, Array, Complex, WobbleFit, in_blocks, without_known_terms
 
 BLOCK = 30.0  # d
 ORDER = 12

@@ -16,7 +16,6 @@ from scipy.optimize import brentq, minimize
 
 from earthspin.constants import NORMAL_95
 from earthspin.errors import UndefinedError
-from earthspin.wobble.estimate import WobbleFit
 from earthspin.wobble.oscillator import DrivenOscillator
 from earthspin.wobble.record import (
     BAND,
@@ -24,6 +23,7 @@ from earthspin.wobble.record import (
     YEAR,
     Array,
     Complex,
+    WobbleFit,
     block_means,
     in_blocks,
     known_terms,

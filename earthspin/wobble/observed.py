@@ -19,14 +19,14 @@ import numpy as np
 from earthspin.errors import UndefinedError
 from earthspin.wobble import likelihood
 from earthspin.wobble.burg import fit_burg
-from earthspin.wobble.estimate import WobbleFit
 from earthspin.wobble.likelihood import fit_likelihood
 from earthspin.wobble.presence import need_wobble
-from earthspin.wobble.record import Array, Complex, check
+from earthspin.wobble.record import Array, Complex, WobbleFit, check
 
 #: Factor by which intervals of a fit with excitation are widened: without it 89 % of them held the
 #: truth in 300 simulated records of 30 years: poles with a period of 433 d and Q of 50, 100 and
-#: 180, driven by AAM and OAM and a rest of 2600 mas2 d at the wobble, half white, half of 365 d memory.
+#: 180, driven by AAM and OAM and a rest of 2600 mas2 d at the wobble, half white, half with a
+#: memory of 365 d.
 WIDENING = 1.2
 
 METHODS: dict[str, Callable[[Array, Complex], WobbleFit]] = {

@@ -1,10 +1,11 @@
-"""Records of polar motion: check them, and remove drift and seasonal terms.
+"""Records of polar motion: check them, remove drift and seasonal terms; what is fitted to them.
 
 Polar motion is complex, p = x - i y, so that the free wobble turns with exp(+i omega t).
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -113,3 +114,25 @@ def without_known_terms(time: Array, p: Complex, period: float = NEAR) -> Comple
     columns = known_terms(time)
     found = least_squares(np.column_stack([columns, turning(time, period)]), p)
     return np.asarray(p - columns @ found[:-1])
+
+
+@dataclass(frozen=True)
+class WobbleFit:
+    """Period and quality factor of the free wobble, as fitted by one method.
+
+    Attributes
+    ----------
+    method : str
+    period, period_error : float
+        Value and 95 % half-width, d.
+    quality_factor : float
+        Q.
+    quality_bounds : tuple of float
+        Ends of the 95 % interval of Q.
+    """
+
+    method: str
+    period: float
+    period_error: float
+    quality_factor: float
+    quality_bounds: tuple[float, float]

@@ -39,7 +39,7 @@ WRONG = [
     ({"compute": "torque", "step": "0 h"}, "greater than zero"),
     ({"compute": "torque", "step": "6 kg"}, "6 kg"),
     ({"compute": "precession", "accuracy": 1e-6}, "no such key: delete"),
-    ({"compute": "rotation", "tolerance": "1e-9"}, "without quotes, like 1e-10"),
+    ({"compute": "rotation", "tolerance": "fine"}, "tolerance"),
     ({"compute": "rotation", "tolerance": 1e-14}, "tolerance"),
     ({"compute": "pole", "effects": ["plants"]}, "did you mean 'planets'"),
     ({"compute": "precession", "effects": ["planets"]}, "no such key"),

@@ -25,7 +25,6 @@ COUNTS = {
     "calls": 350,
     "executed": 20,
     "answers": 30,
-    "tolerances": 15,
 }
 
 

@@ -294,7 +294,7 @@ WRONG = [
     (series, "body", {"relative_uncertainty": {"foo": 1.0}}),
     (series, "body", {"from": "nothing"}),
     (series, "ephemeris", 7),
-    (earthspin.rotation, "tolerance", "1e-9"),
+    (earthspin.rotation, "tolerance", "1 mas"),
     (earthspin.precession, "span", ["2000-01-01"]),
     (earthspin.pole, "effects", [3]),
     (earthspin.pole, "times", [1.0, 2.0]),

@@ -10,7 +10,6 @@ from earthspin import SceneError
 from earthspin.constants import MAS
 from earthspin.nutation import core_nutation
 from earthspin.sky.eop import read_pole_offsets
-from earthspin.views.of_question import tables_for
 
 
 @pytest.fixture(scope="module")
@@ -125,14 +124,3 @@ def test_spans_without_observations(span: tuple[str, str]) -> None:
     with pytest.raises(SceneError, match="fewer than 10 dates lie between 1990 and the last"):
         earthspin.plan(scene, sections=["observed"])
     assert "fewer than 10 dates" in str(earthspin.plan(scene, sections="all"))
-
-
-def test_rungs_against_the_sky() -> None:
-    tree = earthspin.run_tree("nutation", sections=["observed"])
-    sizes = tree["observed"].to_dataset()
-    assert sizes.model.values.tolist() == ["iau", *tree.rung.values.tolist()]
-    last = sizes.isel(model=-1).observed_rms
-    assert (last > sizes.sel(model="iau").observed_rms).all()
-    assert (last < 1).all()
-    text = "\n".join(table.title for table in tables_for(tree))
-    assert "Models minus the observed celestial pole" in text

@@ -86,7 +86,7 @@ def test_a_page_names_pages_of_the_documentation_that_there_are() -> None:
         assert f"\n# {title}\n" in f"\n{(docs / f'{name}.md').read_text(encoding='utf-8')}"
     page = scene_page(shipped.tree("spheroid").to_dataset())
     assert "Rotors and tops, from the tensor to the torque" in page
-    assert "Errors and run times" in page
+    assert "Error against run time" in page
 
 
 def test_an_answer_draws_itself_and_a_slice_its_slice() -> None:

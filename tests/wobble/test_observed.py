@@ -2,7 +2,6 @@
 
 import warnings
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -168,16 +167,6 @@ def test_amplitudes(c04: tuple[np.ndarray, np.ndarray], year: int) -> None:
     when = 2000 + seen.time / 365.25
     at = np.argmin(abs(when - max(year, when[0])))
     PINS[f"amplitude {year}"].check(abs(seen.chandler[at]))
-
-
-def test_the_amplitudes_of_the_docs(pole: xr.Dataset) -> None:
-    """Every number of the row in docs/wobble.md, by the call that is named there."""
-    lines = (Path(__file__).parents[2] / "docs" / "wobble.md").read_text().splitlines()
-    at = next(n for n, line in enumerate(lines) if line.startswith("| year | 1965"))
-    years, sizes = ([cell.strip() for cell in lines[n].split("|")[2:-1]] for n in (at, at + 2))
-    found = earthspin.fit_chandler(pole).chandler_amplitude
-    for year, size in zip(years, sizes, strict=True):
-        assert f"{float(found.sel(time=f'{year}-01-01', method='nearest')):.0f}" == size
 
 
 def test_the_fall_of_2018_and_the_return(c04: tuple[np.ndarray, np.ndarray]) -> None:

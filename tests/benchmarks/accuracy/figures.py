@@ -6,7 +6,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullLocator
 
-from earthspin.rounded import duration, plain, shown_unit
+from earthspin.rounded import plain, shown_unit
 from earthspin.views.drawing import BLUE, GREEN, ORANGE, PINK, RED, SKY, Axes, Drawing, power_of_ten
 from tests.benchmarks.accuracy.ladder import Ladder
 
@@ -43,7 +43,7 @@ def table(ladder: Ladder, rows: pd.DataFrame) -> str:
     for row in rows[rows.leads | rows.index.isin(finest)].itertuples():
         name = row.method if row.method in ladder.bounds else f"{row.method} (other)"
         lines.append(
-            f"| {name} | {row.setting} | {plain(row.error)} | {duration(row.seconds)} "
+            f"| {name} | {row.setting} | {plain(row.error)} | {plain(row.seconds)} s "
             f"| {row.evaluations:,} | {'front' if row.leads else ''} |"
         )
     problem = ladder.problem[0].upper() + ladder.problem[1:]
