@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -17,23 +17,13 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-class Effect(NamedTuple):
-    """A neglected effect with its size in a unit of results."""
-
-    name: str
-    size: float
-    unit: str
-
-
-def largest_of(text: str) -> Effect | None:
-    """Read the largest neglected effect from the text that `Neglected.largest` writes.
+def largest_of(text: str) -> tuple[str, float, str] | None:
+    """Read name, size and unit of the largest effect from the text that `Neglected.largest` writes.
 
     The result is None if the text gives no size.
     """
-    written = re.match(r"(?P<name>[^:]+): (?P<size>[-+.e\d]+) (?P<unit>[^(]+) \(", text)
-    if written is None:
-        return None
-    return Effect(written["name"], float(written["size"]), written["unit"])
+    written = re.match(r"([^:]+): ([-+.e\d]+) ([^(]+) \(", text)
+    return None if written is None else (written[1], float(written[2]), written[3])
 
 
 BOUND = "this is a bound on a neglected effect, or its published size"

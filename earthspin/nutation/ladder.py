@@ -208,9 +208,7 @@ class Setting:
         return _yielding(self.layers, strain if slow else strain.conjugate())
 
 
-@lru_cache(maxsize=64)
-def _yielding(layers: LayeredBody, strain: complex) -> Yielding:
-    return yielding(layers, strain)
+_yielding = lru_cache(maxsize=64)(yielding)
 
 
 def parts_of(setting: Setting, love: Yielding, e: float | None = None) -> Parts:

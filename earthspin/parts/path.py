@@ -93,13 +93,24 @@ class Errors:
         )
 
 
-@dataclass(frozen=True)
-class PathErrors:
-    """Errors of the directions of the axes along an integrated path.
+def direction_errors(
+    path: AxisPath,
+    figure: FloatArray,
+    days: FloatArray,
+    epochs: Epochs,
+    body: Body,
+    pulls: Pulls,
+    shift: Shift | None,
+) -> Errors:
+    """Errors of the directions of the axes along an integrated path, by cause.
 
-    Attributes
+    Parameters
     ----------
     path : AxisPath
+    figure : ndarray, shape (t, 3)
+        Figure axes.
+    days : ndarray, shape (t,)
+        Their times, days from J2000.0.
     epochs : TimeGrid or TimeList
         All times of the series; the error of the positions depends on the most distant ones.
     body : Body
@@ -107,41 +118,20 @@ class PathErrors:
     shift : Shift or None
         Response of the interior; None for a rigid body.
     """
-
-    path: AxisPath
-    epochs: Epochs
-    body: Body
-    pulls: Pulls
-    shift: Shift | None = None
-
-    def at(self, days: FloatArray, figure: FloatArray) -> Errors:
-        """Errors of axis directions at days from J2000.0, shape (t,), by cause.
-
-        `figure` holds the figure axes at these days, shape (t, 3).
-        """
-        u_h = self.body.relative_uncertainty.get("dynamical_flattening", 0.0)
-        method = np.nan if self.pulls.sky.unmeasured else self.path.error
-        return Errors(
-            method=np.full(len(figure), method),
-            given=axes.error_of_input(self.path, figure, u_h),
-            kernel=self._of_sky(figure),
-            response=np.zeros(len(figure)) if self.shift is None else self.shift.half_width(days),
-        )
-
-    def _of_sky(self, figure: FloatArray) -> FloatArray:
-        """95 % half-width of axis directions due to perturber position errors, rad, shape (t,)."""
-        sky, body = self.pulls.sky, self.body
-        _, epoch = start_of(body, self.pulls)
-        positions = sky.positions(np.array([epoch / DAY]))
-        distance = {name: float(np.linalg.norm(position)) for name, position in positions.items()}
-        drift = max(sky.drift(name, far) for name, far in distance.items())
-        speed = fastest_sweep(
-            body.number("dynamical_flattening"),
-            float(body.spin_rate),
-            [(self.pulls.gm[name], far) for name, far in distance.items()],
-        )
-        grown = max(map(growth, self.epochs.span()))
-        return grown * axes.error_of_sky(self.path, figure, drift, speed, DRIFT_FROM)
+    _, epoch = start_of(body, pulls)
+    positions = pulls.sky.positions(np.array([epoch / DAY]))
+    distance = {name: float(np.linalg.norm(position)) for name, position in positions.items()}
+    drift = max(pulls.sky.drift(name, far) for name, far in distance.items())
+    nearest = [(pulls.gm[name], far) for name, far in distance.items()]
+    speed = fastest_sweep(body.number("dynamical_flattening"), float(body.spin_rate), nearest)
+    of_sky = axes.error_of_sky(path, figure, drift, speed, DRIFT_FROM)
+    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    return Errors(
+        method=np.full(len(figure), np.nan if pulls.sky.unmeasured else path.error),
+        given=axes.error_of_input(path, figure, u_h),
+        kernel=max(map(growth, epochs.span())) * of_sky,
+        response=np.zeros(len(figure)) if shift is None else shift.half_width(days),
+    )
 
 
 @dataclass(frozen=True)

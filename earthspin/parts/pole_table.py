@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import Body, in_a_sentence
+from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.constants import ARCSEC, J2000_JD, MAS
 from earthspin.dates import Span, days
 from earthspin.engine.labels import si
+from earthspin.engine.question import Question, key, setting
 from earthspin.engine.variables import Labels, Variables, labels
 from earthspin.errors import SceneError, Where
 from earthspin.parts.reasons import no_iau_model
@@ -41,6 +42,19 @@ class TableFile(FileName):
     def begins(self, head: bytes) -> bool:
         """Return True if a file with the first bytes `head` may be a table of the pole."""
         return is_table(head)
+
+
+class OfTable(Question):
+    """Base class of questions about a table of the observed pole."""
+
+    body: Body = key(EARTH, doc="body whose pole was observed")
+    span: Span | None = key(None, doc="first and last date; the whole table if not given")
+    file: Annotated[str, TableFile()] = setting(
+        C04, doc="a daily table of the IERS that astropy carries, or a local file"
+    )
+    kind: Literal["c04", "c01", "finals2000A"] | None = setting(
+        None, doc="layout of the table; recognised from the file if not given"
+    )
 
 
 class Daily(Variables, along=("time",)):

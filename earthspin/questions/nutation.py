@@ -111,23 +111,19 @@ def models(body: Body, coupling: str, anelastic_exponent: float) -> Prediction:
 
 @dataclass(frozen=True)
 class RungResiduals:
-    """Predicted pole minus IAU 2000A for each model, with a linear trend removed.
+    """Root mean square of predicted pole minus IAU 2000A, after removal of a linear trend.
 
     Attributes
     ----------
-    series : dict of str to ndarray, shape (t, 2)
-        dpsi sin(eps0) and deps, rad, by rung.
+    rms : dict of str to ndarray, shape (2,)
+        Of dpsi sin(eps0) and deps, rad, by rung.
     error : float
         95 % half-width of either angle, from the integration and H; what the interior adds is what
         the ladder is about.
     """
 
-    series: dict[str, NDArray[np.float64]]
+    rms: dict[str, NDArray[np.float64]]
     error: float
-
-    def rms(self, names: list[str]) -> NDArray[np.float64]:
-        """Root mean square of both residual angles for the named models, rad, shape (2, model)."""
-        return np.array([np.sqrt(np.mean(self.series[name] ** 2, axis=0)) for name in names]).T
 
 
 @part
@@ -139,7 +135,7 @@ def left(
     body: Body,
     effects: tuple[str, ...],
 ) -> RungResiduals:
-    """Compute the time series of predicted pole minus IAU pole (residuals) for each model."""
+    """Compute the residuals of predicted pole minus IAU pole for each model."""
     from earthspin.nutation.circles import complex_nutation, responses, without_line
     from earthspin.sky import iau
 
@@ -154,14 +150,15 @@ def left(
         added = np.array([*responses(circles, iau.delaunay_arguments(at), factors).values()])
         return np.stack([added.real, added.imag], axis=-1).swapaxes(0, 1)
 
-    series = {}
+    rms = {}
     with progress("residuals", len(factors)) as advance:
         for name, shift in zip(factors, iau.at_days(shifts, days).swapaxes(0, 1), strict=True):
             eta = own + shift[:, 0] + 1j * shift[:, 1] - theirs
             plain = np.stack([eta.real, eta.imag], axis=1)
-            series[name] = without_line(days / DAYS_PER_CENTURY, plain)
+            residual = without_line(days / DAYS_PER_CENTURY, plain)
+            rms[name] = np.sqrt(np.mean(residual**2, axis=0))
             advance(1)
-    return RungResiduals(series, residual_error(done, body, theirs, days))
+    return RungResiduals(rms, residual_error(done, body, theirs, days))
 
 
 _RMS = "root mean square of computed minus IAU 2000A in"
@@ -187,7 +184,7 @@ class RungSizes(Variables, along=("rung",), error="rms_error"):
 def rung_sizes(left: RungResiduals, models: Prediction) -> RungSizes:
     """Compute the root mean square of predicted pole minus IAU 2000A, for each ladder model."""
     names = models.ladder
-    longitude, obliquity = left.rms(names)
+    longitude, obliquity = np.array([left.rms[name] for name in names]).T
     return RungSizes(
         rms_dpsi_sineps=longitude,
         rms_deps=obliquity,
@@ -215,7 +212,7 @@ def beside(left: RungResiduals) -> ModelSizes:
 
     They are a fluid core in a rigid mantle, and a body with the H of hydrostatic equilibrium.
     """
-    longitude, obliquity = left.rms(list(ladder.BESIDE))
+    longitude, obliquity = np.array([left.rms[name] for name in ladder.BESIDE]).T
     return ModelSizes(
         model_rms_dpsi_sineps=longitude,
         model_rms_deps=obliquity,

@@ -4,26 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import EARTH, Body
+from earthspin.bodies import Body
 from earthspin.constants import DAY, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, key, setting
+from earthspin.engine.question import define_parts, setting
 from earthspin.engine.run import in_range
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.parts.pole_table import (
-    C04,
     MJD,
     Daily,
-    TableFile,
+    OfTable,
     complex_pole,
     labelled_series,
     not_observed,
@@ -61,7 +60,7 @@ FASTEST = 3 / 365.25
 OCEAN_TIDES = 0.027 + 0.142 + 0.056 + 0.171 + 0.058 + 0.331 + 0.158 + 0.040
 
 
-class PolarMotion(Question, word="polar-motion", call="polar_motion", table="polar_motion"):
+class PolarMotion(OfTable, word="polar-motion", call="polar_motion", table="polar_motion"):
     """Observed polar motion, and the free wobble in it.
 
     Returns
@@ -86,14 +85,6 @@ class PolarMotion(Question, word="polar-motion", call="polar_motion", table="pol
 
     views, page, headline = "polar_motion", "wobble", "x"
 
-    body: Body = key(EARTH, doc="body whose pole was observed")
-    span: Span | None = key(None, doc="first and last date; the whole table if not given")
-    file: Annotated[str, TableFile()] = setting(
-        C04, doc="a daily table of the IERS that astropy carries, or a local file"
-    )
-    kind: Literal["c04", "c01", "finals2000A"] | None = setting(
-        None, doc="layout of the table; recognised from the file if not given"
-    )
     method: Method = setting("burg", doc="method that fits the free wobble")
     window: Days | None = setting(
         None, doc="length of the sliding windows; one beat of annual and free wobble if not given"

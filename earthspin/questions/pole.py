@@ -20,9 +20,9 @@ from earthspin.nutation.angles import on_fixed_ecliptic
 from earthspin.parts.path import (
     INTERIOR,
     LongitudeCycles,
-    PathErrors,
     Shift,
     axis_path,
+    direction_errors,
     longitude_cycles,
 )
 from earthspin.parts.predicted import SOURCES, no_layers
@@ -168,8 +168,8 @@ def axes(
     """Compute unit vectors of the angular momentum, rotation and figure axes at every time."""
     now = days_of(epochs, block, by_region("pole.zarr"))
     directions = axis_path.at(now * DAY)
-    path_errors = PathErrors(axis_path, epochs, body, pulls, interior_shift)
-    errors = path_errors.at(now, directions["figure"])
+    figure = directions["figure"]
+    errors = direction_errors(axis_path, figure, now, epochs, body, pulls, interior_shift)
     if interior_shift is not None:
         interior_shift.apply(directions, now)
     vectors = np.stack([directions[axis] for axis in AXES], axis=1)

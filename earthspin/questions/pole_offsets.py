@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
-
 import numpy as np
 
-from earthspin.bodies import EARTH, Body
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Span, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, key, setting
+from earthspin.engine.question import define_parts, setting
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import UndefinedError
 from earthspin.interior.published import OBSERVED_CORE_NUTATION
 from earthspin.nutation import core_nutation as core
-from earthspin.parts.pole_table import C04, MJD, Daily, TableFile, not_observed, within
+from earthspin.parts.pole_table import MJD, Daily, OfTable, not_observed, within
 from earthspin.sky.eop import PoleSeries, read_pole_offsets
 from earthspin.units import Days
 from earthspin.wobble.record import shortest_span
@@ -26,7 +23,7 @@ from earthspin.wobble.record import shortest_span
 FIRST_MJD = 45700.0
 
 
-class PoleOffsets(Question, word="pole-offsets", call="pole_offsets", table="pole_offsets"):
+class PoleOffsets(OfTable, word="pole-offsets", call="pole_offsets", table="pole_offsets"):
     """Observed celestial pole offsets, and the free core nutation in them.
 
     The offsets dX, dY are what very long baseline interferometry adds to the X, Y of IAU
@@ -55,14 +52,6 @@ class PoleOffsets(Question, word="pole-offsets", call="pole_offsets", table="pol
 
     views, page, headline = "pole_offsets", "pole_offsets", "dX"
 
-    body: Body = key(EARTH, doc="body whose pole was observed")
-    span: Span | None = key(None, doc="first and last date; the whole table if not given")
-    file: Annotated[str, TableFile()] = setting(
-        C04, doc="a daily table of the IERS that astropy carries, or a local file"
-    )
-    kind: Literal["c04", "c01", "finals2000A"] | None = setting(
-        None, doc="layout of the table; recognised from the file if not given"
-    )
     window: Days | None = setting(
         None, doc="length of the sliding windows; three years if not given"
     )

@@ -137,20 +137,15 @@ def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Bod
         precession_rate={
             "window": mean_torques.over,
             "pole": str(body.needed("pole")),
-            "plane": _plane(body),
+            "plane": "ecliptic of J2000.0"
+            if body.needed("pole").of_the_iau
+            else f"orbit whose normal has {body.orbit_pole} (ICRF)",
         },
         precession_rate_error={
             "method": mean_torques.method,
             "evaluations": mean_torques.evaluations,
         },
     )
-
-
-def _plane(body: Body) -> str:
-    """Name of the reference plane in which the precession rate of a body is measured."""
-    if body.needed("pole").of_the_iau:
-        return "ecliptic of J2000.0"
-    return f"orbit whose normal has {body.orbit_pole} (ICRF)"
 
 
 # --- sections ------------------------------------------------------------------------------------

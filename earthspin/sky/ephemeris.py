@@ -198,17 +198,13 @@ class Ephemeris:
                 if step in outward and step in homeward:
                     continue
                 if step not in steps:
-                    steps[step] = self._evaluate(step, epochs)
+                    self.evaluations[step] += epochs.days.size
+                    steps[step] = self._along(step, epochs)
                 combine(total, steps[step], out=total)
         if not (np.all(total[0]) or np.all(np.any(total, axis=0))):
             where, seen_from = words(target), words(centre).removeprefix("NAIF ")
             raise KernelError(self.path, f"it puts {where} in the middle of {seen_from}", AGAIN)
         return total
-
-    def _evaluate(self, step: Step, epochs: Epochs) -> FloatArray:
-        """Compute positions from one kernel segment, m, shape (3, n), and count the evaluations."""
-        self.evaluations[step] += epochs.days.size
-        return self._along(step, epochs)
 
     def _along(self, step: Step, epochs: Epochs) -> FloatArray:
         if not isinstance(step, tuple):

@@ -53,7 +53,8 @@ def _error(answer: xr.Dataset) -> str:
     name = question.headline
     value = answer[name]
     label = name.removesuffix(_ERROR).replace("_", " ")
-    error_name = name if name.endswith(_ERROR) else _first(value.attrs, "ancillary_variables")
+    first, *_ = value.attrs.get("ancillary_variables", "").split(" ")
+    error_name = name if name.endswith(_ERROR) else first
     if not error_name:
         return f"{label}: no error: {value.attrs['no_error']}"
     if answer.sizes.get("perturber", 0) == 1 or "total" in answer.get("perturber", ()):
@@ -78,15 +79,10 @@ def _error(answer: xr.Dataset) -> str:
     if relative:
         size *= float(np.abs(value).max())
         unit = value.attrs["units"]
-    effect = largest_of(answer.attrs.get("neglected", ""))
-    if effect and abs(effect.size) / from_si(effect.unit) > size / from_si(unit):
-        text += f"; not modelled: {effect.name}, {plain(effect.size)}{shown_unit(effect.unit)}"
+    effect, left_out, its_unit = largest_of(answer.attrs.get("neglected", "")) or ("", 0.0, "1")
+    if abs(left_out) / from_si(its_unit) > size / from_si(unit):
+        text += f"; not modelled: {effect}, {plain(left_out)}{shown_unit(its_unit)}"
     return text
-
-
-def _first(attributes: dict[str, str], key: str) -> str:
-    """First word of an attribute; empty if there is none."""
-    return next(iter(attributes.get(key, "").split()), "")
 
 
 def _label(point: xr.DataArray, dim: Hashable, index: int) -> str:

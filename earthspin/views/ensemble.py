@@ -118,10 +118,6 @@ def _caption_of_spread(tree: Result) -> str:
     return f"{words}, of {answer.sizes[MEMBER]} members; the band is the central 95 %."
 
 
-def _caption_of_shares(tree: Result) -> str:
-    return f"Share of each input in the variance of {_whole(tree).sizes[MEMBER]} members."
-
-
 def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Axes:
     """Draw a histogram of one quantity over the ensemble members, with its central 95 % as a band.
 
@@ -196,7 +192,7 @@ FIGURES = [
     ),
     PageFigure(
         "Where the spread comes from",
-        _caption_of_shares,
+        "Share of each input in the variance of the members.",
         plot_shares,
         applies=lambda tree: bool(_numbers(_whole(tree))) and _enough(_whole(tree)),
     ),

@@ -8,7 +8,7 @@ import xarray as xr
 from earthspin.interior.published import CORE_NUTATION, CORE_NUTATION_QUALITY
 from earthspin.views import drawing, table
 from earthspin.views.drawing import Axes, PageFigure, axes, note
-from earthspin.views.reading import Result, answer_of, needed, section
+from earthspin.views.reading import Result, answer_of, needed
 from earthspin.views.table import Column, Table, table_along
 
 #: Terms to which IAU 2000A adds something that are printed: those to which it adds most.
@@ -62,10 +62,6 @@ def budget(tree: Result) -> Table:
 
 def residuals(tree: Result) -> Table:
     """Table of the rms and maximum of computed minus IAU pole, for different sets of effects."""
-    series = section(tree, "residuals")
-    dates = ""
-    if series is not None:
-        dates = f", {table.date(series.time[0])} to {table.date(series.time[-1])}"
 
     def both(name: str) -> Column:
         return Column(name, lambda row: " / ".join(f"{v:.3f}" for v in row[name].values))
@@ -75,8 +71,8 @@ def residuals(tree: Result) -> Table:
         *map(both, ("residual_rms", "residual_maximum", "residual_rms_unfitted")),
     )
     note = (
-        f"Each cell gives dpsi sin(eps) / deps{dates}. A constant and a rate were fitted to each "
-        "and removed, except in the last column. The residuals of the first two models are large "
+        "Each cell gives dpsi sin(eps) / deps. A constant and a rate were fitted to each and "
+        "removed, except in the last column. The residuals of the first two models are large "
         "because the body is not rigid; no better integration can remove them."
     )
     title = "Computed pole minus that of IAU 2006/2000A"

@@ -129,7 +129,7 @@ def _largest_left_out(answer: xr.Dataset) -> str:
     """Name and size, as text, of the largest effect on the precession rate that is not modelled."""
     text = answer.attrs["neglected"]
     effect = None if "unknown size" in text else largest_of(text)
-    return "size unknown" if effect is None else f"{effect.size:g} ({effect.name})"
+    return "size unknown" if effect is None else f"{effect[1]:g} ({effect[0]})"
 
 
 def sky_and_calendar(tree: Result) -> Table:

@@ -127,7 +127,7 @@ def gallery_page() -> str:
 
 
 def write_wobble_report(
-    folder: str | Path, *, file: str = "c04", method: str = "burg", figures: bool = True
+    folder: str | Path, *, figures: bool = True
 ) -> tuple[list[xr.DataTree], list[Path]]:
     """Run all computations of the wobble report, and write its page and data.
 
@@ -135,10 +135,6 @@ def write_wobble_report(
     ----------
     folder : str or Path
         ``wobble.html``, ``wobble.nc`` and ``polar-motion.nc`` are written to it.
-    file : str
-        Table of polar motion.
-    method : str
-        As of `earthspin.fit_chandler`.
     figures : bool
         If false, nothing is drawn.
 
@@ -154,11 +150,10 @@ def write_wobble_report(
         Whatever is wrong. The data are written before anything is drawn.
     """
     place = drafts.check_writable(folder)
-    settings = {"polar_motion.file": file, "polar_motion.method": method}
     with progress("wobble report", 3) as advance:
         ladder = run_tree("wobble")
         advance(1)
-        pole = run_tree(load_scene("polar-motion", settings))
+        pole = run_tree("polar-motion")
         data = _write_data(place, {"wobble.nc": ladder, "polar-motion.nc": pole})
         advance(1)
         text = page_of(

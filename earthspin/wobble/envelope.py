@@ -74,8 +74,10 @@ def envelope(
         )
     local = (np.arange(size) - (size - 1) / 2) * spacing
     terms = (period, YEAR, -YEAR, YEAR / 2)
-    # A mean over the samples of a block shortens a sinusoid.
-    waves = [turning(local, term) * _shortened(spacing, sample, term) for term in terms]
+    # The mean over m samples in a block B reduces the amplitude of a sinusoid with the period T by
+    # the factor sin(pi B/T)/(m sin(pi B/(m T))).
+    factors = [np.sinc(spacing / term) / np.sinc(sample / term) for term in terms]
+    waves = [turning(local, term) * factor for term, factor in zip(terms, factors, strict=True)]
     columns = np.column_stack([np.ones(size), local / length, *waves])
     solver = np.linalg.pinv(columns)
     starts = np.arange(0, time.size - size + 1, max(1, round(step / spacing)))
@@ -94,14 +96,6 @@ def envelope(
         found[:, 0],
         _amplitude_error(left, spacing, 2 * np.pi / period),
     )
-
-
-def _shortened(block: float, sample: float, period: float) -> float:
-    """Factor by which the mean over a block of samples reduces the amplitude of a sinusoid.
-
-    It is sin(pi B/T)/(m sin(pi B/(m T))) for m samples in a block B and the period T.
-    """
-    return float(np.sinc(block / period) / np.sinc(sample / period))
 
 
 def _amplitude_error(left: Complex, spacing: float, rate: float) -> Array:

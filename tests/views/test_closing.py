@@ -26,7 +26,7 @@ def test_every_question_has_a_headline_with_an_error_or_a_reason(word: str) -> N
         value = answer[QUESTIONS[word].headline]
         names = [value.name, *value.attrs.get("ancillary_variables", "").split()]
         units = [answer[name].attrs["units"] for name in names]
-        assert any(u.Unit(effect.unit).is_equivalent(u.Unit(unit)) for unit in units)
+        assert any(u.Unit(effect[2]).is_equivalent(u.Unit(unit)) for unit in units)
 
 
 def test_the_numbers_of_the_line_are_those_of_the_answer(precession_tree: xr.DataTree) -> None:
