@@ -51,12 +51,3 @@ def test_jupyter_finds_nothing_it_does_not_know(name: str) -> None:
     told = READER.for_jupyter(LESSONS[name])
     prose = re.sub(r"```.*?```", "", told, flags=re.S)
     assert not re.search(r"\{\w+\}`|</?(details|summary)|\$\$ \(I\.|\.md\)", prose)
-
-
-def test_words_for_jupyter() -> None:
-    ours = (
-        "by {place}`I.1.8` $$ a = b $$ (I.1.9)\n{place}`exercise <I.1 exercise: x>` [map](../a.md)"
-    )
-    told = "by (I.1.8) $$ a = b \\tag{I.1.9}$$\nexercise [map](../a.html)"
-    assert READER.for_jupyter(ours) == told
-    assert READER.places(ours) == ["I.1.9", "I.1.8", "I.1 exercise: x"]
