@@ -287,14 +287,28 @@ def rigid(effects: Sequence[str]) -> list[str]:
     return [effect for effect in effects if effect != NONRIGID.name]
 
 
-@part(unless=no_iau_model)
-def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> PoleComparison:
-    """Analyse the computed pole and the IAU pole over 150 years: precession and circular terms.
+@dataclass(frozen=True)
+class IAUPole:
+    """Pole of IAU 2006/2000A over the span that is analysed.
 
-    The initial axis is corrected so that the mean poles agree at the start.
+    Attributes
+    ----------
+    days : ndarray, shape (t,)
+        Days from J2000.0.
+    pole : ndarray, shape (t, 3)
+        Celestial intermediate pole in the GCRS.
+    nutation : ndarray, shape (t, 2)
+        Nutation of the original IAU 2000A, rad.
     """
-    from earthspin.nutation.analysis import CENTURY, PoleAnalysis, shifted_start
-    from earthspin.nutation.circles import complex_nutation
+
+    days: FloatArray
+    pole: FloatArray
+    nutation: FloatArray
+
+
+@part(unless=no_iau_model, same_for=lambda pulls: pulls.limits)
+def iau_pole(pulls: Pulls) -> IAUPole:
+    """Sum the pole and the nutation of the IAU over 150 years, as far as positions are known."""
     from earthspin.sky import iau
 
     low, high = (limit / DAY for limit in pulls.limits)
@@ -305,6 +319,22 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> PoleCom
             f"analysis of nutation needs {SHORTEST_SPAN * DAY / JULIAN_YEAR:.0f}; give a longer "
             "ephemeris, or remove the effect nonrigid"
         )
+    return IAUPole(days, *iau.pole_and_nutation(days))
+
+
+@part(unless=no_iau_model)
+def pole_analysis(
+    body: Body, pulls: Pulls, effects: tuple[str, ...], iau_pole: IAUPole
+) -> PoleComparison:
+    """Analyse the computed pole and the IAU pole over 150 years: precession and circular terms.
+
+    The initial axis is corrected so that the mean poles agree at the start.
+    """
+    from earthspin.nutation.analysis import CENTURY, PoleAnalysis, shifted_start
+    from earthspin.nutation.circles import complex_nutation
+    from earthspin.sky import iau
+
+    days, true_pole = iau_pole.days, iau_pole.pole
     start, epoch = start_of(body, pulls)
 
     def integrate(start: FloatArray) -> tuple[AxisPath, FloatArray]:
@@ -316,7 +346,6 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> PoleCom
             days, iau.delaunay_arguments(days), iau.delaunay_rates(), iau.fixed_ecliptic()
         )
         advance(1)
-        true_pole = iau.true_pole(days)
         theirs = analysis.secular(true_pole)
         advance(1)
         _, pole = integrate(start)
@@ -325,7 +354,7 @@ def pole_analysis(body: Body, pulls: Pulls, effects: tuple[str, ...]) -> PoleCom
         )
         path, pole = integrate(start)
         advance(1)
-        their_circles = analysis.circles(complex_nutation(iau.nutation_2000a(days)))
+        their_circles = analysis.circles(complex_nutation(iau_pole.nutation))
         advance(1)
     eta = complex_nutation(iau.nutation_of(pole, days))
     return PoleComparison(
@@ -522,4 +551,4 @@ def predicted_shift(
 
 
 #: Parts that compute the shift due to the interior, for questions that use them.
-INTERIOR = (pole_analysis, response_apart, nonrigid_shift, prediction, predicted_shift)
+INTERIOR = (iau_pole, pole_analysis, response_apart, nonrigid_shift, prediction, predicted_shift)

@@ -33,6 +33,7 @@ from earthspin.parts.path import (
     Comparison,
     PoleComparison,
     iau_nutation,
+    iau_pole,
     path_over,
     pole_analysis,
     residual_error,
@@ -354,7 +355,7 @@ define_parts(
         "transfer": transfer,
         "neglected": neglected,
     },
-    parts=(*PULLS, pole_analysis, models, left),
+    parts=(*PULLS, iau_pole, pole_analysis, models, left),
 )
 
 nutation_ladder = public_call(NutationLadder)

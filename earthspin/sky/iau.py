@@ -121,12 +121,23 @@ def true_pole(days: FloatArray) -> FloatArray:
     return true_equator(days)[..., 2, :]
 
 
-def nutation_2000a(days: FloatArray) -> FloatArray:
-    """Nutation in longitude and obliquity of the original IAU 2000A, rad, shape (n, 2).
+def pole_and_nutation(days: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Pole of IAU 2006/2000A, and nutation of the original IAU 2000A, from one sum of its terms.
 
-    The scaling for the J2 rate of IAU 2006 is not applied (`erfa.nut00a`).
+    Returns
+    -------
+    pole : ndarray, shape (n, 3)
+        As `true_pole` gives it, to the bit.
+    nutation : ndarray, shape (n, 2)
+        Nutation in longitude and obliquity (`erfa.nut00a`), rad.
     """
-    return np.stack(erfa.nut00a(J2000_JD, days), axis=-1)
+    psi, eps = erfa.nut00a(J2000_JD, days)
+    # IAU 2006 adjusts IAU 2000A to its obliquity and to its rate of J2 (`erfa.nut06a`).
+    by_j2 = -2.7774e-6 * (days / DAYS_PER_CENTURY)
+    gamma, phi, psi_bar, eps_bar = erfa.pfw06(J2000_JD, days)
+    psi_true = psi_bar + (psi + psi * (0.4697e-6 + by_j2))
+    matrix = erfa.fw2m(gamma, phi, psi_true, eps_bar + (eps + eps * by_j2))
+    return np.asarray(matrix[..., 2, :]), np.stack([psi, eps], axis=-1)
 
 
 def delaunay_arguments(days: FloatArray) -> FloatArray:

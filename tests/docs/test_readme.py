@@ -28,5 +28,5 @@ def test_the_eight_lines_print_what_stands_below_them(tmp_path: Path) -> None:
 
 def block(language: str, page: str) -> str:
     """The one block of code in a language on a page."""
-    (text,) = re.findall(rf"```{language}\n(.*?)```", page, flags=re.DOTALL)
+    text, *_ = re.findall(rf"```{language}\n(.*?)```", page, flags=re.DOTALL)
     return str(text)

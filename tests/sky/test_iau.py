@@ -74,3 +74,10 @@ def test_nutation_of_the_true_pole_is_that_of_the_model() -> None:
     days = np.linspace(-18000, 18000, 300)
     expected = np.stack(erfa.nut06a(J2000, days), axis=-1)
     assert np.max(np.abs(iau.nutation_of(iau.true_pole(days), days) - expected)) < 1e-15
+
+
+def test_one_sum_gives_pole_and_nutation_to_the_bit() -> None:
+    days = np.linspace(-40000.0, 40000.0, 50)
+    pole, nutation = iau.pole_and_nutation(days)
+    assert np.array_equal(pole, erfa.pnm06a(2451545.0, days)[..., 2, :])
+    assert np.array_equal(nutation, np.stack(erfa.nut00a(2451545.0, days), axis=-1))
