@@ -15,16 +15,15 @@ import math
 from collections.abc import Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from earthspin.constants import DAY, JULIAN_YEAR, MAS
 from earthspin.dates import days
 from earthspin.errors import Where
 from earthspin.motion.effects import EFFECTS, NONRIGID, RIGID, Growth
+from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.pole import pole
 
-FloatArray = NDArray[np.float64]
 Span = tuple[str, str]
 
 SPAN: Span = ("1901-01-01", "2050-01-01")

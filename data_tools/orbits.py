@@ -29,17 +29,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.signal import savgol_filter
 from scipy.spatial.transform import Rotation
 
 from earthspin.bodies import BODIES
 from earthspin.constants import AU, DAY, J2000_JD, JULIAN_YEAR
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky import iau, orbit_table
 from earthspin.sky.ephemeris import open_ephemeris
 from earthspin.sky.orbit_table import OrbitTable, fitted, write
-
-FloatArray = NDArray[np.float64]
 
 #: Step, time between stops (2922 steps), and reach either way, s.
 STEP, STOP, REACH = 5 * DAY, 40 * JULIAN_YEAR, 10.02e6 * JULIAN_YEAR

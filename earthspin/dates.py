@@ -22,7 +22,8 @@ from numpy.typing import NDArray
 
 from earthspin.constants import J2000_JD
 from earthspin.errors import SceneError, Where
-from earthspin.units import FloatArray, Number, Plain, is_masked, pack, unpack
+from earthspin.numerics.arrays import FloatArray
+from earthspin.units import Number, Plain, is_masked, pack, unpack
 
 J2000 = np.datetime64("2000-01-01T12:00:00", "us")
 MICROSECONDS_PER_DAY = 86_400_000_000

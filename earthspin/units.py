@@ -19,11 +19,10 @@ from types import NoneType, UnionType
 from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeVar, Union, get_args, get_origin
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.errors import EarthspinError, UnitsError, Where, is_one_line, nearest, one_line
+from earthspin.numerics.arrays import FloatArray
 
-FloatArray = NDArray[np.float64]
 #: What a scene file can hold: text, numbers, truth, lists and tables of them.
 Plain = Any
 T = TypeVar("T")

@@ -16,7 +16,8 @@ import numpy as np
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.dates import J2000, Listed, days, first_and_last, microseconds
 from earthspin.errors import UnitsError, Where
-from earthspin.units import FloatArray, Number, Plain, quantity
+from earthspin.numerics.arrays import FloatArray
+from earthspin.units import Number, Plain, quantity
 
 #: How far from J2000.0 a time may lie, and how short a step may be, s.
 FARTHEST, SHORTEST = 1e9 * JULIAN_YEAR, DAY

@@ -5,12 +5,12 @@ from __future__ import annotations
 import erfa
 import numpy as np
 from astropy import units
-from numpy.typing import NDArray
 
 import earthspin
 from data_tools.coverage import Row
 from earthspin.bodies import EARTH, MARS, MOON, SUN, Body
 from earthspin.constants import ARCSEC, J2000_JD, JULIAN_YEAR, NORMAL_95
+from earthspin.numerics.arrays import FloatArray
 from earthspin.parts import averages, orbits
 from earthspin.parts import sky as skies
 from earthspin.questions import long_term as question
@@ -18,8 +18,6 @@ from earthspin.scenes import load_scene
 from earthspin.secular.budget import Solved, changed
 from earthspin.secular.reading import angle, followed_perihelion, moved_by, read
 from earthspin.secular.trajectory import solve
-
-FloatArray = NDArray[np.float64]
 
 #: Members, their seed, and the step between epochs, kyr.
 MEMBERS, SEED, STEP = 1000, 20260101, 10

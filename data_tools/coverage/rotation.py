@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 import earthspin
@@ -14,9 +13,8 @@ from data_tools.coverage import Row
 from earthspin import MOON
 from earthspin.constants import ARCSEC, DAY, J2000_JD
 from earthspin.dates import datetime64
+from earthspin.numerics.arrays import FloatArray
 from tests.reference.kepler_rotors import random_case, reference
-
-FloatArray = NDArray[np.float64]
 
 #: Librations of DE421 at some dates: Folkner, Williams & Boggs 2009, IPN Progress Report 42-178.
 LIBRATIONS = Path(__file__).parents[2] / "tests" / "data" / "de421-librations.txt"

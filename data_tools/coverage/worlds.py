@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 import earthspin
 from data_tools.coverage import Row
@@ -17,8 +16,7 @@ from earthspin.bodies import BODIES, MARS
 from earthspin.bodies.moon import OBLIQUITY as MOON_OBLIQUITY
 from earthspin.bodies.moons import TITAN_OBLIQUITY
 from earthspin.constants import NORMAL_95
-
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
 
 #: Obliquity of Mars by La2004: kyr from J2000.0, rad.
 LA2004 = Path(__file__).parents[2] / "tests" / "data" / "la2004-mars-excerpt.txt"

@@ -24,12 +24,12 @@ from earthspin.errors import (
 )
 from earthspin.interior.equilibrium import equilibrium, figure
 from earthspin.interior.layers import LayeredBody
+from earthspin.numerics.arrays import FloatArray
 from earthspin.units import is_masked, quantity
 
 if TYPE_CHECKING:
     from earthspin.mass.shape import Shape
 
-FloatArray = NDArray[np.float64]
 #: Numbers of a body by field, SI.
 Fields = dict[str, Any]
 

@@ -23,7 +23,8 @@ from numpy.typing import NDArray
 
 from earthspin.engine.member_values import read_file, values_from_dataset, values_from_scene
 from earthspin.errors import Where, nearest
-from earthspin.units import FloatArray, Word, by_name, pack
+from earthspin.numerics.arrays import FloatArray
+from earthspin.units import Word, by_name, pack
 
 #: Largest number of members, which limits the memory for the values of one input.
 LARGEST_COUNT = 10_000_000

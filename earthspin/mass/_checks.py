@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from earthspin.errors import BodyError, UndefinedError
-
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
 
 
 def positive(body: str, field: str, value: ArrayLike) -> FloatArray:

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from earthspin.errors import BodyError, UndefinedError
-from earthspin.mass._checks import FloatArray, first, positive, vectors
+from earthspin.mass._checks import first, positive, vectors
+from earthspin.numerics.arrays import FloatArray
 
 
 def point_masses(masses: ArrayLike, positions: ArrayLike) -> tuple[FloatArray, FloatArray]:

@@ -19,7 +19,8 @@ from numpy.typing import ArrayLike
 from scipy.special import elliprc
 
 from earthspin.errors import BodyError, UndefinedError
-from earthspin.mass._checks import FloatArray, first, positive
+from earthspin.mass._checks import first, positive
+from earthspin.numerics.arrays import FloatArray
 
 #: Most prolate figure tested: c = 10^6 a.
 LEAST_FLATTENING = -1e6

@@ -20,7 +20,8 @@ from numpy.typing import ArrayLike
 from scipy.integrate import quad_vec
 
 from earthspin.errors import AccuracyError, UndefinedError
-from earthspin.mass._checks import FloatArray, degree
+from earthspin.mass._checks import degree
+from earthspin.numerics.arrays import FloatArray
 
 #: Maximum number of intervals in the quadrature of a projection.
 _INTERVALS = 500

@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike
 
 from earthspin.constants import G
 from earthspin.errors import UndefinedError
-from earthspin.mass._checks import FloatArray, positive, vectors
+from earthspin.mass._checks import positive, vectors
+from earthspin.numerics.arrays import FloatArray
 
 
 def maccullagh_potential(mass: ArrayLike, tensor: ArrayLike, position: ArrayLike) -> FloatArray:

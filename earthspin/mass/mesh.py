@@ -20,7 +20,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import roots_jacobi
 
 from earthspin.errors import BodyError
-from earthspin.mass._checks import FloatArray, vectors
+from earthspin.mass._checks import vectors
+from earthspin.numerics.arrays import FloatArray
 
 #: Number of triangles processed per block, to limit memory.
 AT_ONCE = 1 << 14

@@ -27,8 +27,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from earthspin.constants import G
 from earthspin.errors import UndefinedError
-from earthspin.mass._checks import FloatArray, degree, vectors
+from earthspin.mass._checks import degree, vectors
 from earthspin.mass.distribution import point_masses
+from earthspin.numerics.arrays import FloatArray
 
 ComplexArray = NDArray[np.complex128]
 

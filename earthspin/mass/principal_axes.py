@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from earthspin.errors import BodyError
-from earthspin.mass._checks import FloatArray
 from earthspin.mass.tensor import check_inertia_tensor
+from earthspin.numerics.arrays import FloatArray
 
 #: Moments closer than this, as a fraction of the largest, count as equal.
 EQUAL = 1e-13

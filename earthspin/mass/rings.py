@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from earthspin.errors import UndefinedError
-from earthspin.mass._checks import FloatArray, degree, positive, vectors
+from earthspin.mass._checks import degree, positive, vectors
 from earthspin.mass.distribution import centre_of_mass, point_masses
+from earthspin.numerics.arrays import FloatArray
 
 
 def torque_on_masses(

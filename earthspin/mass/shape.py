@@ -17,11 +17,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from earthspin.errors import BodyError, UndefinedError
-from earthspin.mass._checks import FloatArray, positive
+from earthspin.mass._checks import positive
 from earthspin.mass.distribution import grid_masses, point_masses
 from earthspin.mass.mesh import closed_mesh, solid_points
 from earthspin.mass.principal_axes import PrincipalAxes, principal_axes
 from earthspin.mass.tensor import tensor_of_second_moments
+from earthspin.numerics.arrays import FloatArray
 
 #: Function from the degree of the polynomials to integrate, to blocks of masses and positions.
 Pieces = Callable[[int], Iterable[tuple[FloatArray, FloatArray]]]

@@ -33,8 +33,9 @@ from numpy.typing import ArrayLike
 from scipy.special import elliprc, elliprd, hyp2f1
 
 from earthspin.errors import UndefinedError
-from earthspin.mass._checks import FloatArray, first, positive, vectors
+from earthspin.mass._checks import first, positive, vectors
 from earthspin.mass.figure import check_flattening, eccentricity_squared
+from earthspin.numerics.arrays import FloatArray
 
 _BODY = "spheroid"
 #: Largest distance, in radii; beyond, the fifth power of the distance overflows.

@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from earthspin.errors import BodyError, UndefinedError
-from earthspin.mass._checks import FloatArray, positive, vectors
+from earthspin.mass._checks import positive, vectors
 from earthspin.mass.distribution import point_masses
 from earthspin.mass.figure import spheroid_moments
+from earthspin.numerics.arrays import FloatArray
 
 #: Tolerance for rounding errors in a tensor, as a fraction of its largest component.
 ROUNDING = 1e-12

@@ -20,9 +20,10 @@ from numpy.typing import ArrayLike
 
 from earthspin.constants import G
 from earthspin.errors import AccuracyError, BodyError, UndefinedError
-from earthspin.mass._checks import FloatArray, degree, first, positive
+from earthspin.mass._checks import degree, first, positive
 from earthspin.mass.figure import Moments, eccentricity_squared
 from earthspin.mass.legendre import orthonormal_functions
+from earthspin.numerics.arrays import FloatArray
 
 #: Successive numbers of Gauss points in the radius and in the cosine.
 _POINTS = (32, 64, 128, 256)

@@ -15,16 +15,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.motion.forces import Forces
 from earthspin.motion.segment import Segment, Start, signs, solve
 from earthspin.motion.triaxial import equatorial_basis
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.numerics.gauss_windows import Windows
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 #: Labels of the three axes.
 AXES = ("angular_momentum", "rotation", "figure")

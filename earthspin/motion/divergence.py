@@ -11,15 +11,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import t as students_t
 
 from earthspin.motion.equations import Rigid
 from earthspin.motion.march import Masses, Solver
 from earthspin.motion.solution import State
 from earthspin.numerics import rotations
-
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
 
 #: Distance of the neighbour, rad; nonlinear terms are smaller by this factor.
 ASIDE = 1e-7

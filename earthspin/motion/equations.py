@@ -24,12 +24,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.numerics import rotations
+from earthspin.numerics.arrays import FloatArray
 from earthspin.torque.harmonics import zonal_torque
-
-FloatArray = NDArray[np.float64]
 
 #: Torque divided by C along the body's axes, s-2, shape (m, 3), from times (s), shape (m,),
 #: quaternions (m, 4) and angular velocities along the body's axes, rad/s (m, 3).

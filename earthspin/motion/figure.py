@@ -17,12 +17,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.gauss_windows import Windows
 from earthspin.torque.quadrupole import cross
-
-FloatArray = NDArray[np.float64]
 
 #: Terms below this change no digit of a unit vector, rad.
 _ROUNDING = 1e-17

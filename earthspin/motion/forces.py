@@ -9,13 +9,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.gauss_windows import Windows
 from earthspin.torque.harmonics import zonal_law
 from earthspin.torque.quadrupole import quadrupole_torque, tidal_tensor
-
-FloatArray = NDArray[np.float64]
 
 #: Positions by name, each of shape (t, 3), m, at times in s from J2000.0.
 Positions = Callable[[FloatArray], Mapping[str, FloatArray]]

@@ -12,15 +12,13 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
 from earthspin.motion.equations import Equations, Pull, Rigid, SkyLaw
 from earthspin.numerics import rotations
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.gauss_windows import Windows, integrated, rule
-
-FloatArray = NDArray[np.float64]
 
 #: Number of nodes in a window, and of windows for which positions are evaluated in one call.
 ORDER, BATCH = 16, 32

@@ -10,7 +10,6 @@ import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from earthspin.motion.equations import (
@@ -25,9 +24,8 @@ from earthspin.motion.equations import (
 from earthspin.motion.forces import Forces
 from earthspin.motion.march import Masses
 from earthspin.motion.triaxial import equatorial_basis
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.gauss_windows import Windows
-
-FloatArray = NDArray[np.float64]
 
 
 def rigid_bodies(

@@ -13,17 +13,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import ARCSEC, DAY
 from earthspin.errors import UndefinedError
 from earthspin.motion.figure import tilt_of_figure
 from earthspin.motion.forces import Forces
 from earthspin.motion.triaxial import semidiurnal_amplitudes
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.numerics.gauss_windows import Windows, integrated
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 #: Largest allowed last term of the slow manifold, rad.
 LARGEST_MANIFOLD_ERROR = 5e-6 * ARCSEC

@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY, Rigid
 from earthspin.motion.march import (
@@ -26,8 +25,7 @@ from earthspin.motion.march import (
     half_windows,
 )
 from earthspin.numerics import rotations
-
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
 
 #: Shortest span that is integrated, s.
 SHORTEST = 1e-6

@@ -19,14 +19,11 @@ axes is 0.03 mas; the mean motion does not change.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.numerics.gauss_windows import Windows
 from earthspin.torque.quadrupole import apply
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 #: Smallest distance from the resonance of a flat body for which the series converges.
 NEAREST_RESONANCE = 0.2

@@ -12,9 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
 Numeric = Any
 
 _SPLITTER = 2.0**27 + 1.0  # Veltkamp: cuts 53 bits into 26 and 26

@@ -23,9 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import elliprc, elliprf, elliprj
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.double_double import DoubleDouble, as_double_double, where
-
-FloatArray = NDArray[np.float64]
 
 _HALF_PI = DoubleDouble(1.5707963267948966, 6.123233995736766e-17)
 #: Modulus below which sn and cn equal sin and cos to the last digit (the difference is k2/4).

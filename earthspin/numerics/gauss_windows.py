@@ -14,7 +14,8 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
+
 #: Real values, or complex values for vectors in a plane.
 _AnyArray = TypeVar("_AnyArray", NDArray[np.float64], NDArray[np.complex128])
 

@@ -8,9 +8,8 @@ E - sin(E) >= E^3/pi^2. The smallest of them is a sufficient first estimate for 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
 
 #: Number of Newton steps, sufficient for every M and e up to 1 - 1e-12, and number of last steps in
 #: which E - sin(E) is computed without cancellation.

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
 
 
 def multiply(p: FloatArray, q: FloatArray) -> FloatArray:

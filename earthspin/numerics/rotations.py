@@ -7,9 +7,8 @@ arrays of sixteen quaternions, for which the number of numpy calls determines th
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
 
 
 def _structure() -> FloatArray:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import UAS
-from earthspin.nutation.circles import ComplexArray
+from earthspin.numerics.arrays import ComplexArray
 
 SOURCE = (
     "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068, as applied in a public VLBI code (SGDASS, "

@@ -12,10 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import ARCSEC, DAYS_PER_CENTURY, EPSILON_0, JULIAN_YEAR
+from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation.angles import on_fixed_ecliptic, pole_from
 from earthspin.nutation.circles import Circles, FrequencyAnalysis
-
-FloatArray = NDArray[np.float64]
 
 CENTURY = 100 * JULIAN_YEAR
 

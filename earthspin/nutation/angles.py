@@ -11,9 +11,8 @@ Torques change u only. eps_A, chi_A and p_A also depend on the ecliptic of date,
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
 
 #: Names of the angles, in the order of `precession_angles`.
 ANGLES = ("psi_A", "omega_A", "eps_A", "chi_A", "p_A")

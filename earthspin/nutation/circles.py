@@ -19,9 +19,7 @@ from numpy.typing import NDArray
 from scipy.sparse.linalg import LinearOperator, cg
 
 from earthspin.constants import ARCSEC, EPSILON_0
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 
 #: Multiples of l, l', F, D and the node: the luni-solar terms of IAU 2000B (McCarthy & Luzum
 #: 2003, Celest. Mech. 85, 37), which are the largest of IAU 2000A. Five are omitted, because

@@ -14,9 +14,7 @@ from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
 from earthspin.interior.published import OBSERVED_CORE_NUTATION
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 
 #: Period in space, d.
 PERIOD = OBSERVED_CORE_NUTATION.value

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import ARCSEC, DAY, EPSILON_0, MAS
-from earthspin.nutation.circles import ComplexArray, FloatArray, term_names
+from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.nutation.circles import term_names
 
 SOURCE = "IAU 2000A, IERS Conventions (2003), IERS Technical Note 32, tables 5.3a and 5.3b"
 

@@ -11,14 +11,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import NORMAL_95
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation.core_nutation import circle
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 #: Time in which weights halve, d.
 HALF_LIFE = 0.5 * 365.25

@@ -17,13 +17,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from earthspin.constants import DAY
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 
 #: Chandler wobble and free inner-core nutation, IERS Conventions (2010), table 6.4, in the sign
 #: convention of this module, where retrograde is negative. They are not fitted.

@@ -15,6 +15,7 @@ from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
 from earthspin.mass.inertia import moment_difference
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.estimate import Estimate
 from earthspin.parts.elements import ellipse_chains, exact_means, no_exact_means
 from earthspin.parts.sky import Sky, Stretch
@@ -25,7 +26,6 @@ from earthspin.sky.poles import FixedPole, IAU2006Pole
 from earthspin.torque import average, locking, mean_orbit, rates
 from earthspin.torque.average import Window, best_window, precessing_torque, window_mean_and_error
 from earthspin.torque.gravity import torque_from_declination
-from earthspin.units import FloatArray
 
 if TYPE_CHECKING:
     import xarray as xr

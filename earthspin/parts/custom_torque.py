@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from earthspin.errors import EarthspinError, UndefinedError, Where, one_line
-from earthspin.units import FloatArray, Plain, real_numbers
+from earthspin.numerics.arrays import FloatArray
+from earthspin.units import Plain, real_numbers
 
 #: Key in a scene for a function, which a scene cannot hold.
 _FUNCTION = "live"

@@ -13,10 +13,10 @@ from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.dates import Epochs, Span
 from earthspin.engine.part import part
 from earthspin.engine.variables import Labels, Value, Variables, labels, number
+from earthspin.numerics.arrays import FloatArray
 from earthspin.parts.pole_table import MJD
 from earthspin.parts.times import days_of
 from earthspin.sky.eop import PoleSeries, read_pole_offsets
-from earthspin.units import FloatArray
 
 #: First day of comparisons, 1990, in days from J2000.0. The stated errors of earlier offsets are
 #: 0.4 to 0.6 mas a day, larger than the error of IAU 2006/2000A.

@@ -20,6 +20,7 @@ from earthspin.motion import axes
 from earthspin.motion.axes import AxisPath
 from earthspin.motion.effects import GEODESIC, NONRIGID
 from earthspin.motion.figure import fastest_sweep
+from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation.angles import followed, on_fixed_ecliptic
 from earthspin.nutation.budget import published_effects
 from earthspin.parts.predicted import CHOSEN, Prediction, no_layers, prediction
@@ -28,7 +29,6 @@ from earthspin.parts.reasons import no_iau_model
 from earthspin.parts.times import days_of
 from earthspin.progress import progress
 from earthspin.sky.kernel_differences import DRIFT_FROM, growth
-from earthspin.units import FloatArray
 
 if TYPE_CHECKING:
     from earthspin.nutation.analysis import PoleAnalysis, Secular

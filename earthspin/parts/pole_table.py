@@ -14,10 +14,11 @@ from earthspin.engine.labels import si
 from earthspin.engine.question import Question, key, setting
 from earthspin.engine.variables import Labels, Variables, labels
 from earthspin.errors import SceneError, Where
+from earthspin.numerics.arrays import FloatArray
 from earthspin.parts.reasons import no_iau_model
 from earthspin.sky.columns import is_table
 from earthspin.sky.eop import CARRIED, PoleSeries
-from earthspin.units import FileName, FloatArray
+from earthspin.units import FileName
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -16,11 +16,12 @@ from earthspin.errors import Where
 from earthspin.mass.inertia import inverse_polar_moment
 from earthspin.motion.effects import EFFECTS, PLANETS, RIGID
 from earthspin.motion.forces import Figure, Forces
+from earthspin.numerics.arrays import FloatArray
 from earthspin.parts.elements import all_by_elements
 from earthspin.parts.sky import Sky, places, sky
 from earthspin.parts.times import Series, epochs
 from earthspin.sky.protocol import Place
-from earthspin.units import FloatArray, Several, Word
+from earthspin.units import Several, Word
 
 
 class EffectNames(Several):

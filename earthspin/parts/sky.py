@@ -18,6 +18,7 @@ from earthspin.dates import Span
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key
 from earthspin.errors import SceneError, UndefinedError, Where
+from earthspin.numerics.arrays import FloatArray
 from earthspin.parts.elements import EllipseChain, all_by_elements, ellipse_chains
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
 from earthspin.sky.ephemeris import NAMED_KERNELS
@@ -33,7 +34,7 @@ from earthspin.sky.sources import (
     open_source,
     place_of,
 )
-from earthspin.units import FileName, FloatArray
+from earthspin.units import FileName
 
 if TYPE_CHECKING:
     from earthspin.sky.iau import Nutation

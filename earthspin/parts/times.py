@@ -14,9 +14,10 @@ from earthspin.engine.part import Block, part
 from earthspin.engine.question import key
 from earthspin.engine.variables import Labels, Variables, labels
 from earthspin.errors import SceneError, in_bytes
+from earthspin.numerics.arrays import FloatArray
 from earthspin.parts.sky import PerturbedBody
 from earthspin.units import LONGEST_IN_MEMORY as LONGEST_IN_MEMORY
-from earthspin.units import FloatArray, Numbers
+from earthspin.units import Numbers
 
 #: Seconds from the start of a motion.
 Seconds = Annotated[FloatArray, Numbers("s", "1 s", (None,))]

@@ -30,13 +30,8 @@ from earthspin.engine.variables import (
     words,
 )
 from earthspin.errors import SceneError, SeriesError, Where
-from earthspin.parts.pole_table import (
-    MJD,
-    ComplexArray,
-    TableFile,
-    complex_pole,
-    labelled_series,
-)
+from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.parts.pole_table import MJD, TableFile, complex_pole, labelled_series
 from earthspin.parts.reasons import no_iau_model
 from earthspin.sky.eop import (
     PoleSeries,
@@ -46,7 +41,7 @@ from earthspin.sky.eop import (
     read_polar_motion,
     read_pole_offsets,
 )
-from earthspin.units import FloatArray, Number, Plain, pack, unpack
+from earthspin.units import Number, Plain, pack, unpack
 from earthspin.wobble.forecast import COMPONENTS, LONGEST, SKILL, FastExcitation
 from earthspin.wobble.forecast import Forecast as Predicted
 

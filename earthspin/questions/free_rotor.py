@@ -14,9 +14,10 @@ from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, setting
 from earthspin.engine.variables import Labels, Value, labels, number
 from earthspin.errors import Where
+from earthspin.numerics.arrays import FloatArray
 from earthspin.parts.times import FromStart, Seconds, instants
 from earthspin.rotor.moments import KEYS
-from earthspin.units import Duration, FloatArray, Numbers, Plain, Whole, quantity
+from earthspin.units import Duration, Numbers, Plain, Whole, quantity
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -15,6 +15,7 @@ from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import Where
+from earthspin.numerics.arrays import FloatArray
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, item_of
 from earthspin.parts.orbits import OrbitChoice, orbit_table
 from earthspin.parts.pulls import start_error
@@ -29,7 +30,7 @@ from earthspin.secular.strength import Strength, Tides, geodesic_precession
 from earthspin.sky.orbit_table import OrbitTable, shipped
 from earthspin.torque import rates
 from earthspin.torque.quadrupole import dot
-from earthspin.units import FloatArray, Number
+from earthspin.units import Number
 from earthspin.years import YearList, YearSpan, YearStep, grid
 
 if TYPE_CHECKING:

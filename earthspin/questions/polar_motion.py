@@ -19,6 +19,7 @@ from earthspin.engine.question import define_parts, setting
 from earthspin.engine.run import in_range
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
+from earthspin.numerics.arrays import FloatArray
 from earthspin.parts.pole_table import (
     MJD,
     Daily,
@@ -30,17 +31,7 @@ from earthspin.parts.pole_table import (
 )
 from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
 from earthspin.sky.eop import PoleSeries, read_polar_motion
-from earthspin.units import (
-    Days,
-    FileName,
-    FloatArray,
-    Number,
-    Numbers,
-    Several,
-    Text,
-    Word,
-    kind_of,
-)
+from earthspin.units import Days, FileName, Number, Numbers, Several, Text, Word, kind_of
 from earthspin.wobble.envelope import envelope
 from earthspin.wobble.record import WobbleFit
 from earthspin.wobble.spectrum import spectrum as amplitude_spectrum

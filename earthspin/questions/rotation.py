@@ -33,6 +33,7 @@ from earthspin.motion.solution import (
     shares_of,
     start_of,
 )
+from earthspin.numerics.arrays import FloatArray
 from earthspin.parts.custom_torque import CustomTorque
 from earthspin.parts.elements import all_by_elements
 from earthspin.parts.pulls import (
@@ -48,7 +49,7 @@ from earthspin.parts.reasons import no_iau_model
 from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
 from earthspin.progress import progress
 from earthspin.sky.elements import ByElements, Elements
-from earthspin.units import FloatArray, Number, Numbers
+from earthspin.units import Number, Numbers
 
 if TYPE_CHECKING:
     from earthspin.motion.divergence import Divergence

@@ -11,10 +11,11 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, setting
 from earthspin.engine.variables import Labels, Value, Variables, labels, number, words
+from earthspin.numerics.arrays import FloatArray
 from earthspin.parts.side_by_side import SideBySide
 from earthspin.parts.times import FromStart, Seconds, instants
 from earthspin.top.start import HeavyTop
-from earthspin.units import Duration, FloatArray, Number, Whole
+from earthspin.units import Duration, Number, Whole
 
 if TYPE_CHECKING:
     from earthspin.top.motion import HeavyTopMotion

@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 
 from earthspin.constants import NORMAL_95
 from earthspin.errors import BodyError, UndefinedError
+from earthspin.numerics.arrays import FloatArray
 
 Numeric = Any
-FloatArray = NDArray[np.float64]
 
 #: Tolerance for a negative 2T I3 - L2 due to rounding, relative to L2.
 _ROUNDING = 8 * np.finfo(float).eps

@@ -34,11 +34,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import BodyError, UndefinedError
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.double_double import DoubleDouble, stack, where
 from earthspin.numerics.elliptic import LandenDescent, first_kind, landen_descent, third_kind_mean
 from earthspin.rotor.moments import Moments, PrincipalMoments, finite, principal_moments
 
-FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
 #: Relative size below which a component of omega counts as zero; its square would underflow.

@@ -17,13 +17,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.errors import BodyError, EarthspinError
 from earthspin.numerics import quaternion
+from earthspin.numerics.arrays import FloatArray
 from earthspin.rotor.moments import Moments, finite, principal_moments
 
-FloatArray = NDArray[np.float64]
 #: Function of time (s), omega (rad/s) and attitude that returns the torque along the principal
 #: axes, N m.
 Torque = Callable[[float, FloatArray, FloatArray], FloatArray]

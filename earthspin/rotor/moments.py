@@ -17,12 +17,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.errors import BodyError
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.double_double import DoubleDouble, as_double_double, stack, two_sum
 
-FloatArray = NDArray[np.float64]
 #: Three numbers, a mapping with the keys of `KEYS`, or a `PrincipalMoments`.
 Moments = Any
 

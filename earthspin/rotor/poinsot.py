@@ -21,12 +21,11 @@ from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
 from earthspin.numerics import quaternion
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.double_double import TWO_PI
 from earthspin.rotor.constants_of_motion import JacobiMotion, jacobi_motion
 from earthspin.rotor.moments import Moments, finite, principal_moments
 from earthspin.rotor.triaxial import Phase, momentum_frame, phase_at, to_body
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

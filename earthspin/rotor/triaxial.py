@@ -10,16 +10,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.errors import BodyError
 from earthspin.numerics import quaternion
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.double_double import TWO_PI
 from earthspin.numerics.elliptic import Jacobi, jacobi, third_kind_periodic
 from earthspin.rotor.constants_of_motion import JacobiMotion, jacobi_motion
 from earthspin.rotor.moments import Moments, finite
-
-FloatArray = NDArray[np.float64]
 
 #: Error bound of the closed form for exact inputs: relative to the largest angular velocity, and
 #: absolute for the elements of the attitude. Measured: 2e-14 (`python -m tests.rotor.accuracy

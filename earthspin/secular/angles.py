@@ -17,11 +17,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.secular.orbit import reference_axes
 
-FloatArray = NDArray[np.float64]
 Numeric = float | FloatArray
 
 

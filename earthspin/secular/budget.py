@@ -13,15 +13,13 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import JULIAN_YEAR
+from earthspin.numerics.arrays import FloatArray
 from earthspin.secular.orbit import ModifiedOrbit, Orbit, Shape, reference_axes
 from earthspin.secular.strength import Numeric, Strength, Tides
 from earthspin.secular.trajectory import Trajectory, solve
 from earthspin.torque.quadrupole import cross, dot
-
-FloatArray = NDArray[np.float64]
 
 #: Half-widths of an orbit's normal (rad) and eccentricity vector at times in s, shape (2, n).
 HalfWidths: TypeAlias = "Callable[[FloatArray], FloatArray]"

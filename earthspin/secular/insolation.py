@@ -19,11 +19,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.kepler import mean_anomaly, true_anomaly
-
-FloatArray = NDArray[np.float64]
 
 #: Gauss-Legendre nodes over a window of days; if a polar night begins inside the window, the kink
 #: of the integrand causes an error of about 1e-5.

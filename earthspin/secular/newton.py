@@ -16,12 +16,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.numerics.gauss_windows import Windows, rule
 from earthspin.secular.orbit import Pull
 from earthspin.torque.quadrupole import dot
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 #: Largest number of sweeps for the linear equations of windows, and the size that counts as
 #: divergence.

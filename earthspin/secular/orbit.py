@@ -7,12 +7,10 @@ from dataclasses import dataclass
 from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.secular.strength import Strength
 from earthspin.torque.quadrupole import cross, dot
-
-FloatArray = NDArray[np.float64]
 
 #: Orbit at some times: unit normal in the sense of the motion, eccentricity vector (towards the
 #: pericentre), and rate of the normal (s-1); each of shape (3, n), in the GCRS.

@@ -12,10 +12,10 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import ApartError, UndefinedError
+from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation.angles import followed, general_precession
 from earthspin.secular.angles import broadcast_over_members, seasons
 from earthspin.secular.budget import Setting, Solved, changed
@@ -23,8 +23,6 @@ from earthspin.secular.orbit import Orbit, moons_height
 from earthspin.secular.sample import Quantiles, draws
 from earthspin.secular.trajectory import Trajectory, solve
 from earthspin.torque.quadrupole import dot
-
-FloatArray = NDArray[np.float64]
 
 #: Sampling interval of the perihelion, s: it moves fast for a nearly circular orbit, by 1.2 rad in
 #: 200 years at the Earth's eccentricity of 1.6e-4.

@@ -17,11 +17,9 @@ import math
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import NORMAL_95
-
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
 
 #: Members N, a prime, and the numbers A and B of the lattice.
 MEMBERS, FACTOR, OFFSET = 61, 36, 57

@@ -21,12 +21,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import JULIAN_YEAR, SPEED_OF_LIGHT, Constant
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import FloatArray
 
-FloatArray = NDArray[np.float64]
 #: A float, or one value for each member.
 Numeric = Any
 

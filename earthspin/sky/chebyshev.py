@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import DAY
+from earthspin.numerics.arrays import FloatArray
 
-FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 #: Number of times per block, so that the arrays fit in the processor's cache.

@@ -12,16 +12,14 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.errors import SceneError, UndefinedError
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.kepler import eccentric_anomaly
 from earthspin.sky.equator import fixed_equator
 from earthspin.sky.poles import Direction, Pole
 from earthspin.sky.protocol import BY_ELEMENTS, Place, checked
-
-FloatArray = NDArray[np.float64]
 
 #: Bound on the error of a direction in units of the rounding of all angles; measured: 0.73 at most,
 #: for 301 days in two centuries at e up to 0.99, against 50-digit arithmetic.

@@ -20,7 +20,6 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin._version import version
 from earthspin.constants import J2000_JD, MAS
@@ -32,6 +31,7 @@ from earthspin.errors import (
     nearest,
     no_plain_file,
 )
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.chebyshev import BLOCK, Epochs, Table
 from earthspin.sky.kernel_checks import (
     AGAIN,
@@ -42,8 +42,6 @@ from earthspin.sky.kernel_checks import (
 )
 from earthspin.sky.kernel_differences import DRIFT, drift_is_measured, growth, largest_difference
 from earthspin.sky.protocol import Place, Trajectory, checked, measured_code, words
-
-FloatArray = NDArray[np.float64]
 
 #: Kernels with a name; any other kernel is given by its path.
 NAMED_KERNELS = tuple(PUBLISHED)

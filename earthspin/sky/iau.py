@@ -13,12 +13,9 @@ from typing import NamedTuple
 
 import erfa
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import DAY, DAYS_PER_CENTURY, J2000_JD
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 
 #: Days between the nodes of the interpolation of nutation; the shortest period is above 2 days.
 NUTATION_NODE_STEP = 1.0

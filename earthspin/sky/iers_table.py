@@ -8,12 +8,10 @@ from typing import Any
 import astropy.units as u
 import numpy as np
 from astropy.utils import iers
-from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.eop import day_of
-
-FloatArray = NDArray[np.float64]
 
 
 class PoleTable(iers.IERS_A):  # type: ignore[misc]

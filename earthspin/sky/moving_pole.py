@@ -20,16 +20,14 @@ import numpy as np
 
 from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.errors import Where, nearest
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.equator import fixed_equator
 from earthspin.sky.poles import Direction, FixedPole
 from earthspin.units import quantity
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from earthspin.sky.iau import Nutation
 
-    FloatArray = NDArray[np.float64]
 
 _CENTURY = DAYS_PER_CENTURY * DAY
 #: Longest period, s, of terms that count as nutation, because torques averaged over orbits and

@@ -28,6 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR
 from earthspin.errors import SeriesError, Where, nearest, no_plain_file
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.columns import (
     FORTRAN,
     checksum,
@@ -43,7 +44,6 @@ from earthspin.units import real_numbers
 if TYPE_CHECKING:
     import pandas as pd
 
-FloatArray = NDArray[np.float64]
 
 #: Units of time, s, and of angles, rad.
 TIMES = {"d": DAY, "yr": JULIAN_YEAR, "kyr": 1000 * JULIAN_YEAR}

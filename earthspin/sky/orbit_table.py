@@ -24,10 +24,9 @@ from numpy.typing import NDArray
 
 from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import CoverageError, OutputError, one_line
+from earthspin.numerics.arrays import FloatArray
 from earthspin.rounded import plain
 from earthspin.sky.columns import checksum
-
-FloatArray = NDArray[np.float64]
 
 #: Length of a window, s, and number of terms per window.
 WINDOW, TERMS = 20_000 * JULIAN_YEAR, 16

@@ -14,14 +14,11 @@ import numpy as np
 
 from earthspin.constants import ARCSEC, EPSILON_0
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.equator import direction, fixed_equator
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from earthspin.sky.iau import Nutation
-
-    FloatArray = NDArray[np.float64]
 
 
 #: Smallest angle between an axis and the normal of the orbit for which a longitude is defined, rad.

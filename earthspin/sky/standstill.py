@@ -12,11 +12,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.iau import mean_longitude_of_node
-
-FloatArray = NDArray[np.float64]
 
 #: Spacing of the samples among which extremes are looked for, d.
 _SAMPLING = 2.0

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from earthspin.constants import ARCSEC, JULIAN_YEAR
-from earthspin.units import FloatArray
+from earthspin.numerics.arrays import FloatArray
 
 
 class Star(NamedTuple):

@@ -34,10 +34,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ellipkm1, elliprj
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.elliptic import complete_third_kind
 from earthspin.top.height import Nutation, Place
 
-FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 
 # cosine of a whole number of quarter turns

@@ -21,10 +21,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.top.start import HeavyTop, axis_heights
-
-FloatArray = NDArray[np.float64]
-
 
 #: A top slower than the first number (rad/s) is at rest; theta' or a pendulum's rate below the
 #: second number times the fastest rate counts as zero, to avoid underflow.

@@ -9,14 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from earthspin.errors import BodyError
+from earthspin.numerics.arrays import FloatArray
 from earthspin.top.azimuth import shared_rate, turned_at
 from earthspin.top.cubic import AxisStart
 from earthspin.top.height import AxisHeight, Nutation, Place, height_at, nutation_of, place_at
 from earthspin.top.patterns import nutation_pattern
 from earthspin.top.start import HeavyTop
 from earthspin.top.turning import mean_precession_rate, nutation_period, turning_angles
-
-FloatArray = NDArray[np.float64]
 
 #: Longest time, s; longer ones would overflow.
 _LONGEST = 1e100

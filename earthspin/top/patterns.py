@@ -17,10 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import FloatArray
 from earthspin.top.cubic import AxisStart, axis_start
 from earthspin.top.start import HeavyTop, axis_heights, top_constants
-
-FloatArray = NDArray[np.float64]
 
 #: Sums smaller than this fraction of their terms count as zero, as rounding errors.
 _ROUNDING = 16 * float(np.finfo(float).eps)

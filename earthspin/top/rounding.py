@@ -12,10 +12,10 @@ from dataclasses import fields
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.top.motion import HeavyTopMotion, heavy_top_motion
 from earthspin.top.start import HeavyTop
 
-FloatArray = NDArray[np.float64]
 Numbers = NDArray[np.complex128] | FloatArray
 
 #: Error bound of the closed form, unless twice the effect of rounding is larger: measured with 500

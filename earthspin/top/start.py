@@ -12,11 +12,10 @@ from dataclasses import dataclass, fields
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from earthspin.errors import BodyError
-
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
 
 _NAME = "heavy top"
 #: Largest rate, rad/s; larger ones would overflow.

@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import FloatArray
 from earthspin.top.start import HeavyTop, top_constants
-
-FloatArray = NDArray[np.float64]
 
 _ROUNDING = 8 * float(np.finfo(float).eps)
 

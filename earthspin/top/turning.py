@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from earthspin.errors import BodyError
+from earthspin.numerics.arrays import FloatArray
 from earthspin.top.azimuth import mean_precession
 from earthspin.top.cubic import axis_start, cubic_gaps
 from earthspin.top.height import nutation_of
 from earthspin.top.start import HeavyTop, axis_heights, top_constants
-
-FloatArray = NDArray[np.float64]
 
 
 def cubic_roots(top: HeavyTop) -> FloatArray:

@@ -22,12 +22,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import FloatArray
 
-FloatArray = NDArray[np.float64]
 Numeric = Any
 #: Blackman-Harris: minimum four-term window, Harris 1978, Proc. IEEE 66, 51, table 1.
 _BLACKMAN_HARRIS = (0.35875, 0.48829, 0.14128, 0.01168)

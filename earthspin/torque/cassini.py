@@ -28,9 +28,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.kepler import true_anomaly
-
-FloatArray = NDArray[np.float64]
 
 #: Quadrature nodes per revolution for Hansen's coefficients.
 NODES = 4096

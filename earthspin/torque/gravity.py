@@ -12,12 +12,10 @@ the equator towards the mass.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import NORMAL_95
 from earthspin.errors import UndefinedError
-
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
 
 
 def torque_from_declination(

@@ -15,11 +15,9 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.torque.quadrupole import cross, dot
-
-FloatArray = NDArray[np.float64]
 
 
 def zonal_torque(

@@ -8,9 +8,8 @@ not average to zero, and is as large as the mean torque on the bulge.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
 
 #: Largest number of half turns per orbit of a resonance, tolerance of the ratio, and number of
 #: orbits. Over `ORBITS` an eccentricity of 0.2 changes the mean ratio by less than half of the

@@ -19,9 +19,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
 
 #: Bound on the error of a mean in units of its rounding; measured: 0.73 at most, for 2000 orbits
 #: against 40-digit arithmetic.

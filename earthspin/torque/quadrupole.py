@@ -15,9 +15,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
 
 
 def tidal_tensor(pulls: Iterable[tuple[float, FloatArray]]) -> FloatArray:

@@ -11,7 +11,7 @@ import xarray as xr
 from earthspin.engine.member_values import MEMBER
 from earthspin.engine.spread import inputs_of, members_needed, quantiles, sensitivity
 from earthspin.errors import SceneError
-from earthspin.units import FloatArray
+from earthspin.numerics.arrays import FloatArray
 from earthspin.views import plain
 from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, PageFigure, axes
 from earthspin.views.reading import Result, views_of

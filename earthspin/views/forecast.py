@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from earthspin.units import FloatArray
+from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing
 from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed, section

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.quaternion import multiply, rotate
 from earthspin.rotor.axisymmetric import SymmetricRotor
-from earthspin.units import FloatArray
 from earthspin.views import drawing, solids
 from earthspin.views.drawing import BLUE, GREEN, RED, Axes, PageFigure, axes
 from earthspin.views.reading import Result, answer_of, needed, section

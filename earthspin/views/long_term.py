@@ -7,7 +7,7 @@ import xarray as xr
 
 from earthspin.constants import EPSILON_0
 from earthspin.errors import UndefinedError
-from earthspin.units import FloatArray
+from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing
 from earthspin.views.drawing import Axes, PageFigure, axes
 from earthspin.views.reading import Result, answer_of, needed

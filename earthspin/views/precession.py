@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
 from earthspin.engine.labels import si
 from earthspin.engine.neglected import largest_of
-from earthspin.units import FloatArray
+from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing, reading, stars, table, torque
 from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, changes_of, needed, section

@@ -6,8 +6,8 @@ import numpy as np
 import xarray as xr
 
 from earthspin.constants import DAY
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.quaternion import rotate
-from earthspin.units import FloatArray
 from earthspin.views import drawing, solids
 from earthspin.views.drawing import BLUE, CYCLE, GREEN, RED, Axes, PageFigure, axes
 from earthspin.views.reading import Result, answer_of, body_of, needed

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from earthspin.units import FloatArray
+from earthspin.numerics.arrays import FloatArray
 
 GREY, BLACK = "#999999", "#1d1f21"
 

@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.stars import STARS as STARS
 from earthspin.sky.stars import directions
-from earthspin.units import FloatArray
 from earthspin.views.drawing import GREY, RED, Axes, axes, figure_of, note
 
 #: Years at which a path is marked, counted astronomically: 2000 BC is the year -1999.

@@ -27,8 +27,8 @@ import pytest
 from numpy.typing import ArrayLike, NDArray
 
 from earthspin.errors import EarthspinError
+from earthspin.numerics.arrays import FloatArray
 
-FloatArray = NDArray[np.float64]
 Distances = Iterable[ArrayLike]
 Test = Callable[[Callable[[str, str], None]], None]
 

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
+
 Mesh = tuple[FloatArray, NDArray[np.int64]]
 
 

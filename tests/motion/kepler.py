@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.motion.equations import CustomTorque, Rigid
 from earthspin.motion.march import Masses
 from earthspin.motion.solution import Motion, State, start_of
-
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
 
 AS_SKY = np.array([1.0, 0.0, 0.0, 0.0])
 

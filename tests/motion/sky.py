@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import EARTH, MOON, SUN
 from earthspin.constants import ARCSEC, DAY
 from earthspin.motion.forces import Figure, Forces
 from earthspin.sky.ephemeris import Ephemeris
 
-FloatArray = NDArray[np.float64]
 UAS = 1e-6 * ARCSEC
 GM = {"sun": SUN.gm, "moon": MOON.gm}
 CODES = {"sun": 10, "moon": 301}

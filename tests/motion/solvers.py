@@ -5,19 +5,18 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from earthspin.bodies import EARTH
 from earthspin.motion.axes import AxisPath, axis_path
 from earthspin.motion.triaxial import equatorial_basis
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.ephemeris import Ephemeris
 from tests.motion.sky import NORTH, UAS, figure, forces
 from tests.reference.attitude import attitude_motion
 from tests.reference.momentum_and_figure import axisymmetric_motion
 from tests.reference.sky import Tide
 
-FloatArray = NDArray[np.float64]
 H, SPIN = EARTH.dynamical_flattening, float(EARTH.spin_rate)
 TRIAXIALITY = EARTH.triaxiality * H / EARTH.j2
 

@@ -12,12 +12,10 @@ import earthspin
 from earthspin import EARTH
 from earthspin.constants import UAS
 from earthspin.engine.plan import plan_parts
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation.additions import ADDITIONS, added_to
 from earthspin.nutation.circles import MULTIPLES, phases
 from earthspin.nutation.response import CORE_NUTATION_START, Response, fit_response
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 #: The mode that is built into IAU 2000A, as IERS Conventions (2010), table 6.4, have it.
 BUILT_IN = complex(*CORE_NUTATION_START)

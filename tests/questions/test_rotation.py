@@ -16,8 +16,8 @@ from data_tools.coverage.rotation import kepler, moon
 from earthspin import BODIES, EARTH, Body, EarthspinError, SceneError, scenes
 from earthspin.bodies.moons import ORBITS as OF_MOONS
 from earthspin.constants import DAY, G
+from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import lines_to
-from earthspin.units import FloatArray
 from tests.reference.kepler_rotors import random_case
 from tests.refusals import refused
 

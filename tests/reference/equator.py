@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from skyfield import nutationlib as tables
 
 from earthspin.constants import DAYS_PER_CENTURY
-from earthspin.units import FloatArray
+from earthspin.numerics.arrays import FloatArray
 
 LongArray = NDArray[np.longdouble]
 LONG = np.longdouble

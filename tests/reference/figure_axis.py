@@ -16,8 +16,8 @@ from functools import partial
 import numpy as np
 
 from earthspin.constants import DAY, J2000_JD
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky import iau
-from earthspin.units import FloatArray
 from tests.benchmarks.accuracy.pole import DAYS
 from tests.reference.extrapolation import COLUMNS, LONG, LongArray, extrapolated, states
 from tests.reference.sky import CENTRE, CODES, GM, SPIN, H, kernel

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from earthspin import Body, Orbit
 from earthspin.constants import DAY
 from earthspin.dates import datetime64
+from earthspin.numerics.arrays import FloatArray
 from tests.reference.extrapolation import increment
 
-FloatArray = NDArray[np.float64]
 LongArray = NDArray[np.longdouble]
 LONG = np.longdouble
 

@@ -13,16 +13,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from earthspin.bodies import EARTH, MOON, SUN
 from earthspin.bodies.mean_orbits import MEAN_MOON, MOON_NODE
 from earthspin.constants import DAY
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky import iau
 from earthspin.sky.ephemeris import open_ephemeris
-
-FloatArray = NDArray[np.float64]
 
 #: Turns of the node before and after J2000.0, and the time between two samples, d.
 TURNS, STEP = 2, 0.5

@@ -7,14 +7,12 @@ from functools import cache
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
 from earthspin.bodies import EARTH, MOON, SUN
 from earthspin.constants import DAY
 from earthspin.motion.forces import Figure, Forces
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
-
-FloatArray = NDArray[np.float64]
 
 #: The rotating body.
 BODY = EARTH

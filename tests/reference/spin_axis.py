@@ -8,9 +8,9 @@ from functools import partial
 import numpy as np
 
 from earthspin.constants import JULIAN_YEAR
+from earthspin.numerics.arrays import FloatArray
 from earthspin.secular.orbit import Orbit, pull
 from earthspin.secular.strength import Strength
-from earthspin.units import FloatArray
 from tests.reference.extrapolation import LONG, LongArray, extrapolated, states
 
 

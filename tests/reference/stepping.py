@@ -6,12 +6,11 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 
 from earthspin.errors import UndefinedError
-
-FloatArray = NDArray[np.float64]
+from earthspin.numerics.arrays import FloatArray
 
 
 def integrate(

@@ -12,12 +12,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.double_double import DoubleDouble
-
-FloatArray = NDArray[np.float64]
 
 FOLDER = Path(__file__).parent / "values"
 

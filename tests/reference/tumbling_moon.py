@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.motion.equations import Rigid
 from earthspin.motion.march import Masses
 from earthspin.motion.solution import Motion, start_of
+from earthspin.numerics.arrays import FloatArray
 from tests.reference.sky import eccentric_anomaly
-
-FloatArray = NDArray[np.float64]
 
 #: (C - (A + B)/2)/C and (B - A)/C of a homogeneous ellipsoid with Hyperion's axes (360 x 266 x
 #: 205 km), on an ellipse with mean motion 1 about a mass with GM = 1; spin in the same unit.

@@ -9,11 +9,9 @@ from pathlib import Path
 
 import numpy as np
 from jplephem.daf import FTPSTR
-from numpy.typing import NDArray
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.ephemeris import find_kernel
-
-FloatArray = NDArray[np.float64]
 
 RECORD = 1024  # bytes
 SUMMARY = 40  # bytes: two times, six whole numbers

@@ -9,16 +9,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from earthspin import EarthspinError, KernelError
 from earthspin.bodies import MOON, SUN
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky import ephemeris
 from earthspin.sky.ephemeris import Ephemeris, find_kernel, open_ephemeris
 from earthspin.sky.kernel_checks import DISTANCES, PUBLISHED
 from tests.sky.kernel_files import FIRST_SUMMARY, RECORD, SUMMARY, Piece, from_de421, write_kernel
-
-FloatArray = NDArray[np.float64]
 
 NAMES = {(0, 10): 0, (0, 3): 1, (3, 399): 2, (3, 301): 3}
 FIELDS = {"start": 0, "end": 8, "target": 16, "centre": 20, "first": 32, "last": 36}

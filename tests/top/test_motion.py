@@ -5,9 +5,9 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.top.motion import HeavyTopMotion, heavy_top_motion
 from earthspin.top.start import HeavyTop, top_constants
 from tests.conftest import load_pins
@@ -27,7 +27,6 @@ PINNED = {
 }
 PINNED_TIME = 1.625
 
-FloatArray = NDArray[np.float64]
 BODY = {"transverse_moment": 1.25, "axial_moment": 0.75, "weight_moment": 2.0}
 
 

@@ -17,15 +17,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import SPEED_OF_LIGHT
 from earthspin.motion.effects.effect import Effect, Growth, Numbers
 from earthspin.motion.forces import Forces, Places, RateLaw, Torque
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.gauss_windows import Windows
 from earthspin.torque.quadrupole import cross, dot
-
-FloatArray = NDArray[np.float64]
 
 
 def geodesic_rate(

@@ -14,8 +14,8 @@ import numpy as np
 from scipy.special import jv, jvp
 
 from earthspin.constants import DAY
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.elements import Ellipse, Plane
-from earthspin.units import FloatArray
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.sky import eccentric_anomaly
 from tests.reference.stored import load

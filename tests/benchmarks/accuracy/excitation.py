@@ -11,7 +11,7 @@ every series, so that they are constant within each interval.
 
 import numpy as np
 
-from earthspin.units import FloatArray
+from earthspin.numerics.arrays import FloatArray
 from earthspin.wobble.record import Complex
 from earthspin.wobble.resonance import FROM_EXCITATION, TO_EXCITATION, chandler_frequency
 from tests.benchmarks.accuracy.ladder import Ladder, Run

@@ -6,8 +6,8 @@ from functools import cache, partial
 import numpy as np
 
 from earthspin.constants import MAS
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.eop import read_polar_motion
-from earthspin.units import FloatArray
 from earthspin.wobble.burg import burg
 from earthspin.wobble.forecast import OBSERVATION, PERIOD, SHIPPED, FastExcitation, fit, forecast
 from earthspin.wobble.record import YEAR, Complex

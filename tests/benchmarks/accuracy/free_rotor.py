@@ -2,9 +2,9 @@
 
 from functools import partial
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.rotor.euler import integrate_rotation
 from earthspin.rotor.triaxial import free_rotation
-from earthspin.units import FloatArray
 from tests.benchmarks.accuracy.ladder import COARSE, FINE, Ladder, settings
 from tests.reference.stepping import integrate, quaternion_rate
 from tests.reference.stored import load, rotation_error

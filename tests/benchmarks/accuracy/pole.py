@@ -6,7 +6,7 @@ import numpy as np
 
 from earthspin.constants import DAY, UAS
 from earthspin.motion.axes import axis_path
-from earthspin.units import FloatArray
+from earthspin.numerics.arrays import FloatArray
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.attitude import attitude_about, attitude_motion, figure_axis
 from tests.reference.momentum_and_figure import axisymmetric_motion

@@ -8,8 +8,8 @@ import numpy as np
 from earthspin.motion.equations import Rigid
 from earthspin.motion.march import Masses
 from earthspin.motion.solution import Motion, start_of
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.quaternion import conjugate, rotate
-from earthspin.units import FloatArray
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.attitude import attitude_motion
 from tests.reference.sky import eccentric_anomaly

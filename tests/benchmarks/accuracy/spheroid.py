@@ -8,8 +8,8 @@ from numpy.polynomial import legendre
 from earthspin.mass.maccullagh import maccullagh_torque
 from earthspin.mass.spheroid import spheroid_attraction, spheroid_torque
 from earthspin.mass.zonal import spheroid_zonals
+from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.double_double import DoubleDouble
-from earthspin.units import FloatArray
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.sky import unit_vectors
 from tests.reference.stored import load

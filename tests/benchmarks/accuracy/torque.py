@@ -12,10 +12,10 @@ from skyfield.api import load
 from skyfield.jpllib import SpiceKernel
 
 from earthspin.constants import J2000_JD, MAS
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky import iau
 from earthspin.sky.equator import rotate
 from earthspin.sky.skyfield import Skyfield
-from earthspin.units import FloatArray
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.equator import true_equator
 from tests.reference.sky import CENTRE, CODES, kernel, positions, unit_vectors
