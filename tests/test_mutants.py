@@ -1,12 +1,11 @@
 """The planted errors themselves: each can be planted, every kernel has some, one is caught."""
 
 from collections import Counter
-from pathlib import Path
 
 import pytest
 
-from tests.mutants.catalogue import ROOT, Mutant, load
-from tests.mutants.runner import Finding, failing_without_error, try_mutant
+from tests.mutants.catalogue import ROOT, load
+from tests.mutants.runner import failing_without_error, try_mutant
 
 pytestmark = pytest.mark.any_version
 MUTANTS = load()
@@ -62,10 +61,3 @@ def test_one_is_caught_from_end_to_end(capsys: pytest.CaptureFixture[str]) -> No
     assert finding.caught
     assert finding.witness == "tests/mass/test_relations.py::test_j2_and_back"
     assert failing_without_error([finding.witness]) == set()
-
-
-def test_what_stands_twice_cannot_be_planted(tmp_path: Path) -> None:
-    mutant = Mutant("twice", "sign", "earthspin/mass/inertia.py", "a", "b", ("tests",))
-    with pytest.raises(ValueError, match="stands 2 times"):
-        mutant.planted_in("a a")
-    assert not Finding(mutant, "", 0.0).caught

@@ -45,6 +45,8 @@ MULTIPLES = np.array([term.split() for term in _TERMS.split("/")], dtype=int)
 #: Terms whose amplitude changes noticeably in a century.
 _GROWING = ("0 0 0 0 1", "0 0 2 -2 2", "0 0 2 0 2", "0 1 0 0 0", "0 0 0 0 2")
 SLOW_DEGREE = 4
+#: Rows of the normal matrix that are computed together.
+BLOCK = 16
 #: Convergence tolerance of the least squares, relative to the initial residual.
 NEAR_ENOUGH = 1e-12
 
@@ -140,7 +142,11 @@ class FrequencyAnalysis:
         self._scale = np.linalg.norm(rows, axis=1)
         self._rows = rows / self._scale[:, np.newaxis]
         self._adjoint = self._rows.conj()
-        normal = np.einsum("it,jt->ij", self._adjoint, self._rows)
+        normal = np.empty((len(rows), len(rows)), dtype=complex)
+        for first in range(0, len(rows), BLOCK):  # Hermitian, so half of it is enough
+            block = slice(first, first + BLOCK)
+            normal[block, first:] = np.einsum("it,jt->ij", self._adjoint[block], self._rows[first:])
+            normal[first:, block] = normal[block, first:].conj().T
         self._normal = LinearOperator(
             normal.shape, matvec=lambda x: np.einsum("ij,j->i", normal, x), dtype=complex
         )

@@ -41,6 +41,7 @@ def test_the_plan_is_a_table_with_its_seconds() -> None:
     assert len(frame) == len(Wobble.graph.parts) + 1  # and the imports
 
 
+@pytest.mark.slow
 def test_an_answer_of_another_process_has_a_plan_without_seconds(tmp_path: Path) -> None:
     path = tmp_path / "answer.nc"
     program = f"import earthspin; earthspin.write(earthspin.run('torque'), {str(path)!r})"

@@ -159,6 +159,7 @@ def test_numbers_of_a_question_are_side_by_side(
     assert np.array_equal(many.coords[label_of(many)].values, values)
 
 
+@pytest.mark.slow
 def test_members_that_cannot_stand_side_by_side_are_made_one_by_one() -> None:
     """Newton's method does not settle for the third over blocks in which it does for the others."""
     values = [1.0, 1.01, 8.0]

@@ -368,6 +368,7 @@ def killed(tmp_path: Path, times: int) -> None:
         assert bytes_of(store) == straight
 
 
+@pytest.mark.slow
 def test_killed_ten_times(tmp_path: Path) -> None:
     killed(tmp_path, 10)
 

@@ -24,10 +24,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from earthspin.errors import EarthspinError
-from earthspin.numerics.arrays import FloatArray
 
 Distances = Iterable[ArrayLike]
 Test = Callable[[Callable[[str, str], None]], None]

@@ -15,12 +15,13 @@ from earthspin.engine.question import Question
 from earthspin.engine.spread import quantiles, sensitivity
 from earthspin.many import ensemble
 from earthspin.numerics import sampling
+from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.free_rotor import free_rotor
 from earthspin.questions.precession import precession
 from earthspin.questions.spheroid import spheroid_field
 from earthspin.questions.top import heavy_top
 from earthspin.scenes import QUESTIONS
-from tests.extreme import Distances, FloatArray, holds, refused
+from tests.extreme import Distances, holds, refused
 from tests.reference.sky import BODY, J2, H
 
 H_OF_BODY, J2_OF_BODY = "body.dynamical_flattening", "body.j2"

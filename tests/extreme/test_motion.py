@@ -18,13 +18,14 @@ from earthspin.bodies import MOON, SUN
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, PUBLISHED_EFFECTS, UAS
 from earthspin.motion.axes import AxisPath, axis_path
 from earthspin.motion.forces import Figure, Forces
+from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation.angles import on_fixed_ecliptic
 from earthspin.parts.averages import Samples, torque_samples
 from earthspin.parts.sky import Stretch, places, sky, stretch
 from earthspin.questions.pole import pole
 from earthspin.sky.iau import fixed_ecliptic
 from earthspin.torque.rates import precession_rate
-from tests.extreme import Distances, FloatArray, holds, relative_error
+from tests.extreme import Distances, holds, relative_error
 from tests.reference.attitude import attitude_about, attitude_motion, figure_axis
 from tests.reference.momentum_and_figure import axisymmetric_motion
 from tests.reference.sky import BODY, CENTRE, CODES, FORCES, J2, SPIN, H, Tide, kernel, positions

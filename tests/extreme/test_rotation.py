@@ -9,10 +9,11 @@ from earthspin.constants import G
 from earthspin.motion.equations import Rigid
 from earthspin.motion.march import Masses
 from earthspin.motion.solution import Motion, start_of
+from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.rotation import rotation
 from earthspin.rotor.triaxial import free_rotation
 from earthspin.sky.poles import FixedPole
-from tests.extreme import Distances, FloatArray, holds
+from tests.extreme import Distances, holds
 from tests.reference import tumbling_moon
 from tests.reference.sky import eccentric_anomaly
 from tests.reference.stored import attitude_error, load

@@ -11,12 +11,13 @@ import pytest
 from earthspin.constants import JULIAN_YEAR, UAS
 from earthspin.mass.inertia import ellipticity_from_h
 from earthspin.numerics import quaternion
+from earthspin.numerics.arrays import FloatArray
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.rotor.constants_of_motion import jacobi_motion
 from earthspin.rotor.euler import integrate_rotation
 from earthspin.rotor.moments import principal_moments
 from earthspin.rotor.triaxial import FreeRotation, free_rotation
-from tests.extreme import Distances, FloatArray, holds, refused, relative_error
+from tests.extreme import Distances, holds, refused, relative_error
 from tests.reference.sky import BODY, J2, SPIN, H
 
 EPS = float(np.finfo(float).eps)

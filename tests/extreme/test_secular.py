@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, JULIAN_YEAR
+from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.long_term import LongTerm, long_term
 from earthspin.scenes import run_tree
 from earthspin.secular.insolation import Season, daily
 from earthspin.secular.strength import Strength
 from earthspin.secular.trajectory import solve
-from tests.extreme import Distances, FloatArray, holds
+from tests.extreme import Distances, holds
 from tests.reference.sky import BODY
 from tests.reference.spin_axis import spin_axis
 from tests.secular.setting import EARTHS, FixedOrbit, inclined_axis, turned

@@ -8,12 +8,13 @@ from functools import partial
 import numpy as np
 from scipy.special import ellipkm1
 
+from earthspin.numerics.arrays import FloatArray
 from earthspin.top.motion import heavy_top_motion
 from earthspin.top.patterns import nutation_pattern, pattern_limits
 from earthspin.top.start import HeavyTop
 from earthspin.top.steady import sleeping_top, steady_precession
 from earthspin.top.turning import mean_precession_rate, nutation_period, turning_angles
-from tests.extreme import Distances, FloatArray, holds, refused
+from tests.extreme import Distances, holds, refused
 
 #: I1 = 2, I3 = 1, m g r = 2: the critical spin is 4 rad/s exactly.
 CRITICAL = 4.0

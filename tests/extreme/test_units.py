@@ -12,10 +12,11 @@ from astropy.time import Time
 from earthspin import dates
 from earthspin.constants import DAY
 from earthspin.errors import Where
+from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.free_rotor import free_rotor
 from earthspin.questions.polar_motion import excitation, polar_motion, polar_motion_from
 from earthspin.scenes import Scene
-from tests.extreme import Distances, FloatArray, holds, refused
+from tests.extreme import Distances, holds, refused
 from tests.reference.sky import BODY
 
 

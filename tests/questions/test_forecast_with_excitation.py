@@ -72,6 +72,7 @@ def test_half_widths_hold_and_grow(ahead: xr.Dataset, pole: xr.Dataset) -> None:
     assert float(ahead.x_error[9]) < 0.5 * float(plain.x_error[9])
 
 
+@pytest.mark.slow
 def test_days_beyond_the_forecast_change_no_bit(chi: xr.Dataset) -> None:
     """An excitation that is known longer than the forecast reaches is not used to its end."""
     whole = earthspin.forecast(5, origin=ORIGIN, file="c04", excitation=chi)
@@ -82,6 +83,7 @@ def test_days_beyond_the_forecast_change_no_bit(chi: xr.Dataset) -> None:
     assert np.array_equal(whole.x_error, short.x_error)
 
 
+@pytest.mark.slow
 def test_days_before_the_pole_change_no_bit(chi: xr.Dataset, pole: xr.Dataset) -> None:
     """Pole and excitation are used from the first day that both cover."""
     short = pole.sel(time=slice("2005-01-01", ORIGIN))

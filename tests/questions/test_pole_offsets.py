@@ -62,6 +62,7 @@ def test_the_period_with_an_honest_error(tree: xr.DataTree) -> None:
     assert 5 < error < 25
 
 
+@pytest.mark.slow
 def test_the_period_of_simulated_series() -> None:
     """Six series of known period, all inside intervals of 95 %, or five."""
     from earthspin.wobble.observed import fit

@@ -131,6 +131,7 @@ def test_free_numbers_of_the_fast_excitation_go_both_ways() -> None:
     assert np.allclose(list(vars(again).values()), list(vars(fast).values()), rtol=1e-12, atol=0)
 
 
+@pytest.mark.slow
 def test_correlation_of_x_and_y_is_that_of_errors() -> None:
     """The filter's covariance is that of x and -y; errors of C04 are as correlated within 0.3.
 
