@@ -9,14 +9,12 @@ and 9.1 days.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import IERS, UNVERIFIED, Constant, Tabulated
-
-Array = NDArray[Any]
+from earthspin.numerics.arrays import Array
 
 FES2004_SOURCE = (
     IERS + ", sect. 6.3: FES2004 (Lyard et al. 2006, Ocean Dyn. 56, 394), coefficients of degree "

@@ -16,12 +16,10 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import G
 from earthspin.interior.layers import Layer, LayeredBody
-
-Array = NDArray[Any]
+from earthspin.numerics.arrays import Array
 
 FOUR_PI_G = 3.0
 #: Starting radius of the integration; the equations are singular at the centre.

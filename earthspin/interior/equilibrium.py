@@ -7,16 +7,15 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import COMPUTED, Constant, G
 from earthspin.errors import UndefinedError
 from earthspin.interior.equations import FOUR_PI_G, START, Profile, liquid, liquid_centre
 from earthspin.interior.layers import LayeredBody, tidal_inertia
+from earthspin.numerics.arrays import Array
 from earthspin.numerics.collocation import carry
 
 Numeric = Any
-Array = NDArray[Any]
 
 #: Largest Omega2/(pi G rho) at which a homogeneous liquid body, a Maclaurin spheroid, has an
 #: equilibrium.

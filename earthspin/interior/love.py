@@ -9,7 +9,6 @@ from itertools import pairwise
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
 from earthspin.interior.equations import (
@@ -23,9 +22,8 @@ from earthspin.interior.equations import (
     solid_centre,
 )
 from earthspin.interior.layers import LayeredBody
+from earthspin.numerics.arrays import Array
 from earthspin.numerics.collocation import carry as by_collocation
-
-Array = NDArray[Any]
 
 
 class Carry(Protocol):

@@ -36,14 +36,13 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.interior.equilibrium import figure
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import elastic
+from earthspin.numerics.arrays import Array
 
 Numeric = Any
-Array = NDArray[Any]
 
 #: Names of the free modes, in the order in which regions are added.
 MODES = ("chandler_wobble", "free_core_nutation", "inner_core_nutation", "inner_core_wobble")

@@ -23,15 +23,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from earthspin.constants import G
 from earthspin.errors import UndefinedError
 from earthspin.mass._checks import degree, vectors
 from earthspin.mass.distribution import point_masses
-from earthspin.numerics.arrays import FloatArray
-
-ComplexArray = NDArray[np.complex128]
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 
 
 def solid_harmonics(position: FloatArray, n_max: int) -> Iterator[tuple[int, int, ComplexArray]]:

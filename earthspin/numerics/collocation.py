@@ -11,15 +11,12 @@ rounding errors would exceed the other solutions.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
-
-Array = NDArray[Any]
+from earthspin.numerics.arrays import Array
 
 #: Number of nodes of a panel; the order of the method is twice this number.
 NODES = 8

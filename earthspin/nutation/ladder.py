@@ -9,10 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import COMPUTED, DAY, NORMAL_95, Constant
 from earthspin.interior.anelastic import anelastic_strain
@@ -23,8 +21,7 @@ from earthspin.interior.love import Yielding, elastic, yielding
 from earthspin.interior.modes import MODES, Parts, all_fluid, free_modes, transfer
 from earthspin.interior.modes import parts_of as interior_parts
 from earthspin.interior.published import CORE_NUTATION, K_CMB, K_ICB
-
-Array = NDArray[Any]
+from earthspin.numerics.arrays import Array
 
 #: Effect added by each rung, in order.
 RUNGS = {

@@ -20,7 +20,7 @@ from earthspin.motion import axes
 from earthspin.motion.axes import AxisPath
 from earthspin.motion.effects import GEODESIC, NONRIGID
 from earthspin.motion.figure import fastest_sweep
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation.angles import followed, on_fixed_ecliptic
 from earthspin.nutation.budget import published_effects
 from earthspin.parts.predicted import CHOSEN, Prediction, no_layers, prediction
@@ -35,7 +35,6 @@ if TYPE_CHECKING:
     from earthspin.nutation.circles import Circles
     from earthspin.nutation.response import Response
 
-ComplexArray = NDArray[np.complex128]
 
 #: Half of the span about J2000.0 that is analysed, as far as the kernel covers it: four periods of
 #: the node in each direction, over which slow changes are a short polynomial.

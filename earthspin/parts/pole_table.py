@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.constants import ARCSEC, J2000_JD, MAS
@@ -14,7 +13,7 @@ from earthspin.engine.labels import si
 from earthspin.engine.question import Question, key, setting
 from earthspin.engine.variables import Labels, Variables, labels
 from earthspin.errors import SceneError, Where
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.parts.reasons import no_iau_model
 from earthspin.sky.columns import is_table
 from earthspin.sky.eop import CARRIED, PoleSeries
@@ -23,7 +22,6 @@ from earthspin.units import FileName
 if TYPE_CHECKING:
     import xarray as xr
 
-ComplexArray = NDArray[np.complex128]
 
 #: Modified Julian date of J2000.0.
 MJD = J2000_JD - 2400000.5

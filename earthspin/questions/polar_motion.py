@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import Body
 from earthspin.constants import DAY, MAS, NORMAL_95
@@ -19,7 +18,7 @@ from earthspin.engine.question import define_parts, setting
 from earthspin.engine.run import in_range
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.parts.pole_table import (
     MJD,
     Daily,
@@ -39,7 +38,6 @@ from earthspin.wobble.spectrum import spectrum as amplitude_spectrum
 if TYPE_CHECKING:
     import xarray as xr
 
-ComplexArray = NDArray[np.complex128]
 
 #: How the free wobble is found.
 Method = Literal["burg", "likelihood"]

@@ -16,7 +16,6 @@ from earthspin.views.table import date
 
 #: Words for the shares of an error, by the endings of their names.
 SHARES = {"method": "method", "input": "inputs", "kernel": "positions", "response": "response"}
-_ERROR = "_error"
 
 
 def closing_line(result: Result, seconds: float | None = None) -> str:
@@ -52,9 +51,9 @@ def _error(answer: xr.Dataset) -> str:
         return ""
     name = question.headline
     value = answer[name]
-    label = name.removesuffix(_ERROR).replace("_", " ")
+    label = name.removesuffix("_error").replace("_", " ")
     first, *_ = value.attrs.get("ancillary_variables", "").split(" ")
-    error_name = name if name.endswith(_ERROR) else first
+    error_name = name if name.endswith("_error") else first
     if not error_name:
         return f"{label}: no error: {value.attrs['no_error']}"
     if answer.sizes.get("perturber", 0) == 1 or "total" in answer.get("perturber", ()):

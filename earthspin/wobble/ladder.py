@@ -14,7 +14,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
 from earthspin.interior.anelastic import anelastic_strain
@@ -23,10 +22,10 @@ from earthspin.interior.love import elastic, softening
 from earthspin.interior.named import ANELASTIC_EXPONENT, Interior
 from earthspin.interior.ocean import global_ocean
 from earthspin.mass.inertia import ellipticity_from_h, polar_moment_factor
+from earthspin.numerics.arrays import Array
 from earthspin.wobble.mantle_and_core import Core, Mantle, Roots, over, solve
 
 Numeric = Any
-Array = NDArray[Any]
 
 RUNGS = ("flattening", "rigid", "triaxial", "elastic", "fluid-core", "ocean", "anelastic")
 

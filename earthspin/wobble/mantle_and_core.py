@@ -27,12 +27,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import Array
 
 Numeric = Any
-Array = NDArray[Any]
 
 
 def over(numerator: Numeric, denominator: Numeric) -> Numeric:

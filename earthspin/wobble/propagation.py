@@ -14,14 +14,13 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import DAY
 from earthspin.interior.named import Interior
+from earthspin.numerics.arrays import Array
 from earthspin.wobble.ladder import Inputs, Spin, climb
 
 Numeric = Any
-Array = NDArray[Any]
 
 #: Range of the exponent that published work allows (Smith & Dahlen 1981).
 EXPONENT_RANGE = (0.04, 0.19)
