@@ -19,7 +19,7 @@ import tomli_w
 
 import earthspin
 from earthspin.cli import _parser
-from earthspin.engine.question import Key, Question, keys_of
+from earthspin.engine.question import Key, keys_of
 from earthspin.scenes import QUESTIONS, load_scene, shipped_scenes
 from earthspin.years import YearSpan
 from tests.fuzz.inputs import WORDS, any_word, extreme_number
@@ -158,11 +158,6 @@ def malformed(rng: Random) -> Any:
         return tomllib.loads(f"x = {word}")["x"]
     except (ValueError, RecursionError):
         return "x"
-
-
-def question_of(scene: dict[str, Any]) -> Question:
-    """Read the question of a request."""
-    return earthspin.Scene(**scene)
 
 
 # --- commands ------------------------------------------------------------------------------------

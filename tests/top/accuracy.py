@@ -97,14 +97,6 @@ def _differences(found: list[Any], exact: list[Any], scales: list[Any]) -> Any:
     )
 
 
-def ulp_effect_at(start: Start, moment: float) -> Any:
-    """What one unit in the last place of each input does at a time, added up, of all 13 numbers."""
-    state = Textbook(start).at(moment)
-    found = heavy_top_motion(HeavyTop(**start), np.array([moment]))
-    assert found.theta.size == 1
-    return _ulp_effect(start, moment, state, _scales(start, moment / 100, [state]))
-
-
 def _ulp_effect(start: Start, moment: float, state: State, scales: list[Any]) -> Any:
     """Sum over the inputs of what one unit in the last place of each does."""
     total = np.zeros(13)
