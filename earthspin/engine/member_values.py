@@ -6,6 +6,7 @@ The values are finite numbers, or names without gaps.
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -45,7 +46,10 @@ def read_file(path: Path) -> xr.Dataset:
         if path.suffix == ".csv":
             import pandas as pd
 
-            frame = pd.read_csv(path, skipinitialspace=True)
+            with warnings.catch_warnings():
+                # rows that are longer than the header would shift the columns
+                warnings.simplefilter("error", pd.errors.ParserWarning)
+                frame = pd.read_csv(path, skipinitialspace=True, index_col=False)
             columns = {name: (MEMBER, frame[name].to_numpy()) for name in frame if name != MEMBER}
             return xr.Dataset(columns)
         if path.suffix in (".nc", ".zarr"):
