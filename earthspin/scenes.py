@@ -18,6 +18,7 @@ from earthspin.bodies import Body
 from earthspin.bodies.body import members
 from earthspin.engine import answering, loop
 from earthspin.engine import plan as planning
+from earthspin.engine.members import TWICE
 from earthspin.engine.part import BLOCK as BY_BLOCK
 from earthspin.engine.question import Question, keys_of
 from earthspin.engine.series import Series
@@ -217,7 +218,13 @@ def _changed(
     table: dict[str, Any], changes: Mapping[str, Any], source: str, title: str, typed: set[str]
 ) -> Question:
     """Build a question from the table of inputs of a scene, with new values for some keys."""
+    set_before: list[str] = []
     for key, value in changes.items():
+        leaves = [*_leaves(str(key), value)]
+        for before in set_before:
+            if before in leaves or before.startswith(f"{key}."):
+                raise SceneError(before, value, f"{TWICE}, and tables first", source=source)
+        set_before += leaves
         _set_key(table, str(key), value, source)
     if "compute" not in table:
         raise SceneError("compute", None, f"it is missing; {nearest('', QUESTIONS)}", source=source)
@@ -227,6 +234,15 @@ def _changed(
             others = {key for other in question.exclusive if other != group for key in other}
             table = {key: table[key] for key in table if key not in others - changes.keys()}
     return question.from_table(table, source=source, title=title, typed=typed)
+
+
+def _leaves(key: str, value: Any) -> Iterator[str]:
+    """Yield the dotted names of all values in a table, or the key itself if it holds no table."""
+    if not isinstance(value, Mapping):
+        yield key
+        return
+    for name, inner in value.items():
+        yield from _leaves(f"{key}.{name}", inner)
 
 
 def shipped_scenes() -> dict[str, str]:

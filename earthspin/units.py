@@ -149,6 +149,17 @@ class _Target:
             raise self.wrong(value) from None
 
 
+def unit_factor(unit: str, target: str, where: Where, example: str) -> float:
+    """Return the factor that converts numbers from a unit to the one that the program uses.
+
+    Raises
+    ------
+    UnitsError
+        If the unit is unknown or of another kind.
+    """
+    return _Target(target, where, example).factor(unit, unit)
+
+
 def _convert(value: Any, target: _Target) -> Any:
     if isinstance(value, (bool, np.bool_)):
         raise target.wrong(value)
@@ -366,8 +377,7 @@ class Numbers:
         """Check an array of numbers, convert it to floats, and return a read-only copy."""
         if isinstance(value, Mapping):
             unit = str(value.get("unit", self.unit))
-            factor = _Target(self.unit, where, self.example).factor(unit, unit)
-            value = unpack(value, where) * factor
+            value = unpack(value, where) * unit_factor(unit, self.unit, where, self.example)
         converted = quantity(_in_order(value, where), self.unit, where, self.example)
         values = np.array(getattr(converted, "values", converted), dtype=np.float64)
         if values.ndim == len(self.shape) - 1 and not self.optional_row:

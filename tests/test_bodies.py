@@ -251,3 +251,42 @@ def test_a_pole_is_a_value() -> None:
     assert MARS.replace(pole=("317.68143 deg", "52.88650 deg")).pole == pole
     assert EARTH.replace(pole=MARS.pole).pole == MARS.pole
     assert str(pole) == "right ascension 317.68143 deg, declination 52.88650 deg"
+
+
+@pytest.mark.parametrize(
+    ("start", "change", "unit"),
+    [
+        (EARTH, {"radius": 6371}, "km"),
+        (EARTH, {"radius": xr.DataArray([6371e3, 6371], dims="member")}, "km"),
+        (EARTH, {"gm": 3.986e5}, "km3/s2"),
+        (SUN, {"radius": 695700}, "km"),
+        (SUN, {"gm": 1.327e11}, "km3/s2"),
+        (BODIES["saturn"], {"radius": 60268}, "km"),
+        (BODIES["moon"], {"gm": 4902.8}, "km3/s2"),
+    ],
+)
+def test_a_number_that_is_usual_in_kilometres_is_refused(
+    start: Body, change: dict, unit: str
+) -> None:
+    """The torque of the Sun on an Earth of 6371 m is a millionth of the right one."""
+    with pytest.raises(BodyError, match=f"no body has this density; if it is in {unit}, write"):
+        start.replace(**change)
+    for key, value in change.items():
+        if isinstance(value, (int, float)):
+            assert start.replace(**{key: f"{value} {unit}"}).gm > 0
+
+
+@pytest.mark.parametrize(
+    ("gm", "radius"),
+    [
+        (1.0, 1.0),
+        (1.37e20, 5.9e6),  # Sirius B (Bond et al. 2017), 2.4e9 kg/m3
+        (1.79e20, 2.14e6),  # ZTF J1901+1458 (Caiazzo et al. 2021), 6.5e10 kg/m3
+        (1.9e20, 12e3),  # a neutron star, 4e17 kg/m3
+        (5.4e26, 1.2e10),  # the black hole of the galaxy, within its horizon
+        (2.2e21, 5.3e11),  # Betelgeuse, 5e-5 kg/m3
+        (4.3e-11, 0.3),  # a ball of 0.65 kg
+    ],
+)
+def test_dense_and_thin_bodies_are_possible(gm: float, radius: float) -> None:
+    assert Body(name="x", gm=gm, radius=radius).gm == gm

@@ -69,7 +69,7 @@ MERCURY = Body.cited(
             _VERMA_READ,
         ),
         # 3:2 spin-orbit resonance
-        "spin_period": Constant(58.6461 * DAY, "s", None, IAU_2015, PCK11),
+        "spin_period": Constant(360 / 6.1385108 * DAY, "s", None, IAU_2015, PCK11),
         "orbital_period": _MERCURY_YEAR,
         "slow_swing": SWING,
         "pole_uncertainty": Constant(

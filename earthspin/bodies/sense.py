@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from earthspin.bodies.labelled import Numeric, all_of, is_finite
-from earthspin.constants import Constant
+from earthspin.constants import Constant, G
 from earthspin.errors import BodyError, nearest
 from earthspin.interior.layers import LayeredBody
 from earthspin.sky.poles import NAMED_POLES
@@ -20,6 +20,14 @@ Fields = Mapping[str, Any]
 
 #: Plausibility bounds: above the mass and the age of the observable universe, m3 s-2 and s.
 LARGEST_GM, LONGEST_DAY = 1e60, 1e30
+
+#: Usual mean densities, from loose planets to small stars, kg m-3.
+USUAL = 30.0, 1e5
+#: Densities that no body has: above those of white dwarfs and below those of neutron stars; and
+#: below 1, but for giant stars, whose GM is larger than `LEAST_STAR`, m3 s-2.
+NO_STAR, LEAST_STAR = (1e11, 1e16), 1e18
+#: Largest GM of a star, of 500 solar masses, m3 s-2. Black holes are larger, and of any density.
+LARGEST_STAR = 6.6e22
 
 #: Conditions on single numbers, in the order of the checks, with the text of the message.
 _HOLDS: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
@@ -96,6 +104,7 @@ def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
         with_size = gm * radius * radius
         if not all_of(is_finite(with_size) & ((with_size > 0) | (gm == 0))):
             raise BodyError(name, "radius", radius, "M a2 is out of a float's range")
+        _check_density(name, gm, radius)
     for field, u in body["relative_uncertainty"].items():
         if field not in numbers:
             raise BodyError(name, "relative_uncertainty", field, nearest(field, numbers))
@@ -105,6 +114,21 @@ def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
     j2, h = body["j2"], body["dynamical_flattening"]
     if j2 is not None and h is not None:
         _check_polar_moment(name, j2, h, body["triaxiality"])
+
+
+def _check_density(name: str, gm: Numeric, radius: Numeric) -> None:
+    """Refuse a density that no body has, and that is usual once km are read instead of m."""
+    density = gm / (4 / 3 * math.pi * G.value) / radius / radius / radius
+    not_dense = (density <= NO_STAR[0]) | (density >= NO_STAR[1]) | (gm >= LARGEST_STAR)
+    not_thin = (density >= 1) | (gm >= LEAST_STAR)
+    for field, value, unit, right, factor in (
+        ("radius", radius, "km", not_dense, 1e-9),
+        ("gm", gm, "km3/s2", not_thin, 1e9),
+    ):
+        meant = density * factor
+        if not all_of(right | (meant <= USUAL[0]) | (meant >= USUAL[1])):
+            allowed = f"no body has this density; if it is in {unit}, write this unit behind it"
+            raise BodyError(name, field, value, allowed)
 
 
 def _check_polar_moment(name: str, j2: Numeric, h: Numeric, triaxiality: Numeric) -> None:

@@ -30,7 +30,7 @@ from earthspin.engine.inputs import (
     with_values,
 )
 from earthspin.engine.member_values import MEMBER
-from earthspin.engine.members import Members, count_of, draw
+from earthspin.engine.members import TWICE, Members, count_of, draw
 from earthspin.engine.plan import SCENE
 from earthspin.engine.question import Question
 from earthspin.engine.run import plan_data, scene_text
@@ -87,6 +87,8 @@ class Ensemble:
         self.full_question, self.question = question, question.replace(members=None)
         members = question.members or Members()
         where = question.where("members")
+        for name in members.distributions.keys() & members.values.keys():
+            raise where.at(name).error("...", TWICE)
         distributions = published(self.question) if members.published else {}
         distributions |= members.distributions
         self.inputs = inputs_of(self.question, [*distributions, *members.values], where)
@@ -103,7 +105,9 @@ class Ensemble:
         }
         self.values = draw(members, drawn, self.which, where)
         self.values |= {
-            name: self.inputs[name].checked(values, where.at(name))[self.which]
+            name: self.inputs[name].checked(values, members.units.get(name), where.at(name))[
+                self.which
+            ]
             for name, values in members.values.items()
         }
         self.dropped: list[int] = []

@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.engine.member_values import MEMBER
-from earthspin.engine.members import Distribution, checked_names
+from earthspin.engine.members import TWICE, Distribution, checked_names
 from earthspin.engine.question import Question, keys_of
 from earthspin.errors import Where, nearest
-from earthspin.units import Number, by_name
+from earthspin.units import Number, by_name, unit_factor
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -69,18 +69,21 @@ class Input:
         """Name of the coordinate that holds the values of this input in a result."""
         return self.name.replace(".", "_")
 
-    def checked(self, values: NDArray[Any], where: Where) -> NDArray[Any]:
-        """Return the values of this input for all members; raise an error for a wrong type.
+    def checked(self, values: NDArray[Any], unit: str | None, where: Where) -> NDArray[Any]:
+        """Return the values of this input for all members, in its unit; refuse a wrong type.
 
         Raises
         ------
         EarthspinError
-            If a number is required and names were given, or the key does not take one of the names.
+            If a number is required and names were given, the key does not take one of the names, or
+            the unit is of another kind.
         """
         if self.named:
             checked_names(np.unique(values).tolist(), self.kind, where)
         elif values.dtype.kind == "U":
             raise where.error(str(values[0]), "give finite numbers")
+        elif unit is not None:
+            return values * unit_factor(unit, self.unit, where, f"1 {self.unit}".strip())
         return values
 
 
@@ -97,8 +100,8 @@ def inputs_of(question: Question, names: Iterable[str], where: Where) -> dict[st
     Raises
     ------
     SceneError
-        If the question has no input of a name (the message suggests the nearest one), or a number
-        belongs to a key whose value itself varies.
+        If the question has no input of a name (the message suggests the nearest one), two names
+        are those of one input, or a number belongs to a key whose value itself varies.
     """
     every = {entry.name: entry for entry in _all_inputs(question)}
     inputs: dict[str, Input] = {}
@@ -110,6 +113,8 @@ def inputs_of(question: Question, names: Iterable[str], where: Where) -> dict[st
             raise where.error(
                 name, f"write '{symbol}'" if symbol in every else nearest(name, every)
             )
+        if any(replace(entry, name=known.name) == known for entry in inputs.values()):
+            raise where.at(name).error(name, TWICE)
         inputs[name] = replace(known, name=name)
     chosen = {entry.key: entry.name for entry in inputs.values() if entry.named}
     for entry in inputs.values():

@@ -6,7 +6,8 @@ The values are finite numbers, or names without gaps.
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+import warnings
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -45,7 +46,10 @@ def read_file(path: Path) -> xr.Dataset:
         if path.suffix == ".csv":
             import pandas as pd
 
-            frame = pd.read_csv(path, skipinitialspace=True)
+            with warnings.catch_warnings():
+                # rows that are longer than the header would shift the columns
+                warnings.simplefilter("error", pd.errors.ParserWarning)
+                frame = pd.read_csv(path, skipinitialspace=True, index_col=False)
             columns = {name: (MEMBER, frame[name].to_numpy()) for name in frame if name != MEMBER}
             return xr.Dataset(columns)
         if path.suffix in (".nc", ".zarr"):
@@ -67,19 +71,33 @@ def values_from_dataset(dataset: Any, where: Where) -> dict[str, NDArray[Any]]:
     The Dataset may be the answer of an ensemble.
     """
     values: dict[str, NDArray[Any]] = {}
-    for name, array in {**dataset.data_vars, **dataset.coords}.items():
-        if name == MEMBER or (name in dataset.coords and "input" not in array.attrs):
-            continue
-        if name in dataset.data_vars and any("input" in c.attrs for c in dataset.coords.values()):
-            continue  # an answer of an ensemble: take its inputs, not its results
-        inner = where.at(str(array.attrs.get("input", name)))
+    for name, array in _inputs(dataset):
+        inner = where.at(name)
         if not array.dims or array.dims[0] != MEMBER:
             problem = f"the first dimension must be '{MEMBER}'"
             raise inner.error(f"dimensions {', '.join(map(str, array.dims)) or 'none'}", problem)
-        values[str(array.attrs.get("input", name))] = _checked(array.values, inner)
+        values[name] = _checked(array.values, inner)
     if not values or not all(len(array) for array in values.values()):
         raise where.error("a Dataset", f"it has no members; give variables along '{MEMBER}'")
     return values
+
+
+def units_from_dataset(dataset: Any) -> dict[str, str]:
+    """Return the units of the numbers of the members, by input name, for those that have one."""
+    return {
+        name: str(array.attrs["units"])
+        for name, array in _inputs(dataset)
+        if "units" in array.attrs and array.dtype.kind in "fiu"
+    }
+
+
+def _inputs(dataset: Any) -> Iterator[tuple[str, Any]]:
+    """Yield the input name and the variable of each input of the members in a Dataset."""
+    labels = dataset.coords.values()
+    is_answer = any("input" in array.attrs for array in labels)  # take its inputs, not its results
+    for name, array in {**({} if is_answer else dataset.data_vars), **dataset.coords}.items():
+        if name != MEMBER and (name in dataset.data_vars or "input" in array.attrs):
+            yield str(array.attrs.get("input", name)), array
 
 
 def values_from_scene(values: Any, where: Where) -> NDArray[Any]:

@@ -21,7 +21,12 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.engine.member_values import read_file, values_from_dataset, values_from_scene
+from earthspin.engine.member_values import (
+    read_file,
+    units_from_dataset,
+    values_from_dataset,
+    values_from_scene,
+)
 from earthspin.errors import Where, nearest
 from earthspin.numerics.arrays import FloatArray
 from earthspin.units import Word, by_name, pack
@@ -36,6 +41,8 @@ _SHAPES: dict[str, str] = {
     "choice": "one value or more",
     "grid": "one value or more; members take every combination of all grids",
 }
+#: Message for an input that is given more than once.
+TWICE = "it is given twice, perhaps with a dot and in a table; give it once"
 _SETTINGS = ("n", "seed", "uncertainty", "impossible", "only", "correlations", "values")
 
 
@@ -61,7 +68,7 @@ class Distribution:
             problem = f"give one of {', '.join(_SHAPES)}, like normal = [1, 2]"
             raise where.error(dict(value), problem)
         ((shape, numbers),) = value.items()
-        numbers = numbers.tolist() if isinstance(numbers, np.ndarray) else numbers
+        numbers = list(numbers) if isinstance(numbers, np.ndarray) and numbers.ndim else numbers
         many = len(numbers) if isinstance(numbers, (list, tuple)) else 0
         if many == 0 or (shape in ("normal", "uniform") and many != 2):
             raise where.error(numbers, f"{shape} takes {_SHAPES[shape]}")
@@ -176,6 +183,8 @@ class Members:
         Distributions by name of the input, like ``"body.j2"``.
     values : mapping of str to ndarray, shape (n, ...)
         Numbers or names of every member, by name of the input.
+    units : mapping of str to str
+        Units of these numbers, by name of the input; SI if it has none.
     """
 
     n: int | None = None
@@ -186,6 +195,7 @@ class Members:
     correlations: tuple[tuple[str, str, float], ...] = ()
     distributions: Mapping[str, Distribution] = field(default_factory=dict)
     values: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
 
     words: ClassVar[str] = "how many, a table of distributions, or a Dataset along `member`"
     hint: ClassVar[str] = "int | Mapping[str, Any] | xr.Dataset | str"
@@ -208,7 +218,7 @@ class Members:
         if isinstance(value, (str, os.PathLike)):
             value = read_file(Path(value))
         if hasattr(value, "data_vars"):
-            return cls(values=values_from_dataset(value, where))
+            return cls(values=values_from_dataset(value, where), units=units_from_dataset(value))
         if not isinstance(value, Mapping):
             raise where.error(value, f"give {cls.words}")
         return cls._of_table(value, where)
@@ -240,9 +250,14 @@ class Members:
             impossible=impossible,
             only=tuple(_whole_number(m, where.at("only"), 0) for m in settings.get("only", ())),
             correlations=tuple(_correlations(settings.get("correlations", ()), where)),
-            distributions=dict(_distributions(inputs, where)),
+            distributions=_once(_distributions(inputs, where), where),
             values={
                 name: values_from_scene(entry, where.at(name)) for name, entry in values.items()
+            },
+            units={
+                name: str(entry["unit"])
+                for name, entry in values.items()
+                if isinstance(entry, Mapping) and "unit" in entry
             },
         )
 
@@ -264,6 +279,8 @@ class Members:
                 name: entry.tolist() if entry.dtype.kind == "U" else pack(entry)
                 for name, entry in self.values.items()
             }
+            for name, unit in self.units.items():
+                table["values"][name]["unit"] = unit
         return table
 
 
@@ -291,6 +308,16 @@ def _distributions(
             yield from _distributions(entry, where, f"{full}.")
         else:
             yield full, Distribution.read(entry, where.at(full))
+
+
+def _once(named: Iterable[tuple[str, Distribution]], where: Where) -> dict[str, Distribution]:
+    """Return distributions by name; refuse a name in dotted and in nested spelling."""
+    distributions: dict[str, Distribution] = {}
+    for name, distribution in named:
+        if name in distributions:
+            raise where.at(name).error(list(distribution.numbers), TWICE)
+        distributions[name] = distribution
+    return distributions
 
 
 def _correlations(rows: Any, where: Where) -> Iterator[tuple[str, str, float]]:

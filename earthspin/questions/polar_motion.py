@@ -521,6 +521,8 @@ def read_excitation(
     >>> print(chi.chi1.round(2).values)
     [22.69 22.69 22.69]
     """
+    if not isinstance(daily, bool):
+        raise SceneError("daily", daily, "give True or False")
     terms = Several(Word(tuple(TERMS))).read(terms, Where("terms"))
     if components is not None:
         components = Several(Text()).read(components, Where("components"))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from earthspin.constants import DAY, NORMAL_95
@@ -67,7 +69,8 @@ class ObservedOffsets(Daily):
 @part(unless=not_observed)
 def offset_table(file: str, kind: str | None, span: Span | None) -> PoleSeries:
     """Read the celestial pole offsets of a table of the IERS, within the requested span."""
-    return within(read_pole_offsets(file, kind), span)
+    first = -math.inf if span is None else span.days[0] + MJD
+    return within(read_pole_offsets(file, kind, first), span)
 
 
 @part(unless=not_observed)

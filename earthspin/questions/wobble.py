@@ -83,16 +83,18 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
         doc="exponent of frequency in the mantle's quality factor; observed decay allows 0.04 to "
         "0.19 (Smith & Dahlen 1981)",
     )
-    k2: Annotated[float, Number("", "0.298", low=0.0)] | None = setting(
+    # a body that is liquid throughout and of even density has k2 = 3/2
+    k2: Annotated[float, Number("", "0.298", low=0.0, high=1.5)] | None = setting(
         None, doc="elastic Love number, instead of that of the interior"
     )
     core_fraction: Annotated[float, Number("", "0.11", low=0.0, high=1.0)] | None = setting(
         None, doc="moment of inertia of the core over that of the body, instead of the interior's"
     )
-    core_ellipticity: Annotated[float, Number("", "0.0026")] | None = setting(
+    # (C - A)/A of any body is between that of a needle, -1, and that of a thin disc, 1
+    core_ellipticity: Annotated[float, Number("", "0.0026", low=-1.0, high=1.0)] | None = setting(
         None, doc="(C - A)/A of the core, instead of the interior's"
     )
-    ocean_love_number: Annotated[float, Number("", "0.047", low=0.0)] | None = setting(
+    ocean_love_number: Annotated[float, Number("", "0.047", low=0.0, high=1.5)] | None = setting(
         None, doc="increase of k2 by the ocean, instead of the interior's; the ocean must be on"
     )
 

@@ -42,8 +42,16 @@ LOST = 0.01
 DATE_ROUNDING = 1e-3
 #: Period of the free wobble, used to report the error of interpolation, d.
 FREE_WOBBLE = 433.0
-#: Number of columns of the table C01 by date.
-_C01_COLUMNS = 29
+#: Number of columns of the table C01 by date, and of that by year with celestial pole offsets.
+_C01_COLUMNS, _C01_YEAR_COLUMNS = 29, 11
+#: First day after the optical observations of the table C01, MJD of 1962-01-01.
+_AFTER_OPTICAL = 37665.0
+#: Offsets whose median distance from those of finals2000A is larger are from IAU 1980, arcsec: in
+#: C04 it is 0.1 mas, and in each year of offsets from IAU 1980 at least 3.5 mas. It is taken over
+#: days from 1984 on, MJD, since which C04 and finals2000A agree.
+_ANOTHER_MODEL, _TWO_TABLES = 0.002, 45700.0
+#: Largest offset that finals2000A does not confirm, arcsec.
+_LARGEST_ELSEWHERE = 0.005
 _ERRORS = ("x_error", "y_error")
 
 
@@ -95,7 +103,7 @@ _POLAR_MOTION = _Coordinates(
     fastest=0.01,
     jump=0.1,
 )
-#: Offsets from IAU 2006/2000A have never passed 4 mas; those from IAU 1980 are larger than 20 mas.
+#: Offsets from IAU 2006/2000A have never passed 9 mas; those from IAU 1980 pass 20 mas since 1991.
 _POLE_OFFSETS = _Coordinates(
     "celestial pole offsets",
     "dX, dY",
@@ -108,6 +116,8 @@ _POLE_OFFSETS = _Coordinates(
     fastest=1e-4,
     jump=5e-3,
 )
+_NO_OPTICAL = "before 1962 they are optical; give a span that begins in 1962 or later"
+_NOT_IAU_1980 = "offsets from IAU 2006/2000A are needed; are they from IAU 1980?"
 
 
 @dataclass(frozen=True)
@@ -223,7 +233,9 @@ def read_polar_motion(path: str | Path = "c04", kind: str | None = None) -> Pole
     return _read(path, kind, _POLAR_MOTION)
 
 
-def read_pole_offsets(path: str | Path = "c04", kind: str | None = None) -> PoleSeries:
+def read_pole_offsets(
+    path: str | Path = "c04", kind: str | None = None, first: float = -math.inf
+) -> PoleSeries:
     """Read a time series of observed celestial pole offsets dX, dY from a file.
 
     Rows that finals2000A flags as predicted in column 96, and the zeros with which C04 and C01
@@ -233,24 +245,29 @@ def read_pole_offsets(path: str | Path = "c04", kind: str | None = None) -> Pole
     ----------
     path, kind
         As of `read_polar_motion`.
+    first : float
+        Modified Julian date before which no row of a C01 table is used: before 1962 it holds
+        offsets of optical observations, of up to 0.1 arcsec.
 
     Raises
     ------
     SeriesError
         If the file cannot be used; it names the line.
     """
-    return _read(path, kind, _POLE_OFFSETS)
+    return _read(path, kind, _POLE_OFFSETS, first)
 
 
-def _read(path: str | Path, kind: str | None, pair: _Coordinates) -> PoleSeries:
+def _read(
+    path: str | Path, kind: str | None, pair: _Coordinates, first: float = -math.inf
+) -> PoleSeries:
     """Read polar motion or celestial pole offsets from a file; unchanged files are read once."""
     file = file_of(path)
     lines_of(file)  # refuses what cannot be read
-    return _parsed(file, checksum(file), kind, pair.name)
+    return _parsed(file, checksum(file), kind, pair.name, first)
 
 
 @lru_cache(maxsize=8)
-def _parsed(file: Path, sha256: str, kind: str | None, name: str) -> PoleSeries:
+def _parsed(file: Path, sha256: str, kind: str | None, name: str, first: float) -> PoleSeries:
     """Convert the text of a file to a pole series; repair small defects and refuse large ones."""
     pair = _POLE_OFFSETS if name == _POLE_OFFSETS.name else _POLAR_MOTION
     lines = lines_of(file)
@@ -260,12 +277,16 @@ def _parsed(file: Path, sha256: str, kind: str | None, name: str) -> PoleSeries:
     rows = list(_READERS[kind](file, lines, pair))
     repairs: list[str] = []
     _check_dates(file, rows)
+    if kind == "c01":
+        rows = [row for row in rows if row.mjd >= first]
     rows = _drop_missing(file, rows, text_between(lines, _IS_ROW[kind]), repairs)
     if pair is _POLE_OFFSETS:
         rows = _drop_zeros(rows, repairs)
     if len(rows) < 2:
         raise SeriesError(file, f"it holds {len(rows)} rows of {pair.name}", "is it complete?")
-    _check_size(file, rows, pair)
+    _check_size(file, rows, pair, kind)
+    if pair is _POLE_OFFSETS and file not in (path() for path in CARRIED.values()):
+        _check_model(file, rows)
     rows = _in_order(file, rows, repairs)
     _check_jumps(file, rows, pair)
     series = replace(_even(file, rows, kind, repairs), sha256=sha256)
@@ -302,7 +323,8 @@ def _c01(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
     """Yield the rows of a C01 table, dated by MJD (new layout) or Besselian year (old layout).
 
     By date: MJD, x, y, UT1-TAI, dX, dY, then their errors and 18 more columns. By year: decimal
-    year, x, its error, y, its error.
+    year, x, its error, y, its error, and in the longer layout UT1-TAI, its error, dX, its error,
+    dY, its error.
     """
     columns = 0
     for number, words in rows_of(lines):
@@ -315,11 +337,14 @@ def _c01(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
             (mjd,) = numbers(file, number, words[date : date + 1])
             x, y = numbers(file, number, words[value : value + 2])
             x_error, y_error = numbers(file, number, words[error : error + 2])
-        elif pair is _POLE_OFFSETS:
-            remedy = f"take a table by MJD, which has {_C01_COLUMNS} columns"
-            raise SeriesError(file, "a table C01 by year holds no dX, dY", remedy, number)
+        elif pair is _POLE_OFFSETS and columns != _C01_YEAR_COLUMNS:
+            problem = f"a table C01 by year of {columns} columns holds no dX, dY"
+            remedy = f"take one of {_C01_YEAR_COLUMNS} columns, or by MJD, of {_C01_COLUMNS}"
+            raise SeriesError(file, problem, remedy, number)
         else:
-            year, x, x_error, y, y_error = numbers(file, number, words[:5])
+            value = 7 if pair is _POLE_OFFSETS else 1
+            (year,) = numbers(file, number, words[:1])
+            x, x_error, y, y_error = numbers(file, number, words[value : value + 4])
             if not 1800 <= year <= 2200:
                 remedy = f"it lies in 1800 to 2200; a table by MJD has {_C01_COLUMNS} columns"
                 raise SeriesError(file, f"the year is {year:g}", remedy, number)
@@ -349,7 +374,7 @@ def read_bulletin_a(path: str | Path = "finals") -> PoleSeries | None:
     if len(rows) < 2:
         return None
     _check_dates(file, rows)
-    _check_size(file, rows, _POLAR_MOTION)
+    _check_size(file, rows, _POLAR_MOTION, "finals2000A")
     return replace(_even(file, rows, "Bulletin A", []), sha256=checksum(file))
 
 
@@ -441,13 +466,34 @@ def _drop_zeros(rows: list[_Row], repairs: list[str]) -> list[_Row]:
     return rows[first:]
 
 
-def _check_size(file: Path, rows: list[_Row], pair: _Coordinates) -> None:
+def _check_model(file: Path, rows: list[_Row]) -> None:
+    """Refuse offsets that differ from those of finals2000A, which astropy carries.
+
+    The size alone tells no model: offsets from IAU 1980 stay below 20 mas until 1991, and the
+    oldest of the others reach 9 mas.
+    """
+    known = read_pole_offsets("finals")
+    days, *values = np.array([(row.mjd, *row.values[:2]) for row in rows]).T
+    there = [np.interp(days, known.mjd, c / ARCSEC, np.nan, np.nan) for c in (known.x, known.y)]
+    distance = np.max(np.abs(np.subtract(values, there)), axis=0)
+    for row, apart in zip(rows, distance, strict=True):
+        if max(map(abs, row.values[:2])) > _LARGEST_ELSEWHERE and not apart <= _ANOTHER_MODEL:
+            problem = f"dX, dY = {row.values[0]:g}, {row.values[1]:g} arcsec"
+            raise SeriesError(file, problem, _NOT_IAU_1980, row.line)
+    common = distance[(days >= _TWO_TABLES) & np.isfinite(distance)]
+    if common.size and np.median(common) > _ANOTHER_MODEL:
+        problem = f"dX, dY differ by {1000 * np.median(common):.1f} mas from finals2000A (median)"
+        raise SeriesError(file, problem, _NOT_IAU_1980)
+
+
+def _check_size(file: Path, rows: list[_Row], pair: _Coordinates, kind: str) -> None:
     for row in rows:
         x, y, *errors = row.values
         if max(abs(x), abs(y)) > pair.largest:
             remedy = f"{pair.name} stays below {pair.largest / 2:g}; is it in milliarcseconds?"
             if pair is _POLE_OFFSETS:
-                remedy = "offsets from IAU 2006/2000A stay below 0.01; are they from IAU 1980?"
+                is_optical = kind == "c01" and row.mjd < _AFTER_OPTICAL
+                remedy = _NO_OPTICAL if is_optical else _NOT_IAU_1980
             raise SeriesError(file, f"{pair.words} = {x:g}, {y:g} arcsec", remedy, row.line)
         if min(errors) < 0:
             problem = f"errors of {pair.words} = {errors[0]:g}, {errors[1]:g} arcsec"

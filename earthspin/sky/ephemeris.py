@@ -79,6 +79,7 @@ class Ephemeris:
         self.evaluations: Counter[Step] = Counter()
         self._published = None if name is None else PUBLISHED.get(name)
         kernel = _open_spk(self.path)
+        self._file = self.path.resolve()
         weakref.finalize(self, kernel.close)
         self._segments = {(s.center, s.target): s for s in kernel.segments}
         if len(self._segments) < len(kernel.segments):
@@ -91,9 +92,11 @@ class Ephemeris:
 
     @cached_property
     def sha256(self) -> str:
-        """SHA-256 of the kernel file, cached by file, size and modification time."""
-        state = self.path.stat()
-        return _sha256(self.path, state.st_size, state.st_mtime_ns)
+        """SHA-256 of the kernel file; an unchanged file is read once."""
+        state = self._file.stat()
+        # The time of a change cannot be set by hand, unlike that of a modification.
+        same = state.st_dev, state.st_ino, state.st_size, state.st_mtime_ns, state.st_ctime_ns
+        return _sha256(self._file, same)
 
     @property
     def provenance(self) -> dict[str, str]:
@@ -302,7 +305,8 @@ class Ephemeris:
 
 
 @lru_cache
-def _sha256(path: Path, size: int, changed: int) -> str:
+def _sha256(path: Path, same: tuple[int, ...]) -> str:
+    """SHA-256 of a file; `same` identifies the file and its state."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 

@@ -115,6 +115,11 @@ class OrbitTable:
     errors: FloatArray
     sha256: str = ""
 
+    def __post_init__(self) -> None:
+        """Make the arrays read-only, since results are stored for an unchanged table."""
+        for array in (self.edges, self.coefficients, self.axes, self.errors):
+            array.setflags(write=False)
+
     def __repr__(self) -> str:
         first, last = (_words(float(round(edge))) for edge in self.coverage)
         angle = np.degrees(self.errors[0].max()) * 3600

@@ -21,6 +21,9 @@ Numbers = NDArray[np.complex128] | FloatArray
 #: Error bound of the closed form, unless twice the effect of rounding is larger: measured with 500
 #: starts in each of ten families (`python -m tests.top.accuracy 500`).
 CLOSED_FORM_ERROR = 1e-13
+#: Largest theta of a vertical axis, rad. An axis on the vertical is placed within 1e-120 of its
+#: passage, so that its azimuth is defined.
+UPRIGHT = 1e-100
 
 
 def error_bound(top: HeavyTop, times: ArrayLike) -> FloatArray:
@@ -75,9 +78,9 @@ def _difference(one: HeavyTopMotion, other: HeavyTopMotion) -> FloatArray:
     sign = np.copysign(1.0, np.sum(one.attitude * other.attitude, axis=-1, keepdims=True))
     turned = 2 * np.abs(one.attitude - sign * other.attitude)
     # a vertical axis has no azimuth: the division of the rotation between phi and psi is arbitrary
-    tilted = (other.theta != 0) & (other.theta != np.pi)
+    tilted = (other.theta > UPRIGHT) & (other.theta != np.pi)
     ratios = (
-        _relative(one.theta - other.theta, np.abs(other.theta)),
+        _relative(one.theta - other.theta, np.where(tilted, np.abs(other.theta), 0.0)),
         _relative(tilted * (one.phi - other.phi), _largest(other.phi)),
         _relative(tilted * (one.psi - other.psi), _largest(other.psi)),
         _relative(across - reference, _largest(reference)),

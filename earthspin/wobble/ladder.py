@@ -308,7 +308,8 @@ def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -
     moment = polar_moment_factor(inputs.j2, inputs.dynamical_flattening) - inputs.j2
     unit = spin.centrifugal(love_radius(interior, spin)) / moment
     compliance = _compliance(interior, inputs)
-    if np.any(unit * inputs.k2 >= ellipticity_from_h(inputs.dynamical_flattening)):
+    yielding = unit * (inputs.k2 + inputs.ocean)
+    if np.any(yielding >= ellipticity_from_h(inputs.dynamical_flattening)):
         raise UndefinedError(
             f"interior '{interior.name}' yields by more than the body's bulge: it would not "
             "wobble forwards; take a body with a larger H, or set its interior to 'none'"

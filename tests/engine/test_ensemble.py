@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from astropy import units
 from scipy import stats
 
 import earthspin
@@ -18,6 +19,7 @@ from earthspin.engine.inputs import inputs_of
 from earthspin.engine.members import Distribution, Members, draw, standard_normal
 from earthspin.errors import Where
 from earthspin.scenes import QUESTIONS, Scene, load_scene
+from earthspin.units import pack
 from tests import shipped
 from tests.engine.work import assert_is_alone, bytes_of
 from tests.refusals import refused
@@ -519,3 +521,59 @@ def test_sources_of_random_numbers_of_numpy() -> None:
             earthspin.ensemble("precession", 5, rng=wrong)
     with pytest.raises(SceneError, match="give either seed or rng"):
         earthspin.ensemble("precession", 5, seed=1, rng=1)
+
+
+def shifted(values: list[float], unit: str | None) -> xr.Dataset:
+    attrs = {} if unit is None else {"units": unit}
+    return xr.Dataset({"obliquity_shift": ("member", values, attrs)})
+
+
+def test_units_of_members_are_read() -> None:
+    """The obliquity of J2000.0 by the IAU, 84381.406 arcsec, and one and two degrees more."""
+    now = earthspin.Scene(compute="long-term", times=["0 kyr"])
+    answer = earthspin.ensemble(now, shifted([1.0, 2.0], "deg"))
+    expected = 84381.406 / 3600 + np.array([1.0, 2.0])
+    assert answer.obliquity.values.ravel() == pytest.approx(expected, abs=1e-4)
+    assert answer.obliquity_shift.attrs["units"] == "rad"
+    for again in (earthspin.run(answer), earthspin.ensemble(now, answer)):
+        assert np.array_equal(again.obliquity, answer.obliquity)
+    plain = earthspin.ensemble(now, shifted([np.radians(1.0), np.radians(2.0)], None))
+    assert plain.obliquity.values == pytest.approx(answer.obliquity.values, rel=1e-14)
+    for unit in ("km", "degs"):
+        with pytest.raises(EarthspinError, match=f"obliquity_shift = '{unit}' is not a value in"):
+            earthspin.ensemble(now, shifted([1.0, 2.0], unit))
+
+
+def test_units_of_numbers_of_bodies_in_files_and_distributions(tmp_path: Path) -> None:
+    radii = xr.Dataset({"body.radius": ("member", [6400.0, 6300.0], {"units": "km"})})
+    radii.to_netcdf(tmp_path / "radii.nc")
+    expected = earthspin.ensemble("wobble", {"body.radius": {"grid": [6.4e6, 6.3e6]}}).period_solar
+    for members in (
+        radii,
+        tmp_path / "radii.nc",
+        {"body.radius": {"grid": [6400.0, 6300.0] * units.km}},
+    ):
+        assert np.array_equal(earthspin.ensemble("wobble", members).period_solar, expected)
+
+
+GRID = {"grid": [1.08e-3, 1.09e-3]}
+
+
+test_an_input_in_two_spellings_is_refused = refused(
+    ({"body.j2": GRID, "body": {"j2": GRID}}, "body.j2 = .*it is given twice"),
+    ({"wobble.k2": {"grid": [0.3]}, "k2": {"grid": [0.29]}}, "it is given twice"),
+    (
+        {"body.j2": GRID, "values": {"body.j2": pack(np.array([1.08e-3, 1.09e-3]))}},
+        "it is given twice",
+    ),
+    call=lambda members: earthspin.ensemble(
+        earthspin.load_scene("wobble", {"wobble.k2": 0.3}), members
+    ),
+)
+
+
+def test_a_row_longer_than_the_header_is_refused(tmp_path: Path) -> None:
+    file = tmp_path / "m.csv"
+    file.write_text("k2,core_fraction\n0.298,0.114,0.0025\n0.299,0.114,0.0025\n")
+    with pytest.raises(EarthspinError, match=r"m\.csv.*it cannot be read"):
+        earthspin.ensemble("wobble", file)

@@ -192,3 +192,23 @@ def test_an_element_of_an_orbit_that_is_typed_carries_its_unit(tmp_path: Path) -
     path.write_text(text % "3.84e8")
     with pytest.raises(SceneError, match="give it with its unit"):
         load_scene(path)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"body.j2": 1e-3, "body": {"j2": 1.1e-3}},
+        {"body": {"j2": 1.1e-3}, "body.j2": 1e-3},
+        {"body.j2": 1e-3, "body": "mars"},
+        {"body.j2": 1e-3, "body": {"from": "mars"}},
+    ],
+)
+def test_a_number_in_two_spellings_is_refused(changes: dict) -> None:
+    with pytest.raises(SceneError, match=r"body\.j2 = .*it is given twice"):
+        load_scene("precession", changes)
+
+
+@pytest.mark.parametrize("mars", ["mars", {"from": "mars"}])
+def test_a_table_before_a_number_in_it_is_a_start(mars: object) -> None:
+    question = load_scene("precession", {"body": mars, "body.j2": 1.9e-3})
+    assert (question.body.name, question.body.j2) == ("mars", 1.9e-3)

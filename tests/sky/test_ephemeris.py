@@ -1,6 +1,9 @@
 """Kernels: positions against Skyfield, coverage to the second, and files that are none."""
 
+import hashlib
+import os
 import shutil
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -11,6 +14,7 @@ from skyfield.api import load, load_file
 import earthspin
 from earthspin import CoverageError, KernelError, SceneError
 from earthspin.sky.ephemeris import Ephemeris, describe_kernel, find_kernel, open_ephemeris
+from tests.sky.kernel_files import from_de421, write_kernel
 
 SECOND = 1 / 86400
 
@@ -153,3 +157,46 @@ def test_the_stated_error_covers_the_other_kernel(
     stated = de421.error(code, 399)
     assert share * stated[0] < angle < stated[0]
     assert share * stated[1] < distance < stated[1]
+
+
+def near_and_far(folder: Path) -> list[Path]:
+    """Two kernels of equal size and time, in the second of which the Sun is 1 % farther away."""
+    pieces = from_de421()
+    far = [replace(piece, series=piece.series * 1.01) for piece in pieces]
+    paths = [write_kernel(folder / "near.bsp", pieces), write_kernel(folder / "far.bsp", far)]
+    for path in paths:
+        os.utime(path, ns=(0, 10**18))
+    assert paths[0].stat().st_size == paths[1].stat().st_size
+    return paths
+
+
+@pytest.mark.parametrize("way", ["exchanged", "link", "relative"])
+def test_a_kernel_in_the_place_of_another_is_hashed_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, way: str
+) -> None:
+    near, far = near_and_far(tmp_path)
+    expected = [hashlib.sha256(path.read_bytes()).hexdigest() for path in (near, far)]
+    kernel: Path = tmp_path / "my.bsp"
+    shutil.copy2(near, kernel)
+    if way == "link":
+        kernel.unlink()
+        kernel.symlink_to(near)
+    elif way == "relative":
+        for path, folder in ((near, tmp_path / "one"), (far, tmp_path / "two")):
+            folder.mkdir()
+            shutil.copy2(path, folder / "my.bsp")
+        monkeypatch.chdir(tmp_path / "one")
+        kernel = Path("my.bsp")
+    before = earthspin.torque_series("2000-01-02", "2000-01-03", "6 h", ephemeris=kernel)
+    if way == "exchanged":
+        stamps = kernel.stat()
+        kernel.write_bytes(far.read_bytes())
+        os.utime(kernel, ns=(stamps.st_atime_ns, stamps.st_mtime_ns))
+    elif way == "link":
+        kernel.unlink()
+        kernel.symlink_to(far)
+    else:
+        monkeypatch.chdir(tmp_path / "two")
+    after = earthspin.torque_series("2000-01-02", "2000-01-03", "6 h", ephemeris=kernel)
+    assert [series.attrs["ephemeris_sha256"] for series in (before, after)] == expected
+    assert not np.array_equal(before.torque, after.torque)

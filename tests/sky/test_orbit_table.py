@@ -214,3 +214,11 @@ def test_half_widths_of_a_table_that_is_read_do_not_grow(tmp_path: Path) -> None
     assert given_.error(np.array([-8e6 * JULIAN_YEAR]))[1] < 1e-5
     table("earth").to_file(tmp_path / "own.npz")
     assert np.array_equal(load(tmp_path / "own.npz").errors, table("earth").errors)
+
+
+def test_arrays_of_a_table_are_read_only() -> None:
+    """Answers are stored by the hash of a table, which a changed array does not change."""
+    earth = table("earth")
+    for name in ("edges", "coefficients", "axes", "errors"):
+        with pytest.raises(ValueError, match="read-only"):
+            getattr(earth, name)[...] = 0

@@ -2,9 +2,12 @@
 
 from pathlib import Path
 
+import erfa
 import numpy as np
 import pytest
+from astropy.time import Time
 
+import earthspin
 from earthspin import SeriesError
 from earthspin.constants import ARCSEC, MAS
 from earthspin.sky import eop
@@ -81,10 +84,113 @@ def test_offsets_from_an_older_model_are_refused(tmp_path: Path) -> None:
     assert eop.read_polar_motion(file, "c04").mjd.size == 60
 
 
-def test_c01_by_year_has_none(tmp_path: Path) -> None:
+def from_iau_1980(mjd: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Offsets of the same pole in longitude and obliquity from the IAU models of 1976 and 1980."""
+    plus = [
+        model + offset
+        for model, offset in zip(erfa.xys06a(2400000.5, mjd)[:2], (x, y), strict=True)
+    ]
+    pole = np.stack([*plus, np.sqrt(1 - plus[0] ** 2 - plus[1] ** 2)], axis=-1)
+    across, along, _ = np.einsum("nij,nj->in", erfa.pnm80(2400000.5, mjd), pole)
+    return np.array([across / np.sin(erfa.obl80(2400000.5, mjd)), along])
+
+
+def test_offsets_from_iau_1980_by_another_way() -> None:
+    """The finals.all of 1990-01-01 has -5.258 mas in longitude."""
+    series = eop.read_pole_offsets().between(47892, 47893)
+    longitude, _ = from_iau_1980(series.mjd, series.x, series.y) / MAS
+    assert longitude[0] == pytest.approx(-5.258, abs=0.3)
+
+
+def rows_of_c04(mjd: np.ndarray, offsets: np.ndarray) -> str:
+    """Text in the 16 columns of the series C04 until 2022."""
+    dates = [Time(day, format="mjd").ymdhms for day in mjd]
+    return "\n".join(
+        f"{d.year} {d.month} {d.day} {day:.0f} 0.1 0.3 0.1 0.001 {x:.6f} {y:.6f} "
+        "0.0001 0.0001 0.00001 0.00001 0.0002 0.0002"
+        for d, day, (x, y) in zip(dates, mjd, offsets.T / ARCSEC, strict=True)
+    )
+
+
+@pytest.mark.parametrize("year", range(1984, 1992))
+def test_a_year_of_offsets_from_iau_1980_is_refused(tmp_path: Path, year: int) -> None:
+    first = Time(f"{year}-01-01").mjd
+    series = eop.read_pole_offsets().between(first, first + 364)
+    pairs = np.array([series.x, series.y]), from_iau_1980(series.mjd, series.x, series.y)
+    assert abs(pairs[1]).max() < 21 * MAS
+    for name, offsets in zip(("new", "old"), pairs, strict=True):
+        (tmp_path / name).write_text(rows_of_c04(series.mjd, offsets))
+    assert np.allclose(eop.read_pole_offsets(tmp_path / "new").x, series.x, atol=1e-3 * MAS)
+    with pytest.raises(SeriesError, match="IAU 1980"):
+        earthspin.pole_offsets(file=str(tmp_path / "old"))
+
+
+def test_finals_all_before_august_1992_is_refused(tmp_path: Path) -> None:
+    """The rows of finals2000A with the offsets of finals.all in the same columns, mas."""
+    rows = [line for line in eop.finals_path().read_text().splitlines() if line[95:96] == "I"]
+    rows = [line for line in rows if float(line[7:15]) < 48835]
+    (tmp_path / "new").write_text("\n".join(rows))
+    assert eop.read_pole_offsets(tmp_path / "new").mjd.size == len(rows)
+    series = eop.read_pole_offsets("finals").between(0, 48834)
+    offsets = from_iau_1980(series.mjd, series.x, series.y) / MAS
+    old = [
+        f"{row[:97]}{x:9.3f}{row[106:116]}{y:9.3f}{row[125:]}"
+        for row, (x, y) in zip(rows, offsets.T, strict=True)
+    ]
+    for first in (0, len(old) - 3000):  # from 1980, and from 1984
+        (tmp_path / "old").write_text("\n".join(old[first:]))
+        with pytest.raises(SeriesError, match="IAU 1980"):
+            eop.read_pole_offsets(tmp_path / "old")
+
+
+def test_rows_outside_the_installed_tables_have_a_limit(tmp_path: Path) -> None:
+    days = np.arange(42048.0, 42058.0)  # in 1974
+    for size, fits in ((4.9, True), (5.1, False)):
+        (tmp_path / "t").write_text(rows_of_c04(days, np.full((2, 10), size * MAS)))
+        if fits:
+            assert eop.read_pole_offsets(tmp_path / "t").x[0] == pytest.approx(size * MAS)
+        else:
+            with pytest.raises(SeriesError, match="IAU 1980"):
+                eop.read_pole_offsets(tmp_path / "t")
+
+
+def test_the_published_c01_from_1962_on(tmp_path: Path) -> None:
+    """Optical offsets of 0.09 arcsec stand before; between, zeros until there are observations."""
+    excerpt = Path(__file__).parent.parent / "data" / "eopc01-excerpt.txt"
+    rows = [line.split() for line in excerpt.read_text(errors="replace").splitlines()]
+    rows = [row for row in rows if row and row[0][0] != "#"]
+    optical, late = ([r for r in rows if low < float(r[0]) < low + 9000] for low in (17000, 46000))
+    step = 18.262
+    start, end = float(optical[-1][0]), float(late[0][0])
+    between = [
+        [f"{mjd:.3f}", *optical[-1][1:4], "0", "0", *optical[-1][6:]]
+        for mjd in np.linspace(start, end, round((end - start) / step) + 1)[1:-1]
+    ]
+    file = tmp_path / "eopc01.txt"
+    file.write_text("\n".join(" ".join(row) for row in [*optical, *between, *late]))
+    with pytest.raises(SeriesError, match="before 1962 they are optical; give a span"):
+        earthspin.pole_offsets(file=str(file))
+    answer = earthspin.pole_offsets(file=str(file), span=("1962-01-01", "1988-01-01"))
+    observed = [row for row in late if float(row[4]) and float(row[0]) < 47161]
+    assert answer.time.size == len(observed)
+    assert answer.dX.values == pytest.approx([1e3 * float(row[4]) for row in observed], abs=2e-3)
+
+
+def test_c01_by_year(tmp_path: Path) -> None:
+    """The columns as published: year, x, y, UT1-TAI, dX and dY, each followed by its error."""
     file = tmp_path / "c01.txt"
+    file.write_text(
+        "#  an  x  x_er  y  y_er  UT1-TAI  UT1_er  dX  dX_er  dY  dY_er\n"
+        "2023.35 0.09 0.0001 0.49 0.0001 -37.0 0.00003 0.000170 0.000100 -0.000210 0.000100\n"
+        "2023.40 0.106036 0.000100 0.490185 0.000100 -37.0160727 0.0000300 0.000169 0.000100 "
+        "-0.000209 0.000100\n"
+    )
+    series = eop.read_pole_offsets(file)
+    values = [series.x[1], series.y[1], series.x_error[1], series.y_error[1]]
+    assert np.array(values) / MAS == pytest.approx([0.169, -0.209, 0.1, 0.1])
+    assert eop.read_polar_motion(file).y[1] == pytest.approx(0.490185 * ARCSEC)
     file.write_text("1900.0 0.1 0.01 0.1 0.01\n1900.1 0.1 0.01 0.1 0.01\n")
-    with pytest.raises(SeriesError, match="a table C01 by year holds no dX, dY"):
+    with pytest.raises(SeriesError, match="by year of 5 columns holds no dX, dY; take one of 11"):
         eop.read_pole_offsets(file, "c01")
 
 

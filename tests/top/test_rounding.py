@@ -43,3 +43,15 @@ def test_the_bound_of_a_hanging_top_is_that_of_one_almost_hanging() -> None:
         hanging = error_bound(HeavyTop(**body, theta=np.pi), times)
         almost = error_bound(HeavyTop(**body, theta=np.pi - 0.01), times)
     assert CLOSED_FORM_ERROR <= hanging < 10 * almost  # 2.8e-13 and 4.2e-13 measured
+
+
+def test_the_bound_of_an_upright_top_at_critical_spin() -> None:
+    """Spin 2 (M g r I1)^(1/2) / I3: the bound is that of spins a few last places away."""
+    body = {"transverse_moment": 1.0, "axial_moment": 1.0, "weight_moment": 1.0}
+    start = {**body, "theta": 0.0, "theta_rate": 1e-3}
+    times = np.linspace(0, 30, 40)
+    critical, near = (
+        error_bound(HeavyTop(**start, spin=spin), times) for spin in (2.0, 2.0 + 4e-15)
+    )
+    assert CLOSED_FORM_ERROR <= critical < 10 * near
+    assert near < 1e-12

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 import earthspin
-from earthspin import EARTH, SceneError, UndefinedError, UnitsError, load_scene
+from earthspin import EARTH, EarthspinError, SceneError, UndefinedError, UnitsError, load_scene
 from earthspin.interior.named import INTERIORS
 from earthspin.wobble import ladder
 from tests.conftest import load_pins
@@ -260,3 +260,26 @@ def test_many_bodies_have_an_error_each() -> None:
     assert ladder.period_solar_error.dims == ladder.period_solar.dims == ("rung", "draw")
     one = earthspin.wobble_ladder(body=EARTH.replace(dynamical_flattening=float(h[2])))
     assert np.allclose(ladder.period_solar[:, 2], one.period_solar, rtol=1e-15, atol=0)
+
+
+@pytest.mark.parametrize(
+    "inputs",
+    [
+        {"core_ellipticity": 6},
+        {"core_ellipticity": -6},
+        {"ocean_love_number": 100},
+        {"k2": 20},
+        {"anelastic_exponent": 0.5},
+        {"core_fraction": 1.2},
+    ],
+)
+def test_interior_inputs_have_a_range(inputs: dict) -> None:
+    with pytest.raises(EarthspinError, match="it lies between"):
+        earthspin.wobble_ladder(**inputs)
+
+
+def test_a_body_whose_ocean_yields_more_than_its_bulge_is_refused() -> None:
+    """The secular Love number of the Earth is 0.94, of which the solid Earth takes 0.30."""
+    assert float(earthspin.wobble_ladder(ocean_love_number=0.5).period_solar.max()) > 1000
+    with pytest.raises(EarthspinError, match="yields by more than the body's bulge"):
+        earthspin.wobble_ladder(ocean_love_number=0.9)
