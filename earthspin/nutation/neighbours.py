@@ -16,11 +16,6 @@ from earthspin.constants import ARCSEC, DAY, EPSILON_0, MAS
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation.circles import term_names
 
-#: Descriptions of these amplitudes in results.
-MERGED = "amplitude of IAU 2000A, together with that of the neighbour, which is no published term"
-NEIGHBOUR = "term that 150 years cannot separate from this one; empty if there is none"
-NEIGHBOUR_SHARE = "share of the neighbour in the amplitude of IAU 2000A"
-SERIES = "coefficients of the adopted series"
 SOURCE = "IAU 2000A, IERS Conventions (2003), IERS Technical Note 32, tables 5.3a and 5.3b"
 
 

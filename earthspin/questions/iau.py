@@ -32,10 +32,13 @@ from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.nutation import flattening as flat
 from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
 from earthspin.nutation.budget import Budget, budget_of
-from earthspin.nutation.neighbours import MERGED, NEIGHBOUR, NEIGHBOUR_SHARE, SERIES
 from earthspin.parts.observed_sky import ObservedSizes, ObservedSky, observed_sky
 from earthspin.parts.path import (
     INTERIOR,
+    MERGED,
+    NEIGHBOUR,
+    NEIGHBOUR_SHARE,
+    SERIES,
     Comparison,
     PoleComparison,
     ResponseFit,

@@ -29,8 +29,11 @@ from earthspin.engine.variables import (
 from earthspin.interior.modes import mode_period
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.nutation import ladder
-from earthspin.nutation.neighbours import MERGED, NEIGHBOUR, NEIGHBOUR_SHARE, SERIES
 from earthspin.parts.path import (
+    MERGED,
+    NEIGHBOUR,
+    NEIGHBOUR_SHARE,
+    SERIES,
     Comparison,
     PoleComparison,
     iau_nutation,
