@@ -136,7 +136,10 @@ class Rung:
     def mode_half_widths(self, relative: Mapping[str, float]) -> dict[str, float]:
         """95 % half-widths of the real parts of the free modes' frequencies, by name."""
         nominal = self.modes(refined=False)
-        varied = [[rung.modes(refined=False) for rung in pair] for pair in self.uncertain(relative)]
+        share = NORMAL_95 * relative.get("ellipticity", 0.0)
+        # e changes a mode, but not the transfer function: the rigid nutation has the same e
+        pairs = [(self._scaled("e", share), self._scaled("e", -share)), *self.uncertain(relative)]
+        varied = [[rung.modes(refined=False) for rung in pair] for pair in pairs]
         half_widths = {}
         for name in nominal:
             # the uncertainty of an observed free core nutation does not depend on the other inputs

@@ -43,6 +43,11 @@ HALF_SPAN = 27200.0  # d
 #: mas with 50 years of DE421, 1 to 3 mas with 45, 9 to 11 with 40 and 150 with 35.
 SHORTEST_SPAN = 45 * JULIAN_YEAR / DAY  # d
 SAMPLING = 4.0  # d
+#: Descriptions of amplitudes of terms that this span does not separate, in results.
+MERGED = "amplitude of IAU 2000A, together with that of the neighbour, which is no published term"
+NEIGHBOUR = "term that 150 years cannot separate from this one; empty if there is none"
+NEIGHBOUR_SHARE = "share of the neighbour in the amplitude of IAU 2000A"
+SERIES = "coefficients of the adopted series"
 
 
 @part

@@ -39,7 +39,7 @@ class Prediction:
     spin_rate : float
         Spin rate, rad/s.
     uncertainty : mapping of str to float
-        Relative standard uncertainties of the numbers of the interior.
+        Relative standard uncertainties of the numbers of the interior, and of e.
     """
 
     rungs: dict[str, ladder.Rung]
@@ -100,7 +100,8 @@ def predict(body: Body, coupling: bool, anelastic_exponent: float) -> Prediction
         ocean = mean / spin.centrifugal(interior.layers.radius)
     setting = ladder.Setting(interior.layers, e, spin_rate, ocean, anelastic_exponent)
     rungs = ladder.climb(setting, coupling)
-    return Prediction(rungs, e, spin_rate, interior.relative_uncertainty)
+    of_e = body.relative_uncertainty.get("dynamical_flattening", 0.0) / (1 - h)
+    return Prediction(rungs, e, spin_rate, {**interior.relative_uncertainty, "ellipticity": of_e})
 
 
 @part(unless=no_layers)

@@ -176,6 +176,17 @@ def start_note(body: Body) -> dict[str, str]:
     return {"start": f"taken as exact; the uncertainty of the pole of {name} at J2000.0 {size}"}
 
 
+def idle_note(body: Body, effects: Sequence[str]) -> dict[str, str]:
+    """Note for the attributes of a result: the effects that do nothing, with the reason."""
+    fields = {name: EFFECTS[name].coefficient for name in effects}
+    idle = [
+        f"{name} ({field} of {bodies.in_a_sentence(body.name)} is 0)"
+        for name, field in fields.items()
+        if field and body.number(field) == 0
+    ]
+    return {"effects_that_do_nothing": ", ".join(idle)} if idle else {}
+
+
 def start_error(body: Body) -> float | None:
     """95 % half-width of the pole's direction at J2000.0, rad; None if it is not known."""
     if body.pole_uncertainty is None:

@@ -35,6 +35,10 @@ from earthspin.nutation.budget import Budget, budget_of
 from earthspin.parts.observed_sky import ObservedSizes, ObservedSky, observed_sky
 from earthspin.parts.path import (
     INTERIOR,
+    MERGED,
+    NEIGHBOUR,
+    NEIGHBOUR_SHARE,
+    SERIES,
     Comparison,
     PoleComparison,
     ResponseFit,
@@ -392,8 +396,6 @@ def observed(differences: Differences, observed_sky: ObservedSky) -> ObservedSiz
 
 
 _ARGUMENTS = "it follows from the adopted arguments of IERS 2003"
-_SHARE = "share of the neighbour in the amplitude of IAU 2000A"
-_SERIES = "coefficients of the adopted series"
 _FIT = "part of a fit; left_in_phase and left_out_of_phase are its residuals"
 
 
@@ -404,15 +406,15 @@ class Nutation(Variables, along=("term",)):
         "d", "period of the circle in space, negative if retrograde", no_error=_ARGUMENTS
     )
     rigid: Pair = amplitude("mas", "computed rigid amplitude", error="amplitude_error")
-    iau: Pair = amplitude("mas", "amplitude of IAU 2000A", error="amplitude_error")
+    iau: Pair = amplitude("mas", MERGED, error="amplitude_error")
     amplitude_error: Value = number(
         "mas", "95 % half-width of an amplitude, without the neighbour's share"
     )
-    neighbour: Value = words(
-        "term that 150 years cannot separate from this one; empty if there is none"
+    neighbour: Value = words(NEIGHBOUR)
+    neighbour_in_phase: Value = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
+    neighbour_out_of_phase: Value = number(
+        "mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES
     )
-    neighbour_in_phase: Value = number("mas", f"{_SHARE}, in phase", no_error=_SERIES)
-    neighbour_out_of_phase: Value = number("mas", f"{_SHARE}, out of phase", no_error=_SERIES)
     ratio: Pair = amplitude(
         "1", "ratio of IAU 2000A to the computed rigid amplitude", error="ratio_error"
     )

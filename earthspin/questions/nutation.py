@@ -30,6 +30,10 @@ from earthspin.interior.modes import mode_period
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.nutation import ladder
 from earthspin.parts.path import (
+    MERGED,
+    NEIGHBOUR,
+    NEIGHBOUR_SHARE,
+    SERIES,
     Comparison,
     PoleComparison,
     iau_nutation,
@@ -165,7 +169,10 @@ def left(
 _RMS = "root mean square of computed minus IAU 2000A in"
 _LONGITUDE = "longitude times sin(eps), straight line removed"
 _OBLIQUITY = "obliquity, straight line removed"
-_RMS_ERROR = "95 % half-width of a root mean square, from H and integration"
+_RMS_ERROR = (
+    "95 % half-width of a root mean square, from H and integration only: the uncertainty of the "
+    "interior is left out"
+)
 _ADDS = "what the model adds, or what it is"
 
 
@@ -242,8 +249,15 @@ class Terms(Variables, along=("term",)):
         "95 % half-width of a predicted amplitude, from the numbers of the inside",
         along=("rung", "term"),
     )
-    iau: Pair = amplitude("mas", "amplitude of IAU 2000A", error="amplitude_error")
-    amplitude_error: Value = number("mas", "95 % half-width of an amplitude from its analysis")
+    iau: Pair = amplitude("mas", MERGED, error="amplitude_error")
+    amplitude_error: Value = number(
+        "mas", "95 % half-width of an amplitude from its analysis, without the neighbour's share"
+    )
+    neighbour: Value = words(NEIGHBOUR)
+    neighbour_in_phase: Value = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
+    neighbour_out_of_phase: Value = number(
+        "mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES
+    )
     rung: Labels = labels()
     term: Labels = labels()
 
@@ -252,7 +266,8 @@ class Terms(Variables, along=("term",)):
 def terms(pole_analysis: PoleComparison, models: Prediction) -> Terms:
     """Compute the largest circular nutation terms of each model, in phase and out of phase."""
     from earthspin.nutation.circles import phases, term_names
-    from earthspin.nutation.neighbours import amplitude_error
+    from earthspin.nutation.neighbours import amplitude_error, neighbours_of
+    from earthspin.sky import iau
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
     order = np.argsort(-np.abs(ours.amplitude))[:LARGEST]
@@ -261,12 +276,18 @@ def terms(pole_analysis: PoleComparison, models: Prediction) -> Terms:
     predicted = np.array([models.transfer(name, frequency) * own for name in names])
     spread = np.array([models.half_width(name, frequency) * np.abs(own) for name in names])
     error = amplitude_error(frequency)
+    at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
+    near = neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
+    neighbour_in, neighbour_out = phases(near.amplitude[order])
     return Terms(
         period=2 * np.pi / frequency,
         predicted=phases(predicted),
         predicted_error=np.hypot(spread, error),
         iau=phases(theirs.amplitude[order]),
         amplitude_error=error,
+        neighbour=[near.names[row] for row in order],
+        neighbour_in_phase=neighbour_in,
+        neighbour_out_of_phase=neighbour_out,
         rung=names,
         term=term_names(ours.multiples[order]),
     ).with_attributes(predicted_in_phase={"references": SOURCES})

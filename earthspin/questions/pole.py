@@ -26,7 +26,7 @@ from earthspin.parts.path import (
     longitude_cycles,
 )
 from earthspin.parts.predicted import SOURCES, no_layers
-from earthspin.parts.pulls import PULLS, AxisMotion, Pulls, start_error, start_note
+from earthspin.parts.pulls import PULLS, AxisMotion, Pulls, idle_note, start_error, start_note
 from earthspin.parts.reasons import no_iau_model
 from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
 
@@ -162,6 +162,7 @@ def axes(
     epochs: Epochs,
     pulls: Pulls,
     body: Body,
+    effects: tuple[str, ...],
     interior_shift: Shift | None = None,
     block: Block | None = None,
 ) -> Directions:
@@ -190,6 +191,7 @@ def axes(
             "method": f"Gauss windows of {window:g} d with {axis_path.windows.order} nodes",
             "evaluations": axis_path.evaluations,
             **start_note(body),
+            **idle_note(body, effects),
         },
     )
 

@@ -42,6 +42,7 @@ from earthspin.parts.pulls import (
     Pulls,
     figure_of,
     forces_of,
+    idle_note,
     start_note,
     switched_on,
 )
@@ -399,6 +400,7 @@ def turning(
     epochs: Epochs,
     body: Body,
     start_attitude: FloatArray | None,
+    effects: tuple[str, ...],
     neglected: Neglected,
     block: Block | None = None,
 ) -> Attitudes:
@@ -431,6 +433,7 @@ def turning(
             "method": f"Gauss windows of {motion.order} nodes, in two forms",
             "evaluations": motion.evaluations,
             **({} if start_attitude is not None else start_note(body)),
+            **idle_note(body, effects),
         },
         omega_error=comment,
         angular_momentum_error=comment,

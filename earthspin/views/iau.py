@@ -9,7 +9,7 @@ from earthspin.interior.published import CORE_NUTATION, CORE_NUTATION_QUALITY
 from earthspin.views import drawing, table
 from earthspin.views.drawing import Axes, PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed
-from earthspin.views.table import Column, Table, table_along
+from earthspin.views.table import Column, Table, neighbour_share, table_along
 
 #: Terms to which IAU 2000A adds something that are printed: those to which it adds most.
 ADDITIONS_SHOWN = 6
@@ -104,9 +104,6 @@ def observed(tree: Result) -> Table:
 def nutation(tree: Result) -> Table:
     """Table of the largest nutation terms of the computed pole and of the IAU pole."""
 
-    def neighbour(row: xr.Dataset) -> str:
-        return f"{float(row.neighbour_in_phase):+.3f}" if row.neighbour else ""
-
     def residual(row: xr.Dataset) -> str:
         return f"{np.hypot(float(row.left_in_phase), float(row.left_out_of_phase)):.1f}"
 
@@ -118,7 +115,7 @@ def nutation(tree: Result) -> Table:
         Column("rigid_in_phase", ".3f", "rigid"),
         Column("iau_in_phase", ".3f", "IAU"),
         Column("iau_out_of_phase", "+.3f", "IAU, out"),
-        Column("neighbour_in_phase", neighbour, "neighbour"),
+        Column("neighbour_in_phase", neighbour_share, "neighbour"),
         Column("ratio_in_phase", ".5f", "ratio"),
         Column("ratio_out_of_phase", "+.5f", "ratio, out"),
         Column("", residual, "residual, uas"),

@@ -9,7 +9,14 @@ from earthspin.interior.published import CORE_NUTATION
 from earthspin.views import drawing
 from earthspin.views.drawing import Axes, PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed
-from earthspin.views.table import Column, Table, quality, table_along, with_error
+from earthspin.views.table import (
+    Column,
+    Table,
+    neighbour_share,
+    quality,
+    table_along,
+    with_error,
+)
 
 #: Frequencies in space between which the transfer function is shown, cycles per year.
 SHOWN = 6.0
@@ -81,12 +88,15 @@ def terms(tree: Result) -> Table:
         "period:.2f",
         predicted("in_phase", "in phase"),
         Column("iau_in_phase", ".3f", "IAU"),
+        Column("neighbour_in_phase", neighbour_share, "neighbour"),
         predicted("out_of_phase", "out of phase"),
         Column("iau_out_of_phase", "+.3f", "IAU, out"),
     )
     note = (
         "Circular amplitudes are in mas; a negative period is retrograde. The errors hold the "
-        "uncertainty of the numbers of the inside only, not the sizes of what the rung leaves out."
+        "uncertainty of the numbers of the inside only, not the sizes of what the rung leaves out. "
+        "Where 150 years are too short to separate a term from a neighbour, all amplitudes "
+        "include the neighbour; the column 'neighbour' gives its share in that of IAU 2000A."
     )
     title = f"The largest nutations, rung '{data.rung.values[-1]}'"
     return table_along(data.isel(rung=-1), "term", title, columns, note, first="l l' F D node")

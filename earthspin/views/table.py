@@ -190,6 +190,11 @@ def quality(row: xr.Dataset, name: str = "quality_factor", shown: str = ".0f") -
     return f"{float(row[name]):{shown}}" if math.isfinite(row[name]) else ""
 
 
+def neighbour_share(row: xr.Dataset) -> str:
+    """Format the share of a neighbour in a term of nutation; empty for a term without one."""
+    return f"{float(row.neighbour_in_phase):+.3f}" if row.neighbour else ""
+
+
 def beside_observed(
     value: SupportsFloat, error: SupportsFloat, left_out: xr.Dataset | None, unit: str = ""
 ) -> str:

@@ -545,15 +545,18 @@ def test_units_of_members_are_read() -> None:
 
 
 def test_units_of_numbers_of_bodies_in_files_and_distributions(tmp_path: Path) -> None:
-    radii = xr.Dataset({"body.radius": ("member", [6400.0, 6300.0], {"units": "km"})})
-    radii.to_netcdf(tmp_path / "radii.nc")
-    expected = earthspin.ensemble("wobble", {"body.radius": {"grid": [6.4e6, 6.3e6]}}).period_solar
+    """Of the same bodies in m3/s2: the precession by the Moon goes with its GM."""
+    masses = xr.Dataset({"moon.gm": ("member", [4902.8, 9805.6], {"units": "km3/s2"})})
+    masses.to_netcdf(tmp_path / "masses.nc")
+    plain = {"moon.gm": {"grid": [4902.8e9, 9805.6e9]}}
+    expected = earthspin.ensemble("precession", plain).precession_period.values
     for members in (
-        radii,
-        tmp_path / "radii.nc",
-        {"body.radius": {"grid": [6400.0, 6300.0] * units.km}},
+        masses,
+        tmp_path / "masses.nc",
+        {"moon.gm": {"grid": [4902.8, 9805.6] * units.Unit("km3/s2")}},
     ):
-        assert np.array_equal(earthspin.ensemble("wobble", members).period_solar, expected)
+        period = earthspin.ensemble("precession", members).precession_period.values
+        assert period == pytest.approx(expected, rel=1e-14)
 
 
 GRID = {"grid": [1.08e-3, 1.09e-3]}

@@ -1,6 +1,7 @@
 """Each effect against something that does not know its formula; off means not evaluated."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -8,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.special import eval_legendre
 
-from earthspin import SUN
+import earthspin
+from earthspin import MARS, SUN
 from earthspin.bodies import EARTH
 from earthspin.constants import DAY
 from earthspin.motion import forces as forces_module
@@ -132,3 +134,18 @@ def test_rate_of_j2_scales_the_torque(de421: Ephemeris) -> None:
     grown = with_trend(here, here) / without(here, here) - 1
     assert np.allclose(grown, trend * windows.times, rtol=0, atol=2e-15)  # measured: 3e-16
     assert set(GM) == set(CODES)
+
+
+@pytest.mark.parametrize("call", [earthspin.pole, earthspin.rotation])
+def test_an_effect_without_its_coefficient_says_that_it_does_nothing(call: Any) -> None:
+    def note(**keys: Any) -> str:
+        answer = call("2000-01-02", "2000-01-03", "12 h", **keys)
+        errors = [v for name, v in answer.variables.items() if str(name).endswith("_error")]
+        return " ".join(str(v.attrs.get("effects_that_do_nothing", "")) for v in errors).strip()
+
+    assert note(body="mars", effects=["j3"]) == "j3 (j3 of Mars is 0)"
+    assert note(body=MARS.replace(j3=3e-5), effects=["j3"]) == ""
+    assert note(effects=["j3", "j4", "triaxiality", "j2-rate"]) == ""
+    assert note(body=EARTH.replace(triaxiality=0), effects=["triaxiality", "j3"]) == (
+        "triaxiality (triaxiality of the Earth is 0)"
+    )

@@ -70,6 +70,33 @@ def test_free_modes_of_the_rungs(tree: xr.DataTree) -> None:
     assert 14e3 < float(coupled) < 2.1e4  # published: 20,000 (Mathews, Herring & Buffett 2002)
 
 
+def test_the_rigid_wobble_has_the_error_of_h(tree: xr.DataTree) -> None:
+    """The period goes with (1 - H)/H, so that its relative error is that of H over 1 - H."""
+    mode = tree["modes"].to_dataset().sel(mode="rigid chandler_wobble")
+    relative = 1.96 * EARTH.relative_uncertainty["dynamical_flattening"]
+    expected = relative / (1 - EARTH.dynamical_flattening)
+    assert float(mode.mode_period_error / mode.mode_period) == pytest.approx(expected, rel=1e-3)
+    assert np.all(tree["modes"].mode_period_error > 0)
+
+
+def test_merged_amplitudes_are_named_as_such(tree: xr.DataTree) -> None:
+    """IAU 2000A has 25.660 mas for the prograde year; with its neighbour it comes to 17.487."""
+    terms = tree["terms"].to_dataset()
+    assert "together with that of the neighbour" in terms.iau_in_phase.attrs["long_name"]
+    assert "without the neighbour's share" in terms.amplitude_error.attrs["long_name"]
+    year = terms.sel(term="+0 +1 +0 +0 +0")
+    assert str(year.neighbour.values) == "+0 -1 +2 -2 +2"
+    assert float(year.iau_in_phase) == pytest.approx(17.487, abs=0.01)
+    alone = float(year.iau_in_phase - year.neighbour_in_phase)
+    assert alone == pytest.approx(25.660, abs=0.01)
+    merged = terms.period.values[terms.neighbour.values != ""]
+    assert {365.26, -365.26, 182.62, -182.62} <= set(merged.round(2).tolist())
+
+
+def test_the_error_of_a_rung_says_that_the_interior_is_left_out(tree: xr.DataTree) -> None:
+    assert "the interior is left out" in tree["rms_error"].attrs["long_name"]
+
+
 def test_the_core_that_coupling_leaves_is_the_published_one(rungs: dict[str, ladder.Rung]) -> None:
     """e_f = 2.6456e-3 (Mathews, Herring & Buffett 2002, table 2)."""
     assert abs(rungs["coupling"].core_ellipticity - 2.6456e-3) < 2e-6  # measured: 7e-7

@@ -45,12 +45,15 @@ class Effect:
         a rigid Earth under Sun and Moon, and all without this effect.
     source : str
         Source of the size.
+    coefficient : str
+        Field of the body to which the effect is proportional; empty if there is none.
     """
 
     name: str
     switch_on: Callable[[Forces, Numbers], Forces]
     size: Growth
     source: str = SOURCE
+    coefficient: str = ""
 
     def size_at(self, reach: float) -> float:
         """Bound on the change of the figure axis by this effect up to a given time, rad.

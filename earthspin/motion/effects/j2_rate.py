@@ -16,4 +16,4 @@ def _switch_on(forces: Forces, body: Numbers) -> Forces:
     return replace(forces, figure=replace(forces.figure, j2_trend=trend))
 
 
-J2_RATE = Effect("j2-rate", _switch_on, Growth(0.00483, 0.0, 2.81e-4))
+J2_RATE = Effect("j2-rate", _switch_on, Growth(0.00483, 0.0, 2.81e-4), coefficient="j2_rate")

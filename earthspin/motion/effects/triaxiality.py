@@ -14,4 +14,4 @@ def _switch_on(forces: Forces, body: Numbers) -> Forces:
     return replace(forces, figure=replace(figure, triaxiality=over_c))
 
 
-TRIAXIALITY = Effect("triaxiality", _switch_on, Growth(0.041))
+TRIAXIALITY = Effect("triaxiality", _switch_on, Growth(0.041), coefficient="triaxiality")

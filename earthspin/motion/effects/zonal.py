@@ -16,7 +16,7 @@ def _harmonic(degree: int, size: Growth) -> Effect:
         zonal = {**forces.figure.zonal, degree: coefficient}
         return replace(forces, figure=replace(forces.figure, zonal=zonal))
 
-    return Effect(f"j{degree}", switch_on, size)
+    return Effect(f"j{degree}", switch_on, size, coefficient=f"j{degree}")
 
 
 J3 = _harmonic(3, Growth(0.215))
