@@ -538,7 +538,7 @@ def test_units_of_members_are_read() -> None:
     for again in (earthspin.run(answer), earthspin.ensemble(now, answer)):
         assert np.array_equal(again.obliquity, answer.obliquity)
     plain = earthspin.ensemble(now, shifted([np.radians(1.0), np.radians(2.0)], None))
-    assert plain.obliquity.values == pytest.approx(answer.obliquity.values, rel=1e-14)
+    assert plain.obliquity.values == pytest.approx(answer.obliquity.values, rel=1e-14, abs=0)
     for unit in ("km", "degs"):
         with pytest.raises(EarthspinError, match=f"obliquity_shift = '{unit}' is not a value in"):
             earthspin.ensemble(now, shifted([1.0, 2.0], unit))
@@ -556,7 +556,7 @@ def test_units_of_numbers_of_bodies_in_files_and_distributions(tmp_path: Path) -
         {"moon.gm": {"grid": [4902.8, 9805.6] * units.Unit("km3/s2")}},
     ):
         period = earthspin.ensemble("precession", members).precession_period.values
-        assert period == pytest.approx(expected, rel=1e-14)
+        assert period == pytest.approx(expected, rel=1e-14, abs=0)
 
 
 GRID = {"grid": [1.08e-3, 1.09e-3]}

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin import Body, Orbit
-from earthspin.constants import DAY
+from earthspin.constants import DAY, G
 from earthspin.dates import datetime64
 from earthspin.numerics.arrays import FloatArray
 from tests.reference.extrapolation import increment
@@ -83,7 +83,7 @@ def random_case(seed: int, orbits: float = 5.0) -> Case:
     body = Body(
         name="rock",
         gm=1e-9 * gm,
-        radius=a / 50,
+        radius=float(np.cbrt(1e-9 * gm / (4 / 3 * np.pi * G.value * 3000))),  # of rock
         j2=j2,
         dynamical_flattening=j2 / polar,
         triaxiality=float(moments[1] - moments[0]),
