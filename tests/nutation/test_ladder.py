@@ -75,7 +75,9 @@ def test_the_rigid_wobble_has_the_error_of_h(tree: xr.DataTree) -> None:
     mode = tree["modes"].to_dataset().sel(mode="rigid chandler_wobble")
     relative = 1.96 * EARTH.relative_uncertainty["dynamical_flattening"]
     expected = relative / (1 - EARTH.dynamical_flattening)
-    assert float(mode.mode_period_error / mode.mode_period) == pytest.approx(expected, rel=1e-3, abs=0)
+    assert float(mode.mode_period_error / mode.mode_period) == pytest.approx(
+        expected, rel=1e-3, abs=0
+    )
     assert np.all(tree["modes"].mode_period_error > 0)
 
 
