@@ -5,40 +5,29 @@ from functools import partial
 
 import numpy as np
 
-from earthspin.motion.equations import Rigid
-from earthspin.motion.march import Masses
-from earthspin.motion.solution import Motion, start_of
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.quaternion import conjugate, rotate
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.attitude import attitude_motion
-from tests.reference.sky import eccentric_anomaly
 from tests.reference.stepping import integrate, quaternion_rate
 from tests.reference.stored import load, rotation_error
+from tests.reference.tumbling_moon import (
+    ECCENTRICITY,
+    INPUTS,
+    OMEGA,
+    SPAN,
+    TIMES,
+    TRIAXIALITY,
+    H,
+    motion,
+    places,
+    times,
+)
 
-#: (C - (A + B)/2)/C and (B - A)/C of a homogeneous ellipsoid with Hyperion's axes (360 x 266 x
-#: 205 km), on an ellipse with mean motion 1 about a mass with GM = 1; spin in the same unit.
-H, TRIAXIALITY = 0.29, 0.29
-ECCENTRICITY = 0.1
-OMEGA = (0.5, 0.3, 1.5)
-SPAN, TIMES = 16.0, 32
-#: Inputs of the stored reference.
-INPUTS = {
-    "h": H,
-    "triaxiality": TRIAXIALITY,
-    "eccentricity": ECCENTRICITY,
-    "omega": list(OMEGA),
-    "span": SPAN,
-}
 #: Principal moments divided by C.
 MOMENTS = np.array([1 - H - TRIAXIALITY / 2, 1 - H + TRIAXIALITY / 2, 1.0])
 UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
 TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
-
-
-def times() -> FloatArray:
-    """Evenly spaced times of the reference solution, multiplied by the orbital mean motion, rad."""
-    return np.linspace(0.0, SPAN, TIMES + 1)[1:]
 
 
 def ladder() -> Ladder:
@@ -67,24 +56,11 @@ def ladder() -> Ladder:
     )
 
 
-def _places(t: FloatArray) -> FloatArray:
-    """Positions of the perturber on its ellipse, divided by the semi-major axis, shape (n, 3)."""
-    anomaly = eccentric_anomaly(t, ECCENTRICITY, steps=6)
-    across = math.sqrt(1 - ECCENTRICITY**2) * np.sin(anomaly)
-    return np.stack([np.cos(anomaly) - ECCENTRICITY, across, 0 * anomaly], axis=-1)
-
-
 def windows(tolerance: float) -> tuple[tuple[FloatArray, FloatArray], int]:
     """Angular velocity and attitude by the package's own solver."""
-    a, b, _ = MOMENTS
-    body = Rigid(
-        c_minus_a=np.array([1 - a]), c_minus_b=np.array([1 - b]), tide=np.ones(1), unit=1.0
-    )
-    masses = Masses(gm={"planet": 1.0}, positions=lambda times: {"planet": _places(times)})
-    start = start_of(body, UPRIGHT, np.array(OMEGA))
-    motion = Motion(body, masses, start, SPAN, tolerance=tolerance)
-    result = motion.at(times())
-    return (result.omega, result.attitude), motion.evaluations
+    solved = motion(SPAN, tolerance)
+    result = solved.at(times())
+    return (result.omega, result.attitude), solved.evaluations
 
 
 def _attitude(rtol: float) -> tuple[object, int]:
@@ -94,7 +70,7 @@ def _attitude(rtol: float) -> tuple[object, int]:
     def tide(time: float) -> FloatArray:
         nonlocal calls
         calls += 1
-        r = _places(np.array([time]))[0]
+        r = places(np.array([time]))[0]
         return np.asarray(np.outer(r, r) / (r @ r) ** 2.5)
 
     t = np.concatenate([[0.0], times()])
