@@ -252,8 +252,8 @@ def bodies(draw: st.DrawFn) -> earthspin.Body:
         coords = {} if labels is None else {"draw": labels}
         changes["dynamical_flattening"] = xr.DataArray(listed, coords, ("draw",))
         changes["j2"] = polar * changes["dynamical_flattening"]
-    made = start.replace(**changes)
     try:
+        made = start.replace(**changes)
         refuse_break_up(made)
     except earthspin.BodyError:
         reject()
