@@ -410,9 +410,15 @@ def test_all_three_moments_act_without_any_effect_on_a_free_body() -> None:
     brick = ROUND.replace(triaxiality=0.05, spin_period=None)
     start = np.array([1e-3, 2e-4, 5e-4])
     found = earthspin.rotation(
-        "2000-01-01", "2000-01-01T05:00", "1 h", body=brick, perturbers=[], effects=[],
-        start_attitude=[1, 0, 0, 0], start_omega=start.tolist(),
-    )  # fmt: skip
+        "2000-01-01",
+        "2000-01-01T05:00",
+        "1 h",
+        body=brick,
+        perturbers=[],
+        effects=[],
+        start_attitude=[1, 0, 0, 0],
+        start_omega=start.tolist(),
+    )
     moments = np.array([0.275, 0.325, 0.4])  # A + B = 2 (C - J2), B - A = 0.05
     free = free_rotation(moments, start, np.arange(6) * 3600.0)
     np.testing.assert_allclose(found.omega, free.omega_body, rtol=0, atol=1e-13)
@@ -423,10 +429,13 @@ def test_the_torque_on_all_three_moments_acts_without_any_effect() -> None:
     """Torque about C of a mass in the equator: (3/2) GM/r3 (B - A) sin 2 phi, for a minute."""
     phobos = moonlet("mars", (13.0e3, 11.4e3, 9.1e3), 0.31891, 0.0)
     found = earthspin.rotation(
-        times=["2000-01-01T12:00", "2000-01-01T12:01"], body=phobos, perturbers=["mars"],
-        effects=[], start_attitude=[math.cos(math.pi / 8), 0, 0, -math.sin(math.pi / 8)],
+        times=["2000-01-01T12:00", "2000-01-01T12:01"],
+        body=phobos,
+        perturbers=["mars"],
+        effects=[],
+        start_attitude=[math.cos(math.pi / 8), 0, 0, -math.sin(math.pi / 8)],
         start_omega=[0, 0, 2 * math.pi / (0.31891 * DAY)],
-    )  # fmt: skip
+    )
     tide = BODIES["mars"].gm / phobos.position.size**3
     over_c = (13.0**2 - 11.4**2) / (13.0**2 + 11.4**2)
     gain = float(found.omega[1, 2] - found.omega[0, 2])
