@@ -67,7 +67,8 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
     Any three moments, any spin, a locked or a tumbling one among them. The motion begins at the
     first date, with the body's own pole, meridian and spin, or as `start_attitude` and
-    `start_omega` say. The effect `second-order` cannot be switched off here, and `nonrigid` not on.
+    `start_omega` say. The effects `second-order` and `triaxiality` cannot be switched off here, and
+    `nonrigid` not on.
 
     Returns
     -------
@@ -182,6 +183,11 @@ def _spinning(body: Body, start_omega: FloatArray | None) -> Body:
     return body.replace(spin_period=2 * np.pi / speed if speed else 2 * np.pi)
 
 
+def _acting(effects: tuple[str, ...]) -> tuple[str, ...]:
+    """Add B - A, which is one of the three moments of the body, to the effects."""
+    return (*effects, TRIAXIALITY)
+
+
 @part(unless=nothing_pulls)
 def pulling(
     pulls: Pulls,
@@ -195,7 +201,7 @@ def pulling(
 
     days = epochs.span()
     pulls.sky.check_times(days, pulls.targets)
-    forces = forces_of(_spinning(body, start_omega), pulls, effects)
+    forces = forces_of(_spinning(body, start_omega), pulls, _acting(effects))
     if isinstance(pulls.sky.source, Elements):
         places = [place for place in pulls.sky.targets.values() if isinstance(place, ByElements)]
         rounding = max(place.rounding(day) for place in places for day in days)
@@ -292,7 +298,7 @@ def rotor(
     figure = figure_of(body, spin_rate)
     if pulling is None:
         alone = Forces(figure=figure, gm={}, positions=lambda times: {})
-        pulling = Pulling(switched_on(alone, body, effects))
+        pulling = Pulling(switched_on(alone, body, _acting(effects)))
     moment = polar_moment(body.number("j2"), figure.h, float(body.mass), body.number("radius"))
     u = body.relative_uncertainty
     doubts = {
@@ -548,7 +554,6 @@ def _switched_off(body: Body, perturbers: tuple[Body, ...], effects: tuple[str, 
         "planets": not all_by_elements(body, perturbers),
         "j3": body.j3 != 0,
         "j4": body.j4 != 0,
-        "triaxiality": body.triaxiality != 0,
         "geodesic": "sun" in {perturber.name for perturber in perturbers},
         "j2-rate": body.j2_rate != 0,
     }

@@ -18,6 +18,7 @@ from earthspin.bodies.moons import ORBITS as OF_MOONS
 from earthspin.constants import DAY, G
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import lines_to
+from earthspin.rotor.triaxial import free_rotation
 from tests.reference.kepler_rotors import random_case
 from tests.refusals import refused
 
@@ -402,6 +403,43 @@ def test_an_effect_that_is_switched_off_is_neglected() -> None:
         sizes = earthspin.run_tree(scene, "neglected")["neglected"].neglected_effect
         assert ("j2-rate" in sizes.effect) == (not unknown)
         assert ("planets" in sizes.attrs.get("of_unknown_size", "")) == unknown
+
+
+def test_all_three_moments_act_without_any_effect_on_a_free_body() -> None:
+    """Against the closed solution of Euler's equations; 49 degrees without B - A."""
+    brick = ROUND.replace(triaxiality=0.05, spin_period=None)
+    start = np.array([1e-3, 2e-4, 5e-4])
+    found = earthspin.rotation(
+        "2000-01-01",
+        "2000-01-01T05:00",
+        "1 h",
+        body=brick,
+        perturbers=[],
+        effects=[],
+        start_attitude=[1, 0, 0, 0],
+        start_omega=start.tolist(),
+    )
+    moments = np.array([0.275, 0.325, 0.4])  # A + B = 2 (C - J2), B - A = 0.05
+    free = free_rotation(moments, start, np.arange(6) * 3600.0)
+    np.testing.assert_allclose(found.omega, free.omega_body, rtol=0, atol=1e-13)
+    assert "triaxiality" not in found.attrs["neglected"]
+
+
+def test_the_torque_on_all_three_moments_acts_without_any_effect() -> None:
+    """Torque about C of a mass in the equator: (3/2) GM/r3 (B - A) sin 2 phi, for a minute."""
+    phobos = moonlet("mars", (13.0e3, 11.4e3, 9.1e3), 0.31891, 0.0)
+    found = earthspin.rotation(
+        times=["2000-01-01T12:00", "2000-01-01T12:01"],
+        body=phobos,
+        perturbers=["mars"],
+        effects=[],
+        start_attitude=[math.cos(math.pi / 8), 0, 0, -math.sin(math.pi / 8)],
+        start_omega=[0, 0, 2 * math.pi / (0.31891 * DAY)],
+    )
+    tide = BODIES["mars"].gm / phobos.position.size**3
+    over_c = (13.0**2 - 11.4**2) / (13.0**2 + 11.4**2)
+    gain = float(found.omega[1, 2] - found.omega[0, 2])
+    np.testing.assert_allclose(gain, 1.5 * tide * over_c * 60, rtol=1e-4, atol=0)
 
 
 def test_a_spin_that_takes_hours_to_follow_is_refused_with_the_time() -> None:
