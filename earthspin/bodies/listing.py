@@ -36,6 +36,8 @@ def in_words(name: str) -> str:
         error = f" ± {number.uncertainty:.2g}" if number.uncertainty else ""
         lines.append(f"  {field} = {number.value:.9g}{error} {number.unit}".rstrip())
         lines.append(f"      {number.source}")
+    if world.satellites:
+        lines.append(f"  satellites: {', '.join(moon.name for moon in world.satellites)}")
     if world.pole is not None:
         lines.append(f"  pole: {world.pole}")
     return "\n".join(lines)

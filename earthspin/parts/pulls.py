@@ -107,12 +107,12 @@ class Pulls:
 @part
 def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]) -> Pulls:
     """Collect GM and positions of the perturbers; include the planets if that effect is on."""
-    masses = {p.name: p.number("gm") for p in perturbers}
+    masses = {p.name: float(p.gm_on(body)) for p in perturbers}
     targets = dict(sky.targets)
     if PLANETS.name in effects:
         for name in bodies.PLANETS:
             if name not in masses and name != body.name:
-                masses[name] = float(BODIES[name].gm)
+                masses[name] = float(BODIES[name].gm_on(body))
                 targets[name] = sky.place(BODIES[name])
     start, end = sky.coverage(targets)
     return Pulls(sky, masses, targets, (start * DAY, end * DAY))

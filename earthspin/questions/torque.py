@@ -144,10 +144,10 @@ def torques(
 
     bulge = moment_difference(body.needed("j2"), body.mass, body.needed("radius"))
     u_bulge = body.relative_uncertainty_of_bulge()
-    per_bulge = [torque_from_declination(p.gm, 1.0, *seen[p.name]) for p in perturbers]
+    per_bulge = [torque_from_declination(p.gm_on(body), 1.0, *seen[p.name]) for p in perturbers]
     error = [
         torque_error(
-            p.gm,
+            p.gm_on(body),
             1.0,
             declination=seen[p.name][1],
             distance=seen[p.name][2],
@@ -194,7 +194,7 @@ def neglected(torques: xr.Dataset, body: Body, perturbers: tuple[Body, ...]) -> 
     if body.labelled:
         return Neglected(what="effects whose sizes are given for one body at a time")
     nearest = torques.distance.min("time")
-    pulls = [(p.gm, float(nearest.sel(perturber=p.name))) for p in perturbers]
+    pulls = [(p.gm_on(body), float(nearest.sel(perturber=p.name))) for p in perturbers]
     figure = {3: float(body.j3), 4: float(body.j4)}
     sizes = largest_torque_on_figure(
         pulls, float(body.mass), float(body.needed("radius")), figure, float(body.triaxiality)
