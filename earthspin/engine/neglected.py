@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -63,6 +63,15 @@ class Neglected:
             what,
             "; ".join(f"{name}: {size.source}" for name, size in sizes.items()),
         )
+
+    def also(self, effect: str) -> Self:
+        """Add a neglected effect of unknown size; an empty text adds nothing."""
+        if not effect:
+            return self
+        # without sizes, `what` names the neglected effect
+        known = self.what if not self.sizes and self.what != Neglected.what else ""
+        unknown = ", ".join(filter(None, (self.unknown or known, effect)))
+        return replace(self, unknown=unknown)
 
     @property
     def largest(self) -> str:

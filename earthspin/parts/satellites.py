@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -11,11 +13,16 @@ from earthspin.bodies import Body, Numeric, all_of
 from earthspin.constants import JULIAN_YEAR, NORMAL_95
 from earthspin.errors import BodyError
 from earthspin.numerics.arrays import FloatArray
-from earthspin.torque.laplace import Node, Planet, Satellites, nodes, shares
+from earthspin.sky.equator import angle
+from earthspin.torque.laplace import Node, Planet, Satellites, laplace_tilts, nodes, shares
 
 #: Relative half-width of the contribution of satellites, 95 %: eccentricities, and differences from
 #: an integration of spin and orbit normals (0.13 % for Saturn over 60,000 years).
 UNMODELLED = 2e-3
+
+#: Relative bound on the error of the nutations by nodes: the terms of the IAU's pole of Jupiter
+#: differ by up to 22 %, that of Neptune by 10 % for C/(M R2) = 0.23.
+SWING_SHARE = 0.25
 
 
 @dataclass(frozen=True)
@@ -50,6 +57,27 @@ def without_swings(body: Body) -> Body:
     return body.replace(
         pole=body.needed("pole").without_nutation(), pole_uncertainty=body.pole_uncertainty
     )
+
+
+def mean_pole_error(body: Body, half: float | None, pull: Numeric) -> float | None:
+    """95 % half-width of the direction of the mean pole at J2000.0, rad; None if it is not known.
+
+    The pole of a planet without periodic terms of its satellites' nodes may be anywhere on the
+    circles that these describe about the mean.
+
+    Parameters
+    ----------
+    body : Body
+    half : float or None
+        Half-width of the direction of the body's pole, rad.
+    pull : float or DataArray
+        Sum of GM <1/r3> of the perturbers, s-2.
+    """
+    obliquity = obliquity_of(body) if body.satellites else None
+    pole = body.needed("pole")
+    if half is None or obliquity is None or pole.without_nutation() != pole:
+        return half
+    return math.hypot(half, *(swing.angle for swing in swings(body, pull, obliquity).values()))
 
 
 def describe_pole(body: Body) -> str:
@@ -136,17 +164,17 @@ class Swing:
         return f"{float(f'{2 * np.pi / self.node_rate / JULIAN_YEAR:.3g}'):,g} years"
 
 
-def swings(body: Body, pull: float, obliquity: float) -> dict[str, Swing]:
+def swings(body: Body, pull: Numeric, obliquity: float) -> dict[str, Swing]:
     """Nutations of a body by the nodes of its satellites, by name.
 
-    Parameters are those of `carried`; all numbers of the body are single.
+    Parameters are those of `carried`; of labelled arrays the means are used.
     """
     if not body.satellites:
         return {}
     _refuse_sphere(body)
     names = ("gm", "radius", "j2", "dynamical_flattening")
-    numbers = [*(body.number(name) for name in names), float(body.spin_rate), pull]
-    planet = _planet([np.full((1, 1), number) for number in numbers], obliquity)
+    numbers = [*(body.needed(name) for name in names), body.spin_rate, pull]
+    planet = _planet([np.full((1, 1), float(np.mean(number))) for number in numbers], obliquity)
     sine = np.sin(obliquity)
     found = {}
     for satellite, node in zip(body.satellites, nodes(planet, _satellites(body)), strict=True):
@@ -154,6 +182,65 @@ def swings(body: Body, pull: float, obliquity: float) -> dict[str, Swing]:
             rate = _rate(node, sine)
             found[f"node of {satellite.name}"] = Swing(rate, node.swing, node.rate)
     return found
+
+
+def largest_torques_of_satellites(body: Body, pull: float) -> dict[str, float]:
+    """Largest torques of the satellites on the bulge of their planet, N m, by name.
+
+    They are those at the largest distance of each from the equator. `pull` is the sum of GM/r3 of
+    the perturbers, s-2, which tilts the Laplace planes.
+    """
+    obliquity = obliquity_of(body) if body.satellites else None
+    if obliquity is None:
+        return {}
+    moment = body.number("j2") * float(body.mass) * body.number("radius") ** 2
+    numbers = [body.gm, body.number("radius"), body.number("j2"), 1.0, 1.0, pull]
+    planet = Planet(*(np.full((1, 1), number) for number in numbers), obliquity)
+    tilts = laplace_tilts(planet, _satellites(body))[0]
+    return {
+        f"pull of {moon.name}": 1.5
+        * moon.gm
+        / moon.a**3
+        * abs(moment)
+        * math.sin(min(2 * (abs(tilt) + min(moon.i, math.pi - moon.i)), math.pi / 2))
+        for moon, tilt in zip(body.satellites, tilts, strict=True)
+    }
+
+
+def drifts(found: Mapping[str, Swing], times: FloatArray) -> dict[str, FloatArray]:
+    """Displacements of the pole by the nodes of satellites since the epoch, rad, shape (t,) each.
+
+    They are chords of the circles that the pole describes, larger by `SWING_SHARE`; `times` are s
+    from the epoch.
+    """
+    return {
+        name: 2 * (1 + SWING_SHARE) * swing.angle * np.abs(np.sin(swing.node_rate * times / 2))
+        for name, swing in found.items()
+    }
+
+
+def obliquity_of(body: Body) -> float | None:
+    """Obliquity of the mean pole at J2000.0 to the orbit, rad; None without an orbit."""
+    pole = body.needed("pole").without_nutation()
+    if body.orbit_pole is None and not pole.of_the_iau:
+        return None
+    axis = pole.mean(np.zeros(1))[0]
+    return angle(axis, pole.orbit_normal(body.orbit_pole))
+
+
+def common_turn(body: Body, pull: float) -> FloatArray | None:
+    """Angular velocity that satellites add to the precession of their planet, rad/s, shape (3,).
+
+    The torque of the perturbers on the bulge turns the planet as if it were alone. Its satellites,
+    each near its Laplace plane, make planet and satellites precess together about the normal of
+    the orbit. None without satellites or without an orbit.
+    """
+    obliquity = obliquity_of(body) if body.satellites else None
+    if obliquity is None:
+        return None
+    alone = 1.5 * pull * math.cos(obliquity) * body.number("dynamical_flattening") / body.spin_rate
+    more = alone * (carried(body, pull, obliquity).rate - 1)
+    return np.asarray(-more * body.needed("pole").orbit_normal(body.orbit_pole))
 
 
 def _rate(node: Node, sine: float) -> float:

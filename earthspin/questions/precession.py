@@ -70,6 +70,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     """
 
     views, page, headline = "precession", "theory", "precession_rate"
+    with_satellites = True
 
     source: SourceName = key("skyfield", doc=SOURCE_DOC)
     span: Span | None = key(
@@ -384,9 +385,7 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
 
 def neglected_nodes(body: Body, mean_rates: MeanRates) -> dict[str, float]:
     """Largest additions to the mean rate by the nodes of satellites, rad/s, with their periods."""
-    if body.labelled or hasattr(mean_rates.pull, "dims"):
-        return {}
-    found = swings(body, float(mean_rates.pull), mean_rates.means.obliquity)
+    found = swings(body, mean_rates.pull, mean_rates.means.obliquity)
     return {f"{name}, period {swing.years}": swing.rate for name, swing in found.items()}
 
 

@@ -17,6 +17,7 @@ from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Pair, Value, labels, measured, number
 from earthspin.mass.inertia import moment_difference
 from earthspin.parts.reasons import no_iau_model
+from earthspin.parts.satellites import largest_torques_of_satellites
 from earthspin.parts.sky import Sky, places, sky
 from earthspin.parts.times import SPAN_DOC, Dated, Series, by_region, days_of, epochs
 from earthspin.sky.sources import OF_DATE, SourceName
@@ -53,6 +54,7 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
     """
 
     views, page, headline = "torque", "theory", "torque_magnitude"
+    with_satellites = True
 
     span: Span = key(("2000-01-01T12:00:00", "2001-01-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("6 h", doc="interval between dates")
@@ -199,6 +201,7 @@ def neglected(torques: xr.Dataset, body: Body, perturbers: tuple[Body, ...]) -> 
     sizes = largest_torque_on_figure(
         pulls, float(body.mass), float(body.needed("radius")), figure, float(body.triaxiality)
     )
+    sizes |= largest_torques_of_satellites(body, sum(gm / r**3 for gm, r in pulls))
     return Neglected(sizes, "N m", "largest torque that the model leaves out", body.reference)
 
 
