@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 import earthspin
@@ -22,7 +21,7 @@ from earthspin.constants import NORMAL_95, PSI_A_RATE
 from earthspin.errors import EarthspinError
 from earthspin.questions.cassini_states import CassiniStates
 from earthspin.questions.precession import Precession
-from earthspin.views.table import NUMBERS_ONLY, some_unknown
+from earthspin.views.table import NUMBERS_ONLY, some_unknown, systematic_size
 
 #: Signs of units, and their size in degrees; obliquities below `SMALL` (deg) are in minutes of arc.
 UNITS, SMALL = {"arcmin": "′", "deg": "°"}, 0.1
@@ -145,9 +144,8 @@ def left_out(tree: xr.DataTree) -> float:
     The nodes of satellites do not count: they move the pole about the mean that has this rate.
     """
     section = tree["neglected"].to_dataset()
-    secular = [not str(effect).startswith("node of") for effect in section.effect.values]
-    sizes = section.neglected_effect.values[secular]
-    return float(np.abs(sizes).sum()) if sizes.size and not some_unknown(section) else math.nan
+    known = section.sizes["effect"] and not some_unknown(section)
+    return systematic_size(section) if known else math.nan
 
 
 def world(name: str) -> World:

@@ -45,6 +45,8 @@ class Neglected:
         Source of the sizes.
     unknown : str
         Further neglected effects of unknown size.
+    periodic : tuple of str
+        Effects with a size that vanish in the mean over their period, which the answer gives.
     """
 
     sizes: Mapping[str, float] = field(default_factory=dict)
@@ -52,6 +54,7 @@ class Neglected:
     what: str = "nothing that has a known size"
     source: str = ""
     unknown: str = ""
+    periodic: tuple[str, ...] = ()
 
     @classmethod
     def cited(cls, sizes: Mapping[str, Constant], what: str) -> Self:
@@ -93,7 +96,11 @@ class Neglected:
             Labels that the answer has along `effect`; included effects have size 0.
         """
         names = list(effects) or sorted(self.sizes, key=lambda effect: -abs(self.sizes[effect]))
-        notes = {"references": self.source, "of_unknown_size": self.unknown}
+        notes = {
+            "references": self.source,
+            "of_unknown_size": self.unknown,
+            "zero_in_the_mean": "; ".join(self.periodic),
+        }
         attrs = {name: words for name, words in notes.items() if words}
 
         class Effects(Variables, along=("effect",), no_error=BOUND):

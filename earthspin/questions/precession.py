@@ -398,13 +398,14 @@ def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -
     if published:
         what = "contribution to the rate that the model leaves out; others were not measured"
         cited = Neglected.cited(published, what)
-        return replace(cited, sizes={**cited.sizes, **nodes})
+        return replace(cited, sizes={**cited.sizes, **nodes}, periodic=tuple(nodes))
     if unknown:
         return Neglected(
             {"turning of the axis within an orbit": mean_rates.second_order, **nodes},
             "arcsec/yr",
             "bound on the contribution to the rate that the model leaves out",
             unknown=f"all other effects, because {unknown}",
+            periodic=tuple(nodes),
         )
     return reasons.neglected_rates()
 
