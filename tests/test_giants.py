@@ -172,12 +172,12 @@ def test_the_free_wobble_is_that_of_the_planet(body: Body, days: float) -> None:
 
 @pytest.mark.parametrize("planet", SATELLITES)
 def test_satellites_keep_keplers_third_law(planet: str) -> None:
-    """Semi-major axis, mass of the planet and period; J2 moves Io by 7e-4, Miranda by 2e-3."""
+    """Semi-major axis, masses and period; J2 adds up to 3/4 J2 (R/a)2. Measured: 7e-4."""
     body = BODIES[planet]
     for moon in body.satellites:
         by_law = 2 * math.pi * math.sqrt(moon.a**3 / (body.gm + moon.gm))
         days = 360 / ROTATION[moon.name]
-        assert by_law / 86400 == pytest.approx(days, rel=2.5e-3, abs=0), moon.name
+        assert by_law / 86400 == pytest.approx(days, rel=8e-4, abs=0), moon.name
 
 
 @pytest.mark.parametrize("name", ["jupiter", "saturn"])

@@ -53,8 +53,11 @@ _FITTED = (
     "JPL Horizons, satellite ephemerides SAT441 and NEP097",
     "ellipses in Laplace planes, fitted to SAT441 and NEP097 in a public repository",
 )
-#: Semi-major axes of the moons of Uranus agree with GM and the rotation of IAU 2015 to 2e-4.
-_OF_URANUS = (_ELEMENTS[0], f"266.0 for Umbriel in a public file of JPL Horizons; all: {PCK11}")
+_OF_URANUS = (
+    _ELEMENTS[0],
+    "that of Umbriel in a public file of JPL Horizons; the others agree to 5e-4 with GM and the "
+    f"rotation in {PCK11}",
+)
 
 
 def _moon(

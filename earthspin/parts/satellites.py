@@ -194,8 +194,9 @@ def largest_torques_of_satellites(body: Body, pull: float) -> dict[str, float]:
     if obliquity is None:
         return {}
     moment = body.number("j2") * float(body.mass) * body.number("radius") ** 2
+    # tilts do not depend on H and spin
     numbers = [body.gm, body.number("radius"), body.number("j2"), 1.0, 1.0, pull]
-    planet = Planet(*(np.full((1, 1), number) for number in numbers), obliquity)
+    planet = _planet([np.full((1, 1), float(number)) for number in numbers], obliquity)
     tilts = laplace_tilts(planet, _satellites(body))[0]
     return {
         f"pull of {moon.name}": 1.5
