@@ -13,7 +13,7 @@ from earthspin.constants import JULIAN_YEAR
 
 
 def laplace_coefficient(ratio: float) -> float:
-    """b_3/2^(1) by complete elliptic integrals: 2/pi times that of cos t/(1 - 2 r cos t + r2)^1.5."""
+    """Laplace coefficient b_3/2^(1) by complete elliptic integrals."""
     square = 4 * ratio / (1 + ratio) ** 2
     first, second = ellipk(square), ellipe(square)
     scale = 2 / (np.pi * ratio * (1 + ratio))
