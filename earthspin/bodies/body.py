@@ -73,7 +73,7 @@ class Body(FromMass):
     flattening : float
         (a - c) / a of the figure, the ellipticity epsilon of (I.9.38).
     spin_period : float
-        One turn relative to the stars, s; negative if retrograde.
+        One turn relative to the stars, s; negative if retrograde, that is backwards about `pole`.
     pole : Pole
         Direction of the spin axis: `IAU_2006` (``"iau2006"``), or a `FixedPole`, for which a right
         ascension
@@ -111,7 +111,7 @@ class Body(FromMass):
     reference : str
         Where the numbers come from.
     obliquity : float
-        Instead of `pole`: angle from the normal of the orbit to the axis of spin, rad, 0 to pi. The
+        Instead of `pole`: angle from the normal of the orbit to the pole, rad, 0 to pi. The
         equinox stays where it is; that of a new body is the node of its orbit on the equator of the
         ICRF. It is read, and kept as `pole`.
 

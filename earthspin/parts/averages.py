@@ -296,10 +296,8 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     vectors, error = np.stack(torques), np.array(errors)
     if strength is not None:
         factor = strength.values.reshape(len(perturbers), -1)
-        vectors, error = (
-            vectors[:, np.newaxis] * factor[..., np.newaxis],
-            error[:, np.newaxis] * factor,
-        )
+        vectors = vectors[:, np.newaxis] * factor[..., np.newaxis]
+        error = error[:, np.newaxis] * factor
     vectors = average.with_total(vectors[np.newaxis])[0]
     error = average.with_total(error[np.newaxis])[0]
     obliquity = angle(axis, normal)

@@ -83,7 +83,6 @@ class LongTerm(
 
     exclusive = (("times",), ("span", "step"))
     many_pulls = True
-    with_satellites = True
 
     span: YearSpan = key(
         ("-1 Myr", "0 kyr"),
@@ -114,6 +113,12 @@ class LongTerm(
             "of the orbital motion"
         ),
     )
+
+    @property
+    def unused(self) -> str:
+        """Motion of satellites that is left out: the rate includes them as they are at J2000.0."""
+        satellites = super().unused
+        return f"the change of the tilts of {satellites}" if satellites else ""
 
     def check(self) -> None:
         """Set default perturbers, and refuse any other than the Sun and the Moon."""

@@ -59,7 +59,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
         Over `time` and `axis` (``angular_momentum``, ``rotation``, ``figure``): `X`, `Y`, `Z`
         (unit vectors), `psi` and `eps` (arcsec, on the fixed orbit of J2000.0) where they are
         defined; over `time` `direction_error` (arcsec) and its shares, with `nonrigid` also
-        `direction_error_response`.
+        `direction_error_response`, and for a body with satellites `direction_error_satellites`.
 
     Raises
     ------

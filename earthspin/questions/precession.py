@@ -47,6 +47,9 @@ MODELS = ("mccullough", "homogeneous", "measured")
 class Precession(PerturbedBody, word="precession", call="precession"):
     """Rate and period of precession, from torques averaged over orbits (source text, I.8).
 
+    A body with satellites precesses together with them, each in its Laplace plane; the rate is then
+    the mean over the nodes of the satellites.
+
     Returns
     -------
     Dataset
