@@ -306,3 +306,18 @@ def direction(polar: float, off: float = 0.0, azimuth: float = 0.0) -> np.ndarra
     mean, along = np.array([sine, 0, cosine]), np.array([cosine, 0, -sine])
     aside = math.cos(azimuth) * along + math.sin(azimuth) * np.array([0, 1.0, 0])
     return math.cos(off) * mean + math.sin(off) * aside
+
+
+def test_the_uncertainty_of_h_beside_a_changed_h() -> None:
+    """H = J2/C; of C' = C + l, the satellites' part is known: here it is a third of C."""
+    moon = {"name": "moon", "gm": 0.02 * SATURN.gm, "a": 3 * SATURN.radius}
+    body = SATURN.replace(satellites=[moon])
+    share = body.relative_uncertainty["dynamical_flattening"]
+    step = 1e-3
+    more = rate_of(body.replace(dynamical_flattening=body.dynamical_flattening * (1 + step)))
+    slope = (more / rate_of(body) - 1) / step
+    assert 0.7 < slope < 0.85
+    found = earthspin.precession(body=body).isel(perturber=-1)
+    error = 1.96 * math.hypot(share * slope, 2e-3 / 1.96)
+    relative = float(found.precession_rate_error / found.precession_rate)
+    assert relative == pytest.approx(error, rel=0.01, abs=0)
