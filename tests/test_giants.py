@@ -11,7 +11,7 @@ from earthspin.bodies.giants import SATELLITES, SATURN_MOMENT
 from earthspin.bodies.satellites import Satellite
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, AU, JULIAN_YEAR
 from earthspin.errors import BodyError, SceneError
-from earthspin.parts.satellites import carried, swings
+from earthspin.parts.satellites import carried, mean_pole_error, swings
 from earthspin.questions.precession import Precession
 from earthspin.torque.laplace import Planet, Satellites, laplace_tilts
 from tests.reference import gyroscopes
@@ -224,6 +224,28 @@ def test_the_mean_motion_of_a_pole_is_that_of_planet_and_satellites() -> None:
     rate = -float(found.psi[1] - found.psi[0]) / (10759.2 / 365.25)
     mean = rate_of(SATURN)
     assert abs(rate) == pytest.approx(mean, rel=5e-3, abs=0)
+
+
+def test_the_mean_pole_of_saturn_is_inside_its_half_width() -> None:
+    """Jacobson 2007 without periodic terms is 10.2 arcsec from IAU 2015, because of Titan."""
+    ra, dec = np.radians([40.596731, 83.534290])
+    mean = np.array([np.cos(dec) * np.cos(ra), np.cos(dec) * np.sin(ra), np.sin(dec)])
+    apart = np.linalg.norm(SATURN.pole.mean(np.zeros(1))[0] - mean)
+    pull, _ = pull_and_obliquity("saturn")
+    half = mean_pole_error(SATURN, 1.96 * SATURN.pole_uncertainty, pull)
+    assert apart / ARCSEC == pytest.approx(10.2, rel=0, abs=0.1)
+    assert 0.5 * half < apart < half
+    # the poles of the others have periodic terms, without which they are mean poles
+    assert mean_pole_error(JUPITER, ARCSEC, 1e-17) == ARCSEC
+    assert mean_pole_error(SATURN, None, pull) is None
+
+
+def test_limits_of_the_obliquity() -> None:
+    """Upright and lying planets: the formulas are 0/0 there, and have a limit."""
+    pull, _ = pull_and_obliquity("jupiter")
+    for edge, inside in ((0.0, 1e-3), (math.pi / 2, math.pi / 2 - 1e-3), (math.pi, math.pi - 1e-3)):
+        at, near = (carried(JUPITER, pull, angle).rate for angle in (edge, inside))
+        assert at == pytest.approx(near, rel=1e-4, abs=0)
 
 
 def test_a_question_that_leaves_satellites_out_says_so() -> None:

@@ -135,7 +135,7 @@ def carried(body: Body, pull: Numeric, obliquity: float) -> Carried:
     def labelled(values: FloatArray) -> Numeric:
         if not template.dims:
             return float(values[0])
-        return template.copy(data=values.reshape(template.shape)).drop_attrs()
+        return xr.DataArray(values.reshape(template.shape), template.coords, template.dims)
 
     return Carried(labelled(bulge), labelled(moment), labelled(np.sqrt(variance)))
 
@@ -221,10 +221,10 @@ def drifts(found: Mapping[str, Swing], times: FloatArray) -> dict[str, FloatArra
 
 
 def obliquity_of(body: Body) -> float | None:
-    """Obliquity of the mean pole at J2000.0 to the orbit, rad; None without an orbit."""
-    pole = body.needed("pole").without_nutation()
-    if body.orbit_pole is None and not pole.of_the_iau:
+    """Obliquity of the mean pole at J2000.0 to the orbit, rad; None without a pole or an orbit."""
+    if body.pole is None or (body.orbit_pole is None and not body.pole.of_the_iau):
         return None
+    pole = body.pole.without_nutation()
     axis = pole.mean(np.zeros(1))[0]
     return angle(axis, pole.orbit_normal(body.orbit_pole))
 
