@@ -310,14 +310,25 @@ class IAUPole:
     nutation: FloatArray
 
 
+def analysed_days(limits: tuple[float, float]) -> tuple[FloatArray, float]:
+    """Days on which nutation is analysed, and their span in days, where positions are known.
+
+    Parameters
+    ----------
+    limits : tuple of float
+        First and last day from J2000.0 with known positions.
+    """
+    days = np.arange(max(limits[0], -HALF_SPAN), min(limits[1], HALF_SPAN), SAMPLING)
+    return days, days.size * SAMPLING
+
+
 @part(unless=no_iau_model, same_for=lambda pulls: pulls.limits)
 def iau_pole(pulls: Pulls) -> IAUPole:
     """Sum the pole and the nutation of the IAU over 150 years, as far as positions are known."""
     from earthspin.sky import iau
 
-    low, high = (limit / DAY for limit in pulls.limits)
-    days = np.arange(max(low, -HALF_SPAN), min(high, HALF_SPAN), SAMPLING)
-    if (covered := days.size * SAMPLING) < SHORTEST_SPAN:
+    days, covered = analysed_days((pulls.limits[0] / DAY, pulls.limits[1] / DAY))
+    if covered < SHORTEST_SPAN:
         raise UndefinedError(
             f"the positions cover {covered * DAY / JULIAN_YEAR:.1f} years near J2000.0, and the "
             f"analysis of nutation needs {SHORTEST_SPAN * DAY / JULIAN_YEAR:.0f}; give a longer "
