@@ -24,7 +24,6 @@ from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.protocol import Place
 from earthspin.units import Several, Word
 
-
 #: Word for the effects that are known for a body; the question replaces it by their names.
 KNOWN = "known"
 

@@ -50,10 +50,11 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
     """Path of the angular momentum, rotation and figure axes under torques, in the GCRS.
 
     The path starts at J2000.0 from the pole of the body; for the Earth, from the true pole of IAU
-    2006/2000A. By default every effect that is known for the body acts: for the unchanged Earth
-    under Sun and Moon also the response of its interior. The effect `geodesic` needs the Sun among the perturbers and turns a sphere, too;
-    `nonrigid` is the response of the Earth's interior, `fitted` to IAU 2000A, with what that adds
-    to a response, or `predicted` from its layers. With it the rigid axes start where their mean
+    2006/2000A. By default every effect that is known for the body acts, for the unchanged Earth
+    under Sun and Moon also `nonrigid`, the response of its interior; ``effects="rigid"`` leaves
+    this out. The response is `fitted` to IAU 2000A, with what that adds to a response, or
+    `predicted` from the layers. The effect `geodesic` needs the Sun among the perturbers and turns
+    a sphere, too. With `nonrigid` the rigid axes start where their mean
     pole meets that of the IAU, and all axes receive the published contribution of the non-rigid
     Earth to the rate of precession.
 
