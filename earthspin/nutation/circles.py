@@ -169,7 +169,8 @@ class FrequencyAnalysis:
         together: ComplexArray = factors[0] + 1j * factors[1]
         together /= self._scale
         x, y = together[: 2 * len(MULTIPLES)].reshape(2, -1)
-        amplitude = np.concatenate([x - 1j * y, x + 1j * y]) / 2
+        amplitude: ComplexArray = np.concatenate([x - 1j * y, x + 1j * y])
+        amplitude /= 2
         slow = together[2 * len(MULTIPLES) :][: SLOW_DEGREE + 1]
         return Circles(self._multiples, self._frequency, amplitude, slow)
 
