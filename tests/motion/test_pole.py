@@ -62,6 +62,7 @@ def test_the_default_is_the_pole_of_the_sky() -> None:
     assert np.max(np.linalg.norm(direction(result) - direction(rigid), axis=1)) / ARCSEC > 60e-3
     name, size, unit = largest_of(rigid.attrs["neglected"])
     assert (name, unit) == ("nonrigid", "mas")
+    assert rigid.direction_error.attrs["not_modelled"] == rigid.attrs["neglected"]
     assert off.max() * 1e3 / 3 < size < off.max() * 1e3 * 3
 
 
