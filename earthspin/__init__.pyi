@@ -116,7 +116,7 @@ def pole(
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
     source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    effects: Literal["all"]
+    effects: Literal["known", "rigid", "all"]
     | Literal[
         "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
     ]
@@ -146,7 +146,7 @@ def compare_iau(
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
     source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    effects: Literal["all"]
+    effects: Literal["known", "rigid", "all"]
     | Literal[
         "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
     ]
@@ -175,7 +175,7 @@ def nutation_ladder(
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
     source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    effects: Literal["all"]
+    effects: Literal["known", "rigid", "all"]
     | Literal[
         "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
     ]
@@ -231,7 +231,7 @@ def rotation(
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
     source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    effects: Literal["all"]
+    effects: Literal["known", "rigid", "all"]
     | Literal[
         "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
     ]

@@ -268,10 +268,9 @@ class EquatorOfDate(_Computed, BaseRADecFrame):  # type: ignore[misc]
     model : Dataset
         Answer of `long_term`: mean equator and equinox of date. Answer of `pole`: true equator of
         the figure axis, and its node on the ecliptic of date of IAU 2006; for another body than the
-        Earth its node on the orbit. The question is solved at `obstime` itself. The Earth of
-        `pole` is rigid by default, up to 0.09 arcsec from the pole of IAU 2006/2000A; an answer
-        with ``effects="all"`` has the response of its interior, and agrees to 0.66 mas (1950 to
-        2050).
+        Earth its node on the orbit. The question is solved at `obstime` itself. The pole of
+        the Earth agrees with IAU 2006/2000A to 0.66 mas (1950 to 2050), except for answers with
+        ``effects="rigid"``, which differ from it by up to 0.09 arcsec.
 
     Attributes
     ----------

@@ -26,6 +26,13 @@ def largest_of(text: str) -> tuple[str, float, str] | None:
     return None if written is None else (written[1], float(written[2]), written[3])
 
 
+def error_of(answer: xr.Dataset, headline: str) -> str:
+    """Name of the variable with the error of the headline number; empty if it has no error."""
+    if headline.endswith("_error") or headline not in answer:
+        return headline
+    return str(answer[headline].attrs.get("ancillary_variables", "")).split(" ")[0]
+
+
 BOUND = "this is a bound on a neglected effect, or its published size"
 
 
@@ -74,6 +81,15 @@ class Neglected:
         shown = self.sizes[name] * from_si(self.unit)
         known = f"{name}: {shown:.3g} {self.unit} ({self.what})"
         return f"{known}; {unknown}" if unknown else known
+
+    def mark(self, answer: xr.Dataset, headline: str) -> None:
+        """Write the largest neglected effect beside the error of the headline number of an answer.
+
+        Errors do not contain what the model leaves out, which may be larger.
+        """
+        error = error_of(answer, headline)
+        if self.sizes and error in answer:
+            answer[error].attrs["not_modelled"] = self.largest
 
     def dataset(self, effects: Sequence[str] = ()) -> xr.Dataset:
         """Return the sizes as a Dataset along `effect`, with the largest effect first.

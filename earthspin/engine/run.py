@@ -51,6 +51,7 @@ class Run:
 
         result = self.numbers()
         result.attrs = _attributes(self)
+        self.results[NEGLECTED].mark(result, self.plan.question.headline)
         remember_run(result.attrs[SCENE], self.plan)
         return result
 

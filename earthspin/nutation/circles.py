@@ -132,23 +132,24 @@ class FrequencyAnalysis:
     """
 
     def __init__(self, centuries: FloatArray, arguments: FloatArray, rates: FloatArray) -> None:
-        # No BLAS here and below: its rounding depends on the number of threads, and results must be
-        # reproducible to the bit.
-        circles = np.exp(1j * np.einsum("kj,jt->kt", MULTIPLES, arguments))
+        # Real functions with complex factors: x cos(phi) + y sin(phi) is A+ e^(i phi) + A- e^(-i
+        # phi) with A+, A- = (x -+ i y) / 2. No BLAS here and below: its rounding depends on the
+        # number of threads, and results must be reproducible to the bit.
+        phase = np.einsum("kj,jt->kt", MULTIPLES, arguments)
+        circles = np.concatenate([np.cos(phase), np.sin(phase)])
         growing = [MULTIPLES.tolist().index([int(m) for m in t.split()]) for t in _GROWING]
-        drift = centuries * circles[growing]
+        drift = centuries * circles[[*growing, *(len(MULTIPLES) + k for k in growing)]]
         slow = centuries ** np.arange(SLOW_DEGREE + 1)[:, np.newaxis]
-        rows = np.concatenate([circles, circles.conj(), slow, drift, drift.conj()])
-        self._scale = np.linalg.norm(rows, axis=1)
-        self._rows = rows / self._scale[:, np.newaxis]
-        self._adjoint = self._rows.conj()
-        normal = np.empty((len(rows), len(rows)), dtype=complex)
-        for first in range(0, len(rows), BLOCK):  # Hermitian, so half of it is enough
+        self._rows = np.concatenate([circles, slow, drift])
+        self._scale = np.linalg.norm(self._rows, axis=1)
+        self._rows /= self._scale[:, np.newaxis]
+        normal = np.empty((len(self._rows), len(self._rows)))
+        for first in range(0, len(normal), BLOCK):  # symmetric, so half of it is enough
             block = slice(first, first + BLOCK)
-            normal[block, first:] = np.einsum("it,jt->ij", self._adjoint[block], self._rows[first:])
-            normal[first:, block] = normal[block, first:].conj().T
+            normal[block, first:] = np.einsum("it,jt->ij", self._rows[block], self._rows[first:])
+            normal[first:, block] = normal[block, first:].T
         self._normal = LinearOperator(
-            normal.shape, matvec=lambda x: np.einsum("ij,j->i", normal, x), dtype=complex
+            normal.shape, matvec=lambda x: np.einsum("ij,j->i", normal, x), dtype=float
         )
         self._multiples = np.concatenate([MULTIPLES, -MULTIPLES])
         self._frequency = self._multiples @ rates
@@ -161,27 +162,27 @@ class FrequencyAnalysis:
         eta : ndarray, shape (t,), complex
             dpsi sin(eps0) + i deps, rad.
         """
-        amplitudes = self._solved(eta)
-        residual = eta - np.einsum("it,i->t", self._rows, amplitudes)
-        amplitudes += self._solved(residual)
-        amplitudes /= self._scale
-        count = len(self._multiples)
-        return Circles(
-            self._multiples,
-            self._frequency,
-            amplitudes[:count],
-            amplitudes[count : count + SLOW_DEGREE + 1],
-        )
+        both = np.stack([eta.real, eta.imag])
+        factors = self._solved(both)
+        residual = both - np.einsum("it,ci->ct", self._rows, factors)
+        factors += self._solved(residual)
+        together: ComplexArray = factors[0] + 1j * factors[1]
+        together /= self._scale
+        x, y = together[: 2 * len(MULTIPLES)].reshape(2, -1)
+        amplitude: ComplexArray = np.concatenate([x - 1j * y, x + 1j * y])
+        amplitude /= 2
+        slow = together[2 * len(MULTIPLES) :][: SLOW_DEGREE + 1]
+        return Circles(self._multiples, self._frequency, amplitude, slow)
 
-    def _solved(self, eta: ComplexArray) -> ComplexArray:
-        """Solve the least-squares problem for the circular terms of the complex nutation `eta`.
+    def _solved(self, both: FloatArray) -> FloatArray:
+        """Solve the least-squares problem for the two parts of the complex nutation, shape (2, t).
 
-        The solution is for columns of unit length. They are nearly orthogonal (condition number 20
+        The solution is for rows of unit length. They are nearly orthogonal (condition number 20
         over 150 years), so that the normal equations are accurate enough, and conjugate gradients
         converge in forty iterations.
         """
-        right = np.einsum("it,t->i", self._adjoint, eta)
-        return np.asarray(cg(self._normal, right, rtol=NEAR_ENOUGH, atol=0.0)[0])
+        right = np.einsum("it,ct->ci", self._rows, both)
+        return np.array([cg(self._normal, part, rtol=NEAR_ENOUGH, atol=0.0)[0] for part in right])
 
 
 def complex_nutation(angles: FloatArray) -> ComplexArray:

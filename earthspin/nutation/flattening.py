@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from earthspin.bodies.labelled import Numeric
 from earthspin.constants import PREM_MEAN_MOMENT, PREM_RADIUS
 from earthspin.mass.inertia import polar_moment_factor
 from earthspin.nutation.budget import Budget
@@ -47,8 +48,8 @@ def inferred_h_uncertainty(h: float, torque_rate: float, effects: float, method:
 
 
 def polar_moment_from_mean(
-    mean_moment: float, mean_radius: float, equatorial_radius: float, j2: float
-) -> float:
+    mean_moment: float, mean_radius: float, equatorial_radius: Numeric, j2: Numeric
+) -> Numeric:
     """Polar moment factor C/(M a2) from the mean moment of a spherical model.
 
     I = (A + B + C)/3 and C - (A + B)/2 = J2 M a2 give C = I + (2/3) J2 M a2.
@@ -60,8 +61,14 @@ def polar_moment_from_mean(
     mean_radius, equatorial_radius : float
         R and a, m.
     j2 : float
+        Like the radius, a float or a labelled array.
     """
     return mean_moment * (mean_radius / equatorial_radius) ** 2 + 2 / 3 * j2
+
+
+def prem_polar_moment(radius: Numeric, j2: Numeric) -> Numeric:
+    """Polar moment factor C/(M a2) of the Earth model PREM, for a reference radius a, m, and J2."""
+    return polar_moment_from_mean(PREM_MEAN_MOMENT.value, PREM_RADIUS.value, radius, j2)
 
 
 def polar_moment_from_h(j2: float, h: float) -> float:
@@ -125,7 +132,7 @@ def compared_flattenings(
             value, uncertainty, moment, moment * math.hypot(uncertainty / value, u_j2)
         )
 
-    prem = polar_moment_from_mean(PREM_MEAN_MOMENT.value, PREM_RADIUS.value, radius, j2)
+    prem = prem_polar_moment(radius, j2)
     # PREM states no errors: half a unit of its last printed digit is used
     u_prem = PREM_MEAN_MOMENT.relative_uncertainty
     return {

@@ -293,72 +293,94 @@ def rigid(effects: Sequence[str]) -> list[str]:
 
 @dataclass(frozen=True)
 class IAUPole:
-    """Pole of IAU 2006/2000A over the span that is analysed.
+    """Pole of IAU 2006/2000A over the span that is analysed, and its analysis.
 
     Attributes
     ----------
     days : ndarray, shape (t,)
         Days from J2000.0.
-    pole : ndarray, shape (t, 3)
-        Celestial intermediate pole in the GCRS.
-    nutation : ndarray, shape (t, 2)
-        Nutation of the original IAU 2000A, rad.
+    nutation : ndarray, shape (t,), complex
+        Nutation of the pole of IAU 2006/2000A, dpsi sin(eps0) + i deps, rad.
+    analysis : PoleAnalysis
+        Analysis for these days.
+    secular : Secular
+        Secular motion of the pole of IAU 2006/2000A.
+    circles : Circles
+        Circular terms of the original IAU 2000A.
     """
 
     days: FloatArray
-    pole: FloatArray
-    nutation: FloatArray
+    nutation: ComplexArray
+    analysis: PoleAnalysis
+    secular: Secular
+    circles: Circles
+
+
+def analysed_days(limits: tuple[float, float]) -> tuple[FloatArray, float]:
+    """Days on which nutation is analysed, and their span in days, where positions are known.
+
+    Parameters
+    ----------
+    limits : tuple of float
+        First and last day from J2000.0 with known positions.
+    """
+    days = np.arange(max(limits[0], -HALF_SPAN), min(limits[1], HALF_SPAN), SAMPLING)
+    return days, days.size * SAMPLING
 
 
 @part(unless=no_iau_model, same_for=lambda pulls: pulls.limits)
 def iau_pole(pulls: Pulls) -> IAUPole:
-    """Sum the pole and the nutation of the IAU over 150 years, as far as positions are known."""
+    """Analyse pole and nutation of the IAU over 150 years, as far as positions are known."""
+    from earthspin.nutation.analysis import PoleAnalysis
+    from earthspin.nutation.circles import complex_nutation
     from earthspin.sky import iau
 
-    low, high = (limit / DAY for limit in pulls.limits)
-    days = np.arange(max(low, -HALF_SPAN), min(high, HALF_SPAN), SAMPLING)
-    if (covered := days.size * SAMPLING) < SHORTEST_SPAN:
+    days, covered = analysed_days((pulls.limits[0] / DAY, pulls.limits[1] / DAY))
+    if covered < SHORTEST_SPAN:
         raise UndefinedError(
             f"the positions cover {covered * DAY / JULIAN_YEAR:.1f} years near J2000.0, and the "
             f"analysis of nutation needs {SHORTEST_SPAN * DAY / JULIAN_YEAR:.0f}; give a longer "
             "ephemeris, or remove the effect nonrigid"
         )
-    return IAUPole(days, *iau.pole_and_nutation(days))
+    analysis = PoleAnalysis(
+        days, iau.delaunay_arguments(days), iau.delaunay_rates(), iau.fixed_ecliptic()
+    )
+    pole, original = iau.pole_and_nutation(days)
+    return IAUPole(
+        days,
+        complex_nutation(iau.nutation_of(pole, days)),
+        analysis,
+        analysis.secular(pole),
+        analysis.circles(complex_nutation(original)),
+    )
 
 
 @part(unless=no_iau_model)
 def pole_analysis(
     body: Body, pulls: Pulls, effects: tuple[str, ...], iau_pole: IAUPole
 ) -> PoleComparison:
-    """Analyse the computed pole and the IAU pole over 150 years: precession and circular terms.
+    """Separate the computed pole over 150 years into precession and circular terms, as the IAU's.
 
     The initial axis is corrected so that the mean poles agree at the start.
     """
-    from earthspin.nutation.analysis import CENTURY, PoleAnalysis, shifted_start
+    from earthspin.nutation.analysis import CENTURY, shifted_start
     from earthspin.nutation.circles import complex_nutation
     from earthspin.sky import iau
 
-    days, true_pole = iau_pole.days, iau_pole.pole
+    days, analysis = iau_pole.days, iau_pole.analysis
     start, epoch = start_of(body, pulls)
 
     def integrate(start: FloatArray) -> tuple[AxisPath, FloatArray]:
         path = path_over(body, pulls, effects, start, days)
         return path, steady_figure(path, days)
 
-    with progress("analysis", 4) as advance:
-        analysis = PoleAnalysis(
-            days, iau.delaunay_arguments(days), iau.delaunay_rates(), iau.fixed_ecliptic()
-        )
-        advance(1)
-        theirs = analysis.secular(true_pole)
-        advance(1)
+    with progress("analysis", 2) as advance:
         _, pole = integrate(start)
+        advance(1)
         start = shifted_start(
-            start, analysis.secular(pole), theirs, analysis.ecliptic, epoch / CENTURY
+            start, analysis.secular(pole), iau_pole.secular, analysis.ecliptic, epoch / CENTURY
         )
         path, pole = integrate(start)
-        advance(1)
-        their_circles = analysis.circles(complex_nutation(iau_pole.nutation))
         advance(1)
     eta = complex_nutation(iau.nutation_of(pole, days))
     return PoleComparison(
@@ -368,10 +390,10 @@ def pole_analysis(
         path=path,
         analysis=analysis,
         ours=analysis.secular(pole),
-        theirs=theirs,
+        theirs=iau_pole.secular,
         our_circles=analysis.circles(eta),
-        their_circles=their_circles,
-        difference=eta - complex_nutation(iau.nutation_of(true_pole, days)),
+        their_circles=iau_pole.circles,
+        difference=eta - iau_pole.nutation,
     )
 
 

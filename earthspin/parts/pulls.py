@@ -12,50 +12,64 @@ from earthspin.bodies import BODIES, Body
 from earthspin.constants import ARCSEC, DAY, NORMAL_95
 from earthspin.engine.part import part
 from earthspin.engine.question import key
-from earthspin.errors import Where
+from earthspin.errors import KernelError, Where
 from earthspin.mass.inertia import inverse_polar_moment
 from earthspin.motion.effects import EFFECTS, PLANETS, RIGID
 from earthspin.motion.forces import Figure, Forces
 from earthspin.numerics.arrays import FloatArray
 from earthspin.parts.elements import all_by_elements
-from earthspin.parts.sky import Sky, places, sky
+from earthspin.parts.sky import KernelName, Sky, places, sky
 from earthspin.parts.times import Series, epochs
+from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.protocol import Place
 from earthspin.units import Several, Word
 
+#: Word for the effects that are known for a body; the question replaces it by their names.
+KNOWN = "known"
+
 
 class EffectNames(Several):
-    """Kind of input: names of effects, or "all"."""
+    """Kind of input: names of effects, or one word for several: "known", "rigid" or "all"."""
 
     @property
     def hint(self) -> str:
         """Type hint of the allowed value, as code editors show it."""
-        return f"Literal['all'] | {super().hint}"
+        return f"Literal['known', 'rigid', 'all'] | {super().hint}"
 
     @property
     def words(self) -> str:
         """Text for error messages that describes the allowed values."""
-        return f'{super().words}; or "all"'
+        return f'{super().words}; or "known", "rigid" or "all"'
 
     def read(self, value: object, where: Where) -> tuple[str, ...]:
-        """Return the names of all effects for "all"; otherwise check the given names."""
-        everything = isinstance(value, str) and value == "all"
-        return super().read(list(EFFECTS) if everything else value, where)
+        """Return the names of the effects that one word stands for; otherwise check the names."""
+        sets = {KNOWN: (KNOWN,), "rigid": RIGID, "all": tuple(EFFECTS)}
+        if isinstance(value, str) and value in sets:
+            return sets[value]
+        return super().read(value, where)
+
+
+#: Names of effects, as an input.
+Effects = Annotated[tuple[str, ...], EffectNames(Word(EFFECTS))]
+EFFECTS_DOC = (
+    "effects besides the torque of the perturbers on the bulge: names, or one word: known (all "
+    "that are known for the body), rigid (without the response of the interior), all"
+)
 
 
 class AxisMotion(Series):
     """Base class of questions about the motion of a body's axes under torques."""
 
-    effects: Annotated[tuple[str, ...], EffectNames(Word(EFFECTS))] = key(
-        RIGID, doc='effects besides the torque of the perturbers on the bulge, or "all"'
-    )
+    effects: Effects = key("rigid", doc=EFFECTS_DOC)
 
     def check(self) -> None:
-        """Switch off the effect `planets` if all positions follow from orbital elements.
+        """Replace "known" by names; switch off `planets` if all orbits are given by elements.
 
-        The effect needs a kernel; it is refused if the user requested it.
+        The effect `planets` needs a kernel; it is refused if the user requested it.
         """
         super().check()
+        if self.effects == (KNOWN,):
+            object.__setattr__(self, "effects", self.known_effects())
         if PLANETS.name not in self.effects or not all_by_elements(self.body, self.perturbers):
             return
         if "effects" in self.given:
@@ -67,6 +81,27 @@ class AxisMotion(Series):
             )
         left = tuple(effect for effect in self.effects if effect != PLANETS.name)
         object.__setattr__(self, "effects", left)
+
+    def known_effects(self) -> tuple[str, ...]:
+        """Names of the effects that are known for this body, its perturbers and its kernel."""
+        kernel = own_kernel(self.ephemeris)
+        no_planets = all_by_elements(self.body, self.perturbers) or (
+            kernel is not None and not kernel.holds(BODIES[name].naif for name in bodies.PLANETS)
+        )
+        return tuple(name for name in RIGID if not (no_planets and name == PLANETS.name))
+
+
+def own_kernel(ephemeris: str) -> Ephemeris | None:
+    """Open a kernel that is given by its path; None for a named one, and for a faulty file.
+
+    Named kernels hold all planets for a century and more; a faulty file is refused by the run.
+    """
+    if not KernelName().is_path(ephemeris):
+        return None
+    try:
+        return open_ephemeris(ephemeris)
+    except KernelError:
+        return None
 
 
 @dataclass(frozen=True)

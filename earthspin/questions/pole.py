@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from earthspin.bodies import Body, in_a_sentence, proper
+from earthspin.bodies import BODIES, PLANETS, Body, in_a_sentence, proper
 from earthspin.constants import DAY
 from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.asking import public_call
@@ -19,15 +19,27 @@ from earthspin.motion.effects import EFFECTS, NONRIGID, SOURCE
 from earthspin.nutation.angles import on_fixed_ecliptic
 from earthspin.parts.path import (
     INTERIOR,
+    SHORTEST_SPAN,
     LongitudeCycles,
     Shift,
+    analysed_days,
     axis_path,
     direction_errors,
     longitude_cycles,
 )
 from earthspin.parts.predicted import SOURCES, no_layers
-from earthspin.parts.pulls import PULLS, AxisMotion, Pulls, idle_note, start_error, start_note
-from earthspin.parts.reasons import no_iau_model
+from earthspin.parts.pulls import (
+    EFFECTS_DOC,
+    PULLS,
+    AxisMotion,
+    Effects,
+    Pulls,
+    idle_note,
+    own_kernel,
+    start_error,
+    start_note,
+)
+from earthspin.parts.reasons import no_iau_model, not_the_iaus_earth
 from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
 
 if TYPE_CHECKING:
@@ -38,9 +50,11 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
     """Path of the angular momentum, rotation and figure axes under torques, in the GCRS.
 
     The path starts at J2000.0 from the pole of the body; for the Earth, from the true pole of IAU
-    2006/2000A. The effect `geodesic` needs the Sun among the perturbers and turns a sphere, too;
-    `nonrigid` is the response of the Earth's interior, `fitted` to IAU 2000A, with what that adds
-    to a response, or `predicted` from its layers. With it the rigid axes start where their mean
+    2006/2000A. By default every effect that is known for the body acts, for the unchanged Earth
+    under Sun and Moon also `nonrigid`, the response of its interior; ``effects="rigid"`` leaves
+    this out. The response is `fitted` to IAU 2000A, with what that adds to a response, or
+    `predicted` from the layers. The effect `geodesic` needs the Sun among the perturbers and turns
+    a sphere, too. With `nonrigid` the rigid axes start where their mean
     pole meets that of the IAU, and all axes receive the published contribution of the non-rigid
     Earth to the rate of precession.
 
@@ -69,6 +83,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
 
     span: Span = key(("1980-01-01T12:00:00", "2020-01-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("5 d", doc="interval between dates")
+    effects: Effects = key("known", doc=EFFECTS_DOC)
     response: Literal["fitted", "predicted"] = key(
         "fitted",
         doc=(
@@ -88,6 +103,20 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
             raise self.error("effects", NONRIGID.name, problem)
         if self.response == "predicted" and (why := no_layers(self.body)):
             raise self.error("response", self.response, f"{why}; take 'fitted'")
+
+    def known_effects(self) -> tuple[str, ...]:
+        """Add the response of the interior for the unchanged Earth under Sun and Moon."""
+        known = super().known_effects()
+        usual = all(p.is_as_named and p.orbit is p.position is None for p in self.perturbers)
+        if not usual or not_the_iaus_earth(self.body, self.perturbers):
+            return known
+        kernel = own_kernel(self.ephemeris)
+        members = (self.body, *self.perturbers, *(BODIES[name] for name in PLANETS))
+        if kernel is not None and kernel.holds(member.naif for member in members):
+            codes = [kernel.code(member.naif, member.name) for member in members]
+            if analysed_days(kernel.coverage(codes))[1] < SHORTEST_SPAN:
+                return known
+        return (*known, NONRIGID.name)
 
 
 def not_nonrigid(effects: tuple[str, ...]) -> str | None:

@@ -333,19 +333,32 @@ class BesideIAU(Variables):
     closure: Pair = measured(
         "arcsec/yr", "difference that remains after all published contributions"
     )
+    period_from_prem: Value = number(
+        "yr",
+        "precession period with all known effects, if C is that of PREM instead of J2/H",
+        no_error="the difference from the period with the observed H measures it",
+    )
 
 
 @part(unless=reasons.not_the_iaus_earth)
-def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques) -> BesideIAU:
-    """Compute the precession rate minus that of IAU 2006, before and after known effects."""
+def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> BesideIAU:
+    """Compute the precession rate minus that of IAU 2006, before and after known effects.
+
+    The observed H contains the observed precession; H = J2 M a2/C with C of PREM does not.
+    """
+    from earthspin.nutation.flattening import prem_polar_moment
     from earthspin.sky.iau import precession_rates
 
     rate, error = mean_rates.total()
     iau_rate = precession_rates(mean_torques.epoch / DAY).psi_a
+    unexplained = closure(rate, iau_rate)
+    h, j2, radius = (body.needed(name) for name in ("dynamical_flattening", "j2", "radius"))
+    h_of_prem = j2 / prem_polar_moment(radius, j2)
     return BesideIAU(
         iau_rate=iau_rate,
         difference_from_iau=(rate - iau_rate, error),
-        closure=(closure(rate, iau_rate), error),
+        closure=(unexplained, error),
+        period_from_prem=rates.period(iau_rate + unexplained) * h / h_of_prem,
     ).with_attributes(no_error=mean_torques.no_error)
 
 

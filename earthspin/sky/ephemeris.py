@@ -131,6 +131,10 @@ class Ephemeris:
             f"it holds {', '.join(map(str, sorted(self.targets)))}",
         )
 
+    def holds(self, bodies: Iterable[Iterable[int]]) -> bool:
+        """Return True if the kernel contains one of the possible NAIF codes of each body."""
+        return all(not self.targets.isdisjoint(codes) for codes in bodies)
+
     def coverage(self, places: Iterable[Place]) -> tuple[float, float]:
         """First and last day (TDB, from J2000.0) for which all given bodies have positions.
 

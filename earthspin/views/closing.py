@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from earthspin.engine.labels import from_si
-from earthspin.engine.neglected import largest_of
+from earthspin.engine.neglected import error_of, largest_of
 from earthspin.engine.plan import IMPORTS
 from earthspin.rounded import plain, shown_unit
 from earthspin.views.reading import Result, question_of
@@ -52,8 +52,7 @@ def _error(answer: xr.Dataset) -> str:
     name = question.headline
     value = answer[name]
     label = name.removesuffix("_error").replace("_", " ")
-    first, *_ = value.attrs.get("ancillary_variables", "").split(" ")
-    error_name = name if name.endswith("_error") else first
+    error_name = error_of(answer, name)
     if not error_name:
         return f"{label}: no error: {value.attrs['no_error']}"
     if answer.sizes.get("perturber", 0) == 1 or "total" in answer.get("perturber", ()):

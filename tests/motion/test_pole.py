@@ -1,16 +1,22 @@
 """The call: what it gives, at exactly the times asked, and what it refuses."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import xarray as xr
 from astropy.time import Time
+from jplephem.excerpter import write_excerpt
+from jplephem.spk import SPK
 
 import earthspin
-from earthspin import EARTH
+from earthspin import EARTH, MOON
 from earthspin.constants import ARCSEC
+from earthspin.engine.neglected import largest_of
 from earthspin.sky import iau
+from earthspin.sky.ephemeris import find_kernel
 
-DEFAULT = ("planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order")
+RIGID = ("planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order")
 
 
 def direction(result: object, axis: str = "figure") -> np.ndarray:
@@ -24,7 +30,7 @@ def test_contract() -> None:
     assert result.X.dims == ("time", "axis")
     assert result.sizes["time"] == 32
     assert np.allclose(result.X**2 + result.Y**2 + result.Z**2, 1, rtol=0, atol=1e-15)
-    assert tuple(result.attrs["effects"].split()) == DEFAULT
+    assert tuple(result.attrs["effects"].split()) == (*RIGID, "nonrigid")
 
 
 def test_the_times_asked_in_the_order_asked() -> None:
@@ -35,31 +41,73 @@ def test_the_times_asked_in_the_order_asked() -> None:
     assert np.array_equal(result.X, again.X)
 
 
-def test_starts_at_the_pole_of_the_iau() -> None:
-    result = earthspin.pole(times=["2000-01-01T12:00"])
+def test_a_rigid_earth_starts_at_the_pole_of_the_iau() -> None:
+    result = earthspin.pole(times=["2000-01-01T12:00"], effects="rigid")
     off = direction(result)[0] - iau.true_pole(np.array([0.0]))[0]
     # What is half-daily is added to it: 0.03 mas.
     assert np.linalg.norm(off) < 1e-4 * ARCSEC
 
 
-def test_stays_near_the_pole_of_the_iau() -> None:
-    result = earthspin.pole("1990-01-01T12:00", "2010-01-01T12:00", "30 d")
+def test_the_default_is_the_pole_of_the_sky() -> None:
+    """By default the pole is within its error of IAU 2006/2000A; that of a rigid Earth is not."""
+    span = "1990-01-01T12:00", "2010-01-01T12:00", "30 d"
+    result, rigid = earthspin.pole(*span), earthspin.pole(*span, effects="rigid")
     days = (result.time.values - np.datetime64("2000-01-01T12:00")) / np.timedelta64(1, "D")
-    off = np.linalg.norm(direction(result) - iau.true_pole(days), axis=1) / ARCSEC * 1e3
-    assert 20 < off.max() < 120  # mas: the body is rigid here
-    real = earthspin.pole(
-        "1990-01-01T12:00", "2010-01-01T12:00", "30 d", effects=[*DEFAULT, "nonrigid"]
-    )
-    difference = direction(real) - direction(result)
-    # the start, 30 mas, and the nutation, 57.5
-    assert 60 < np.max(np.linalg.norm(difference, axis=1)) / ARCSEC * 1e3 < 90
+    off = np.linalg.norm(direction(result) - iau.true_pole(days), axis=1) / ARCSEC
+    assert np.mean(off < result.direction_error) >= 0.95
+    assert off.max() < 0.7e-3
+    off = np.linalg.norm(direction(rigid) - iau.true_pole(days), axis=1) / ARCSEC
+    assert 20e-3 < off.max() < 120e-3
+    # The start, 30 mas, and the nutation, 57.5 mas.
+    assert np.max(np.linalg.norm(direction(result) - direction(rigid), axis=1)) / ARCSEC > 60e-3
+    name, size, unit = largest_of(rigid.attrs["neglected"])
+    assert (name, unit) == ("nonrigid", "mas")
+    assert rigid.direction_error.attrs["not_modelled"] == rigid.attrs["neglected"]
+    assert off.max() * 1e3 / 3 < size < off.max() * 1e3 * 3
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        {"body": "mars"},
+        {"perturbers": ["sun"]},
+        {"body": EARTH.replace(spin_period="23 h")},
+        {"perturbers": ["sun", MOON.replace(gm=6e12)]},
+    ],
+)
+def test_a_response_that_is_not_known_is_left_out_by_default(scene: dict[str, object]) -> None:
+    result = earthspin.pole(times=["2010-01-01"], **scene)
+    assert "nonrigid" not in result.attrs["effects"].split()
+
+
+def test_a_default_fits_the_kernel(tmp_path: Path) -> None:
+    """A kernel of few years, and one without planets, give what they can by default."""
+    whole = SPK.open(str(find_kernel("de421")))
+    summaries = list(whole.daf.summaries())
+    bare = [entry for entry in summaries if int(entry[1][2]) in (3, 10, 301, 399)]
+    short_kernel, bare_kernel = tmp_path / "short.bsp", tmp_path / "no-planets.bsp"
+    for path, dates, chosen in (
+        (short_kernel, (2447892.5, 2455197.5), summaries),
+        (bare_kernel, (2415020.5, 2469807.5), bare),
+    ):
+        with path.open("w+b") as file:
+            write_excerpt(whole, file, *dates, chosen)
+    whole.close()
+    times = ["2001-01-01", "2009-01-01"]
+    for path, on, off in (
+        (short_kernel, RIGID, "nonrigid"),
+        (bare_kernel, (*RIGID[1:], "nonrigid"), "planets"),
+    ):
+        result = earthspin.pole(times=times, ephemeris=str(path))
+        assert tuple(result.attrs["effects"].split()) == on
+        assert largest_of(result.attrs["neglected"])[0] == off
 
 
 def test_one_effect_at_a_time_is_small_and_not_nothing() -> None:
     times = np.datetime64("1995-01-01T00") + np.arange(40) * np.timedelta64(2200, "h")
     bare = direction(earthspin.pole(times=times, effects=["second-order"]))
     sizes = {}
-    for effect in DEFAULT[:-1]:
+    for effect in RIGID[:-1]:
         one = direction(earthspin.pole(times=times, effects=["second-order", effect]))
         sizes[effect] = np.max(np.linalg.norm(one - bare, axis=1)) / ARCSEC * 1e3
     assert 0.1 < sizes["planets"] < 5
