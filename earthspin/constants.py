@@ -28,7 +28,9 @@ class Constant:
     unit : str
         A string that astropy.units can parse; empty for a pure number.
     uncertainty : float or None
-        One standard deviation; 0 if exact or defined, None if the source gives none.
+        One standard deviation; 0 if exact or defined, None if the source gives none. If a copy
+        confirms the value less closely than the source states it, the uncertainty contains the
+        difference.
     source : str
         Where the value stands in print. Where no public copy was found, "(not verified)" is
         appended.

@@ -1,6 +1,7 @@
 """Constants: every unit parses, every value is used in the unit it claims."""
 
 import math
+from dataclasses import replace
 
 import astropy.constants
 import astropy.units as u
@@ -12,7 +13,14 @@ import earthspin
 from data_tools import constants as constants_page
 from earthspin import EARTH, MOON, SUN
 from earthspin import constants as c
+from earthspin.bodies import BODIES
+from earthspin.bodies.mean_orbits import PRECESSING_ORBITS
+from earthspin.bodies.moons import TITAN_MOMENT
 from earthspin.engine.labels import FROM_SI
+from earthspin.interior import mars
+from earthspin.interior.diurnal_ocean import WAVES
+from earthspin.interior.love import elastic
+from earthspin.interior.named import MARS_K2
 
 
 def test_each_constant_has_a_source_and_says_where_it_was_read() -> None:
@@ -30,6 +38,12 @@ def test_an_unverified_number_says_so_in_its_source() -> None:
     assert number.source == f"a paper ({c.UNVERIFIED})"
     assert not number.verified
     assert c.Constant(1.0, "", None, "a paper").source == "a paper"
+
+
+def test_few_numbers_are_not_verified() -> None:
+    """Those are two published rates to compare with, Titan's as well, and an exponent."""
+    missing = [n for n, number in constants_page.cited().items() if c.UNVERIFIED in number.read_in]
+    assert len(missing) <= 10, missing
 
 
 def test_the_page_of_constants_is_made_by_the_command() -> None:
@@ -91,6 +105,73 @@ def test_mars_has_the_triaxiality_of_its_field() -> None:
     assert earthspin.MARS.triaxiality == pytest.approx(mars, rel=8e-7, abs=0)
 
 
+def test_titan_is_near_hydrostatic_equilibrium() -> None:
+    """By Radau and Darwin from C/(M R2) = 0.3414 (Iess et al. 2010) within the uncertainties.
+
+    C/(M R2) = (2/3) (1 - (2/5) sqrt((4 - k)/(1 + k))), J2 = 5/6 k q and C22 = k q/4.
+    """
+    titan = BODIES["titan"]
+    q = titan.spin_rate**2 * titan.radius**3 / titan.gm
+    root = (2.5 * (1 - 1.5 * TITAN_MOMENT.value)) ** 2
+    k = (4 - root) / (1 + root)
+    u = titan.relative_uncertainty
+    # measured: 0.9 and 1.4 per cent
+    assert abs(5 / 6 * k * q / titan.j2 - 1) < u["j2"] < 0.025
+    assert abs(k * q / titan.triaxiality - 1) < u["triaxiality"] < 0.025
+
+
+def test_titan_has_the_orbit_of_tass() -> None:
+    """Largest terms of TASS 1.7: e = 0.0289265, sin(i/2) = 0.0027899, node -0.0089312 rad/yr."""
+    orbit = PRECESSING_ORBITS["titan"]
+    assert orbit.e == pytest.approx(0.0289265, rel=0, abs=5e-5)
+    assert orbit.i == pytest.approx(2 * math.asin(0.0027899429), rel=1e-4, abs=0)
+    years = orbit.node_period / c.JULIAN_YEAR
+    assert years == pytest.approx(-2 * math.pi / 0.0089312396, rel=1e-5, abs=0)
+
+
+def test_the_orbit_of_mercury_turns_as_its_elements() -> None:
+    """Rates of the mean elements (Standish, JPL p_elem_t1.txt), deg a century.
+
+    The obliquity depends on sin(i) times the rate of the node, the speed of the orbit's pole.
+    """
+    node_rate, i_rate, i = -0.12534081, -0.00594749, math.radians(7.00497902)
+    speed = math.radians(math.hypot(math.sin(i) * node_rate, i_rate)) / 100
+    orbit = PRECESSING_ORBITS["mercury"]
+    turned = math.sin(orbit.i) * 2 * math.pi / abs(orbit.node_period / c.JULIAN_YEAR)
+    assert turned == pytest.approx(speed, rel=2e-3, abs=0)  # measured: 6e-4
+
+
+def test_heights_of_the_diurnal_tides() -> None:
+    """Cartwright and Edden's, m, in HARDISP of the IERS Conventions."""
+    for name, height in {"K1": 0.368645, "O1": -0.262232, "Q1": -0.050208}.items():
+        assert WAVES[name].height == pytest.approx(height, rel=2e-4, abs=0)
+
+
+def test_the_love_number_of_mars_carries_its_layers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each number of the model moved by its uncertainty; together 2.6 per cent of k2."""
+    nominal = float(elastic(mars.four_layers()).k)
+    crust, above, below = mars.SHEAR_SPEEDS
+    changes = []
+    for name, value in {
+        "CRUST_DENSITY": raised(mars.CRUST_DENSITY),
+        "CRUST": raised(mars.CRUST),
+        "TRANSITION_RADIUS": raised(mars.TRANSITION_RADIUS),
+        "SPEED_RATIO": raised(mars.SPEED_RATIO),
+        "CORE_SPEED": raised(mars.CORE_SPEED),
+        "SHEAR_SPEEDS": (raised(crust), raised(above), raised(below)),
+    }.items():
+        with monkeypatch.context() as patch:
+            patch.setattr(mars, name, value)
+            changes.append(float(elastic(mars.four_layers()).k) / nominal - 1)
+    assert 0.02 < math.hypot(*changes) < MARS_K2.relative_uncertainty
+
+
+def raised(number: c.Constant) -> c.Constant:
+    """A constant that is larger by its uncertainty."""
+    assert number.uncertainty is not None
+    return replace(number, value=number.value + number.uncertainty)
+
+
 def words_of(answer: object) -> str:
     """All attributes and words of an answer."""
     assert isinstance(answer, xr.Dataset)
@@ -105,11 +186,11 @@ def words_of(answer: object) -> str:
 @pytest.mark.parametrize(
     ("call", "body", "marked"),
     [
-        ("cassini_states", "titan", True),
-        ("cassini_states", "mercury", True),
+        ("cassini_states", "titan", False),
+        ("cassini_states", "mercury", False),
         ("cassini_states", "moon", False),
         ("wobble_ladder", "earth", True),
-        ("wobble_ladder", "mars", True),
+        ("wobble_ladder", "mars", False),
         ("precession", "earth", False),
     ],
 )

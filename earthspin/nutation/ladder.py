@@ -20,7 +20,7 @@ from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import Yielding, elastic, yielding
 from earthspin.interior.modes import MODES, Parts, all_fluid, free_modes, transfer
 from earthspin.interior.modes import parts_of as interior_parts
-from earthspin.interior.published import CORE_NUTATION, K_CMB, K_ICB
+from earthspin.interior.published import CORE_NUTATION, K_CMB_OUT_OF_PHASE, K_ICB
 from earthspin.numerics.arrays import Array
 
 #: Effect added by each rung, in order.
@@ -277,7 +277,8 @@ def climb(setting: Setting, coupling: bool = False) -> dict[str, Rung]:
         "hydrostatic": Rung(lambda sigma: parts_of(setting, love, f.e)),
     }
     if coupling:
-        coupled = anelastic.coupled(*(complex(k[0].value, k[1].value) for k in (K_CMB, K_ICB)))
+        k_icb = complex(*(part.value for part in K_ICB))
+        coupled = anelastic.coupled(1j * K_CMB_OUT_OF_PHASE.value, k_icb)
         rungs["coupling"] = at_observed_period(coupled, setting.spin_rate)
     return {name: rungs[name] for name in (*RUNGS, *BESIDE) if name in rungs}
 

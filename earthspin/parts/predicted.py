@@ -12,7 +12,7 @@ from earthspin.bodies import Body, in_a_sentence
 from earthspin.engine.part import part
 from earthspin.interior.diurnal_ocean import FES2004_SOURCE
 from earthspin.interior.named import ANELASTIC_EXPONENT, Interior
-from earthspin.interior.published import CORE_NUTATION, K_CMB
+from earthspin.interior.published import CORE_NUTATION, K_CMB_OUT_OF_PHASE
 from earthspin.nutation import ladder
 from earthspin.parts.layered import interior_of, of_another_body
 from earthspin.parts.reasons import no_iau_model
@@ -22,7 +22,7 @@ from earthspin.wobble.ladder import Spin
 CHOSEN = "core-ellipticity"
 #: Sources of the numbers that a prediction uses besides the layers.
 SOURCES = "; ".join(
-    (CORE_NUTATION.source, K_CMB[0].source, FES2004_SOURCE, ANELASTIC_EXPONENT.source)
+    (CORE_NUTATION.source, K_CMB_OUT_OF_PHASE.source, FES2004_SOURCE, ANELASTIC_EXPONENT.source)
 )
 
 

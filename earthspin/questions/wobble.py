@@ -281,9 +281,12 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
     rung = {"left_out": "; ".join(f"{k}: {v}" for k, v in left_out.items()) or "none"}
     if inside is None:
         return rungs.with_attributes(rung=rung)
-    references = "; ".join((inside.interior.reference, ANELASTIC_EXPONENT.source))
+    sources = [inside.interior.reference]
+    if "anelastic" in turns:
+        sources.append(ANELASTIC_EXPONENT.source)
     return rungs.with_attributes(
-        period_solar_error={"draws": propagation.DRAWS}, rung={"references": references, **rung}
+        period_solar_error={"draws": propagation.DRAWS},
+        rung={"references": "; ".join(sources), **rung},
     )
 
 

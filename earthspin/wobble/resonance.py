@@ -2,7 +2,8 @@
 
     p + (i/s) dp/dt = chi,    p = x - i y,    s = (2 pi/T)(1 + i/(2 Q))
 
-(Munk & MacDonald 1960; Barnes, Hide, White & Wilson 1983, Proc. R. Soc. A 387, 31). Where
+(Barnes, Hide, White & Wilson 1983, Proc. R. Soc. A 387, 31; for the reported pole: Gross 1992,
+Geophys. J. Int. 109, 162). Where
 chi is constant over a step D, or stands for its mean weighted with the decaying response,
 the solution is p1 = a p0 + (1 - a) chi with a = exp(i s D), and either follows from the
 other without error. The other schemes are here to show how they fail.

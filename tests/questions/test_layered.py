@@ -205,7 +205,7 @@ def test_mars_with_a_fluid_core() -> None:
     period = tree["modes"].compliance_mode_period
     # observed: -242 d; a hydrostatic core is rounder, or the mantle bears a load (same paper)
     assert float(period.sel(free_mode="free_core_nutation")) == pytest.approx(-237, abs=1)
-    # 206.9 d observed, of which the mantle's loss makes seven (notes on the exponent: 0.15)
+    # 207 d observed, of which the mantle's loss makes seven (notes on the exponent: 0.15)
     assert float(period.sel(free_mode="chandler_wobble")) == pytest.approx(201.1, abs=0.5)
     tide = earthspin.love_numbers("mars-layers", "5.55 h", anelastic_exponent=0.15)
     assert abs(float(tide.love_number.sel(love="k2")) - 0.174) < 0.008

@@ -97,6 +97,12 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
+def test_daily_is_true_or_false(file: Path) -> None:
+    file.write_text(EAM)
+    with pytest.raises(SceneError, match="daily = 'no'"):
+        earthspin.read_excitation(file, daily="no")
+
+
 def test_a_folder_is_joined_summed_and_averaged(folder: Path) -> None:
     whole = read_angular_momentum(folder, daily=True)
     assert np.array_equal(whole.mjd, 51540.5 + np.arange(8))

@@ -125,6 +125,18 @@ def test_a_year_of_offsets_from_iau_1980_is_refused(tmp_path: Path, year: int) -
         earthspin.pole_offsets(file=str(tmp_path / "old"))
 
 
+def test_small_offsets_from_iau_1980_are_refused(tmp_path: Path) -> None:
+    """Days of 1985 on which no offset passes 5 mas: only the comparison of tables can tell."""
+    first = Time("1985-01-01").mjd
+    series = eop.read_pole_offsets().between(first, first + 364)
+    offsets = from_iau_1980(series.mjd, series.x, series.y)
+    small = np.max(abs(offsets), axis=0) < 4.9 * MAS
+    assert small.sum() > 20
+    (tmp_path / "old").write_text(rows_of_c04(series.mjd[small], offsets[:, small]))
+    with pytest.raises(SeriesError, match="mas from finals2000A"):
+        earthspin.pole_offsets(file=str(tmp_path / "old"))
+
+
 def test_finals_all_before_august_1992_is_refused(tmp_path: Path) -> None:
     """The rows of finals2000A with the offsets of finals.all in the same columns, mas."""
     rows = [line for line in eop.finals_path().read_text().splitlines() if line[95:96] == "I"]

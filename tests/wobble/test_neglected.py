@@ -18,7 +18,7 @@ from earthspin.interior.prem import PREM
 from earthspin.mass.inertia import ellipticity_from_h
 from tests import shipped
 
-#: k21 of an elastic Earth, IERS Conventions (2010), table 6.3 (not verified).
+#: k21 of an elastic Earth, IERS Conventions (2010), table 6.3.
 K21 = 0.29470
 SIDEREAL_DAY = 0.99726966
 LEFT_OUT = INTERIORS["prem"].neglected

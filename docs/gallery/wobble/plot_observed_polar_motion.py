@@ -14,10 +14,10 @@ from earthspin.views.polar_motion import plot_amplitude, plot_polhode, plot_spec
 # %%
 # Path of the pole on the ground
 # ------------------------------
-# Path of the rotation pole relative to the Earth's crust, as in figure I.6.32. The Chandler and
-# the annual wobble have nearly the same period; their sum grows and shrinks as they come into and
-# out of phase, so that the path is a spiral, and its centre drifts. The years shown cover one
-# beat.
+# Path of the celestial intermediate pole relative to the Earth's crust, as in figure I.6.32. The
+# Chandler and the annual wobble have nearly the same period; their sum grows and shrinks as they
+# come into and out of phase, so that the path is a spiral, and its centre drifts. The years shown
+# cover one beat.
 #
 # *Next:* the years about 2018, when the Chandler wobble was weak: the annual wobble alone.
 
