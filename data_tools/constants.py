@@ -10,7 +10,6 @@ from typing import Any
 
 import earthspin
 from earthspin.bodies import BODIES, NUMBERS
-from earthspin.bodies.satellites import Satellite
 from earthspin.constants import UNVERIFIED, Constant, Tabulated
 
 PAGE = Path(__file__).parents[1] / "docs" / "measured" / "constants.md"
@@ -59,9 +58,6 @@ def _flat(items: Iterable[tuple[str, Any]]) -> Iterator[tuple[str, Constant | Ta
     for name, value in items:
         if isinstance(value, Constant | Tabulated):
             yield name, value
-        elif isinstance(value, Satellite):
-            fields = {"gm": value.gm, "a": value.a, "period": value.period}
-            yield from _flat((f"{value.name}, {key}", one) for key, one in fields.items())
         elif isinstance(value, Mapping) and not name.startswith("__"):
             yield from _flat((f"{name}, {key}", one) for key, one in value.items())
         elif isinstance(value, tuple):

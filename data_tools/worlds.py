@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 import earthspin
@@ -22,7 +21,7 @@ from earthspin.constants import NORMAL_95, PSI_A_RATE
 from earthspin.errors import EarthspinError
 from earthspin.questions.cassini_states import CassiniStates
 from earthspin.questions.precession import Precession
-from earthspin.views.table import NUMBERS_ONLY, some_unknown
+from earthspin.views.table import NUMBERS_ONLY, some_unknown, systematic_size
 
 #: Signs of units, and their size in degrees; obliquities below `SMALL` (deg) are in minutes of arc.
 UNITS, SMALL = {"arcmin": "′", "deg": "°"}, 0.1
@@ -70,9 +69,14 @@ PUBLISHED = {
         MARS_PRECESSION,
         f"{CIRCULAR}the moment was inferred from this rate; geodesic precession is left out",
     ),
-    "jupiter": Published(JUPITER_CONSTANT, "the published value has two digits", True),
+    "jupiter": Published(
+        JUPITER_CONSTANT,
+        "published to two digits; with all satellites in the equator our rate would be 2.645, and "
+        "the linear part of the pole of IAU 2015 moves at 2.444",
+        True,
+    ),
     "saturn": Published(
-        SATURN_CONSTANT, "Iapetus is excluded here and partly included in the published rate", True
+        SATURN_CONSTANT, "satellites in both; the published constant has two digits", True
     ),
 }
 
@@ -112,7 +116,8 @@ class World:
     left_out : float
         Sum of the sizes of what the model leaves out, in the unit of `error`; NaN if not known.
     rate, period, period_error, published : float
-        Size of the rate (arcsec/yr), its period and half-width (yr), and the published rate.
+        Rate (arcsec/yr), its period and half-width (yr), and the published rate with the sign that
+        it has here.
     refused : str
         Why there is no answer; empty if there is.
     """
@@ -134,10 +139,13 @@ class World:
 
 
 def left_out(tree: xr.DataTree) -> float:
-    """Sum of the sizes of what a model leaves out, in the unit of its section; NaN if not known."""
+    """Sum of the sizes of what a model leaves out, in the unit of its section; NaN if not known.
+
+    The nodes of satellites do not count: they move the pole about the mean that has this rate.
+    """
     section = tree["neglected"].to_dataset()
-    sizes = section.neglected_effect.values
-    return float(np.abs(sizes).sum()) if sizes.size and not some_unknown(section) else math.nan
+    known = section.sizes["effect"] and not some_unknown(section)
+    return systematic_size(section) if known else math.nan
 
 
 def world(name: str) -> World:
@@ -154,9 +162,9 @@ def world(name: str) -> World:
     obliquity = float(answer.obliquity)
     published = PUBLISHED[name]
     along = math.cos(math.radians(obliquity)) if published.of_constant else 1.0
-    size = abs(published.number.value) * along
+    size = math.copysign(published.number.value * along, rate)
     return World(
-        name, obliquity, half_width, left_out(tree), abs(rate), period, period_error, published=size
+        name, obliquity, half_width, left_out(tree), rate, period, period_error, published=size
     )
 
 

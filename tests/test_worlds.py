@@ -8,16 +8,14 @@ import pytest
 import earthspin
 from data_tools.worlds import PAGE, locked, table, table_of_locked, worlds
 from earthspin import BODIES, MARS, MOON, BodyError, SceneError, UndefinedError
-from earthspin.bodies import JUPITER, SATURN, TRITON, URANUS
-from earthspin.bodies.giants import OF_JUPITER, OF_SATURN, SATURN_MOMENT
+from earthspin.bodies import TRITON
 from earthspin.bodies.inner import MERCURY_OBLIQUITY
 from earthspin.bodies.mean_orbits import PRECESSING_ORBITS
 from earthspin.bodies.moon import OBLIQUITY as MOON_OBLIQUITY
 from earthspin.bodies.moons import TITAN_OBLIQUITY, TITAN_OBLIQUITY_IF_SOLID
 from earthspin.bodies.planets import PLANETS, on_its_orbit, pulled_by
-from earthspin.bodies.satellites import Satellite, added_by
 from earthspin.cli import main
-from earthspin.constants import ARCSEC, Constant
+from earthspin.constants import ARCSEC
 from earthspin.sky.iau import ecliptic_pole
 from earthspin.sky.poles import FixedPole
 from earthspin.torque.locking import locked_turns
@@ -32,13 +30,15 @@ def rows() -> dict:
 
 
 def test_rates_beside_published_ones(rows: dict) -> None:
-    """Measured apart: Venus 8e-4, Earth 4e-4, Mars 5e-3, Jupiter 1.9e-2, Saturn 3.7e-2."""
+    """Measured apart: Venus 8e-4, Earth 4e-4, Mars 8e-4, Jupiter 8.5e-2, Saturn 1.7e-3."""
     apart = {n: abs(row.rate / row.published - 1) for n, row in rows.items() if not row.refused}
-    bounds = {"venus": 2e-3, "earth": 6e-4, "mars": 1e-2, "jupiter": 2.5e-2, "saturn": 4.5e-2}
+    bounds = {"venus": 2e-3, "earth": 6e-4, "mars": 2e-3, "jupiter": 0.1, "saturn": 3e-3}
     assert set(apart) == set(bounds)
     assert all(apart[name] < bound for name, bound in bounds.items())
     for row in rows.values():
-        assert row.refused or row.period == pytest.approx(1296e3 / row.rate, rel=1e-12, abs=0)
+        assert row.refused or row.period == pytest.approx(1296e3 / abs(row.rate), rel=1e-12, abs=0)
+    assert rows["venus"].rate < 0
+    assert rows["venus"].published < 0
 
 
 def test_the_table_of_the_page_is_made_by_the_command(rows: dict) -> None:
@@ -100,7 +100,8 @@ def test_a_giant_by_its_ellipse_and_by_the_kernel() -> None:
     by_ellipse = earthspin.precession(body="jupiter")
     by_kernel = earthspin.precession(body="jupiter", perturbers=["sun"])
     assert "ephemeris_sha256" in by_kernel.attrs
-    assert by_kernel.precession_rate.attrs["pole"] == str(JUPITER.pole)
+    pole = by_kernel.precession_rate.attrs["pole"]
+    assert pole == "mean over the nodes of Io, Europa, Ganymede, Callisto"
     assert by_kernel.precession_rate.attrs["plane"].startswith("orbit whose normal has right asc")
     assert "ephemeris_sha256" not in by_ellipse.attrs
     assert "without a kernel" in by_ellipse.attrs["positions"]
@@ -108,35 +109,6 @@ def test_a_giant_by_its_ellipse_and_by_the_kernel() -> None:
         by_kernel.precession_rate, by_ellipse.precession_rate, rtol=5e-5, atol=0
     )
     assert earthspin.run(by_ellipse).identical(by_ellipse)
-
-
-def test_uranus_with_a_moment_of_ones_own() -> None:
-    found = earthspin.precession(body=URANUS.replace(dynamical_flattening=0.0156))
-    # it lies on its side and turns backwards
-    assert float(found.obliquity) == pytest.approx(82.2, rel=0, abs=0.1)
-    assert float(found.precession_rate[0]) < 0
-
-
-def test_what_satellites_add() -> None:
-    """One of a thousandth of the mass at ten radii: q = 0.05, l = 0.1 n/Omega."""
-    one = Satellite("one", *(Constant(number, "", None, "") for number in (1.0, 10.0, 400.0)))
-    q, more = added_by([one], 1000.0, 1.0, 4.0)
-    assert (q, more) == pytest.approx((0.05, 0.001), rel=1e-14, abs=0)
-    q, more = added_by(OF_SATURN, SATURN.gm, SATURN.radius, SATURN.spin_period)
-    assert SATURN.j2 == pytest.approx(16290.57e-6 + q, rel=1e-14, abs=0)
-    moment = SATURN.j2 / SATURN.dynamical_flattening
-    assert moment == pytest.approx(SATURN_MOMENT.value + more, rel=1e-14, abs=0)
-    # French et al. 1993 (not verified): q = 0.0516 with Iapetus, l = 0.0028
-    assert q == pytest.approx(0.049, rel=0, abs=5e-4)
-    assert more == pytest.approx(0.0028, rel=0, abs=1e-4)
-
-
-def test_satellites_keep_keplers_third_law() -> None:
-    """Long axis, period and mass of the planet; J2 moves Io by 7e-4."""
-    for planet, moons in ((JUPITER, OF_JUPITER), (SATURN, OF_SATURN)):
-        for one in moons:
-            by_law = 2 * math.pi * math.sqrt(one.a.value**3 / planet.gm)
-            assert one.period.value == pytest.approx(by_law, rel=2.5e-3, abs=0), one.name
 
 
 def test_the_moons_pole_goes_round_with_its_node() -> None:
@@ -221,7 +193,7 @@ def test_bodies_in_words(capsys: pytest.CaptureFixture[str]) -> None:
     assert "uranus   pulls and spins; not known: dynamical_flattening" in told
     assert main(["info", "bodies", "saturn"]) == 0
     told = capsys.readouterr().out
-    assert "Titan carried along" in told
+    assert "satellite Titan: gm = 8.9781371e+12 m3 s-2" in told
     assert "pole: moving" in told
     assert main(["info", "bodies", "vulcan"]) == 2
     with pytest.raises(SceneError):

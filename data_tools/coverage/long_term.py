@@ -83,7 +83,7 @@ def solution(body: Body, times: FloatArray) -> Solved:
     table = orbits.orbit_table("own", body)
     numbers = question.numbers(rates, body, pulling, 1.0, 1.0, None, 0.0, 0.0)
     strength = question.strength(numbers, means, body, table)
-    return question.solved(strength, numbers, table, times, body)
+    return question.solved(strength, numbers, table, times, body, rates)
 
 
 def of_body(body: Body, reach: int, members: int = MEMBERS, seed: int = SEED) -> list[Row]:

@@ -8,12 +8,13 @@ from earthspin.bodies.moon import MOON
 from earthspin.bodies.moons import IAPETUS, PHOBOS, TITAN, TRITON
 from earthspin.bodies.orbit import Orbit
 from earthspin.bodies.planets import JUPITER, MERCURY, NEPTUNE, PLANETS, SATURN, URANUS, VENUS
+from earthspin.bodies.satellites import Satellite
 from earthspin.bodies.sun import SUN
 
 __all__ = [
     "BODIES", "EARTH", "IAPETUS", "JUPITER", "MARS", "MERCURY", "MOON", "NEPTUNE", "NUMBERS",
     "PHOBOS", "PLANETS", "SATURN", "SUN", "TITAN", "TRITON", "URANUS", "VENUS", "Body", "Numeric",
-    "Orbit", "all_of", "body", "in_a_sentence", "proper",
+    "Orbit", "Satellite", "all_of", "body", "in_a_sentence", "proper",
 ]  # fmt: skip
 
 _WITH_ARTICLE = (EARTH.name, MOON.name, SUN.name)

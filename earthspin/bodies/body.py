@@ -25,6 +25,7 @@ from earthspin.bodies.kinds import CitedPeriod, Codes, Magnitude, Moments, OwnPl
 from earthspin.bodies.labelled import Numeric, all_of, are_close, is_close, is_same
 from earthspin.bodies.layered import UnderTheSurface
 from earthspin.bodies.orbit import Orbit
+from earthspin.bodies.satellites import Satellite, SatelliteList
 from earthspin.card import card
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
 from earthspin.interior.layers import LayeredBody
@@ -72,7 +73,7 @@ class Body(FromMass):
     flattening : float
         (a - c) / a of the figure, the ellipticity epsilon of (I.9.38).
     spin_period : float
-        One turn relative to the stars, s; negative if retrograde.
+        One turn relative to the stars, s; negative if retrograde, that is backwards about `pole`.
     pole : Pole
         Direction of the spin axis: `IAU_2006` (``"iau2006"``), or a `FixedPole`, for which a right
         ascension
@@ -104,10 +105,13 @@ class Body(FromMass):
         `orbit_pole` follows from the elements if it is not given.
     relative_uncertainty : mapping
         Standard deviation divided by the value, by field name.
+    satellites : tuple of Satellite
+        Satellites that precess together with the body; `gm` and the moments are without them. They
+        may be given as a list of tables.
     reference : str
         Where the numbers come from.
     obliquity : float
-        Instead of `pole`: angle from the normal of the orbit to the axis of spin, rad, 0 to pi. The
+        Instead of `pole`: angle from the normal of the orbit to the pole, rad, 0 to pi. The
         equinox stays where it is; that of a new body is the node of its orbit on the equator of the
         ICRF. It is read, and kept as `pole`.
 
@@ -154,6 +158,7 @@ class Body(FromMass):
     relative_uncertainty: Annotated[Mapping[str, float], Uncertainties()] = field(
         default_factory=dict
     )
+    satellites: Annotated[tuple[Satellite, ...], SatelliteList()] = ()
     reference: Annotated[str, Text()] = ""
     obliquity: InitVar[Any] = None
 
@@ -186,6 +191,11 @@ class Body(FromMass):
         if self.position is not None:
             where = Where(f"{self.name}.position")
             object.__setattr__(self, "position", read_position(self.position, where))
+        if self.satellites:
+            satellites = self.KINDS["satellites"].read(
+                self.satellites, Where(f"{self.name}.satellites")
+            )
+            object.__setattr__(self, "satellites", satellites)
         if self.orbit is not None:
             self._read_orbit(self.orbit)
         sense.check_numbers(self._fields(), self.UNITS)
@@ -270,7 +280,9 @@ class Body(FromMass):
             if value is None or name in _NOT_TOLD or (not labelled and value in ((), {}, "")):
                 continue
             words = f"an array along {', '.join(map(str, value.dims))}" if labelled else f"{value}"
-            if isinstance(value, c.Constant):
+            if name == "satellites":
+                words = ", ".join(satellite.name for satellite in value)
+            elif isinstance(value, c.Constant):
                 words, unit = f"{value.value} ± {value.uncertainty}", value.unit
             elif name in self.relative_uncertainty and not labelled:
                 words += f" ± {abs(value) * self.relative_uncertainty[name]:.2g}"
@@ -340,6 +352,8 @@ class Body(FromMass):
     def write(self) -> Any:
         """Convert the body to a table of its fields for a scene file; `read` restores it."""
         values = {name: getattr(self, name) for name in self.KINDS}
+        if not self.satellites:
+            del values["satellites"]
         table = {n: self.KINDS[n].write(value) for n, value in values.items() if value is not None}
         return {"from": NOTHING} | table
 
@@ -359,6 +373,9 @@ class Body(FromMass):
             elif value != before and not (name == "pole_uncertainty" and value is None):
                 unit = self.UNITS.get(name, "")
                 changes.append(f"{name} = {value}{unit and ' '}{unit}")
+        if self.satellites != start.satellites:
+            names = [satellite.name for satellite in self.satellites]
+            changes.append(f"satellites = {', '.join(names) or 'none'}")
         return "; ".join(changes)
 
     # --- derived quantities --------------------------------------------------------
@@ -367,6 +384,14 @@ class Body(FromMass):
     def mass(self) -> Numeric:
         """Mass, kg; its uncertainty is dominated by that of G."""
         return self.gm / c.G.value
+
+    def gm_on(self, other: Body) -> Numeric:
+        """Gravitational parameter that pulls on another body, m3 s-2.
+
+        It includes the satellites of this body, except the other body itself.
+        """
+        name = other.name.lower()
+        return self.gm + sum(s.gm for s in self.satellites if s.name.lower() != name)
 
     @property
     def spin_rate(self) -> Numeric:
@@ -562,7 +587,7 @@ class Body(FromMass):
     def are_as_named(self) -> Numeric:
         """Test for each ensemble member if figure and spin agree with the built-in body to 1 %."""
         named = BODIES.get(self.name)
-        if named is None:
+        if named is None or self.satellites != named.satellites:
             return False
         close = (are_close(getattr(self, name), getattr(named, name)) for name in _OF_THE_WOBBLE)
         return reduce(and_, close)

@@ -1,9 +1,8 @@
 """Numbers of Jupiter, Saturn, Uranus and Neptune with sources, and these built-in bodies.
 
-Jupiter and Saturn include the satellites that precess with them (`satellites`); these contribute
-more than the planet's own bulge. The polar moments of Uranus and Neptune are not known, so a
-question that needs H requests it. Triton, large, inclined and retrograde, is not included in
-Neptune.
+Numbers are those of the planets alone; their large satellites, which contribute more to the
+precession than the planet's own bulge, are a field of the bodies. The polar moments of Uranus and
+Neptune are not known, so a question that needs H requests it.
 """
 
 from __future__ import annotations
@@ -11,9 +10,10 @@ from __future__ import annotations
 import math
 
 from earthspin.bodies.body import Body
+from earthspin.bodies.figure import flattening_of
 from earthspin.bodies.inner import IAU_2015, SWING
 from earthspin.bodies.orbit import Orbit
-from earthspin.bodies.satellites import JPL, JPL_READ, Satellite, carried
+from earthspin.bodies.satellites import Satellite
 from earthspin.constants import (
     ARCSEC,
     AU,
@@ -39,29 +39,88 @@ _CODES = "codes in public repositories that cite the paper: "
 POLES = Tabulated("poles of the giant planets", IAU_2015, PCK11)
 
 
-def _moon(name: str, gm: float, a: float, days: float) -> Satellite:
-    """Make a `Satellite` from GM (km3 s-2), semi-major axis (km) and orbital period (d)."""
-    return Satellite(
-        name,
-        Constant(gm * 1e9, "m3 s-2", None, JPL, JPL_READ),
-        Constant(a * 1e3, "m", None, JPL, JPL_READ),
-        Constant(days * DAY, "s", None, JPL, JPL_READ),
+#: Sources of masses and orbits of satellites.
+JPL = "JPL Solar System Dynamics, mean elements and GM of satellites"
+JPL_READ = (
+    "tables of ssd.jpl.nasa.gov/?sat_elem (2020) and gm_Horizons.pck in public copies; GM of the "
+    "moons of Jupiter: gm_de431.tpc in mockingbirdnest/Principia"
+)
+_GM = "JPL, gm_de440.tpc"
+_GM_READ = "gm_de440.tpc in public repositories"
+_SAT_ELEM = "ssd.jpl.nasa.gov/?sat_elem: mean elements referred to the local Laplace planes"
+_ELEMENTS = ("JPL Solar System Dynamics, mean elements of satellites", _SAT_ELEM)
+_FITTED = (
+    "JPL Horizons, satellite ephemerides SAT441 and NEP097",
+    "ellipses in Laplace planes, fitted to SAT441 and NEP097 in a public repository",
+)
+_OF_URANUS = (
+    _ELEMENTS[0],
+    "that of Umbriel in a public file of JPL Horizons; the others agree to 5e-4 with GM and the "
+    f"rotation in {PCK11}",
+)
+
+
+def _moon(
+    gm: float,
+    a: float,
+    i: float,
+    elements: tuple[str, str],
+    inclination: tuple[str, str] | None = None,
+    u: float = 0.0,
+) -> dict[str, Constant]:
+    """Numbers of a satellite from GM (km3 s-2), a (km) and i (deg), with sources of a and i."""
+    return {
+        "gm": Constant(gm * 1e9, "m3 s-2", u * 1e9 or None, _GM, _GM_READ),
+        "a": Constant(a * 1e3, "m", None, *elements),
+        "i": Constant(i, "deg", None, *(inclination or elements)),
+    }
+
+
+_POLES = (f"{IAU_2015}: radius of the circle of the pole of the moon", PCK11)
+#: Large satellites by planet: GM, semi-major axis, and inclination to the Laplace plane.
+SATELLITES = {
+    "jupiter": {
+        "Io": _moon(5959.915466, 421800.0, 0.036, _ELEMENTS),
+        "Europa": _moon(3202.712100, 671100.0, 0.466, _ELEMENTS),
+        "Ganymede": _moon(9887.832753, 1070400.0, 0.177, _ELEMENTS),
+        "Callisto": _moon(7179.283403, 1882700.0, 0.192, _ELEMENTS),
+    },
+    "saturn": {
+        "Tethys": _moon(41.21352885, 294673.2, 1.0913, _FITTED),
+        "Dione": _moon(73.11607172, 377415.1, 0.0279, _FITTED),
+        "Rhea": _moon(153.9417519, 527067.6, 0.3321, _FITTED),
+        "Titan": _moon(8978.137096, 1221865.1, 0.3237, _FITTED),
+        "Iapetus": _moon(120.5151060, 3560852.5, 8.279, _FITTED),
+    },
+    # standard deviations of GM: from newer values of JPL (4.106, 83.43, 85.40, 222.8 and 214.2),
+    # but not less than that of Umbriel in JPL Horizons, 1.9, for Ariel and Umbriel
+    "uranus": {
+        "Miranda": _moon(4.319516899, 129900.0, 4.25, _OF_URANUS, _POLES, 0.2),
+        "Ariel": _moon(83.46344432, 190900.0, 0.28, _OF_URANUS, _POLES, 1.9),
+        "Umbriel": _moon(85.09338094, 266000.0, 0.20, _OF_URANUS, _POLES, 1.9),
+        "Titania": _moon(226.9437004, 436300.0, 0.28, _OF_URANUS, _POLES, 4.1),
+        "Oberon": _moon(205.3234303, 583500.0, 0.16, _OF_URANUS, _POLES, 8.9),
+    },
+    # about the total angular momentum; the orbit is opposite to the spin
+    "neptune": {"Triton": _moon(1428.495463, 354797.7, 180.0 - 23.0764, _FITTED)},
+}
+
+
+def _satellites(planet: str) -> tuple[Satellite, ...]:
+    """Return the satellites of a planet as the field of a body."""
+    return tuple(
+        Satellite(
+            name=name,
+            gm=moon["gm"].value,
+            a=moon["a"].value,
+            i=math.radians(moon["i"].value),
+            gm_uncertainty=moon["gm"].uncertainty or 0.0,
+            reference=f"{moon['gm'].source}; {moon['a'].source}",
+        )
+        for name, moon in SATELLITES[planet].items()
     )
 
 
-OF_JUPITER = (
-    _moon("Io", 5959.916, 421800.0, 1.769138),
-    _moon("Europa", 3202.739, 671100.0, 3.551181),
-    _moon("Ganymede", 9887.834, 1070400.0, 7.154553),
-    _moon("Callisto", 7179.289, 1882700.0, 16.689017),
-)
-#: Satellites of Saturn inside its Laplace radius; Iapetus is outside.
-OF_SATURN = (
-    _moon("Tethys", 41.21, 294672.0, 1.887802),
-    _moon("Dione", 73.116, 377415.0, 2.736916),
-    _moon("Rhea", 153.94, 527068.0, 4.517503),
-    _moon("Titan", 8978.14, 1221865.0, 15.945448),
-)
 #: C/(M R2) of the planets alone, from interior models.
 JUPITER_MOMENT = Constant(
     0.2639,
@@ -96,14 +155,16 @@ def _year(days: float) -> Constant:
 
 
 def _numbers(
-    gm: float, radius: float, j2: Constant, spin: float, orbit: Constant
+    planet: str, gm: float, radius: float, j2: Constant, spin: float, orbit: Constant
 ) -> dict[str, Constant]:
     """Return the numerical fields of a giant planet by field name, each with its source.
 
-    GM is in km3 s-2, the radius in km and the spin in deg/d.
+    GM, that of planet and satellites, is in km3 s-2, the radius in km and the spin in deg/d.
     """
+    alone = gm * 1e9 - sum(moon["gm"].value for moon in SATELLITES[planet].values())
+    source = f"{DE440}, less the large satellites ({_GM})"
     return {
-        "gm": Constant(gm * 1e9, "m3 s-2", None, DE440 + ", with the satellites", GM_HORIZONS),
+        "gm": Constant(alone, "m3 s-2", None, source, f"{GM_HORIZONS}; {_GM_READ}"),
         "radius": Constant(radius * 1e3, "m", None, j2.source, j2.read_in),
         "j2": j2,
         "spin_period": Constant(360.0 / spin * DAY, "s", None, IAU_2015, PCK11),
@@ -142,6 +203,7 @@ def _normal(planet: str) -> Direction:
 
 
 _JUPITER = _numbers(
+    "jupiter",
     126712764.1,
     71492.0,
     Constant(14696.57e-6, "", 1e-8, _JUNO, _CODES + "14696.5735e-6 at 71,492 km"),
@@ -149,6 +211,7 @@ _JUPITER = _numbers(
     JUPITER_ORBITAL_PERIOD,
 )
 _SATURN = _numbers(
+    "saturn",
     37940584.8418,
     60330.0,
     Constant(16290.57e-6, "", 3e-8, _CASSINI, _CODES + "16290.573e-6 +- 0.028e-6 at 60,330 km"),
@@ -158,7 +221,7 @@ _SATURN = _numbers(
 
 JUPITER = Body.cited(
     "jupiter",
-    _JUPITER | carried(_JUPITER, JUPITER_MOMENT, OF_JUPITER),
+    _JUPITER | {"dynamical_flattening": flattening_of(_JUPITER["j2"], JUPITER_MOMENT)},
     naif=(599, 5),
     pole=MovingPole.published(
         (268.056595, -0.006499),
@@ -179,13 +242,14 @@ JUPITER = Body.cited(
         ],
     ),
     orbit_pole=_normal("jupiter"),
+    satellites=_satellites("jupiter"),
     reference=f"{_JUNO}; {JUPITER_MOMENT.source}; {IAU_2015}; DE440",
 )
 SATURN = Body.cited(
     "saturn",
     _SATURN
-    | carried(_SATURN, SATURN_MOMENT, OF_SATURN)
     | {
+        "dynamical_flattening": flattening_of(_SATURN["j2"], SATURN_MOMENT),
         "pole_uncertainty": Constant(
             1.5 * ARCSEC,
             "rad",
@@ -193,16 +257,18 @@ SATURN = Body.cited(
             "poles of IAU 2015 and of Jacobson 2007, BAAS 39, 317, at J2000.0: 2.9 arcsec apart, "
             "taken as the half-width of 95 %",
             f"{PCK11}; abstract of the report",
-        )
+        ),
     },
     naif=(699, 6),
     pole=MovingPole.published((40.589, -0.036), (83.537, -0.004)),
     orbit_pole=_normal("saturn"),
+    satellites=_satellites("saturn"),
     reference=f"{_CASSINI}; {SATURN_MOMENT.source}; {IAU_2015}; DE440",
 )
 URANUS = Body.cited(
     "uranus",
     _numbers(
+        "uranus",
         5794556.4,
         25559.0,
         Constant(3510.7e-6, "", 7e-7, _URANUS, _CODES + "3510.68e-6 at 25,559 km"),
@@ -212,11 +278,13 @@ URANUS = Body.cited(
     naif=(799, 7),
     pole=MovingPole.published((257.311, 0.0), (-15.175, 0.0)),
     orbit_pole=_normal("uranus"),
+    satellites=_satellites("uranus"),
     reference=f"{_URANUS}; {IAU_2015}; DE440",
 )
 NEPTUNE = Body.cited(
     "neptune",
     _numbers(
+        "neptune",
         6836527.10058,
         25225.0,
         Constant(3408.4e-6, "", 5e-6, _NEPTUNE, _CODES + "3408.43e-6 +- 4.5e-6 at 25,225 km"),
@@ -228,5 +296,6 @@ NEPTUNE = Body.cited(
         (299.36, 0.0), (43.46, 0.0), [(0.70, 357.85, 52.316)], [(-0.51, 357.85, 52.316)]
     ),
     orbit_pole=_normal("neptune"),
+    satellites=_satellites("neptune"),
     reference=f"{_NEPTUNE}; {IAU_2015}; DE440",
 )

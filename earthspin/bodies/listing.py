@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from earthspin.bodies.body import BODIES, NUMBERS, body
 from earthspin.errors import Where
 
@@ -36,6 +38,14 @@ def in_words(name: str) -> str:
         error = f" ± {number.uncertainty:.2g}" if number.uncertainty else ""
         lines.append(f"  {field} = {number.value:.9g}{error} {number.unit}".rstrip())
         lines.append(f"      {number.source}")
+    for moon in world.satellites:
+        error = f" ± {moon.gm_uncertainty:.2g}" if moon.gm_uncertainty else ""
+        inclination = math.degrees(moon.i)
+        lines.append(
+            f"  satellite {moon.name}: gm = {moon.gm:.9g}{error} m3 s-2, a = {moon.a:.9g} m, "
+            f"i = {inclination:.4g} deg"
+        )
+        lines.append(f"      {moon.reference}")
     if world.pole is not None:
         lines.append(f"  pole: {world.pole}")
     return "\n".join(lines)

@@ -10,10 +10,9 @@ import math
 
 from earthspin.bodies.body import Body
 from earthspin.bodies.figure import flattening_of
-from earthspin.bodies.giants import OF_SATURN
+from earthspin.bodies.giants import JPL, JPL_READ, SATELLITES
 from earthspin.bodies.inner import IAU_2015
 from earthspin.bodies.orbit import Orbit
-from earthspin.bodies.satellites import JPL, JPL_READ
 from earthspin.constants import (
     DAY,
     DAYS_PER_CENTURY,
@@ -39,7 +38,7 @@ _PHOBOS = (13.0, 11.4, 9.1)
 _AXES = f"homogeneous ellipsoid of {' x '.join(map(str, _PHOBOS))} km, {IAU_2015}"
 _IAU_2011 = "Archinal et al. 2011, Celest. Mech. 109, 101 (IAU 2009)"
 POLES = Tabulated("poles of Phobos, Titan and Iapetus", _IAU_2011, PCK11)
-_TITAN = OF_SATURN[-1]
+_TITAN = SATELLITES["saturn"]["Titan"]
 
 _TITAN_J2 = Constant(33.599e-6, "", 0.67e-6, _HYDROSTATIC, _HYDROSTATIC_READ)
 #: C/(M R2) of Titan in hydrostatic equilibrium.
@@ -66,6 +65,9 @@ TITAN_OBLIQUITY_IF_SOLID = Constant(
 def _days(days: float, source: str, read_in: str) -> Constant:
     """Return a sidereal period, given in days, as a `Constant` in seconds with its source."""
     return Constant(days * DAY, "s", None, source, read_in)
+
+
+_TITAN_PERIOD = _days(15.945448, JPL, JPL_READ)
 
 
 def _locked(
@@ -106,9 +108,9 @@ PHOBOS = Body.cited(
 TITAN = Body.cited(
     "titan",
     _locked(
-        _TITAN.gm,
+        _TITAN["gm"],
         2575.0,
-        _TITAN.period,
+        _TITAN_PERIOD,
         "reference radius of " + _IESS,
         "2575.15, 2574.78 and 2574.47 km in pck00010.tpc, public copies",
     )
@@ -166,7 +168,7 @@ ORBITS = {
         reference=f"{JPL}; {_IAU_2011}",
     ),
     TITAN.name: Orbit(
-        period=_TITAN.period.value,
+        period=_TITAN_PERIOD.value,
         e=0.0289,
         i=math.radians(0.3197),
         node_period=-703.51 * JULIAN_YEAR,

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+
 from earthspin.bodies.body import BODIES, Body
 from earthspin.bodies.giants import JUPITER, NEPTUNE, ORBITS, SATURN, URANUS
 from earthspin.bodies.inner import MERCURY, VENUS
 from earthspin.bodies.moons import ORBITS as OF_MOONS
+from earthspin.bodies.sun import SUN
 from earthspin.constants import COMPUTED, Constant
 
 __all__ = [
@@ -28,8 +32,12 @@ LEFT_OUT_OF_RATES: dict[str, dict[str, Constant]] = {
         ),
     },
     "saturn": {
-        "iapetus": Constant(
-            0.061, "arcsec/yr", None, "a bound: as if it kept to the equator, 8.5 % of J2", COMPUTED
+        "C from pole data": Constant(
+            -0.07,
+            "arcsec/yr",
+            None,
+            "C/(M R2) = 0.2405 agrees with the pole of Jacobson 2007, BAAS 39, 317: 0.672",
+            COMPUTED,
         ),
     },
 }
@@ -52,4 +60,10 @@ def on_its_orbit(body: Body) -> Body:
     placed = body.orbit is not None or body.position is not None
     if placed or body.name not in ORBITS:
         return body
-    return body.replace(orbit=ORBITS[body.name], orbit_pole=body.orbit_pole)
+    orbit = ORBITS[body.name]
+    assert orbit.a is not None
+    # with its period, the orbit stays the same if an ensemble varies the mass
+    one = BODIES[body.name] if hasattr(body.gm, "dims") else body
+    period = 2 * math.pi * math.sqrt(orbit.a**3 / (SUN.gm + one.gm_on(SUN)))
+    orbit = replace(orbit, period=period)
+    return body.replace(orbit=orbit, orbit_pole=body.orbit_pole)

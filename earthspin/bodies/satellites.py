@@ -1,92 +1,128 @@
-"""Satellites that precess together with their planet's equator.
-
-A satellite inside the Laplace radius, where the planet's bulge and the Sun perturb its orbit
-equally, stays near the equator as the equator precesses. Planet and satellites then precess as one
-body (Ward 1975, AJ 80, 64; French et al. 1993, Icarus 103, 163):
-
-    J2' = J2 + q,   q = (1/2) sum (m/M) (a/R)^2,
-    C'  = C + l,    l = sum (m/M) (a/R)^2 (n/Omega),     C in M R^2.
-"""
+"""Satellites of a planet, which precess together with it; tables of them in scenes."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Annotated, Any, ClassVar, get_type_hints
 
-from earthspin.constants import Constant
-
-JPL = "JPL Solar System Dynamics, mean elements and GM of satellites"
-JPL_READ = (
-    "tables of ssd.jpl.nasa.gov/?sat_elem (2020) and gm_Horizons.pck in public copies; GM of the "
-    "moons of Jupiter: gm_de431.tpc in mockingbirdnest/Principia"
-)
+from earthspin.bodies.kinds import Magnitude, Plain
+from earthspin.errors import Where, nearest
+from earthspin.units import Text
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Satellite:
-    """A satellite whose orbit is near the equator of its planet.
+    """A satellite that precesses together with the equator of its planet.
+
+    Numbers carry their units as text or Quantities; plain ones are SI and radians.
 
     Attributes
     ----------
     name : str
-    gm : Constant
-        m3 s-2.
-    a : Constant
+    gm : float
+        Gravitational parameter, m3 s-2.
+    a : float
         Semi-major axis, m.
-    period : Constant
-        Sidereal period, s.
+    i : float
+        Inclination to the Laplace plane, about which the node of the orbit precesses, rad; more
+        than 90 deg for an orbit opposite to the spin of the planet.
+    gm_uncertainty : float
+        One standard deviation of `gm`, m3 s-2.
+    reference : str
+        Where the numbers come from.
+
+    Raises
+    ------
+    SceneError, UnitsError
+        If a number is out of range.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> moon = {"name": "moon", "gm": "9 km3/s2", "a": "30000 km"}
+    >>> planet = earthspin.MARS.replace(satellites=[moon])
+    >>> faster = earthspin.precession(body=planet).precession_rate / -7.6142
+    >>> print(planet.satellites[0].a, faster.round(2).values)
+    30000000.0 [-1.02]
     """
 
-    name: str
-    gm: Constant
-    a: Constant
-    period: Constant
+    name: Annotated[str, Text()]
+    gm: Annotated[float, Magnitude("m3/s2", "8978 km3/s2")]
+    a: Annotated[float, Magnitude("m", "1221865 km")]
+    i: Annotated[float, Magnitude("rad", "0.3 deg")] = 0.0
+    gm_uncertainty: Annotated[float, Magnitude("m3/s2", "2 km3/s2")] = 0.0
+    reference: Annotated[str, Text()] = ""
+
+    words: ClassVar[str] = 'a table like {name = "titan", gm = "8978 km3/s2", a = "1221865 km"}'
+
+    def __post_init__(self) -> None:
+        where = Where(f"satellites.{self.name}")
+        for name, kind in _KINDS.items():
+            value = kind.read(getattr(self, name), where.at(name))
+            if isinstance(kind, Magnitude) and not isinstance(value, float):
+                raise where.at(name).error("an array", "it is one number")
+            object.__setattr__(self, name, value)
+        for name, low, high in (("gm", 0.0, _LARGEST), ("a", 0.0, _LARGEST), ("i", -0.0, math.pi)):
+            value = getattr(self, name)
+            if not low <= value <= high or (name == "a" and value == 0):
+                raise where.at(name).error(value, f"give a number from {low:g} to {high:g}")
+        if self.gm_uncertainty < 0:
+            raise where.at("gm_uncertainty").error(self.gm_uncertainty, "it is zero or more")
+
+    @classmethod
+    def read(cls, value: object, where: Where) -> Satellite:
+        """Read a satellite: a `Satellite`, or a table of its numbers.
+
+        Raises
+        ------
+        SceneError, UnitsError
+            If a key is unknown or missing, or a number is impossible.
+        """
+        if isinstance(value, cls):
+            return value
+        if not isinstance(value, Mapping):
+            raise where.error(value, f"give {cls.words}")
+        for key in value:
+            if key not in _KINDS:
+                raise where.at(key).error(value[key], nearest(key, _KINDS))
+        for key in ("name", "gm", "a"):
+            if key not in value:
+                raise where.at(key).error(None, f"give {cls.words}")
+        return cls(**{key: _KINDS[key].read(entry, where.at(key)) for key, entry in value.items()})
+
+    def write(self) -> Plain:
+        """Convert the satellite to a table of all numbers that are set, for scene files."""
+        values = {f.name: getattr(self, f.name) for f in fields(self)}
+        return {n: _KINDS[n].write(v) for n, v in values.items() if v not in (0.0, "")}
 
 
-def added_by(
-    satellites: Iterable[Satellite], gm: float, radius: float, spin_period: float
-) -> tuple[float, float]:
-    """Contributions of satellites to J2 and to the polar moment factor C/(M R^2) of their planet.
-
-    Parameters
-    ----------
-    satellites : iterable of Satellite
-    gm, radius, spin_period : float
-        GM, equatorial radius and rotation period of the planet, m3 s-2, m and s.
-    """
-    q = moment = 0.0
-    for satellite in satellites:
-        spread = satellite.gm.value / gm * (satellite.a.value / radius) ** 2
-        q += spread / 2
-        moment += spread * abs(spin_period) / satellite.period.value
-    return q, moment
+_KINDS: dict[str, Any] = {
+    name: hint.__metadata__[0]
+    for name, hint in get_type_hints(Satellite, include_extras=True).items()
+    if hasattr(hint, "__metadata__")
+}
+#: Plausibility bound: above mass and size of the observable universe, SI.
+_LARGEST = 1e60
 
 
-def carried(
-    planet: dict[str, Constant], polar_moment: Constant, satellites: tuple[Satellite, ...]
-) -> dict[str, Constant]:
-    """Effective J2 and H of a planet whose satellites precess together with its equator.
+class SatelliteList:
+    """Converter of the satellites of a body: a list of tables, each with one satellite."""
 
-    Parameters
-    ----------
-    planet : dict of str to Constant
-        The planet's own `gm`, `radius`, `spin_period` and `j2`.
-    polar_moment : Constant
-        C/(M R^2) of the planet alone.
-    satellites : tuple of Satellite
-    """
-    q, more = added_by(
-        satellites, planet["gm"].value, planet["radius"].value, planet["spin_period"].value
-    )
-    j2, moment = planet["j2"], polar_moment.value + more
-    names = ", ".join(satellite.name for satellite in satellites)
-    u = polar_moment.relative_uncertainty * polar_moment.value / moment
-    h = (j2.value + q) / moment
-    source = f"{j2.source}; with {names} carried along ({JPL})"
-    read_in = f"{j2.read_in}; {JPL_READ}"
-    return {
-        "j2": Constant(j2.value + q, "", j2.uncertainty, source, read_in),
-        "dynamical_flattening": Constant(
-            h, "", h * u, f"{source}; {polar_moment.source}", f"{read_in}; {polar_moment.read_in}"
-        ),
-    }
+    words = f"a list of satellites, each {Satellite.words}"
+    hint = "Sequence[Satellite | Mapping[str, Any]]"
+
+    def read(self, value: object, where: Where) -> tuple[Satellite, ...]:
+        """Read a list of satellites; refuse two of one name."""
+        if not isinstance(value, (list, tuple)):
+            raise where.error(value, f"give {self.words}")
+        satellites = tuple(Satellite.read(entry, where) for entry in value)
+        names = [satellite.name for satellite in satellites]
+        if len(set(names)) < len(names):
+            raise where.error(names, "each satellite has its own name")
+        return satellites
+
+    def write(self, value: tuple[Satellite, ...]) -> Plain:
+        """Return a list of tables, which is the form stored in scene files."""
+        return [satellite.write() for satellite in value]

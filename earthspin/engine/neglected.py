@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -52,6 +52,8 @@ class Neglected:
         Source of the sizes.
     unknown : str
         Further neglected effects of unknown size.
+    periodic : tuple of str
+        Effects with a size that vanish in the mean over their period, which the answer gives.
     """
 
     sizes: Mapping[str, float] = field(default_factory=dict)
@@ -59,6 +61,7 @@ class Neglected:
     what: str = "nothing that has a known size"
     source: str = ""
     unknown: str = ""
+    periodic: tuple[str, ...] = ()
 
     @classmethod
     def cited(cls, sizes: Mapping[str, Constant], what: str) -> Self:
@@ -70,6 +73,15 @@ class Neglected:
             what,
             "; ".join(f"{name}: {size.source}" for name, size in sizes.items()),
         )
+
+    def also(self, effect: str) -> Self:
+        """Add a neglected effect of unknown size; an empty text adds nothing."""
+        if not effect:
+            return self
+        # without sizes, `what` names the neglected effect
+        known = self.what if not self.sizes and self.what != Neglected.what else ""
+        unknown = ", ".join(filter(None, (self.unknown or known, effect)))
+        return replace(self, unknown=unknown)
 
     @property
     def largest(self) -> str:
@@ -100,7 +112,11 @@ class Neglected:
             Labels that the answer has along `effect`; included effects have size 0.
         """
         names = list(effects) or sorted(self.sizes, key=lambda effect: -abs(self.sizes[effect]))
-        notes = {"references": self.source, "of_unknown_size": self.unknown}
+        notes = {
+            "references": self.source,
+            "of_unknown_size": self.unknown,
+            "zero_in_the_mean": "; ".join(self.periodic),
+        }
         attrs = {name: words for name, words in notes.items() if words}
 
         class Effects(Variables, along=("effect",), no_error=BOUND):

@@ -224,6 +224,17 @@ class Question:
         """Make the error for a wrong value of a key, without raising it."""
         return self.where(name).error(value, problem)
 
+    #: Whether the answer includes the satellites of the body, or gives the size of their effect.
+    with_satellites: ClassVar[bool] = False
+
+    @property
+    def unused(self) -> str:
+        """Satellites of the question's body that the answer leaves out, in words; may be empty."""
+        satellites = getattr(getattr(self, "body", None), "satellites", ())
+        if self.with_satellites or not satellites:
+            return ""
+        return f"the satellites {', '.join(satellite.name for satellite in satellites)}"
+
     given: ClassVar[frozenset[str]]
     read_from: ClassVar[str]
 

@@ -141,6 +141,8 @@ def run_parts(plan: Plan, before: Mapping[str, Any] | None = None) -> Run:
             begun = time.perf_counter() - imports.seconds
             with in_range(part.name):
                 value, is_stored = part.stored_or_computed(inputs)
+                if isinstance(value, Neglected):
+                    value = value.also(plan.question.unused)
                 values[part.name] = value.dataset() if isinstance(value, Variables) else value
             seconds[part.name] = time.perf_counter() - imports.seconds - begun
             if is_stored:

@@ -18,6 +18,7 @@ from earthspin.mass.inertia import moment_difference
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.estimate import Estimate
 from earthspin.parts.elements import ellipse_chains, exact_means, no_exact_means
+from earthspin.parts.satellites import Carried, carried, without_swings
 from earthspin.parts.sky import Sky, Stretch
 from earthspin.sky.elements import Elements
 from earthspin.sky.equator import angle, rotate
@@ -91,6 +92,7 @@ def _same_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body
 @part(unless=exact_means, same_for=_same_samples)
 def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]) -> Samples:
     """Sample the torques of all perturbers, from their declinations, over the averaging time."""
+    body = without_swings(body)
     pole, orbit = body.needed("pole"), body.orbit_pole
     cycle = max(map(slowest_cycle, perturbers))
     window = best_window(stretch.first * DAY, stretch.last * DAY, cycle)
@@ -101,9 +103,11 @@ def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Bod
     axis_at_epoch = sky.equator(body, np.array([window.centre / DAY]))[..., 2, :].reshape(3)
     _refuse_locked(sky, body, window.centre, axis_at_epoch)
     coordinates = sky.radec(body, days)
-    strength = _varying_masses(perturbers)
+    strength = _varying_masses(body, perturbers)
     torques = [
-        torque_from_declination(p.gm if strength is None else 1.0, 1.0, *coordinates[p.name])
+        torque_from_declination(
+            p.gm_on(body) if strength is None else 1.0, 1.0, *coordinates[p.name]
+        )
         for p in perturbers
     ]
     # In axes of the equator of date, the figure axis is z and the orbit normal moves.
@@ -128,13 +132,20 @@ def _labels(perturbers: tuple[Body, ...]) -> list[str]:
     return [*(p.name for p in perturbers), "total"]
 
 
-def _varying_masses(perturbers: tuple[Body, ...]) -> xr.DataArray | None:
+def _varying_masses(body: Body, perturbers: tuple[Body, ...]) -> xr.DataArray | None:
     """Values of GM of all perturbers in one array if any GM is an array; otherwise None."""
     if not any(hasattr(p.gm, "dims") for p in perturbers):
         return None
     import xarray as xr
 
-    return xr.concat(xr.broadcast(*(xr.DataArray(p.gm) for p in perturbers)), "perturber")
+    return xr.concat(xr.broadcast(*(xr.DataArray(p.gm_on(body)) for p in perturbers)), "perturber")
+
+
+def _cases(strength: xr.DataArray | None) -> dict[str, int]:
+    """Dimensions of arrays of masses with their lengths; empty without arrays."""
+    if strength is None:
+        return {}
+    return {str(dim): n for dim, n in strength.sizes.items() if dim != "perturber"}
 
 
 def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: FloatArray) -> None:
@@ -248,9 +259,7 @@ def window_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> MeanT
         method=f"{window_words(window)}, a sample each {spacing:g} d",
         evaluations=times.size,
         no_error=samples.no_error,
-        cases={}
-        if strength is None
-        else {str(dim): n for dim, n in strength.sizes.items() if dim != "perturber"},
+        cases=_cases(strength),
     )
 
 
@@ -260,10 +269,12 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
 
     Each mean is over the orbit and the precession of its node.
     """
+    body = without_swings(body)
     pole, now = body.needed("pole"), np.zeros(1)
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
     axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
     by_name = ellipse_chains(body, perturbers)
+    strength = _varying_masses(body, perturbers)
     torques, errors, nearness = [], [], []
     for p in perturbers:
         ((ellipse, _),) = by_name[p.name].ellipses
@@ -277,18 +288,24 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
             if ellipse.node_rate
             else mean_orbit.square_of_normal(ellipse.normal)
         )
-        tide = mean_orbit.mean_tide(float(p.gm), ellipse.a, ellipse.e, square)
+        gm = float(p.gm_on(body)) if strength is None else 1.0
+        tide = mean_orbit.mean_tide(gm, ellipse.a, ellipse.e, square)
         torques.append(mean_orbit.mean_torque(tide, axis))
         errors.append(mean_orbit.rounding(tide))
         nearness.append((ellipse.a**2 * (1 - ellipse.e**2)) ** -1.5)
-    vectors = average.with_total(np.stack(torques)[np.newaxis])[0]
-    error = average.with_total(np.array(errors)[np.newaxis])[0]
+    vectors, error = np.stack(torques), np.array(errors)
+    if strength is not None:
+        factor = strength.values.reshape(len(perturbers), -1)
+        vectors = vectors[:, np.newaxis] * factor[..., np.newaxis]
+        error = error[:, np.newaxis] * factor
+    vectors = average.with_total(vectors[np.newaxis])[0]
+    error = average.with_total(error[np.newaxis])[0]
     obliquity = angle(axis, normal)
     return MeanTorques(
         labels=_labels(perturbers),
         precessing=average.precessing_torque(vectors, axis, normal),
         precessing_error=mean_orbit.rounding_of_precessing(error, obliquity),
-        torque=vectors @ equator.T,
+        torque=np.moveaxis(vectors @ equator.T, -1, 1),
         torque_error=np.repeat(error[:, np.newaxis], 3, axis=1),
         epoch=0.0,
         obliquity=obliquity,
@@ -297,6 +314,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
         method="exact means of orbits by their elements",
         evaluations=len(perturbers),
         provenance=Elements().provenance | {"pyerfa_version": version("pyerfa")},
+        cases=_cases(strength),
     )
 
 
@@ -330,6 +348,10 @@ class MeanRates:
     second_order : float
         Bound on the second-order part of the total rate, which the average neglects, rad/s; the
         largest of an array.
+    pull : float or DataArray
+        Sum of GM <1/r3> of the perturbers, s-2.
+    carried : Carried
+        Contribution of the satellites of the body.
     """
 
     means: MeanTorques
@@ -337,6 +359,8 @@ class MeanRates:
     torque: Estimate
     ratio: Numeric
     second_order: float
+    pull: Numeric
+    carried: Carried
 
     def total(self) -> tuple[Numeric, Numeric]:
         """Total rate of all perturbers and its error, rad/s."""
@@ -357,25 +381,31 @@ def item_of(by_perturber: Numeric, index: int) -> Numeric:
 
 @part
 def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ...]) -> MeanRates:
-    """Precession rates and mean torques from averages over orbits, by perturber, with errors."""
+    """Precession rates and mean torques from averages over orbits, by perturber, with errors.
+
+    With satellites they are those of the body and its satellites together.
+    """
     means = mean_torques
     along = _labeller(means) if body.labelled or means.cases else np.asarray
     uncertainties = [p.relative_uncertainty.get("gm", 0.0) for p in perturbers]
     u_gm = along(rates.total_uncertainty(means.precessing, uncertainties))
+    pull = sum(p.gm_on(body) * near for p, near in zip(perturbers, means.nearness, strict=True))
+    moons = carried(body, pull, means.obliquity)
     rate = rates.precession_estimate(
         along(means.precessing),
         along(means.precessing_error),
-        body.needed("dynamical_flattening"),
+        body.needed("dynamical_flattening") * moons.rate,
         body.spin_rate,
-        body.relative_uncertainty.get("dynamical_flattening", 0.0),
-        u_gm,
+        # H = J2/C: satellites add to C, and their part of it has no uncertainty
+        body.relative_uncertainty.get("dynamical_flattening", 0.0) / moons.moment,
+        np.hypot(u_gm, moons.uncertainty),
     )
     by_orbit, by_spin = _rates_over_motions(rate.value, means, body, perturbers)
     refuse_fast_axis(by_orbit, by_spin)
     torque = rates.torque_estimate(
         along(np.linalg.norm(means.torque, axis=1)),
         along(np.linalg.norm(means.torque_error, axis=1)),
-        moment_difference(body.needed("j2"), body.mass, body.needed("radius")),
+        moment_difference(body.needed("j2"), body.mass, body.needed("radius")) * moons.bulge,
         body.relative_uncertainty_of_bulge(),
         u_gm,
     )
@@ -385,6 +415,8 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         torque=torque,
         ratio=along(rates.rate_ratio(means.precessing)),
         second_order=largest(OF_AVERAGE * (by_orbit + by_spin) * abs(total_of(rate.value))),
+        pull=pull,
+        carried=moons,
     )
 
 
@@ -393,7 +425,7 @@ def _rates_over_motions(
 ) -> tuple[Numeric, Numeric]:
     """Precession rate divided by the perturbers' mean motion (summed), and by the spin rate."""
     by_orbit = sum(
-        abs(item_of(rate, index)) / ((body.gm + p.gm) * near) ** 0.5
+        abs(item_of(rate, index)) / ((body.gm_on(p) + p.gm_on(body)) * near) ** 0.5
         for index, (p, near) in enumerate(zip(perturbers, means.nearness, strict=True))
     )
     return by_orbit, abs(total_of(rate) / body.spin_rate)

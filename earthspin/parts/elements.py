@@ -158,7 +158,7 @@ def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
     orbit = member.orbit
     assert orbit is not None
     a, period = orbit.a, orbit.period
-    gm = member.gm + centre.gm
+    gm = member.gm_on(centre) + centre.gm_on(member)
     many = hasattr(gm, "dims")
     if many or not gm > 0:
         if a is None or period is None:

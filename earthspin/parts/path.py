@@ -11,7 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.bodies import Body
-from earthspin.constants import ARCSEC, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
+from earthspin.bodies.planets import LEFT_OUT_OF_RATES
+from earthspin.constants import (
+    ARCSEC,
+    ARCSEC_PER_YEAR,
+    DAY,
+    EPSILON_0,
+    JULIAN_YEAR,
+    NORMAL_95,
+)
 from earthspin.dates import Epochs, Span, Step
 from earthspin.engine.part import part
 from earthspin.engine.question import key
@@ -26,6 +34,7 @@ from earthspin.nutation.budget import published_effects
 from earthspin.parts.predicted import CHOSEN, Prediction, no_layers, prediction
 from earthspin.parts.pulls import AxisMotion, Pulls, forces_of, start_of
 from earthspin.parts.reasons import no_iau_model
+from earthspin.parts.satellites import drifts, obliquity_of, swings
 from earthspin.parts.times import days_of
 from earthspin.progress import progress
 from earthspin.sky.kernel_differences import DRIFT_FROM, growth
@@ -79,21 +88,29 @@ class Errors:
 
     Attributes
     ----------
-    method, given, kernel, response : ndarray, shape (t,)
+    method, given, kernel, response, satellites : ndarray, shape (t,)
         Errors from the integration, from the uncertainty of H, from the positions of the bodies,
-        and from the response of the interior (0 for a rigid body).
+        from the response of the interior (0 for a rigid body), and from the nodes of the body's
+        satellites, which stay at their mean (0 without satellites).
     """
 
     method: FloatArray
     given: FloatArray
     kernel: FloatArray
     response: FloatArray
+    satellites: FloatArray
 
     @property
     def total(self) -> FloatArray:
         """Total error of the axis directions, rad: root sum of squares over all causes."""
         return np.asarray(
-            np.sqrt(self.method**2 + self.given**2 + self.kernel**2 + self.response**2)
+            np.sqrt(
+                self.method**2
+                + self.given**2
+                + self.kernel**2
+                + self.response**2
+                + self.satellites**2
+            )
         )
 
 
@@ -135,7 +152,29 @@ def direction_errors(
         given=axes.error_of_input(path, figure, u_h),
         kernel=max(map(growth, epochs.span())) * of_sky,
         response=np.zeros(len(figure)) if shift is None else shift.half_width(days),
+        satellites=drift_of_nodes(body, pulls, days * DAY - epoch),
     )
+
+
+def drift_of_nodes(body: Body, pulls: Pulls, since: FloatArray) -> FloatArray:
+    """Largest displacement of the axis by the nodes of satellites, and by C if that is open, rad.
+
+    Parameters
+    ----------
+    body : Body
+    pulls : Pulls
+    since : ndarray, shape (t,)
+        Times from the start, s.
+    """
+    obliquity = obliquity_of(body) if body.satellites else None
+    if obliquity is None:
+        return np.zeros(since.size)
+    found = swings(body, pulls.mean_pull(body.orbital_period), obliquity)
+    total = np.sum([*drifts(found, since).values(), np.zeros(since.size)], axis=0)
+    published = LEFT_OUT_OF_RATES.get(body.name, {}) if body.is_as_named else {}
+    for rate in published.values():
+        total += abs(rate.value) * ARCSEC_PER_YEAR * math.sin(obliquity) * np.abs(since)
+    return np.asarray(total)
 
 
 @dataclass(frozen=True)

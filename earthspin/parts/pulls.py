@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Annotated
 
+import numpy as np
+
 from earthspin import bodies
 from earthspin.bodies import BODIES, Body
 from earthspin.constants import ARCSEC, DAY, NORMAL_95
@@ -15,15 +17,20 @@ from earthspin.engine.question import key
 from earthspin.errors import KernelError, Where
 from earthspin.mass.inertia import inverse_polar_moment
 from earthspin.motion.effects import EFFECTS, PLANETS, RIGID
-from earthspin.motion.forces import Figure, Forces
+from earthspin.motion.forces import Figure, Forces, Places, RateLaw, Torque
 from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.gauss_windows import Windows
 from earthspin.parts.elements import all_by_elements
+from earthspin.parts.satellites import common_turn
 from earthspin.parts.sky import KernelName, Sky, places, sky
 from earthspin.parts.times import Series, epochs
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.protocol import Place
+from earthspin.torque.quadrupole import cross
 from earthspin.units import Several, Word
 
+#: Samples of an orbit for its mean pull; the mean over an ellipse converges exponentially.
+PULL_SAMPLES = 400
 #: Word for the effects that are known for a body; the question replaces it by their names.
 KNOWN = "known"
 
@@ -138,16 +145,30 @@ class Pulls:
             known |= self.sky.positions(times / DAY, missing)
         return known
 
+    def mean_pull(self, period: float | None) -> float:
+        """Sum of GM <1/r3> of the perturbers over a period about J2000.0, in s, s-2.
+
+        Without a period it is that at J2000.0. The period is cut to the times that are covered.
+        """
+        half = (period or 0.0) / 2
+        first, last = (min(max(end, self.limits[0]), self.limits[1]) for end in (-half, half))
+        times = np.linspace(first, last, PULL_SAMPLES, endpoint=False)
+        positions = self.sky.positions(times / DAY)
+        return sum(
+            self.gm[name] * float(np.mean(np.linalg.norm(position, axis=1) ** -3))
+            for name, position in positions.items()
+        )
+
 
 @part
 def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]) -> Pulls:
     """Collect GM and positions of the perturbers; include the planets if that effect is on."""
-    masses = {p.name: p.number("gm") for p in perturbers}
+    masses = {p.name: float(p.gm_on(body)) for p in perturbers}
     targets = dict(sky.targets)
     if PLANETS.name in effects:
         for name in bodies.PLANETS:
             if name not in masses and name != body.name:
-                masses[name] = float(BODIES[name].gm)
+                masses[name] = float(BODIES[name].gm_on(body))
                 targets[name] = sky.place(BODIES[name])
     start, end = sky.coverage(targets)
     return Pulls(sky, masses, targets, (start * DAY, end * DAY))
@@ -165,8 +186,27 @@ def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = Fal
         mean_pole=lambda times: body.needed("pole").mean(times / DAY),
     )
     forces = switched_on(forces, body, effects)
+    turn = common_turn(body, pulls.mean_pull(body.orbital_period)) if body.satellites else None
+    if turn is not None:
+        forces = replace(forces, torques=(*forces.torques, turning(turn)))
     names = tuple(forces.gm)
     return replace(forces, positions=lambda times: pulls.positions(names, times, keep))
+
+
+def turning(rate: FloatArray) -> Torque:
+    """Make a function that gives a constant angular velocity as an equivalent torque.
+
+    Parameters
+    ----------
+    rate : ndarray, shape (3,)
+        rad/s.
+    """
+    column = rate.reshape(3, 1, 1)
+
+    def over(forces: Forces, windows: Windows, place: Places) -> RateLaw:
+        return lambda axis, momentum: cross(column, momentum)
+
+    return over
 
 
 def figure_of(body: Body, spin_rate: float) -> Figure:

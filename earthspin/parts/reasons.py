@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection
+
+import numpy as np
 
 from earthspin.bodies import Body, in_a_sentence, proper
 from earthspin.constants import PUBLISHED_EFFECTS
@@ -60,6 +63,27 @@ def many_pulls(perturbers: tuple[Body, ...]) -> str | None:
     """
     arrays = [p.name for p in perturbers if hasattr(p.gm, "dims")]
     return f"the mass of '{arrays[0]}' is an array" if arrays else None
+
+
+def north_note(body: Body, obliquity: float | None = None) -> dict[str, str]:
+    """Note for the attributes of an obliquity: which pole it belongs to, if that is not the spin.
+
+    Parameters
+    ----------
+    body : Body
+    obliquity : float, optional
+        rad; None if it changes in time.
+    """
+    period = body.spin_period
+    if period is None or not bool(np.any(np.asarray(period) < 0)):
+        return {}
+    note = {
+        "north": f"the pole of {in_a_sentence(body.name)}, about which it spins backwards; "
+        "the angle of the spin vector is 180 deg minus this"
+    }
+    if obliquity is not None:
+        note["spin_obliquity"] = f"{180 - math.degrees(obliquity):.2f} deg"
+    return note
 
 
 def neglected_rates(modelled: Collection[str] = ()) -> Neglected:

@@ -19,7 +19,8 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, item_of
 from earthspin.parts.orbits import OrbitChoice, orbit_table
 from earthspin.parts.pulls import start_error
-from earthspin.parts.reasons import no_iau_model, not_sun_and_moon
+from earthspin.parts.reasons import no_iau_model, north_note, not_sun_and_moon
+from earthspin.parts.satellites import mean_pole_error
 from earthspin.parts.side_by_side import SideBySide
 from earthspin.parts.sky import PerturbedBody, Sky, Stretch, places, sky
 from earthspin.secular import budget as solutions
@@ -112,6 +113,12 @@ class LongTerm(
             "of the orbital motion"
         ),
     )
+
+    @property
+    def unused(self) -> str:
+        """Motion of satellites that is left out: the rate includes them as they are at J2000.0."""
+        satellites = super().unused
+        return f"the change of the tilts of {satellites}" if satellites else ""
 
     def check(self) -> None:
         """Set default perturbers, and refuse any other than the Sun and the Moon."""
@@ -259,6 +266,7 @@ def solved(
     orbit_table: OrbitTable,
     wanted: FloatArray,
     body: Body,
+    mean_rates: MeanRates,
 ) -> solutions.Solved:
     """Integrate the motion of the spin axis, and repeat it with each uncertain input changed.
 
@@ -267,7 +275,7 @@ def solved(
     span = float(wanted.min()), float(wanted.max())
     orbit_table.check_times(np.array(span))
     (relative_error,) = numbers.columns("relative_error")
-    half = start_error(body)
+    half = mean_pole_error(body, start_error(body), mean_rates.pull)
     # of the IAU's pole the obliquity alone is uncertain, because longitudes count from it
     directions = 1 if body.needed("pole").of_the_iau else 2
     setting = solutions.Setting(strength, orbit_table, _start(numbers, body, orbit_table))
@@ -395,7 +403,11 @@ def series(
             perturber=names,
         )
         .with_attributes(
-            obliquity={"orbit": orbit_table.source, "orbit_of": orbit_table.name},
+            obliquity={
+                "orbit": orbit_table.source,
+                "orbit_of": orbit_table.name,
+                **north_note(body),
+            },
             pole_error={
                 "method": f"Newton's method in time, {solved.path.windows.order} nodes in each "
                 f"window of {window:.0f} yr",

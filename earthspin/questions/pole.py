@@ -25,6 +25,7 @@ from earthspin.parts.path import (
     analysed_days,
     axis_path,
     direction_errors,
+    drift_of_nodes,
     longitude_cycles,
 )
 from earthspin.parts.predicted import SOURCES, no_layers
@@ -38,8 +39,9 @@ from earthspin.parts.pulls import (
     own_kernel,
     start_error,
     start_note,
+    start_of,
 )
-from earthspin.parts.reasons import no_iau_model, not_the_iaus_earth
+from earthspin.parts.reasons import no_iau_model, north_note, not_the_iaus_earth
 from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
 
 if TYPE_CHECKING:
@@ -64,7 +66,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
         Over `time` and `axis` (``angular_momentum``, ``rotation``, ``figure``): `X`, `Y`, `Z`
         (unit vectors), `psi` and `eps` (arcsec, on the fixed orbit of J2000.0) where they are
         defined; over `time` `direction_error` (arcsec) and its shares, with `nonrigid` also
-        `direction_error_response`.
+        `direction_error_response`, and for a body with satellites `direction_error_satellites`.
 
     Raises
     ------
@@ -80,6 +82,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
     """
 
     views, page, headline = "pole", "pole", "direction_error"
+    with_satellites = True
 
     span: Span = key(("1980-01-01T12:00:00", "2020-01-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("5 d", doc="interval between dates")
@@ -251,6 +254,33 @@ def response_error(
     return share
 
 
+def no_satellites(body: Body) -> str | None:
+    """Return the reason (text) to omit the error by satellites if there are none, else None."""
+    return None if body.satellites else f"{in_a_sentence(body.name)} has no satellites here"
+
+
+class SatelliteError(Dated):
+    """Error of the axis directions because the nodes of satellites stay at their mean."""
+
+    direction_error_satellites: Value = number(
+        "arcsec",
+        "share of direction_error from the nodes of the satellites, whose nutation of the planet "
+        "is left out",
+    )
+
+
+@part(unless=no_satellites)
+def satellite_error(
+    axes: xr.Dataset, pulls: Pulls, body: Body, epochs: Epochs, block: Block | None = None
+) -> SatelliteError:
+    """Compute the error of the axis directions that is due to the nodes of satellites."""
+    _, epoch = start_of(body, pulls)
+    days = days_of(epochs, block, by_region("pole.zarr"))
+    return SatelliteError(
+        time=axes.time, direction_error_satellites=drift_of_nodes(body, pulls, days * DAY - epoch)
+    )
+
+
 def no_longitude(body: Body) -> str | None:
     """Return the reason (text) to omit psi and eps of the axes if they are undefined, else None."""
     pole = body.needed("pole")
@@ -289,7 +319,9 @@ def pole_angles(
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     angles = on_fixed_ecliptic(vectors.reshape(-1, 3), ecliptic).reshape(*vectors.shape[:2], 2)
     psi = turns.unwrapped(angles[..., 0], days_of(epochs, block, by_region("pole.zarr")) * DAY)
-    return Angles(time=axes.time, axis=axes.axis, psi=psi, eps=angles[..., 1])
+    return Angles(time=axes.time, axis=axes.axis, psi=psi, eps=angles[..., 1]).with_attributes(
+        eps=north_note(body)
+    )
 
 
 @part
@@ -312,7 +344,7 @@ def neglected(body: Body, effects: tuple[str, ...], epochs: Epochs) -> Neglected
 
 define_parts(
     Pole,
-    answer=(axes, response_error, pole_angles),
+    answer=(axes, response_error, satellite_error, pole_angles),
     sections={"neglected": neglected},
     parts=(*PULLS, axis_path, turns, *INTERIOR, as_fitted, as_predicted, interior_shift),
 )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -28,8 +30,9 @@ from earthspin.nutation import seasons as calendar
 from earthspin.nutation.budget import closure, published_effects
 from earthspin.parts import reasons
 from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples
-from earthspin.parts.elements import no_exact_means
 from earthspin.parts.observed_wobble import observed_wobble
+from earthspin.parts.reasons import north_note
+from earthspin.parts.satellites import describe_pole, swings
 from earthspin.parts.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
 from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
 from earthspin.sky.sources import SourceName
@@ -43,6 +46,9 @@ MODELS = ("mccullough", "homogeneous", "measured")
 
 class Precession(PerturbedBody, word="precession", call="precession"):
     """Rate and period of precession, from torques averaged over orbits (source text, I.8).
+
+    A body with satellites precesses together with them, each in its Laplace plane; the rate is then
+    the mean over the nodes of the satellites.
 
     Returns
     -------
@@ -67,6 +73,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     """
 
     views, page, headline = "precession", "theory", "precession_rate"
+    with_satellites = True
 
     source: SourceName = key("skyfield", doc=SOURCE_DOC)
     span: Span | None = key(
@@ -74,13 +81,6 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     )
 
     many_pulls = True
-
-    def check(self) -> None:
-        """Refuse an array of masses for one perturber if all orbits are given by elements."""
-        super().check()
-        many = reasons.many_pulls(self.perturbers)
-        if many and no_exact_means(self.body, self.perturbers) is None:
-            raise self.error("perturbers", "orbits by their elements", f"{many}; give one mass")
 
 
 # --- the answer ----------------------------------------------------------------------------------
@@ -134,9 +134,10 @@ def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Bod
         perturber=mean_torques.labels,
     ).with_attributes(
         no_error=mean_torques.no_error,
+        obliquity=north_note(body, mean_torques.obliquity),
         precession_rate={
             "window": mean_torques.over,
-            "pole": str(body.needed("pole")),
+            "pole": describe_pole(body),
             "plane": "ecliptic of J2000.0"
             if body.needed("pole").of_the_iau
             else f"orbit whose normal has {body.orbit_pole} (ICRF)",
@@ -163,7 +164,7 @@ class Convergence(Variables, no_error="the curve itself shows the error of each 
 
 
 @part(unless=reasons.many_pulls)
-def convergence(torque_samples: Samples, body: Body) -> Convergence:
+def convergence(torque_samples: Samples, mean_rates: MeanRates, body: Body) -> Convergence:
     """Compute the precession rate for averaging windows of different lengths and tapers."""
     import xarray as xr
 
@@ -174,7 +175,9 @@ def convergence(torque_samples: Samples, body: Body) -> Convergence:
     precessing = xr.DataArray(np.stack(list(curves.values())), dims=("window", "window_cycles"))
     return Convergence(
         rate_by_window=rates.precession_rate(
-            precessing, body.needed("dynamical_flattening"), body.spin_rate
+            precessing,
+            body.needed("dynamical_flattening") * mean_rates.carried.rate,
+            body.spin_rate,
         ),
         window_length=cycles * window.cycle,
         window=list(curves),
@@ -212,7 +215,7 @@ class FigureModels(
 
 
 @part(unless=(no_figure, reasons.many_pulls))
-def figure_models(mean_torques: MeanTorques, body: Body) -> FigureModels:
+def figure_models(mean_torques: MeanTorques, mean_rates: MeanRates, body: Body) -> FigureModels:
     """Compute H from three models of the figure, and the precession and free wobble for each H."""
     import xarray as xr
 
@@ -224,7 +227,9 @@ def figure_models(mean_torques: MeanTorques, body: Body) -> FigureModels:
     difference = inertia.moment_difference(j2, body.mass, radius)
     return FigureModels(
         h_by_model=h,
-        period_by_model=rates.period(rates.precession_rate(precessing, h, body.spin_rate)),
+        period_by_model=rates.period(
+            rates.precession_rate(precessing, h * mean_rates.carried.rate, body.spin_rate)
+        ),
         wobble_by_model=free_wobble_period(
             inertia.ellipticity_from_h(h), body.needed("spin_period")
         ),
@@ -394,19 +399,29 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
     ).with_attributes(no_error=sky.no_error)
 
 
+def neglected_nodes(body: Body, mean_rates: MeanRates) -> dict[str, float]:
+    """Largest additions to the mean rate by the nodes of satellites, rad/s, with their periods."""
+    found = swings(body, mean_rates.pull, mean_rates.means.obliquity)
+    return {f"{name}, period {swing.years}": swing.rate for name, swing in found.items()}
+
+
 @part
 def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -> Neglected:
     """Published contributions to the precession rate of effects that are not modelled."""
     unknown = reasons.not_the_iaus_earth(body, perturbers)
-    if body.name in LEFT_OUT_OF_RATES and body.is_as_named:
+    published = LEFT_OUT_OF_RATES.get(body.name, {}) if body.is_as_named else {}
+    nodes = neglected_nodes(body, mean_rates)
+    if published:
         what = "contribution to the rate that the model leaves out; others were not measured"
-        return Neglected.cited(LEFT_OUT_OF_RATES[body.name], what)
+        cited = Neglected.cited(published, what)
+        return replace(cited, sizes={**cited.sizes, **nodes}, periodic=tuple(nodes))
     if unknown:
         return Neglected(
-            {"turning of the axis within an orbit": mean_rates.second_order},
+            {"turning of the axis within an orbit": mean_rates.second_order, **nodes},
             "arcsec/yr",
             "bound on the contribution to the rate that the model leaves out",
             unknown=f"all other effects, because {unknown}",
+            periodic=tuple(nodes),
         )
     return reasons.neglected_rates()
 

@@ -129,6 +129,12 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
         else:
             refuse_break_up(_spinning(self.body.replace(spin_period=None), self.start_omega))
 
+    @property
+    def unused(self) -> str:
+        """Satellites that are left out; with perturbers, only the motion of their nodes."""
+        satellites = super().unused
+        return f"the nodes of {satellites}" if satellites and self.perturbers else satellites
+
     def check(self) -> None:
         """Refuse the non-rigid effect, H = 0, and an attitude that is not a unit quaternion."""
         super().check()

@@ -17,6 +17,7 @@ from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Pair, Value, labels, measured, number
 from earthspin.mass.inertia import moment_difference
 from earthspin.parts.reasons import no_iau_model
+from earthspin.parts.satellites import largest_torques_of_satellites
 from earthspin.parts.sky import Sky, places, sky
 from earthspin.parts.times import SPAN_DOC, Dated, Series, by_region, days_of, epochs
 from earthspin.sky.sources import OF_DATE, SourceName
@@ -53,6 +54,7 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
     """
 
     views, page, headline = "torque", "theory", "torque_magnitude"
+    with_satellites = True
 
     span: Span = key(("2000-01-01T12:00:00", "2001-01-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("6 h", doc="interval between dates")
@@ -144,10 +146,10 @@ def torques(
 
     bulge = moment_difference(body.needed("j2"), body.mass, body.needed("radius"))
     u_bulge = body.relative_uncertainty_of_bulge()
-    per_bulge = [torque_from_declination(p.gm, 1.0, *seen[p.name]) for p in perturbers]
+    per_bulge = [torque_from_declination(p.gm_on(body), 1.0, *seen[p.name]) for p in perturbers]
     error = [
         torque_error(
-            p.gm,
+            p.gm_on(body),
             1.0,
             declination=seen[p.name][1],
             distance=seen[p.name][2],
@@ -194,11 +196,12 @@ def neglected(torques: xr.Dataset, body: Body, perturbers: tuple[Body, ...]) -> 
     if body.labelled:
         return Neglected(what="effects whose sizes are given for one body at a time")
     nearest = torques.distance.min("time")
-    pulls = [(p.gm, float(nearest.sel(perturber=p.name))) for p in perturbers]
+    pulls = [(p.gm_on(body), float(nearest.sel(perturber=p.name))) for p in perturbers]
     figure = {3: float(body.j3), 4: float(body.j4)}
     sizes = largest_torque_on_figure(
         pulls, float(body.mass), float(body.needed("radius")), figure, float(body.triaxiality)
     )
+    sizes |= largest_torques_of_satellites(body, sum(gm / r**3 for gm, r in pulls))
     return Neglected(sizes, "N m", "largest torque that the model leaves out", body.reference)
 
 

@@ -15,7 +15,13 @@ from earthspin.views.reading import Result, question_of
 from earthspin.views.table import date
 
 #: Words for the shares of an error, by the endings of their names.
-SHARES = {"method": "method", "input": "inputs", "kernel": "positions", "response": "response"}
+SHARES = {
+    "method": "method",
+    "input": "inputs",
+    "kernel": "positions",
+    "response": "response",
+    "satellites": "satellites",
+}
 
 
 def closing_line(result: Result, seconds: float | None = None) -> str:

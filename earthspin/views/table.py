@@ -211,9 +211,16 @@ def beside_observed(
         Written after the numbers.
     """
     if left_out is not None and left_out.sizes["effect"] and not some_unknown(left_out):
-        return with_error(value, float(error) + float(abs(left_out.neglected_effect).sum()), unit)
+        return with_error(value, float(error) + systematic_size(left_out), unit)
     plain = with_error(value, error, unit)
     return f"{plain}, {NUMBERS_ONLY}" if float(error) > 0 else plain
+
+
+def systematic_size(left_out: xr.Dataset) -> float:
+    """Sum of the sizes in a section `neglected`, without effects that vanish in the mean."""
+    sizes = left_out.neglected_effect
+    periodic = sizes.attrs.get("zero_in_the_mean", "").split("; ")
+    return float(abs(sizes[~np.isin(sizes["effect"].values, periodic)]).sum())
 
 
 def some_unknown(left_out: xr.Dataset) -> bool:

@@ -1,0 +1,194 @@
+r"""Precession of a planet together with its satellites, each near its own Laplace plane.
+
+Spin, satellites and Sun act on each other as gyroscopes. The mean plane of a satellite, its Laplace
+plane, lies between the equator of the planet and the plane of its orbit, tilted by theta from the
+equator, and all of these planes precess together (Goldreich 1966, Rev. Geophys. 4, 411; Ward 1975,
+AJ 80, 64; torques of the satellites on one another after Laplace). With GM for masses, M those of
+the planet, m_j of a satellite with the mean motion n_j, and S = GMsun <1/r3>:
+
+    K_j  = (3/8) S m_j a_j2                  torque of the Sun on a satellite
+    P_j  = (3/4) M m_j J2 R2 / a_j3          torque of the bulge on a satellite
+    P_ij = m_i m_j \alpha b(\alpha) / (8 a)  torque of two satellites, a of the outer one
+    P_j sin 2\theta_j + sum_i P_ij sin 2(\theta_j - \theta_i) = K_j sin 2(\epsilon - \theta_j)
+
+    J2' = J2 + q,  q = (1/2) sum (m/M) (a/R)2 sin 2(\epsilon - \theta) / sin 2\epsilon
+    C'  = C + l,   l = sum (m/M) (a/R)2 (n/Omega) sin(\epsilon - \theta) / sin \epsilon
+
+with C in M R2. Averaged over its node, an orbit inclined by i to the Laplace plane contributes
+(3 cos2 i - 1)/2 of its q and cos i of its l. Eccentricities of satellites change the rate by 0.1 %
+and are left out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from earthspin.numerics.arrays import FloatArray
+
+#: Largest number of Newton's steps; five are usual.
+_MOST_STEPS = 50
+#: Least |sin 2 epsilon|: q and l have a limit at 0 and 90 deg, where their formulas are 0/0.
+_LEAST_SINE = 1e-6
+
+
+def laplace_coefficient(ratio: float) -> float:
+    """Laplace coefficient b_3/2^(1) of a ratio of semi-major axes below 1."""
+    angle = np.linspace(0.0, 2 * np.pi, 2001)[:-1]
+    return float(2 * np.mean(np.cos(angle) / (1 - 2 * ratio * np.cos(angle) + ratio**2) ** 1.5))
+
+
+@dataclass(frozen=True)
+class Satellites:
+    """Masses and orbits of the satellites of a planet.
+
+    Attributes
+    ----------
+    gm, a : ndarray, shape (n,)
+        GM and semi-major axis, m3 s-2 and m.
+    i : ndarray, shape (n,)
+        Inclination to the Laplace plane, rad; above 90 deg if opposite to the spin of the planet.
+    """
+
+    gm: FloatArray
+    a: FloatArray
+    i: FloatArray
+
+    def mutual(self) -> FloatArray:
+        """Torque P_ij between each two satellites, m5 s-4, with zeros on the diagonal."""
+        torque = np.zeros((self.gm.size, self.gm.size))
+        for first in range(self.gm.size):
+            for second in range(first):
+                inner, outer = sorted((self.a[first], self.a[second]))
+                ratio = inner / outer
+                size = self.gm[first] * self.gm[second] * ratio * laplace_coefficient(ratio)
+                torque[first, second] = torque[second, first] = size / (8 * outer)
+        return torque
+
+
+@dataclass(frozen=True)
+class Planet:
+    """Planets that differ in their numbers, of which each attribute has the shape (m, 1).
+
+    Attributes
+    ----------
+    gm, radius, j2, polar_moment, spin_rate : ndarray
+        GM (m3 s-2), equatorial radius (m), J2, C/(M R2), and spin rate without its sign (rad/s).
+    pull : ndarray
+        Sum of GM <1/r3> of the perturbers, s-2.
+    obliquity : float
+        rad.
+    """
+
+    gm: FloatArray
+    radius: FloatArray
+    j2: FloatArray
+    polar_moment: FloatArray
+    spin_rate: FloatArray
+    pull: FloatArray
+    obliquity: float
+
+    def torques(self, satellites: Satellites) -> tuple[FloatArray, FloatArray]:
+        """Torques K of the perturbers and P of the bulge on satellites, shape (m, n), m5 s-4."""
+        sun = 0.375 * self.pull * satellites.gm * satellites.a**2
+        bulge = 0.75 * self.gm * satellites.gm * self.j2 * self.radius**2 / satellites.a**3
+        return sun, bulge
+
+
+def laplace_tilts(planet: Planet, satellites: Satellites) -> FloatArray:
+    """Tilts of the Laplace planes from the equator towards the orbit, shape (m, n), rad."""
+    sun, bulge = planet.torques(satellites)
+    pairs, twice = satellites.mutual(), 2 * planet.obliquity
+    # without the other satellites
+    tilt = np.arctan2(sun * np.sin(twice), bulge + sun * np.cos(twice)) / 2
+    for _ in range(_MOST_STEPS):
+        apart = 2 * (tilt[:, :, np.newaxis] - tilt[:, np.newaxis])
+        free = twice - 2 * tilt
+        residual = bulge * np.sin(2 * tilt) + (pairs * np.sin(apart)).sum(-1) - sun * np.sin(free)
+        stiffness = 2 * pairs * np.cos(apart)
+        own = 2 * bulge * np.cos(2 * tilt) + stiffness.sum(-1) + 2 * sun * np.cos(free)
+        jacobian = own[:, :, np.newaxis] * np.eye(tilt.shape[1]) - stiffness
+        step = np.linalg.solve(jacobian, residual[:, :, np.newaxis])[:, :, 0]
+        tilt = tilt - step
+        if np.max(np.abs(step), initial=0.0) < 1e-14:
+            break
+    return np.asarray(tilt)
+
+
+def shares(planet: Planet, satellites: Satellites) -> tuple[FloatArray, FloatArray]:
+    """Contributions q and l of satellites to J2 and to C/(M R2) in the precession rate.
+
+    Returns
+    -------
+    q, l : ndarray, shape (m, n)
+        Of each satellite.
+    """
+    obliquity = planet.obliquity
+    if abs(np.sin(2 * obliquity)) < _LEAST_SINE:
+        obliquity += _LEAST_SINE if np.cos(2 * obliquity) > 0 else -_LEAST_SINE
+        planet = Planet(**{**vars(planet), "obliquity": obliquity})
+    free = obliquity - laplace_tilts(planet, satellites)
+    spread = satellites.gm / planet.gm * (satellites.a / planet.radius) ** 2
+    motion = np.sqrt((planet.gm + satellites.gm) / satellites.a**3)
+    cosine = np.cos(satellites.i)
+    q = spread / 2 * (1.5 * cosine**2 - 0.5) * np.sin(2 * free) / np.sin(2 * obliquity)
+    moment = spread * motion / planet.spin_rate * cosine * np.sin(free) / np.sin(obliquity)
+    return q, moment
+
+
+@dataclass(frozen=True)
+class Node:
+    """Regression of the node of a satellite, and the nutation of the planet that it causes.
+
+    Attributes
+    ----------
+    rate : float
+        Rate of the node, without its sign, rad/s.
+    swing : float
+        Radius of the circle that the planet's spin axis describes, rad.
+    """
+
+    rate: float
+    swing: float
+
+
+def nodes(planet: Planet, satellites: Satellites) -> list[Node]:
+    """Nodes of the satellites, each inclined to its Laplace plane, for one planet (m = 1).
+
+    Small inclinations are the normal modes of spin and satellites about their common state, with
+    normals displaced in the plane of tilt (x) and across it (y): h x' = Sy y, h y' = -Sx x. Each
+    mode is scaled to the inclination of the satellite that moves most in it. The normal of a
+    retrograde orbit counts reversed, with h < 0. For a large inclination, the torque has the
+    further factor cosine of the angle from the equator.
+    """
+    sun, bulge = (torque[0] for torque in planet.torques(satellites))
+    tilt = np.append(0.0, laplace_tilts(planet, satellites)[0])
+    gm, size, retrograde = satellites.gm, satellites.a, np.cos(satellites.i) < 0
+    momentum = gm * np.sqrt((planet.gm[0] + gm) * size) * np.where(retrograde, -1.0, 1.0)
+    spin = planet.polar_moment * planet.gm * planet.radius**2 * planet.spin_rate
+    h = np.append(spin[0], momentum)
+
+    pairs = np.zeros((h.size, h.size))
+    pairs[1:, 1:] = satellites.mutual()
+    pairs[0, 1:] = pairs[1:, 0] = bulge
+    apart = tilt[:, np.newaxis] - tilt
+    free = planet.obliquity - tilt[1:]
+    stretch = np.diag(np.append(0.0, 2 * sun * np.cos(2 * free)))
+    stretch += np.diag((2 * pairs * np.cos(2 * apart)).sum(1)) - 2 * pairs * np.cos(2 * apart)
+    bend = np.diag(np.append(0.0, 2 * sun * np.cos(free) ** 2))
+    bend += np.diag((2 * pairs * np.cos(apart) ** 2).sum(1)) - 2 * pairs * np.cos(apart)
+    squares, modes = np.linalg.eig((bend / h[:, np.newaxis]) @ (stretch / h[:, np.newaxis]))
+
+    inclination = np.where(retrograde, np.pi - satellites.i, satellites.i)
+    # in the slowest mode, the precession, all move together
+    shares_of_modes = np.abs(modes[1:]) / np.abs(modes[1:]).max(0)
+    shares_of_modes[:, np.argmin(np.abs(squares))] = 0.0
+    found = []
+    for satellite in range(gm.size):
+        mode = int(np.argmax(shares_of_modes[satellite]))
+        ratio = float(np.real(modes[0, mode] / modes[1 + satellite, mode]))
+        sine = ratio * np.sin(inclination[satellite])
+        rate = np.sqrt(abs(squares[mode])) * np.cos(inclination[satellite] - np.arcsin(sine))
+        found.append(Node(float(rate), float(np.arcsin(abs(sine)))))
+    return found
