@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from typing import Annotated, Any, ClassVar, get_type_hints
 
@@ -64,12 +64,9 @@ class Satellite:
             if isinstance(kind, Magnitude) and not isinstance(value, float):
                 raise where.at(name).error("an array", "it is one number")
             object.__setattr__(self, name, value)
-        for name, low, high in (("gm", 0.0, _LARGEST), ("a", 0.0, _LARGEST), ("i", -0.0, math.pi)):
-            value = getattr(self, name)
-            if not low <= value <= high or (name == "a" and value == 0):
-                raise where.at(name).error(value, f"give a number from {low:g} to {high:g}")
-        if self.gm_uncertainty < 0:
-            raise where.at("gm_uncertainty").error(self.gm_uncertainty, "it is zero or more")
+        for name, holds, allowed in _RULES:
+            if not holds(getattr(self, name)):
+                raise where.at(name).error(getattr(self, name), allowed)
 
     @classmethod
     def read(cls, value: object, where: Where) -> Satellite:
@@ -105,6 +102,13 @@ _KINDS: dict[str, Any] = {
 }
 #: Plausibility bound: above mass and size of the observable universe, SI.
 _LARGEST = 1e60
+#: Conditions on each number.
+_RULES: tuple[tuple[str, Callable[[float], bool], str], ...] = (
+    ("gm", lambda gm: 0 <= gm <= _LARGEST, f"it is zero or more, and at most {_LARGEST:g} m3 s-2"),
+    ("a", lambda a: 0 < a <= _LARGEST, f"it is greater than zero, and at most {_LARGEST:g} m"),
+    ("i", lambda i: 0 <= i <= math.pi, "an inclination must be 0 to 180 deg"),
+    ("gm_uncertainty", lambda u: u >= 0, "an uncertainty must be zero or more"),
+)
 
 
 class SatelliteList:

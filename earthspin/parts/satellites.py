@@ -175,7 +175,7 @@ def swings(body: Body, pull: Numeric, obliquity: float) -> dict[str, Swing]:
     names = ("gm", "radius", "j2", "dynamical_flattening")
     numbers = [*(body.needed(name) for name in names), body.spin_rate, pull]
     planet = _planet([np.full((1, 1), float(np.mean(number))) for number in numbers], obliquity)
-    sine = np.sin(obliquity)
+    sine = math.sin(obliquity)
     found = {}
     for satellite, node in zip(body.satellites, nodes(planet, _satellites(body)), strict=True):
         if node.swing:
@@ -245,8 +245,11 @@ def common_turn(body: Body, pull: float) -> FloatArray | None:
 
 
 def _rate(node: Node, sine: float) -> float:
-    """Largest rate in longitude of the motion on a circle about the mean pole, rad/s."""
-    return float(node.rate * np.sin(node.swing) / sine)
+    """Largest rate in longitude of the motion on a circle about the mean pole, rad/s.
+
+    It is infinite for an upright pole, whose longitude is not defined.
+    """
+    return node.rate * math.sin(node.swing) / sine if sine else math.inf
 
 
 def _planet(columns: list[Any], obliquity: float) -> Planet:
