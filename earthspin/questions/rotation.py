@@ -437,7 +437,8 @@ def turning(
         attitude_error={
             **comment,
             "method": f"Gauss windows of {motion.order} nodes, in two forms",
-            "evaluations": motion.evaluations,
+            # the number that a whole series takes is not known from one block of it
+            **({"evaluations": motion.evaluations} if block is None else {}),
             **({} if start_attitude is not None else start_note(body)),
             **idle_note(body, effects),
         },
