@@ -330,7 +330,7 @@ class TimeGrid:
         return float(self.days(0, 1)[0]), float(self.days(self.size - 1)[0])
 
     def days(self, first: int = 0, last: int | None = None, every: int = 1) -> FloatArray:
-        """Days from J2000.0 TDB of every n-th time of the grid, from index `first` to `last` - 1."""
+        """Days from J2000.0 TDB of every n-th time of the grid, from `first` to `last` - 1."""
         index = np.arange(first, self.size if last is None else last, every, dtype=np.int64)
         whole, rest = np.divmod(self.start + self.step * index, MICROSECONDS_PER_DAY)
         return np.asarray(whole + rest / MICROSECONDS_PER_DAY)
@@ -383,7 +383,7 @@ class TimeList(Listed):
         return float(self.listed.min()), float(self.listed.max())
 
     def days(self, first: int = 0, last: int | None = None, every: int = 1) -> FloatArray:
-        """Days from J2000.0 TDB of every n-th time of the list, from index `first` to `last` - 1."""
+        """Days from J2000.0 TDB of every n-th time of the list, from `first` to `last` - 1."""
         return self.listed[first:last:every]
 
 
