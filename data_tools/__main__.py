@@ -16,7 +16,7 @@ VERBS = {
     "constants": "list every cited number and where it was read, for docs/measured/constants.md",
     "signatures": "write the signatures of the public calls, and the index of the reference",
     "coverage": "measure how often claimed errors contain independent results; names of topics",
-    "neglected": "measure how far each effect moves the axis of the Earth",
+    "neglected": "measure how far the response of the interior moves the axis of the Earth",
     "orbits": "make the tables of orbits over ten million years from a kernel (de440)",
     "forecast": "measure the skill of the forecast of the pole, which the package ships",
     "free-wobble": "measure how often the intervals of the free wobble contain the truth",

@@ -329,9 +329,9 @@ class TimeGrid:
         """First and last time of the grid, days from J2000.0 TDB."""
         return float(self.days(0, 1)[0]), float(self.days(self.size - 1)[0])
 
-    def days(self, first: int = 0, last: int | None = None) -> FloatArray:
-        """Days from J2000.0 TDB of the times in the grid with index `first` to `last` - 1."""
-        index = np.arange(first, self.size if last is None else last, dtype=np.int64)
+    def days(self, first: int = 0, last: int | None = None, every: int = 1) -> FloatArray:
+        """Days from J2000.0 TDB of every n-th time of the grid, from `first` to `last` - 1."""
+        index = np.arange(first, self.size if last is None else last, every, dtype=np.int64)
         whole, rest = np.divmod(self.start + self.step * index, MICROSECONDS_PER_DAY)
         return np.asarray(whole + rest / MICROSECONDS_PER_DAY)
 
@@ -382,9 +382,9 @@ class TimeList(Listed):
         """Earliest and latest time of the list, days from J2000.0 TDB."""
         return float(self.listed.min()), float(self.listed.max())
 
-    def days(self, first: int = 0, last: int | None = None) -> FloatArray:
-        """Days from J2000.0 TDB of the times in the list with index `first` to `last` - 1."""
-        return self.listed[first:last]
+    def days(self, first: int = 0, last: int | None = None, every: int = 1) -> FloatArray:
+        """Days from J2000.0 TDB of every n-th time of the list, from `first` to `last` - 1."""
+        return self.listed[first:last:every]
 
 
 #: The times of a series.

@@ -15,7 +15,7 @@ PACKAGES = (
     *("numerics", "mass", "rotor", "top", "torque", "motion", "motion/effects", "interior"),
     *("wobble", "nutation", "sky", "parts"),
 )
-NO_KERNEL = {"__init__", "_checks", "arrays"}
+NO_KERNEL = {"__init__", "_checks", "arrays", "effect"}
 #: Modules between what is given and the kernels, and between the kernels and the answer.
 BORDER = (
     *("units", "dates", "bodies/figure", "bodies/earth", "constants", "scenes"),

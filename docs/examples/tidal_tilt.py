@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from earthspin.constants import MAS
-from earthspin.motion.effects import Effect, Growth, Numbers, add
+from earthspin.motion.effects import Effect, Numbers, add
 from earthspin.motion.forces import Forces, Places, RateLaw
 from earthspin.numerics.gauss_windows import Windows
 from earthspin.torque.quadrupole import FloatArray, cross
@@ -36,6 +36,6 @@ def switch_on(forces: Forces, body: Numbers) -> Forces:
     return replace(forces, torques=(*forces.torques, friction))
 
 
-TIDAL_TILT = Effect("tidal-tilt", switch_on, Growth(0.0, 0.024), "Williams 1994, AJ 108, 711")
+TIDAL_TILT = Effect("tidal-tilt", switch_on)
 
 add(TIDAL_TILT)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from earthspin.bodies import BODIES, PLANETS, Body, in_a_sentence, proper
+from earthspin.bodies import BODIES, PLANETS, Body, in_a_sentence
 from earthspin.constants import DAY
 from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.asking import public_call
@@ -15,8 +15,11 @@ from earthspin.engine.part import Block, part
 from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Value, labels, number
 from earthspin.motion.axes import AXES, AxisPath
-from earthspin.motion.effects import EFFECTS, NONRIGID, SOURCE
+from earthspin.motion.effect_sizes import axis_displacements
+from earthspin.motion.effects import NONRIGID
+from earthspin.motion.effects.nonrigid import LARGEST_CORE_NUTATION, RESPONSE
 from earthspin.nutation.angles import on_fixed_ecliptic
+from earthspin.parts.left_out import each_added, switched_off
 from earthspin.parts.path import (
     INTERIOR,
     SHORTEST_SPAN,
@@ -42,6 +45,7 @@ from earthspin.parts.pulls import (
     start_of,
 )
 from earthspin.parts.reasons import no_iau_model, north_note, not_the_iaus_earth
+from earthspin.parts.sky import Sky
 from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
 
 if TYPE_CHECKING:
@@ -325,20 +329,46 @@ def pole_angles(
 
 
 @part
-def neglected(body: Body, effects: tuple[str, ...], epochs: Epochs) -> Neglected:
-    """Sizes of the effects that are switched off, at the date farthest from J2000.0."""
+def neglected(
+    body: Body,
+    perturbers: tuple[Body, ...],
+    effects: tuple[str, ...],
+    sky: Sky,
+    pulls: Pulls,
+    axis_path: AxisPath,
+    epochs: Epochs,
+) -> Neglected:
+    """Sizes of what is not modelled, such as the effects that are switched off.
+
+    They are the largest changes of the figure axis from J2000.0 to the first and the last date.
+    """
+    off = switched_off(body, perturbers, effects)
+    forces, further = each_added(sky, body, perturbers, effects, off)
+    moved = axis_displacements(axis_path, start_of(body, pulls)[1], forces, further)
+    sizes = {name: size for name, size in moved.items() if size}
+    unknown = [name for name in off if name not in moved]
+    sources = ["effects that are off: to first order, along the computed path"] if off else []
     if no_iau_model(body) or not body.is_as_named:
-        half, unknown = start_error(body), f"effects not measured for this {proper(body.name)}"
-        if half is None or body.needed("pole").of_the_iau:
-            return Neglected(what=unknown)
-        what = f"half-width of the direction at the start; {unknown}"
-        return Neglected({"start": half}, "mas", what)
-    reach = max(abs(day) for day in epochs.span())
+        unknown.append(f"response of the interior of {in_a_sentence(body.name)}")
+    elif NONRIGID.name in effects:
+        sizes |= {"free core nutation": LARGEST_CORE_NUTATION}
+        sources.append("free core nutation: the largest that pole_offsets finds from 1984 to 2026")
+    else:
+        sizes |= {NONRIGID.name: max(map(RESPONSE.at, epochs.span()))}
+        sources.append("nonrigid: measured on DE421 from 1950 to 2050")
+    if not body.needed("pole").of_the_iau:
+        half = start_error(body)
+        if half is None:
+            unknown.append("uncertainty of the pole at the start")
+        else:
+            sizes |= {"start": half}
+            sources.append("start: 95 % half-width of the pole at J2000.0")
     return Neglected(
-        {name: effect.size_at(reach) for name, effect in EFFECTS.items() if name not in effects},
+        sizes,
         "mas",
         "largest change of direction that the model leaves out",
-        SOURCE,
+        "; ".join(sources),
+        unknown=", ".join(unknown),
     )
 
 

@@ -20,7 +20,8 @@ from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Value, labels, number, words
 from earthspin.errors import SceneError
 from earthspin.mass.inertia import polar_moment
-from earthspin.motion.effects import EFFECTS, NONRIGID
+from earthspin.motion.effect_sizes import attitude_displacements
+from earthspin.motion.effects import NONRIGID, SECOND_ORDER
 from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY, Rigid
 from earthspin.motion.forces import Forces
 from earthspin.motion.march import FINEST, Masses
@@ -35,7 +36,7 @@ from earthspin.motion.solution import (
 )
 from earthspin.numerics.arrays import FloatArray
 from earthspin.parts.custom_torque import CustomTorque
-from earthspin.parts.elements import all_by_elements
+from earthspin.parts.left_out import each_added, switched_off
 from earthspin.parts.pulls import (
     PULLS,
     AxisMotion,
@@ -46,7 +47,7 @@ from earthspin.parts.pulls import (
     start_note,
     switched_on,
 )
-from earthspin.parts.reasons import no_iau_model
+from earthspin.parts.sky import Sky
 from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
 from earthspin.progress import progress
 from earthspin.sky.elements import ByElements, Elements
@@ -126,7 +127,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
         """Refuse a spin so fast that the body would break up."""
         if self.start_omega is None:
             super().check_spin()
-        else:
+        elif self.start_omega.any():
             refuse_break_up(_spinning(self.body.replace(spin_period=None), self.start_omega))
 
     @property
@@ -191,7 +192,7 @@ def _spinning(body: Body, start_omega: FloatArray | None) -> Body:
 
 def _acting(effects: tuple[str, ...]) -> tuple[str, ...]:
     """Add B - A, which is one of the three moments of the body, to the effects."""
-    return (*effects, TRIAXIALITY)
+    return (*effects, TRIAXIALITY, SECOND_ORDER.name)
 
 
 @part(unless=nothing_pulls)
@@ -443,7 +444,8 @@ def turning(
         attitude_error={
             **comment,
             "method": f"Gauss windows of {motion.order} nodes, in two forms",
-            "evaluations": motion.evaluations,
+            # the number that a whole series takes is not known from one block of it
+            **({"evaluations": motion.evaluations} if block is None else {}),
             **({} if start_attitude is not None else start_note(body)),
             **idle_note(body, effects),
         },
@@ -521,56 +523,59 @@ _BEYOND = (
 )
 
 
+@part(unless=nothing_pulls)
+def effect_changes(
+    rotor: Rotor, sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]
+) -> dict[str, float]:
+    """Largest changes of the attitude by each effect that is switched off, rad."""
+    on = _acting(effects)
+    off = switched_off(body, perturbers, on)
+    if not off:
+        return {}
+    spinning = body.replace(spin_period=2 * np.pi / rotor.body.unit)
+    forces, further = each_added(sky, spinning, perturbers, on, off)
+    return attitude_displacements(rotor.body, rotor.start, rotor.duration, forces, further)
+
+
 @part
 def neglected(
     body: Body,
     perturbers: tuple[Body, ...],
     effects: tuple[str, ...],
     epochs: Epochs,
+    effect_changes: dict[str, float] | None = None,
 ) -> Neglected:
     """Sizes of effects on the attitude that are neglected, or their names if sizes are unknown.
 
     The sizes are for the last date.
     """
-    off = _switched_off(body, perturbers, effects)
+    changes = effect_changes or {}
+    sizes = {name: change for name, change in changes.items() if change}
+    off = switched_off(body, perturbers, _acting(effects))
+    unknown = [name for name in off if name not in changes]
+    sources = ["effects that are off: to first order, about a steady rotation"] if sizes else []
     known = BEYOND_RIGID.get(body.name) if body.is_as_named else None
     usual = {perturber.name for perturber in pulled_by(body)}
     if known is None or not usual <= {perturber.name for perturber in perturbers}:
-        return Neglected(unknown=", ".join([_BEYOND, *off]))
-    begin, end = epochs.span()
-    sizes = known.after(end - begin)
-    if no_iau_model(body) is None:  # the Earth, whose effects were measured from J2000.0
-        sizes |= {
-            name: EFFECTS[name].size_at(abs(begin)) + EFFECTS[name].size_at(abs(end))
-            for name in off
-        }
-        off = []
+        unknown.insert(0, _BEYOND)
+    else:
+        begin, end = epochs.span()
+        sizes |= known.after(end - begin)
+        sources.append(known.source)
     return Neglected(
         sizes,
         "arcsec",
         "largest change of the attitude that the model leaves out",
-        known.source,
-        unknown=", ".join(off),
+        "; ".join(sources),
+        unknown=", ".join(unknown),
     )
-
-
-def _switched_off(body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]) -> list[str]:
-    """Names of the effects that are switched off although they would change the rotation."""
-    moves = {
-        "planets": not all_by_elements(body, perturbers),
-        "j3": body.j3 != 0,
-        "j4": body.j4 != 0,
-        "geodesic": "sun" in {perturber.name for perturber in perturbers},
-        "j2-rate": body.j2_rate != 0,
-    }
-    return [name for name, would in moves.items() if would and name not in effects and perturbers]
 
 
 define_parts(
     Rotation,
     answer=(turning,),
     sections={"divergence": divergence, "neglected": neglected},
-    parts=(*PULLS, pulling, rotor, motion, parting),
+    parts=(*PULLS, pulling, rotor, motion, parting, effect_changes),
 )
 
 rotation = public_call(Rotation)

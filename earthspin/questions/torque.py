@@ -187,16 +187,38 @@ def _equator_words(equator: str, nutation: Nutation | None) -> str:
     return "mean equator" if equator == "mean" else "IAU 2000A nutation at each time"
 
 
+#: Number of times, evenly spread over a series, among which the smallest distances are searched.
+#: Over 150 years they are 20 h apart, within which the distance of the Moon changes by 1e-3.
+_SEARCHED = 1 << 16
+
+
+def one_body(body: Body) -> str | None:
+    """Return the reason (text) to omit sizes if the body has labelled arrays, else None."""
+    return "the sizes are given for one body at a time" if body.labelled else None
+
+
+@part(unless=one_body)
+def nearest(sky: Sky, epochs: Epochs) -> dict[str, float]:
+    """Find the smallest distance of each perturber over all times of the series, m.
+
+    It does not depend on the block, so every block of a long series has the same attributes.
+    """
+    every = -(-epochs.size // _SEARCHED)
+    positions = sky.positions(epochs.days(every=every))
+    return {name: float(np.linalg.norm(r, axis=1).min()) for name, r in positions.items()}
+
+
 @part
-def neglected(torques: xr.Dataset, body: Body, perturbers: tuple[Body, ...]) -> Neglected:
+def neglected(
+    body: Body, perturbers: tuple[Body, ...], nearest: dict[str, float] | None = None
+) -> Neglected:
     """Largest neglected torques, which act on J3, J4 and the triaxiality of the body.
 
     They are computed at the smallest distance of each perturber.
     """
-    if body.labelled:
+    if nearest is None:
         return Neglected(what="effects whose sizes are given for one body at a time")
-    nearest = torques.distance.min("time")
-    pulls = [(p.gm_on(body), float(nearest.sel(perturber=p.name))) for p in perturbers]
+    pulls = [(p.gm_on(body), nearest[p.name]) for p in perturbers]
     figure = {3: float(body.j3), 4: float(body.j4)}
     sizes = largest_torque_on_figure(
         pulls, float(body.mass), float(body.needed("radius")), figure, float(body.triaxiality)
@@ -209,7 +231,7 @@ define_parts(
     Torque,
     answer=(torques,),
     sections={"neglected": neglected},
-    parts=(places, sky, epochs, nutation),
+    parts=(places, sky, epochs, nutation, nearest),
     together=("body",),
     widest=256,
 )

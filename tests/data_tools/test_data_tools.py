@@ -5,7 +5,7 @@ import pytest
 
 from data_tools import free_wobble, neglected
 from data_tools.__main__ import main
-from earthspin.motion.effects import EFFECTS, MEASURED
+from earthspin.motion.effects.nonrigid import RESPONSE
 
 
 def test_hashes_are_as_known(capsys: pytest.CaptureFixture[str]) -> None:
@@ -18,18 +18,13 @@ def test_a_missing_kernel_is_one_line(capsys: pytest.CaptureFixture[str]) -> Non
     assert len(capsys.readouterr().err.splitlines()) == 1
 
 
-@pytest.mark.parametrize("bent", [False, True])
-def test_the_tightest_bound_touches_what_it_bounds(bent: bool) -> None:
+def test_the_tightest_bound_touches_what_it_bounds() -> None:
     years = np.linspace(-99.0, 50.0, 700)
-    growth = 2.8e-4 * years**2 if bent else 0.125 * np.abs(years)
-    moved = growth + 0.2 * np.abs(np.sin(years))
-    found = neglected.tightest(years, moved, bent=bent)
-    bound = neglected.bound(found, years)
-    assert np.all(bound >= moved)
+    moved = 0.125 * np.abs(years) + 0.2 * np.abs(np.sin(years))
+    found = neglected.tightest(years, moved)
+    assert np.all(neglected.bound(found, years) >= moved)
     assert found.swing == pytest.approx(0.2, rel=0.02, abs=0)
-    assert (found.bend if bent else found.rate) == pytest.approx(
-        2.8e-4 if bent else 0.125, rel=0.01, abs=0
-    )
+    assert found.rate == pytest.approx(0.125, rel=0.01, abs=0)
 
 
 def test_numbers_are_rounded_up() -> None:
@@ -42,21 +37,15 @@ def test_numbers_are_rounded_up() -> None:
 
 
 @pytest.mark.slow
-def test_the_table_of_what_is_neglected_holds(
+def test_the_bound_on_the_response_holds(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """On a coarse grid; what stands is measured on a fine one."""
     monkeypatch.setattr(neglected, "STEP", "29.9 d")
     assert main(["neglected"]) == 0
-    rows = [line.split() for line in capsys.readouterr().out.splitlines()[1:]]
-    assert {row[0] for row in rows} == set(EFFECTS)
-    for name, swing, rate, bend, worst in rows:
-        stands = EFFECTS[name].size
-        assert 0.8 < float(worst) <= 1
-        reach = MEASURED / 365.25
-        claimed = stands.swing + stands.rate * reach + stands.bend * reach**2
-        found = float(swing) + float(rate) * reach + float(bend) * reach**2
-        assert found == pytest.approx(claimed, rel=0.1, abs=0)
+    swing, rate, worst = map(float, capsys.readouterr().out.splitlines()[1].split())
+    assert 0.8 < worst <= 1
+    assert swing + 50 * rate == pytest.approx(RESPONSE.swing + 50 * RESPONSE.rate, rel=0.1, abs=0)
 
 
 def test_a_cell_of_the_free_wobble_is_as_stored() -> None:

@@ -36,9 +36,11 @@ def test_an_effect_is_a_word_like_any_other(tidal_tilt: ModuleType) -> None:
     scene = earthspin.load_scene("pole", {"effects": ["planets", "tidal-tilt"]})
     assert scene.effects == ("planets", "tidal-tilt")
     told = earthspin.run_tree(earthspin.load_scene("pole"), "neglected")["neglected"]
-    assert "tidal-tilt" in told.effect.values
+    # 2.4 mas a century, over the 20 years from J2000.0 to either end
+    size = float(told.neglected_effect.sel(effect="tidal-tilt"))
+    assert abs(size - 20 * 0.024) < 0.005
     with pytest.raises(ValueError, match="another effect"):
-        effects.add(effects.Effect("tidal-tilt", tidal_tilt.switch_on, effects.Growth(0.0)))
+        effects.add(effects.Effect("tidal-tilt", tidal_tilt.switch_on, "j2"))
 
 
 def test_an_unknown_effect_is_still_refused() -> None:

@@ -129,7 +129,9 @@ def test_a_solar_pole_never_looks_at_the_moon(monkeypatch: pytest.MonkeyPatch) -
     earthspin.pole(times=["2001-01-01"], perturbers=["sun"], effects=["second-order"])
     evaluated = {target for _, target in opened[0].evaluations}
     assert 10 in evaluated
-    assert not evaluated & {301, 1, 2, 4, 5}
+    assert 301 not in evaluated
+    # planets are evaluated for the size of their effect only, at a few times
+    assert opened[0].evaluations[0, 5] < opened[0].evaluations[0, 10] / 4
 
 
 def test_extremes_of_the_span() -> None:

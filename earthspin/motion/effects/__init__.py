@@ -1,6 +1,6 @@
 """Effects on the axes besides the torque on the equatorial bulge, one module for each effect."""
 
-from earthspin.motion.effects.effect import MEASURED, SOURCE, Effect, Growth, Numbers
+from earthspin.motion.effects.effect import Effect, Numbers
 from earthspin.motion.effects.geodesic import GEODESIC
 from earthspin.motion.effects.j2_rate import J2_RATE
 from earthspin.motion.effects.nonrigid import NONRIGID
@@ -10,8 +10,8 @@ from earthspin.motion.effects.triaxiality import TRIAXIALITY
 from earthspin.motion.effects.zonal import J3, J4
 
 __all__ = [
-    "EFFECTS", "GEODESIC", "MEASURED", "MEASURED_WITH", "NONRIGID", "PLANETS", "RIGID", "SOURCE",
-    "Effect", "Growth", "Numbers", "add",
+    "EFFECTS", "GEODESIC", "MEASURED_WITH", "NONRIGID", "PLANETS", "RIGID", "SECOND_ORDER",
+    "Effect", "Numbers", "add",
 ]  # fmt: skip
 
 #: All effects by name.

@@ -19,7 +19,7 @@ from dataclasses import replace
 import numpy as np
 
 from earthspin.constants import SPEED_OF_LIGHT
-from earthspin.motion.effects.effect import Effect, Growth, Numbers
+from earthspin.motion.effects.effect import Effect, Numbers
 from earthspin.motion.forces import Forces, Places, RateLaw, Torque
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.gauss_windows import Windows
@@ -83,4 +83,4 @@ def _switch_on(forces: Forces, body: Numbers) -> Forces:
     return replace(forces, torques=(*forces.torques, geodesic_torque("sun")))
 
 
-GEODESIC = Effect("geodesic", _switch_on, Growth(0.0629, 7.64))
+GEODESIC = Effect("geodesic", _switch_on)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from earthspin.motion.effects.effect import Effect, Growth, Numbers
+from earthspin.motion.effects.effect import Effect, Numbers
 from earthspin.motion.forces import Forces
 
 
@@ -16,4 +16,4 @@ def _switch_on(forces: Forces, body: Numbers) -> Forces:
     return replace(forces, figure=replace(forces.figure, j2_trend=trend))
 
 
-J2_RATE = Effect("j2-rate", _switch_on, Growth(0.00483, 0.0, 2.81e-4), coefficient="j2_rate")
+J2_RATE = Effect("j2-rate", _switch_on, coefficient="j2_rate")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from earthspin.motion.effects.effect import Effect, Growth, Numbers
+from earthspin.motion.effects.effect import Effect, Numbers
 from earthspin.motion.forces import Forces
 
 
@@ -12,4 +12,4 @@ def _switch_on(forces: Forces, body: Numbers) -> Forces:
     return replace(forces, mean_pole=None)
 
 
-SECOND_ORDER = Effect("second-order", _switch_on, Growth(9.72, 0.179))
+SECOND_ORDER = Effect("second-order", _switch_on)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from earthspin.motion.effects.effect import Effect, Growth, Numbers
+from earthspin.motion.effects.effect import Effect, Numbers
 from earthspin.motion.forces import Forces
 
 
@@ -14,4 +14,4 @@ def _switch_on(forces: Forces, body: Numbers) -> Forces:
     return replace(forces, figure=replace(figure, triaxiality=over_c))
 
 
-TRIAXIALITY = Effect("triaxiality", _switch_on, Growth(0.041), coefficient="triaxiality")
+TRIAXIALITY = Effect("triaxiality", _switch_on, coefficient="triaxiality")

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from earthspin.motion.effects.effect import Effect, Growth, Numbers
+from earthspin.motion.effects.effect import Effect, Numbers
 from earthspin.motion.forces import Forces
 
 
-def _harmonic(degree: int, size: Growth) -> Effect:
+def _harmonic(degree: int) -> Effect:
     def switch_on(forces: Forces, body: Numbers) -> Forces:
         coefficient = body.number(f"j{degree}")
         if not coefficient:
@@ -16,8 +16,8 @@ def _harmonic(degree: int, size: Growth) -> Effect:
         zonal = {**forces.figure.zonal, degree: coefficient}
         return replace(forces, figure=replace(forces.figure, zonal=zonal))
 
-    return Effect(f"j{degree}", switch_on, size, coefficient=f"j{degree}")
+    return Effect(f"j{degree}", switch_on, coefficient=f"j{degree}")
 
 
-J3 = _harmonic(3, Growth(0.215))
-J4 = _harmonic(4, Growth(0.00163, 0.0101))
+J3 = _harmonic(3)
+J4 = _harmonic(4)
