@@ -11,7 +11,7 @@ from earthspin.bodies.giants import SATELLITES, SATURN_MOMENT
 from earthspin.bodies.satellites import Satellite
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, AU, JULIAN_YEAR
 from earthspin.errors import BodyError, SceneError
-from earthspin.parts.satellites import carried, mean_pole_error, swings
+from earthspin.parts.satellites import carried, largest_drifts, mean_pole_error, swings
 from earthspin.questions.precession import Precession
 from earthspin.torque.laplace import Planet, Satellites, laplace_tilts
 from tests.reference import gyroscopes
@@ -256,7 +256,12 @@ def test_a_question_that_leaves_satellites_out_says_so() -> None:
     alone = earthspin.wobble_ladder(body=figure.replace(satellites=[]))
     assert "satellites" not in alone.attrs["neglected"]
     turned = earthspin.rotation("2000-01-01T12:00", "2000-01-02", "12 h", body="jupiter")
-    assert "nodes of the satellites Io" in turned.attrs["neglected"]
+    assert "node of Europa" in turned.attrs["neglected"]
+    # a chord of 0.18 arcsec radius in half a turn of Io's node, and the diameter thereafter
+    found = swings(JUPITER, *pull_and_obliquity("jupiter"))
+    for years, size in ((1.0, 0.149), (3.714, 0.3636), (10.0, 0.3636)):
+        drift = largest_drifts(found, years * JULIAN_YEAR)["node of Io"]
+        assert drift / ARCSEC == pytest.approx(size, rel=5e-3, abs=0)
     # tilts of 0.65 + 0.32 deg to the equator: 3/2 Gm/a3 (C - A) sin 2x
     series = earthspin.torque_series("2000-01-01", "2000-01-11", "10 d", body="saturn")
     assert series.attrs["neglected"].startswith("pull of Titan: 9.0")

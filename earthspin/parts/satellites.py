@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from earthspin.bodies import Body, Numeric, all_of
+from earthspin.bodies import Body, Numeric, all_of, in_a_sentence
 from earthspin.constants import JULIAN_YEAR, NORMAL_95
 from earthspin.errors import BodyError
 from earthspin.numerics.arrays import FloatArray
@@ -48,6 +48,11 @@ class Carried:
     def rate(self) -> Numeric:
         """Factor on the precession rate."""
         return self.bulge / self.moment
+
+
+def no_satellites(body: Body) -> str | None:
+    """Return the reason (text) to omit the motion of satellites if there are none, else None."""
+    return None if body.satellites else f"{in_a_sentence(body.name)} has no satellites here"
 
 
 def without_swings(body: Body) -> Body:
@@ -205,6 +210,14 @@ def largest_torques_of_satellites(body: Body, pull: float) -> dict[str, float]:
         * abs(moment)
         * math.sin(min(2 * (abs(tilt) + min(moon.i, math.pi - moon.i)), math.pi / 2))
         for moon, tilt in zip(body.satellites, tilts, strict=True)
+    }
+
+
+def largest_drifts(found: Mapping[str, Swing], span: float) -> dict[str, float]:
+    """Largest displacements of the pole by the nodes of satellites within a span of s, rad."""
+    return {
+        name: 2 * swing.angle * math.sin(min(swing.node_rate * span, math.pi) / 2)
+        for name, swing in found.items()
     }
 
 

@@ -45,6 +45,7 @@ from earthspin.parts.pulls import (
     start_of,
 )
 from earthspin.parts.reasons import no_iau_model, north_note, not_the_iaus_earth
+from earthspin.parts.satellites import no_satellites
 from earthspin.parts.sky import Sky
 from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
 
@@ -256,11 +257,6 @@ def response_error(
     if response == "predicted":
         share.with_attributes(direction_error_response={"references": SOURCES})
     return share
-
-
-def no_satellites(body: Body) -> str | None:
-    """Return the reason (text) to omit the error by satellites if there are none, else None."""
-    return None if body.satellites else f"{in_a_sentence(body.name)} has no satellites here"
 
 
 class SatelliteError(Dated):

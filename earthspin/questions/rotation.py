@@ -47,6 +47,7 @@ from earthspin.parts.pulls import (
     start_note,
     switched_on,
 )
+from earthspin.parts.satellites import largest_drifts, no_satellites, obliquity_of, swings
 from earthspin.parts.sky import Sky
 from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
 from earthspin.progress import progress
@@ -132,9 +133,9 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
     @property
     def unused(self) -> str:
-        """Satellites that are left out; with perturbers, only the motion of their nodes."""
-        satellites = super().unused
-        return f"the nodes of {satellites}" if satellites and self.perturbers else satellites
+        """Satellites that are left out; of those of a body in an orbit, nodes have a size."""
+        known = self.perturbers and obliquity_of(self.body) is not None
+        return "" if known else super().unused
 
     def check(self) -> None:
         """Refuse the non-rigid effect, H = 0, and an attitude that is not a unit quaternion."""
@@ -537,6 +538,17 @@ def effect_changes(
     return attitude_displacements(rotor.body, rotor.start, rotor.duration, forces, further)
 
 
+@part(unless=(nothing_pulls, no_satellites))
+def node_drifts(body: Body, pulls: Pulls, epochs: Epochs) -> dict[str, float]:
+    """Largest displacements of the pole by the nodes of the satellites from first to last date."""
+    obliquity = obliquity_of(body)
+    if obliquity is None:
+        return {}
+    begin, end = epochs.span()
+    found = swings(body, pulls.mean_pull(body.orbital_period), obliquity)
+    return largest_drifts(found, (end - begin) * DAY)
+
+
 @part
 def neglected(
     body: Body,
@@ -544,6 +556,7 @@ def neglected(
     effects: tuple[str, ...],
     epochs: Epochs,
     effect_changes: dict[str, float] | None = None,
+    node_drifts: dict[str, float] | None = None,
 ) -> Neglected:
     """Sizes of effects on the attitude that are neglected, or their names if sizes are unknown.
 
@@ -554,6 +567,9 @@ def neglected(
     off = switched_off(body, perturbers, _acting(effects))
     unknown = [name for name in off if name not in changes]
     sources = ["effects that are off: to first order, about a steady rotation"] if sizes else []
+    if node_drifts:
+        sizes |= node_drifts
+        sources.append("nodes: circles of the pole by the torques of the satellites on the bulge")
     known = BEYOND_RIGID.get(body.name) if body.is_as_named else None
     usual = {perturber.name for perturber in pulled_by(body)}
     if known is None or not usual <= {perturber.name for perturber in perturbers}:
@@ -575,7 +591,7 @@ define_parts(
     Rotation,
     answer=(turning,),
     sections={"divergence": divergence, "neglected": neglected},
-    parts=(*PULLS, pulling, rotor, motion, parting, effect_changes),
+    parts=(*PULLS, pulling, rotor, motion, parting, effect_changes, node_drifts),
 )
 
 rotation = public_call(Rotation)
