@@ -16,7 +16,7 @@ from earthspin.nutation.ladder import climb
 from earthspin.parts.predicted import Prediction
 from earthspin.questions.nutation import left
 
-#: Draws of all inputs together; the share of them inside an error has a standard error of 0.015.
+#: Draws of all inputs together; three standard errors of their share are 0.046.
 DRAWS = 200
 
 
@@ -60,9 +60,8 @@ def test_95_per_cent_of_draws_move_the_rms_by_less_than_its_error(
                  "core-in-rigid-mantle", "hydrostatic"):  # fmt: skip
         moved = np.array([move[name] for move in moves])
         inside = np.mean(moved < nominal.error[name], axis=0)
-        print(name, inside, np.quantile(moved, 0.95, axis=0), nominal.error[name])
         # the error is that of the angle that moves more
-        assert 0.91 < inside.min() < 0.985, name
+        assert 0.904 < inside.min() < 0.996, name
 
 
 def test_95_per_cent_of_draws_move_a_period_by_less_than_its_error(
@@ -77,8 +76,7 @@ def test_95_per_cent_of_draws_move_a_period_by_less_than_its_error(
             period = mode_period(name, np.array([m[name] for m in modes]), models.setting.spin_rate)
             moved = np.abs(period - mode_period(name, s, models.setting.spin_rate))
             inside = np.mean(moved < half_widths[name])
-            print(rung, name, inside)
-            assert 0.91 < inside < 0.985, (rung, name)
+            assert 0.904 < inside < 0.996, (rung, name)
 
 
 def test_the_inner_core_nutation_of_the_coupling_has_the_published_range(run: Run) -> None:
