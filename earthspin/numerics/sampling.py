@@ -136,9 +136,8 @@ def shares_of_variance(
     if not varies.any():
         rest[moving] = 1.0
     shape = outputs.shape[1:]
-    return Shares(
-        *(array.reshape(-1, *shape) for array in (slope, share, error)), rest.reshape(shape)
-    )
+    slope, share, error = (array.reshape(-1, *shape) for array in (slope, share, error))
+    return Shares(slope, share, error, rest.reshape(shape))
 
 
 def _related(covariance: FloatArray, owner: NDArray[Any], n: int) -> NDArray[np.bool_]:
