@@ -219,8 +219,10 @@ class Answer:
         -------
         Dataset
             For each number, ``<name>_slope``, the change per unit of the input, and
-            ``<name>_share``, the share of the variance, both along `input`; and
-            ``<name>_unexplained``, the share of the variance that the fit does not explain.
+            ``<name>_share``, the share of the variance, with its 95 % half-width
+            ``<name>_share_error``, all along `input`; and ``<name>_unexplained``, the share of the
+            variance that the fit does not explain. The error follows from the number of members;
+            it holds for inputs drawn at random and results that are nearly linear in them.
 
         Raises
         ------

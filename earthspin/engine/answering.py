@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 MEMBERS = 1000
 #: Quantiles at the ends of the central 95 % interval.
 _ENDS = (0.025, 0.975)
+_NO_ERROR = "no number of this answer has an error that can be sampled; leave it out"
 
 
 def answer(question: Question) -> xr.Dataset:
@@ -96,24 +97,31 @@ def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
     Returns
     -------
     Dataset
-        The answer with a variable ``<name>_error_sampled`` for each ``<name>_error``: half the
-        width of the central 95 % interval of the members. Its attributes hold the largest
-        difference from the linear error, and the largest difference between the median of the
-        sample and the value.
+        The answer with a variable ``<name>_error_sampled`` for each number with an error, its own
+        or one that it shares with other numbers: half the width of the central 95 % interval of
+        the members. Its attributes hold the largest difference from the linear error if that has
+        the same unit, and the largest difference between the median of the sample and the value.
 
     Raises
     ------
     EarthspinError
-        If the members cannot be computed.
+        If the members cannot be computed, or no number of the answer has an error.
     """
+    linear_errors = {
+        str(name): error
+        for name, array in answer.data_vars.items()
+        if array.dtype.kind == "f"
+        and (error := _linear_error(answer, str(name))) is not None
+        # the error of a vector is an angle or a length, not that of a component
+        and not {*array.dims}.difference(error.dims) & {"component", "quaternion"}
+    }
+    if not linear_errors:
+        raise question.error("uncertainty", "sample", _NO_ERROR)
     plain = question.replace(uncertainty=None, n=None)
     count = MEMBERS if question.n is None else question.n
     sample = Ensemble(plain.replace(members=Members(n=count, published=True))).hold()
     sampled: dict[str, Any] = {}
-    for name in map(str, answer.data_vars):
-        linear = answer.get(f"{name}_error_input", answer.get(f"{name}_error"))
-        if linear is None or answer[name].dtype.kind != "f" or linear.dims != answer[name].dims:
-            continue
+    for name, linear in linear_errors.items():
         values = sample[name]
         if MEMBER not in values.dims:
             width, shift = np.zeros(answer[name].shape), 0.0
@@ -122,16 +130,25 @@ def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
             width = (high - low) / 2
             shift = float(np.max(np.abs(middle - answer[name].values)))
         units = answer[name].attrs.get("units", "1")
-        difference = float(np.max(np.abs(linear.values - width), initial=0.0))
         attrs = {
             "long_name": f"95 % half-width of the {answer[name].attrs['long_name']} from "
             f"{count} members",
             "units": units,
             "members": count,
-            "difference_from_linear": f"{difference:.3g} {units} at most from {linear.name}",
             "middle_of_the_sample": f"{shift:.3g} {units} at most from {name}",
         }
+        if linear.attrs.get("units") == units and linear.dims == answer[name].dims:
+            difference = float(np.max(np.abs(linear.values - width), initial=0.0))
+            words = f"{difference:.3g} {units} at most from {linear.name}"
+            attrs["difference_from_linear"] = words
         sampled[f"{name}_error_sampled"] = (answer[name].dims, width, attrs)
     inputs = ", ".join(str(c.attrs["input"]) for c in sample.coords.values() if "input" in c.attrs)
     summary = {"sampled": f"{count} members in {inputs}"}
     return answer.assign(sampled).assign_attrs(summary)
+
+
+def _linear_error(answer: xr.Dataset, name: str) -> xr.DataArray | None:
+    """Linear error of a number: from its inputs, its own, or one shared with other numbers."""
+    shared = str(answer[name].attrs.get("ancillary_variables", "")).split()
+    names = (f"{name}_error_input", f"{name}_error", *shared)
+    return next((answer[error] for error in names if error in answer), None)

@@ -14,6 +14,8 @@ from earthspin.errors import SceneError
 from earthspin.numerics import sampling
 from earthspin.units import real_numbers
 
+_SHARE_ERROR = "95 % half-width, from the number of members, of the share of the variance"
+
 
 def is_ensemble(answer: xr.Dataset | xr.DataTree) -> bool:
     """Return True if a result is an ensemble, that is, has the dimension `member`."""
@@ -84,6 +86,7 @@ def sensitivity(answer: xr.Dataset) -> xr.Dataset:
         for ending, values, dims, meaning, units in (
             ("slope", shares.slope, ("input", *rest), "change per unit of the input", slope_units),
             ("share", shares.share, ("input", *rest), "share of the variance", "1"),
+            ("share_error", shares.error, ("input", *rest), _SHARE_ERROR, "1"),
             ("unexplained", shares.unexplained, rest, "variance not explained by the fit", "1"),
         ):
             attrs = {"long_name": f"{meaning}, of the {what}", "units": units}

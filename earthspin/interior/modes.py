@@ -253,7 +253,7 @@ def numbers_of(layers: LayeredBody, spin_rate: float) -> dict[str, float]:
     return numbers
 
 
-def mode_period(name: str, mode: complex, spin_rate: float) -> float:
+def mode_period(name: str, mode: Numeric, spin_rate: float) -> Numeric:
     """Period of a free mode, s: in space for a nutation, relative to the body for a wobble."""
     turns = 1 / (1 + mode.real) if name.endswith("nutation") else 1 / mode.real
-    return float(turns * 2 * np.pi / abs(spin_rate))
+    return turns * 2 * np.pi / abs(spin_rate)

@@ -46,6 +46,8 @@ ANELASTIC_EXPONENT = Constant(
     "that period and decay of the observed wobble are met",
     UNVERIFIED,
 )
+#: Range of the exponent that published work allows (Smith & Dahlen 1981).
+EXPONENT_RANGE = (0.04, 0.19)
 
 
 @dataclass(frozen=True)
@@ -67,7 +69,8 @@ class Interior:
     ocean : 2 x 2 tuple or None
         Products of inertia (c13, c23)/(M a2) per radian of wobble (m1, m2).
     relative_uncertainty : mapping
-        Standard deviation divided by value, by name of the input (`Inputs` of the ladder).
+        Standard deviation divided by value, by name of the input of the wobble and
+        nutation ladders.
     neglected : mapping of str to Constant
         Change of the free wobble's period, in days, by each effect that the model does not include.
     """
@@ -181,6 +184,17 @@ INTERIORS: dict[str, Interior] = {
                 "core_ellipticity": 0.02,
                 # Published Love numbers of the real ocean spread from 0.045 to 0.048.
                 "ocean": 0.02,
+                # No error of the diurnal response was published; the three waves of FES2004 differ
+                # from their mean by so much.
+                "diurnal_ocean": 0.13,
+                # The density jump at the boundary of the inner core is 0.6 +- 0.1 g/cm3: 0.41 in
+                # Smylie 1992, Science 255, 1678; 0.5 to 0.6 in Masters & Shearer 1990, JGR
+                # 95, 21691 (abstracts). The excess density has a jump of 0.6 and a rise of 0.09.
+                "inner_core_excess": 0.15,
+                "inner_core_fraction": 0.02,
+                # The boundary of the inner core is taken to be as near to equilibrium as that of
+                # the outer core.
+                "inner_core_ellipticity": 0.02,
             },
             neglected=_LEFT_OUT_OF_PREM,
         ),

@@ -7,12 +7,12 @@ rungs use numbers inferred from nutation.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import numpy as np
 
-from earthspin.constants import COMPUTED, DAY, NORMAL_95, Constant
+from earthspin.constants import COMPUTED, DAY, Constant
 from earthspin.interior.anelastic import anelastic_strain
 from earthspin.interior.diurnal_ocean import diurnal_response
 from earthspin.interior.equilibrium import Figure, figure
@@ -63,12 +63,9 @@ class Rung:
     ----------
     parts : callable
         Parameters of the system at body-fixed frequencies (cycles per rotation, an array).
-    observed_core : bool
-        Whether the flattening of the core is inferred from the observed free core nutation.
     """
 
     parts: Callable[[Array], Parts]
-    observed_core: bool = False
 
     @property
     def core_ellipticity(self) -> float:
@@ -106,65 +103,6 @@ class Rung:
                 )
         return {name: refined_modes[name] for name in MODES if name in refined_modes}
 
-    def uncertain(self, relative: Mapping[str, float]) -> list[tuple[Rung, Rung]]:
-        """For each uncertain input, return two models, with the input raised or lowered.
-
-        The change is the 95 % half-width of the input.
-
-        Parameters
-        ----------
-        relative : mapping
-            Standard deviation divided by value, of `k2` (which scales all compliances),
-            `core_fraction` and `core_ellipticity`; the last is not used if it is inferred from
-            observation.
-        """
-        shares = {name: NORMAL_95 * relative.get(name, 0.0) for name in _INPUTS}
-        if self.observed_core:
-            shares["core_ellipticity"] = NORMAL_95 * CORE_NUTATION.relative_uncertainty
-        return [
-            (self._scaled(field, share), self._scaled(field, -share))
-            for field, share in zip(_INPUTS.values(), shares.values(), strict=True)
-        ]
-
-    def _scaled(self, field: str, share: float) -> Rung:
-        def parts(sigma: Array) -> Parts:
-            nominal = self.parts(sigma)
-            return replace(nominal, **{field: (1 + share) * getattr(nominal, field)})
-
-        return replace(self, parts=parts)
-
-    def mode_half_widths(self, relative: Mapping[str, float]) -> dict[str, float]:
-        """95 % half-widths of the real parts of the free modes' frequencies, by name."""
-        nominal = self.modes(refined=False)
-        share = NORMAL_95 * relative.get("ellipticity", 0.0)
-        # e changes a mode, but not the transfer function: the rigid nutation has the same e
-        pairs = [(self._scaled("e", share), self._scaled("e", -share)), *self.uncertain(relative)]
-        varied = [[rung.modes(refined=False) for rung in pair] for pair in pairs]
-        half_widths = {}
-        for name in nominal:
-            # the uncertainty of an observed free core nutation does not depend on the other inputs
-            relevant = (
-                varied[-1:] if self.observed_core and name == "free_core_nutation" else varied
-            )
-            changes = [(up[name] - down[name]).real for up, down in relevant]
-            half_widths[name] = float(np.linalg.norm(changes) / 2)
-        return half_widths
-
-    def transfer_half_width(
-        self, sigma: Array, rigid_e: float, relative: Mapping[str, float]
-    ) -> Array:
-        """95 % half-width of the transfer function T (non-rigid over rigid nutation).
-
-        It is given at body-fixed frequencies.
-        """
-        pairs = [[rung.transfer(sigma, rigid_e) for rung in p] for p in self.uncertain(relative)]
-        squares = np.sum([np.abs(up - down) ** 2 for up, down in pairs], axis=0)
-        return np.asarray(np.sqrt(squares) / 2)
-
-
-#: Uncertain inputs, and the field of `Parts` that each scales.
-_INPUTS = {"k2": "answers", "core_fraction": "fluid", "core_ellipticity": "e_f"}
-
 
 @dataclass(frozen=True)
 class Setting:
@@ -181,6 +119,14 @@ class Setting:
         Contribution of the ocean to the Love number at long periods; 0 without an ocean.
     exponent : float
         Exponent of the period in the mantle's quality factor.
+    diurnal_ocean : float
+        Factor of the published response of the ocean at diurnal periods.
+    core_nutation : float
+        Observed period of the free core nutation in space, d.
+    k_cmb, k_icb : complex
+        Coupling constants of the core's boundaries, inferred from nutation.
+    factors : mapping of str to float
+        Factors of fields of `Parts` by which an interior differs from the layers.
     """
 
     layers: LayeredBody
@@ -188,6 +134,11 @@ class Setting:
     spin_rate: float
     ocean: float = 0.0
     exponent: float = 0.0
+    diurnal_ocean: float = 1.0
+    core_nutation: float = CORE_NUTATION.value
+    k_cmb: complex = 1j * K_CMB_OUT_OF_PHASE.value
+    k_icb: complex = complex(*(part.value for part in K_ICB))
+    factors: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def figure(self) -> Figure:
@@ -214,7 +165,8 @@ _yielding = lru_cache(maxsize=64)(yielding)
 def parts_of(setting: Setting, love: Yielding, e: float | None = None) -> Parts:
     """Ellipticities, moments and compliances that determine the nutation of a layered body.
 
-    The internal figures are hydrostatic, and the outer ellipticity is the observed one.
+    The internal figures are hydrostatic, except for the factors of the setting, and the outer
+    ellipticity is the observed one.
 
     Parameters
     ----------
@@ -224,7 +176,12 @@ def parts_of(setting: Setting, love: Yielding, e: float | None = None) -> Parts:
         (C - A)/A of the whole body, the observed value by default.
     """
     whole = setting.e if e is None else e
-    return interior_parts(setting.layers, setting.spin_rate, love.answers, whole)
+    parts = interior_parts(setting.layers, setting.spin_rate, love.answers, whole)
+    changed = {name: factor * getattr(parts, name) for name, factor in setting.factors.items()}
+    if "a3" in changed:  # another excess of density, and the same gravity of the masses outside
+        a3 = changed["a3"]
+        changed |= {"a1": 1 - a3, "a2": 1 - a3 - a3 * (parts.a1 - parts.a2) / parts.a3}
+    return replace(parts, **changed)
 
 
 def with_ocean(parts: Parts, setting: Setting, love: Yielding, sigma: Array) -> Parts:
@@ -235,7 +192,8 @@ def with_ocean(parts: Parts, setting: Setting, love: Yielding, sigma: Array) -> 
     the water's weight.
     """
     slow = np.abs(sigma) < 0.5
-    added = np.where(slow, setting.ocean, diurnal_response(sigma)) / love.lift[..., 0] ** 2
+    added = np.where(slow, setting.ocean, setting.diurnal_ocean * diurnal_response(sigma))
+    added = added / love.lift[..., 0] ** 2
     lift = love.lift[..., :, None] * love.lift[..., None, :]
     water = setting.figure.unit * added[..., None, None] * lift
     return replace(parts, answers=parts.answers + water)
@@ -264,39 +222,42 @@ def climb(setting: Setting, coupling: bool = False) -> dict[str, Rung]:
 
     anelastic = Rung(lambda sigma: wet(sigma, soft=True))
 
+    e_core = f.e_core * setting.factors.get("e_f", 1.0)
     stiff = replace(firm, answers=np.zeros((3, 3)))
     rungs = {
         "rigid": Rung(lambda sigma: without_core(stiff)),
         "elastic": Rung(lambda sigma: without_core(firm)),
-        "fluid-core": Rung(lambda sigma: all_fluid(firm, f.e_core)),
+        "fluid-core": Rung(lambda sigma: all_fluid(firm, e_core)),
         "inner-core": Rung(lambda sigma: firm),
         "ocean": Rung(lambda sigma: wet(sigma, soft=False)),
         "anelastic": anelastic,
-        "core-ellipticity": at_observed_period(anelastic, setting.spin_rate),
-        "core-in-rigid-mantle": Rung(lambda sigma: all_fluid(stiff, f.e_core)),
+        "core-ellipticity": at_observed_period(anelastic, setting),
+        "core-in-rigid-mantle": Rung(lambda sigma: all_fluid(stiff, e_core)),
         "hydrostatic": Rung(lambda sigma: parts_of(setting, love, f.e)),
     }
     if coupling:
-        k_icb = complex(*(part.value for part in K_ICB))
-        coupled = anelastic.coupled(1j * K_CMB_OUT_OF_PHASE.value, k_icb)
-        rungs["coupling"] = at_observed_period(coupled, setting.spin_rate)
+        # The coupling was inferred from the resonance of the inner core nutation, 1 + sigma about
+        # a2 e_s - K: another figure of the inner core would have given another K.
+        hydrostatic = parts_of(replace(setting, factors={}), love)
+        k_icb = setting.k_icb + firm.a2 * firm.e_s - hydrostatic.a2 * hydrostatic.e_s
+        rungs["coupling"] = at_observed_period(anelastic.coupled(setting.k_cmb, k_icb), setting)
     return {name: rungs[name] for name in (*RUNGS, *BESIDE) if name in rungs}
 
 
-def at_observed_period(rung: Rung, spin_rate: float) -> Rung:
+def at_observed_period(rung: Rung, setting: Setting) -> Rung:
     """Adjust the core flattening of an interior model to the observed free core nutation period.
 
     Parameters
     ----------
     rung : Rung
         Model; its core flattening is the first estimate.
-    spin_rate : float
-        rad/s.
+    setting : Setting
+        Its observed period and spin rate are used.
     """
-    wanted = 1 / (CORE_NUTATION.value * DAY * spin_rate / (2 * np.pi)) - 1
+    wanted = 1 / (setting.core_nutation * DAY * setting.spin_rate / (2 * np.pi)) - 1
 
     def with_core(e_f: float) -> Rung:
-        return Rung(lambda sigma: replace(rung.parts(sigma), e_f=e_f), observed_core=True)
+        return Rung(lambda sigma: replace(rung.parts(sigma), e_f=e_f))
 
     e_f = rung.core_ellipticity
     # each step reduces the error sevenfold, as the mode shifts slightly more than e_f

@@ -34,17 +34,14 @@ class Prediction:
     ----------
     rungs : dict of str to Rung
         Rungs of the ladder, and additional models.
-    e : float
-        Observed (C - A)/A.
-    spin_rate : float
-        Spin rate, rad/s.
+    setting : Setting
+        Inputs that the models share.
     uncertainty : mapping of str to float
         Relative standard uncertainties of the numbers of the interior, and of e.
     """
 
     rungs: dict[str, ladder.Rung]
-    e: float
-    spin_rate: float
+    setting: ladder.Setting
     uncertainty: Mapping[str, float]
 
     @property
@@ -57,12 +54,8 @@ class Prediction:
 
         The frequencies are in space.
         """
-        return self.rungs[name].transfer(frequency / self.spin_rate - 1, self.e)
-
-    def half_width(self, name: str, frequency: NDArray[np.float64]) -> NDArray[np.float64]:
-        """95 % half-width of the transfer function due to uncertainties of the interior."""
-        sigma = frequency / self.spin_rate - 1
-        return self.rungs[name].transfer_half_width(sigma, self.e, self.uncertainty)
+        sigma = frequency / self.setting.spin_rate - 1
+        return self.rungs[name].transfer(sigma, self.setting.e)
 
 
 def layered(body: Body) -> Interior | None:
@@ -101,7 +94,7 @@ def predict(body: Body, coupling: bool, anelastic_exponent: float) -> Prediction
     setting = ladder.Setting(interior.layers, e, spin_rate, ocean, anelastic_exponent)
     rungs = ladder.climb(setting, coupling)
     of_e = body.relative_uncertainty.get("dynamical_flattening", 0.0) / (1 - h)
-    return Prediction(rungs, e, spin_rate, {**interior.relative_uncertainty, "ellipticity": of_e})
+    return Prediction(rungs, setting, {**interior.relative_uncertainty, "ellipticity": of_e})
 
 
 @part(unless=no_layers)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
@@ -29,6 +30,7 @@ from earthspin.engine.variables import (
 from earthspin.interior.modes import mode_period
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.nutation import ladder
+from earthspin.nutation.interior_draws import Spread, spread_of
 from earthspin.parts.path import (
     MERGED,
     NEIGHBOUR,
@@ -50,6 +52,8 @@ from earthspin.units import Number
 
 #: Terms of the table: the largest circles.
 LARGEST = 12
+#: Days of the series, at least, from which the error of a root mean square is computed.
+DAYS_OF_ERRORS = 2000
 
 
 class NutationLadder(
@@ -104,6 +108,11 @@ class NutationLadder(
         super().check()
         if self.body.labelled:
             raise self.error("body", self.body.name, "give single numbers here, no labelled arrays")
+        if self.uncertainty == "sample":
+            problem = (
+                "the errors of the ladder are from a sample of its inputs already; leave it out"
+            )
+            raise self.error("uncertainty", "sample", problem)
         if why := no_layers(self.body):
             raise self.error("body", self.body.name, f"{why}; leave it out")
 
@@ -122,19 +131,25 @@ class RungResiduals:
     ----------
     rms : dict of str to ndarray, shape (2,)
         Of dpsi sin(eps0) and deps, rad, by rung.
-    error : float
-        95 % half-width of either angle, from the integration and H; what the interior adds is what
-        the ladder is about.
+    error : dict of str to float
+        95 % half-width of either angle, rad, from the inputs of the interior, H and integration.
     """
 
     rms: dict[str, NDArray[np.float64]]
-    error: float
+    error: dict[str, float]
+
+
+@part
+def interior_spread(models: Prediction) -> Spread:
+    """Vary the uncertain inputs of the interior, and draw them at random."""
+    return spread_of(models.setting, models.rungs, models.uncertainty)
 
 
 @part
 def left(
     pole_analysis: PoleComparison,
     models: Prediction,
+    interior_spread: Spread,
     pulls: Pulls,
     epochs: Epochs,
     body: Body,
@@ -155,23 +170,34 @@ def left(
         added = np.array([*responses(circles, iau.delaunay_arguments(at), factors).values()])
         return np.stack([added.real, added.imag], axis=-1).swapaxes(0, 1)
 
-    rms = {}
+    error = residual_error(done, body, theirs, days)
+    some = slice(None, None, max(1, days.size // DAYS_OF_ERRORS))
+    phases = circles.multiples @ iau.delaunay_arguments(days[some])
+    terms_at_days = circles.amplitude[:, np.newaxis] * np.exp(1j * phases)
+    rms, errors = {}, {}
     with progress("residuals", len(factors)) as advance:
         for name, shift in zip(factors, iau.at_days(shifts, days).swapaxes(0, 1), strict=True):
             eta = own + shift[:, 0] + 1j * shift[:, 1] - theirs
             plain = np.stack([eta.real, eta.imag], axis=1)
             residual = without_line(days / DAYS_PER_CENTURY, plain)
             rms[name] = np.sqrt(np.mean(residual**2, axis=0))
+            of_interior = interior_spread.rms_half_width(
+                name,
+                circles.frequency,
+                terms_at_days,
+                residual[some, 0] + 1j * residual[some, 1],
+                days[some],
+            )
+            errors[name] = math.hypot(error, of_interior)
             advance(1)
-    return RungResiduals(rms, residual_error(done, body, theirs, days))
+    return RungResiduals(rms, errors)
 
 
 _RMS = "root mean square of computed minus IAU 2000A in"
 _LONGITUDE = "longitude times sin(eps), straight line removed"
 _OBLIQUITY = "obliquity, straight line removed"
 _RMS_ERROR = (
-    "95 % half-width of a root mean square, from H and integration only: the uncertainty of the "
-    "interior is left out"
+    "95 % half-width of a root mean square, from the inputs of the interior, H and integration"
 )
 _ADDS = "what the model adds, or what it is"
 
@@ -183,7 +209,7 @@ class RungSizes(Variables, along=("rung",), error="rms_error"):
         "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
     )
     rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
-    rms_error: Value = number("mas", _RMS_ERROR, along=())
+    rms_error: Value = number("mas", _RMS_ERROR)
     adds: Value = words(_ADDS, short="what it adds")
     rung: Labels = labels()
 
@@ -196,7 +222,7 @@ def rung_sizes(left: RungResiduals, models: Prediction) -> RungSizes:
     return RungSizes(
         rms_dpsi_sineps=longitude,
         rms_deps=obliquity,
-        rms_error=left.error,
+        rms_error=np.array([left.error[name] for name in names]),
         adds=np.array([ladder.RUNGS[name] for name in names]),
         rung=names,
     )
@@ -209,7 +235,7 @@ class ModelSizes(Variables, along=("model",), error="model_rms_error"):
         "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
     )
     model_rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
-    model_rms_error: Value = number("mas", _RMS_ERROR, along=())
+    model_rms_error: Value = number("mas", _RMS_ERROR)
     model_adds: Value = words(_ADDS, short="what it adds")
     model: Labels = labels()
 
@@ -224,7 +250,7 @@ def beside(left: RungResiduals) -> ModelSizes:
     return ModelSizes(
         model_rms_dpsi_sineps=longitude,
         model_rms_deps=obliquity,
-        model_rms_error=left.error,
+        model_rms_error=np.array([left.error[name] for name in ladder.BESIDE]),
         model_adds=np.array(list(ladder.BESIDE.values())),
         model=list(ladder.BESIDE),
     )
@@ -263,7 +289,7 @@ class Terms(Variables, along=("term",)):
 
 
 @part
-def terms(pole_analysis: PoleComparison, models: Prediction) -> Terms:
+def terms(pole_analysis: PoleComparison, models: Prediction, interior_spread: Spread) -> Terms:
     """Compute the largest circular nutation terms of each model, in phase and out of phase."""
     from earthspin.nutation.circles import phases, term_names
     from earthspin.nutation.neighbours import amplitude_error, neighbours_of
@@ -274,7 +300,9 @@ def terms(pole_analysis: PoleComparison, models: Prediction) -> Terms:
     frequency, own = ours.frequency[order], ours.amplitude[order]
     names = models.ladder
     predicted = np.array([models.transfer(name, frequency) * own for name in names])
-    spread = np.array([models.half_width(name, frequency) * np.abs(own) for name in names])
+    spread = np.array(
+        [interior_spread.transfer_half_width(name, frequency) * np.abs(own) for name in names]
+    )
     error = amplitude_error(frequency)
     at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
     near = neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
@@ -313,16 +341,14 @@ class Modes(Variables, along=("mode",)):
 
 
 @part
-def modes(models: Prediction) -> Modes:
+def modes(models: Prediction, interior_spread: Spread) -> Modes:
     """Compute periods and quality factors of the free modes (wobbles, nutations) of each model."""
     rows = []
     for name in models.ladder:
-        rung = models.rungs[name]
-        widths = rung.mode_half_widths(models.uncertainty)
-        for mode, s in rung.modes().items():
-            period = mode_period(mode, s, models.spin_rate)
-            relative = widths[mode] / abs(1 + s.real if mode.endswith("nutation") else s.real)
-            rows.append((name, mode, period, abs(period) * relative, ladder.quality(s)))
+        half_widths = interior_spread.period_half_widths(name)
+        for mode, s in models.rungs[name].modes().items():
+            period = mode_period(mode, s, models.setting.spin_rate)
+            rows.append((name, mode, period, half_widths[mode], ladder.quality(s)))
     rungs, names, periods, errors, qualities = zip(*rows, strict=True)
     return Modes(
         mode_rung=np.array(rungs),
@@ -356,7 +382,9 @@ class Transfer(
 def transfer(models: Prediction) -> Transfer:
     """Compute the transfer function of each model, at frequencies that include its resonances."""
     names = models.ladder
-    response = np.array([models.rungs[name].transfer(_IN_SPACE - 1, models.e) for name in names])
+    response = np.array(
+        [models.rungs[name].transfer(_IN_SPACE - 1, models.setting.e) for name in names]
+    )
     return Transfer(transfer_real=response.real, transfer_imaginary=response.imag, rung=names)
 
 
@@ -376,7 +404,7 @@ define_parts(
         "transfer": transfer,
         "neglected": neglected,
     },
-    parts=(*PULLS, iau_pole, pole_analysis, models, left),
+    parts=(*PULLS, iau_pole, pole_analysis, models, interior_spread, left),
 )
 
 nutation_ladder = public_call(NutationLadder)

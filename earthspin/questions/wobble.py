@@ -26,7 +26,7 @@ from earthspin.engine.variables import (
     number,
     words,
 )
-from earthspin.interior.named import ANELASTIC_EXPONENT, Interior
+from earthspin.interior.named import ANELASTIC_EXPONENT, EXPONENT_RANGE, Interior
 from earthspin.parts import layered
 from earthspin.parts.observed_wobble import observed_wobble
 from earthspin.rotor.axisymmetric import free_wobble_error
@@ -125,7 +125,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
             value = float(getattr(state.inputs, field))
             if field == "anelastic_exponent":
                 if state.interior.layers is not None:
-                    ranges[name] = ("uniform", propagation.EXPONENT_RANGE)
+                    ranges[name] = ("uniform", EXPONENT_RANGE)
             elif value and field in state.interior.relative_uncertainty:
                 u = state.interior.relative_uncertainty[field]
                 ranges[name] = ("normal", (value, abs(value) * u))

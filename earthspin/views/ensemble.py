@@ -69,13 +69,16 @@ def shares(tree: Result) -> Table:
     """
     answer = _whole(tree)
     rows, headers = [], ["number"]
-    note = "By straight lines in all inputs together; the last column is what they leave."
+    note = (
+        "By straight lines in all inputs together; the last column is what they leave. The errors "
+        "follow from the number of members."
+    )
     if _numbers(answer) and _enough(answer):
-        numbers, share, rest = _shares(answer)
+        numbers, share, error, rest = _shares(answer)
         seen = np.abs(share).max(axis=0) >= SMALL
         rows = [
-            (number.words, *map(_percent, (*own[seen], left)))
-            for number, own, left in zip(numbers, share, rest, strict=True)
+            (number.words, *map(_percent, own[seen], errors[seen]), _percent(left))
+            for number, own, errors, left in zip(numbers, share, error, rest, strict=True)
         ]
         inputs = np.array([*inputs_of(answer)])
         headers += [name.replace("_", " ") for name in inputs[seen]]
@@ -87,13 +90,16 @@ def shares(tree: Result) -> Table:
 TABLES = [("", spread), ("", shares)]
 
 
-def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray, list[float]]:
-    """Main quantities of an ensemble, share of each input in their variance, and the rest."""
+def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray, FloatArray, list[float]]:
+    """Main quantities of an ensemble, shares of the inputs with errors, and the rest."""
     result, chiefs = sensitivity(answer), _chiefs(answer)
     rows = [number for number in _numbers(answer) if number.name in chiefs]
-    share = [result[f"{name}_share"].sel(labels).values for name, labels, _ in rows]
+    share, error = (
+        np.array([result[name + ending].sel(labels).values for name, labels, _ in rows])
+        for ending in ("_share", "_share_error")
+    )
     rest = [float(result[f"{name}_unexplained"].sel(labels)) for name, labels, _ in rows]
-    return rows, np.array(share), rest
+    return rows, share, error, rest
 
 
 def lead(tree: Result) -> str:
@@ -165,7 +171,7 @@ def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
     answer = _whole(result)
     if not _numbers(answer):
         raise SceneError("ensemble", answer.attrs["title"], _alike(answer))
-    rows, share, _ = _shares(answer)
+    rows, share, _, _ = _shares(answer)
     rows, share, inputs = rows[:MOST_ROWS], share[:MOST_ROWS], [*inputs_of(answer)]
     order = np.argsort(-share.max(axis=0))
     seen = [int(i) for i in order if share[:, i].max() >= SMALL][:MOST_COLOURS]
@@ -264,5 +270,7 @@ def _digits(value: float, other: float) -> str:
     return short_exponents(f"{value:.{digits}g}")
 
 
-def _percent(share: float) -> str:
-    return f"{100 * share:.2f}" if abs(share) >= SMALL else "0"
+def _percent(share: float, error: float = 0.0) -> str:
+    if abs(share) < SMALL:
+        return "0"
+    return with_error(100 * share, 100 * error) if error > SMALL / 10 else f"{100 * share:.2f}"

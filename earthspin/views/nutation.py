@@ -29,8 +29,8 @@ BEYOND = 0.6
 
 def _sizes(title: str, data: xr.Dataset, dim: str, note: str, prefix: str = "") -> Table:
     def size(angle: str) -> Column:
-        name, error = f"{prefix}rms_{angle}", data[f"{prefix}rms_error"]
-        return Column(name, lambda row: with_error(row[name], error))
+        name = f"{prefix}rms_{angle}"
+        return Column(name, lambda row: with_error(row[name], row[f"{prefix}rms_error"]))
 
     columns = size("dpsi_sineps"), size("deps"), f"{prefix}adds"
     return table_along(data, dim, title, columns, note, words=(0, 3))
@@ -43,8 +43,8 @@ def ladder(tree: Result) -> Table:
         answer_of(tree),
         "rung",
         "Root mean square of the predicted pole minus the IAU's; a constant and a rate are "
-        "removed. The error in brackets is that of H and of the integration, not that of the "
-        "model: what is left is the measure of the model. H is the observed one throughout; the "
+        "removed. The error in brackets is that of the inputs of the interior, of H and of the "
+        "integration; what a model leaves out is not in it. H is the observed one throughout; the "
         "rungs up to 'anelastic' take no other number from the motion of the pole.",
     )
 
@@ -70,7 +70,8 @@ def modes(tree: Result) -> Table:
     note = (
         "Nutations have their periods in space, negative if retrograde; wobbles in the body. A "
         "rung that lacks a part lacks its mode. The errors follow from the uncertainty of the "
-        "Love numbers, of the core's size and of its flattening."
+        "Love numbers, of size, flattening and density of the core and the inner core, of the "
+        "ocean, of the mantle's loss, and of numbers inferred from nutation."
     )
     modes = needed(tree, "modes")
     return table_along(modes, "mode", "Free modes", columns, note, first="", words=(0, 1))

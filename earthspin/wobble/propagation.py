@@ -16,14 +16,12 @@ from typing import Any
 import numpy as np
 
 from earthspin.constants import DAY
-from earthspin.interior.named import Interior
+from earthspin.interior.named import EXPONENT_RANGE, Interior
 from earthspin.numerics.arrays import Array
+from earthspin.numerics.polynomials import lagrange
 from earthspin.wobble.ladder import Inputs, Spin, climb
 
 Numeric = Any
-
-#: Range of the exponent that published work allows (Smith & Dahlen 1981).
-EXPONENT_RANGE = (0.04, 0.19)
 
 #: How often the inputs of each body are drawn, and from which seed.
 DRAWS, SEED = 1000, 1
@@ -137,7 +135,7 @@ def _sampled(
     basis = [-sum((z**2 / 3 for z in drawn.normal.values()), np.zeros(drawn.exponent.size))]
     for z in drawn.normal.values():
         basis += [z**2 / 6 - z / (2 * _STEP), z**2 / 6 + z / (2 * _STEP)]
-    basis += list(_lagrange(nodes, drawn.exponent))
+    basis += list(lagrange(nodes, drawn.exponent))
     sampled = {}
     for name, turns in climb(points, spin, interior, ocean).turns.items():
         total = np.zeros((turns.shape[-1], drawn.exponent.size))
@@ -174,17 +172,6 @@ def _exponent_nodes() -> Array:
     low, high = EXPONENT_RANGE
     points = np.polynomial.chebyshev.chebpts1(_EXPONENTS)
     return np.asarray((low + high) / 2 + (high - low) / 2 * points)
-
-
-def _lagrange(nodes: Array, at: Array) -> Array:
-    """Values of the Lagrange polynomials of given nodes at given points, shape (nodes, points)."""
-    others = [np.delete(nodes, i) for i in range(nodes.size)]
-    return np.array(
-        [
-            np.prod((at[:, None] - rest) / (node - rest), axis=-1)
-            for node, rest in zip(nodes, others, strict=True)
-        ]
-    )
 
 
 def _column(values: Array, ndim: int) -> Array:

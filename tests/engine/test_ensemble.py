@@ -333,9 +333,8 @@ def test_a_sample_stands_beside_the_errors_of_the_same_numbers_alone() -> None:
     millennia = earthspin.long_term("-3 kyr", "0 kyr", "1 kyr", uncertainty="sample", n=3)
     assert "obliquity_error_sampled" in millennia
     assert "pole_error_sampled" not in millennia
-    four = earthspin.rotation("2000-01-01", "2000-01-02", "8 h", uncertainty="sample", n=3)
-    assert four.sizes["time"] == four.sizes["quaternion"] == 4
-    assert "attitude_error_sampled" not in four
+    with pytest.raises(SceneError, match="no number of this answer has an error"):
+        earthspin.rotation("2000-01-01", "2000-01-02", "8 h", uncertainty="sample", n=3)
 
 
 def test_quantiles_and_linear_errors_agree() -> None:
@@ -356,6 +355,29 @@ def test_quantiles_and_linear_errors_agree() -> None:
     np.testing.assert_allclose(half, sampled, rtol=1e-12, atol=0)
 
 
+def test_numbers_that_share_an_error_are_sampled_too() -> None:
+    """X, Y, Z and the angles of a pole have the error of its direction."""
+    pole = earthspin.pole(times=["2000-01-01", "2010-01-01"], uncertainty="sample", n=3)
+    sampled = {name for name in pole.data_vars if str(name).endswith("_error_sampled")}
+    assert sampled == {f"{name}_error_sampled" for name in ("X", "Y", "Z", "psi", "eps")}
+    assert pole.X_error_sampled.dims == pole.X.dims
+    field = earthspin.run(earthspin.load_scene("spheroid", {"uncertainty": "sample", "n": 3}))
+    # the error of the field is relative
+    assert "difference_from_linear" not in field.potential_error_sampled.attrs
+
+
+@pytest.mark.parametrize(
+    ("word", "message"),
+    [
+        ("nutation", "errors of the ladder are from a sample of its inputs already"),
+        ("love-numbers", "no number of this answer has an error"),
+    ],
+)
+def test_a_sample_that_would_give_no_error_is_refused(word: str, message: str) -> None:
+    with pytest.raises(SceneError, match=message):
+        earthspin.run(earthspin.load_scene(word, {"uncertainty": "sample", "n": 3}))
+
+
 def test_sections_stand_beside_a_sample() -> None:
     question = earthspin.load_scene("precession", {"uncertainty": "sample", "n": 50})
     tree = earthspin.run_tree(question, "seasons")
@@ -374,8 +396,11 @@ def test_the_share_of_h_in_the_rate_is_that_of_the_linear_errors() -> None:
         rate.sel(perturber="moon") / rate.sel(perturber="total")
     )
     expected = by_h**2 / (by_h**2 + by_moon**2)
+    error = shares.precession_rate_share_error.sel(perturber="total")
+    error = float(error.sel(input="body.dynamical_flattening"))
+    assert error < 1e-4
     assert float(total.sel(input="body.dynamical_flattening")) == pytest.approx(
-        expected, rel=0, abs=3e-4
+        expected, rel=0, abs=error
     )
     slope = shares.precession_rate_slope.sel(perturber="total", input="body.dynamical_flattening")
     whole = float(rate.sel(perturber="total"))
