@@ -1,8 +1,8 @@
 """Skill of the forecast of the pole: hindcasts, and releases of the tables with Bulletin A.
 
-Hindcasts use C04 with origins from 2005 to 2025, beside least squares with autoregression. Monthly
-releases of astropy-iers-data hold what Bulletin A predicted at the time; pip downloads them, one
-after the other, into a folder that later runs use again.
+Hindcasts use C04 with origins from 2005 to 2025, beside least squares with autoregression. Releases
+of astropy-iers-data, about one a week, hold what Bulletin A predicted at the time; pip downloads
+them, one after the other, into a folder that later runs use again.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import sys
 import time
 import zipfile
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -27,20 +28,24 @@ from earthspin.wobble.forecast import SKILL, forecast
 from tests.benchmarks.accuracy.forecast import usual
 
 Array = NDArray[np.float64]
-HORIZONS = (1, 3, 5, 10, 30, 90, 180, 365, 730)
+HORIZONS = (1, 2, 3, 5, 10, 30, 90, 180, 365, 730)
+#: Horizon up to which coverage is also counted over all horizons together, d.
+SHORT = 30
 #: Modified Julian dates of 2005-01-01, 2014-01-01 and 2026-01-01, and days between origins.
 FIRST, MIDDLE, LAST, EVERY = 53371, 56658, 61041, 30
 #: Years of the least squares of the usual way.
 USUAL_YEARS = 8.0
-#: Name of the set of releases.
-RELEASED = "releases"
+#: Modified Julian date of 2024-01-01. The bias of the newest row and the treatment of innovations
+#: were chosen on releases before it; names of both sets of releases.
+CHOSEN, CHOSEN_ON, RELEASED = 60310, "releases of 2023", "releases"
 PACKAGE = "astropy-iers-data"
 RELEASES = Path.home() / ".cache" / "earthspin" / PACKAGE
 PAGES = Path(__file__).parent.parent / "docs" / "measured"
 SKILL_PAGE = PAGES / "forecast-skill.inc"
 CORRELATION_PAGE = PAGES / "forecast-correlation.inc"
-#: Horizons of the table of correlations, and squared radius of an ellipse of 95 %.
-CORRELATED, ELLIPSE = (5, 10, 30, 90, 365), -2 * np.log(0.05)
+NEWEST_PAGE = PAGES / "forecast-newest.inc"
+#: Squared radius of an ellipse of 95 %.
+ELLIPSE = -2 * np.log(0.05)
 
 
 def pole(table: PoleSeries) -> Any:
@@ -73,45 +78,97 @@ def hindcasts() -> tuple[Array, Array, Array, Array]:
     return origins.astype(float), np.array(errors), np.array(spread), np.array(others)
 
 
-def monthly() -> list[str]:
-    """Versions of the first release of each month, from pip."""
+def versions() -> list[str]:
+    """Versions of astropy-iers-data, the oldest first, from pip."""
     words = [sys.executable, "-m", "pip", "index", "versions", PACKAGE]
     text = subprocess.run(words, capture_output=True, text=True, check=True).stdout
     (line,) = re.findall(r"Available versions: (.*)", text)
-    versions = line.split(", ")
-    by_month = {tuple(version.split(".")[1:3]): version for version in versions}
-    return list(by_month.values())
+    return list(reversed(line.split(", ")))
 
 
-def releases(folder: Path) -> Iterator[Path]:
-    """Files finals2000A.all of the monthly releases, the newest last."""
+def downloaded(folder: Path) -> list[Path]:
+    """Files finals2000A.all of the releases, the newest last."""
     folder.mkdir(parents=True, exist_ok=True)
-    for version in reversed(monthly()):
-        name = f"{PACKAGE.replace('-', '_')}-{version}-py3-none-any.whl"
-        if not (folder / name).exists():
-            words = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps"]
-            subprocess.run([*words, "--dest", str(folder), f"{PACKAGE}=={version}"], check=True)
-            time.sleep(1)
-        with zipfile.ZipFile(folder / name) as wheel, TemporaryDirectory() as place:
-            yield Path(wheel.extract("astropy_iers_data/data/finals2000A.all", place))
-
-
-def of_releases(folder: Path) -> tuple[Array, Array, Array]:
-    """Errors and covariances on the releases, and errors of Bulletin A."""
-    observed = read_polar_motion("finals")
-    truth = pole(observed)
-    errors, spread, others = [], [], []
-    for file in releases(folder):
-        table, bulletin = read_polar_motion(file), read_bulletin_a(file)
-        after = int(np.searchsorted(observed.mjd, table.mjd[-1])) + 1
-        if bulletin is None or after >= truth.size:
+    files = [folder / f"finals2000A-{version}.all" for version in versions()]
+    for file in files:
+        if file.exists():
             continue
-        ahead = forecast(pole(table), HORIZONS[-1])
-        later = at_horizons(truth[after:])
+        version = file.stem.removeprefix("finals2000A-")
+        with TemporaryDirectory() as place:
+            words = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps"]
+            subprocess.run([*words, "--dest", place, f"{PACKAGE}=={version}"], check=True)
+            (wheel,) = Path(place).glob("*.whl")
+            with zipfile.ZipFile(wheel) as content:
+                file.write_bytes(content.read("astropy_iers_data/data/finals2000A.all"))
+        time.sleep(1)
+    return files
+
+
+@dataclass(frozen=True)
+class Release:
+    """Observed and predicted polar motion of one release, and what was observed later.
+
+    Attributes
+    ----------
+    origin : float
+        Modified Julian date of the newest observed row.
+    p, bulletin : complex array, shapes (n,) and (m,)
+        Observed pole, and the one that Bulletin A predicts, mas.
+    revised, later : complex array, shapes (n,) and (k,)
+        Pole on the days of `p` and after them in the newest release.
+    """
+
+    origin: float
+    p: Any
+    bulletin: Any
+    revised: Any
+    later: Any
+
+
+def releases(folder: Path) -> Iterator[Release]:
+    """Releases with different newest rows, the oldest first."""
+    files = downloaded(folder)
+    observed = read_polar_motion(files[-1])
+    truth, known = pole(observed), -np.inf
+    for file in files:
+        table, bulletin = read_polar_motion(file), read_bulletin_a(file)
+        origin = float(table.mjd[-1])
+        after = int(np.searchsorted(observed.mjd, origin)) + 1
+        if bulletin is None or after >= truth.size or origin <= known:
+            continue
+        known, p = origin, pole(table)
+        yield Release(origin, p, pole(bulletin), truth[after - p.size : after], truth[after:])
+
+
+def of_releases(every: list[Release]) -> tuple[Array, Array, Array]:
+    """Errors and covariances on the releases, and errors of Bulletin A."""
+    errors, spread, others = [], [], []
+    for release in every:
+        ahead, later = forecast(release.p, HORIZONS[-1], newest=True), at_horizons(release.later)
         errors.append(at_horizons(ahead.pole) - later)
         spread.append(ahead.covariance[np.array(HORIZONS) - 1])
-        others.append(at_horizons(pole(bulletin)) - later)
+        others.append(at_horizons(release.bulletin) - later)
     return np.array(errors), np.array(spread), np.array(others)
+
+
+def newest_rows(sets: dict[str, list[Release]]) -> str:
+    """Table of the last rows of releases, minus the values to which they were revised."""
+    lines = ["| set | releases | row | x (mas) | y (mas) |", "|---|---:|---|---:|---:|"]
+    for name, every in sets.items():
+        for back, row in ((1, "newest"), (2, "one day earlier"), (6, "five days earlier")):
+            change = np.array([release.p[-back] - release.revised[-back] for release in every])
+            cells = [
+                f"{values.mean():+.3f} ± {values.std() / np.sqrt(values.size):.3f}, "
+                f"s.d. {values.std():.3f}".replace("-", "−")
+                for values in (change.real, -change.imag)
+            ]
+            lines.append(f"| {name} | {change.size} | {row} | {' | '.join(cells)} |")
+    return "\n".join([*lines, ""])
+
+
+def inside_ellipse(errors: Array, spread: Array) -> Any:
+    """Return True for each error inside the 95 % ellipse of its covariance."""
+    return np.einsum("ni,nij,nj->n", errors, np.linalg.inv(spread), errors) <= ELLIPSE
 
 
 def numbers(name: str, errors: Array, spread: Array, others: Array) -> list[dict[str, Any]]:
@@ -127,59 +184,96 @@ def numbers(name: str, errors: Array, spread: Array, others: Array) -> list[dict
             "rms": np.sqrt((error**2).mean(axis=0)),
             "coverage": (abs(error) <= widths[known, k]).mean(axis=0),
             "other_mae": abs(others[known, k]).mean(axis=0),
+            "half_width": widths[known, k].mean(axis=0),
         }
         rounded = {column: [round(float(v), 3) for v in pair] for column, pair in columns.items()}
-        rows.append({"set": name, "horizon": day, "origins": int(known.sum())} | rounded)
+        ellipse = round(float(inside_ellipse(error, spread[known, k]).mean()), 3)
+        cells = {"set": name, "horizon": day, "origins": int(known.sum()), "ellipse": ellipse}
+        rows.append(cells | rounded)
     return rows
 
 
 def table(name: str, rows: list[dict[str, Any]]) -> str:
     """Table of the page."""
-    other = "Bulletin A" if name == RELEASED else "least squares + AR"
+    other = "Bulletin A" if name.startswith(RELEASED) else "least squares + AR"
     lines = [f"**{name}**", ""]
-    lines.append(f"| days | origins | MAE x, y (mas) | RMS x, y | coverage x, y | {other} x, y |")
-    lines.append("|---|---|---|---|---|---|")
+    lines.append(
+        "| days | origins | MAE x, y (mas) | RMS x, y | coverage x, y, ellipse "
+        f"| half-width x, y | {other} MAE x, y |"
+    )
+    lines.append("|---|---|---|---|---|---|---|")
     for row in rows:
         cells = [str(row["horizon"]), str(row["origins"])]
-        for column in ("mae", "rms", "coverage", "other_mae"):
+        row = row | {"coverage": [*row["coverage"], row["ellipse"]]}
+        for column in ("mae", "rms", "coverage", "half_width", "other_mae"):
             cells.append(", ".join(f"{value:.2f}" for value in row[column]))
         lines.append(f"| {' | '.join(cells)} |")
     return "\n".join([*lines, ""])
 
 
-def correlations(errors: Array, spread: Array) -> str:
+def correlations(scores: dict[str, tuple[Array, Array]]) -> str:
     """Table of the correlation of the errors of x and y, claimed and measured."""
     lines = [
-        f"| days ahead | claimed | measured (± {1 / np.sqrt(len(errors)):.2f}) "
-        "| observed pole inside the 95 % ellipse |",
-        "|---:|---:|---:|---:|",
+        "| days ahead | "
+        + " | ".join(f"{name}: claimed | measured | standard error" for name in scores)
+        + " |",
+        "|---:|" + "---:|" * 3 * len(scores),
     ]
-    for day in CORRELATED:
-        k = HORIZONS.index(day)
-        known = np.isfinite(errors[:, k]).all(axis=1)
-        error, covariance = errors[known, k], spread[known, k]
-        claimed = covariance[:, 0, 1] / np.sqrt(covariance[:, 0, 0] * covariance[:, 1, 1])
-        measured = np.mean(error[:, 0] * error[:, 1]) / np.sqrt(np.prod((error**2).mean(axis=0)))
-        inside = np.einsum("ni,nij,nj->n", error, np.linalg.inv(covariance), error) <= ELLIPSE
-        cells = f"{day} | {claimed.mean():.2f} | {measured:.2f} | {100 * inside.mean():.0f} %"
-        lines.append(f"| {cells.replace('-', '−')} |")
+    for k, day in enumerate(HORIZONS):
+        cells = [str(day)]
+        for errors, spread in scores.values():
+            known = np.isfinite(errors[:, k]).all(axis=1)
+            if not known.any():
+                cells += ["", "", ""]
+                continue
+            error, covariance = errors[known, k], spread[known, k]
+            claimed = covariance[:, 0, 1] / np.sqrt(covariance[:, 0, 0] * covariance[:, 1, 1])
+            measured = np.mean(error[:, 0] * error[:, 1]) / np.sqrt(
+                np.prod((error**2).mean(axis=0))
+            )
+            cells += [f"{claimed.mean():.2f}", f"{measured:.2f}", f"{1 / np.sqrt(len(error)):.2f}"]
+        lines.append(f"| {' | '.join(cells)} |".replace("-", "−"))
     return "\n".join([*lines, ""])
+
+
+def pooled(name: str, errors: Array, spread: Array) -> str:
+    """Sentence on the coverage of all horizons up to 30 d together."""
+    short = [k for k, day in enumerate(HORIZONS) if day <= SHORT]
+    error, covariance = errors[:, short].reshape(-1, 2), spread[:, short].reshape(-1, 2, 2)
+    known = np.isfinite(error).all(axis=1)
+    error, covariance = error[known], covariance[known]
+    half_width = NORMAL_95 * np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
+    x, y = 100 * (abs(error) <= half_width).mean(axis=0)
+    ellipse = 100 * inside_ellipse(error, covariance).mean()
+    return (
+        f"From 1 to {SHORT} days together, {name}: x {x:.1f} %, y {y:.1f} %, ellipse "
+        f"{ellipse:.1f} % of {len(error)}.\n"
+    )
 
 
 def main() -> int:
     """Measure, and write the table that the package ships and those of the page."""
+    every = list(releases(RELEASES))
+    sets_of_releases = {
+        CHOSEN_ON: [release for release in every if release.origin < CHOSEN],
+        RELEASED: [release for release in every if release.origin >= CHOSEN],
+    }
+    NEWEST_PAGE.write_text(newest_rows(sets_of_releases), encoding="utf-8")
     origins, *scores = hindcasts()
     early = origins < MIDDLE
     scored = {
         "C04 2005-2013": [score[early] for score in scores],
         "C04 2014-2025": [score[~early] for score in scores],
         "C04 2005-2025": scores,
-        RELEASED: list(of_releases(RELEASES)),
+        **{name: list(of_releases(every)) for name, every in sets_of_releases.items()},
     }
     sets = {name: numbers(name, *values) for name, values in scored.items()}
     rows = [json.dumps(row) for name in sets for row in sets[name]]
     SKILL.write_text("[\n" + ",\n".join(rows) + "\n]\n", encoding="utf-8")
     page = "\n".join(table(name, rows_of) for name, rows_of in sets.items())
-    SKILL_PAGE.write_text(page, encoding="utf-8")
-    CORRELATION_PAGE.write_text(correlations(scores[0], scores[1]), encoding="utf-8")
+    together = [pooled(name, *scored[name][:2]) for name in ("C04 2014-2025", CHOSEN_ON, RELEASED)]
+    SKILL_PAGE.write_text("\n".join([page, *together]), encoding="utf-8")
+    columns = {"hindcasts": "C04 2005-2025", "releases": RELEASED}
+    correlated = {word: (scored[name][0], scored[name][1]) for word, name in columns.items()}
+    CORRELATION_PAGE.write_text(correlations(correlated), encoding="utf-8")
     return 0

@@ -42,7 +42,7 @@ from earthspin.sky.eop import (
     read_pole_offsets,
 )
 from earthspin.units import Number, Plain, pack, unpack
-from earthspin.wobble.forecast import COMPONENTS, LONGEST, SKILL, FastExcitation
+from earthspin.wobble.forecast import COMPONENTS, LONGEST, NEWEST_BIAS, SKILL, FastExcitation
 from earthspin.wobble.forecast import Forecast as Predicted
 
 if TYPE_CHECKING:
@@ -199,12 +199,15 @@ class Record:
         Series.
     sha256 : str
         Of the file; empty for a Dataset.
+    newest : bool
+        Whether the last day is the newest observed row of finals2000A.
     """
 
     time: FloatArray
     p: ComplexArray
     name: str
     sha256: str = ""
+    newest: bool = False
 
     @property
     def provenance(self) -> dict[str, str]:
@@ -224,7 +227,8 @@ def record(file: str | Path | GivenSeries, origin: float | None) -> Record:
         if "bridged" in table.repairs:
             raise SceneError("file", str(file), f"{table.repairs}; a forecast needs every day")
         p = ((table.x - 1j * table.y) / MAS).astype(complex)
-        whole = Record(table.mjd - MJD, p, f"IERS {table.name}", table.sha256)
+        rapid = table.name == "finals2000A"
+        whole = Record(table.mjd - MJD, p, f"IERS {table.name}", table.sha256, rapid)
     steps = np.diff(whole.time)
     if np.any(abs(steps - 1) > _MIDNIGHT):
         wrong = whole.time[:-1][abs(steps - 1) > _MIDNIGHT][0]
@@ -242,7 +246,8 @@ def _until(whole: Record, origin: float | None) -> Record:
         problem = f"the observed rows cover {_day(first)} to {_day(last)}; choose a day inside"
         raise SceneError("origin", _day(origin), problem)
     count = int(np.floor(origin - first + _MIDNIGHT)) + 1
-    return Record(whole.time[:count], whole.p[:count], whole.name, whole.sha256)
+    newest = whole.newest and count == whole.time.size
+    return Record(whole.time[:count], whole.p[:count], whole.name, whole.sha256, newest)
 
 
 def _day(time: float) -> str:
@@ -258,9 +263,10 @@ def predicted(
     from earthspin.wobble import forecast as model
 
     if excitation is not None:
-        return model.forecast_with_excitation(*_from_common_day(record, excitation), int(days))
+        pole, chi = _from_common_day(record, excitation)
+        return model.forecast_with_excitation(pole, chi, int(days), record.newest)
     fast = model.fit(record.p) if parameters == "fitted" else model.SHIPPED
-    return model.forecast(record.p, int(days), fast)
+    return model.forecast(record.p, int(days), fast, newest=record.newest)
 
 
 def _from_common_day(record: Record, excitation: GivenSeries) -> tuple[ComplexArray, ComplexArray]:
@@ -334,6 +340,8 @@ def ahead(
         "age_of_newest_row": f"{0.0 if origin is None else origin - newest:g} d at the origin",
         "parameters": f"{kind}: {_words(predicted.fast)}",
     }
+    if record.newest:
+        source["newest_row_corrected"] = f"{NEWEST_BIAS.imag:+.3f} mas in y, its measured bias"
     if excitation is not None:
         source["excitation"] = (
             f"given from {_day(excitation.rows[0, 0])} to {_day(excitation.rows[0, -1])}"

@@ -355,11 +355,11 @@ def sensitivity(inside: Inside) -> Sensitivity:
 class CoreNutation(
     Variables,
     along=("core_shape",),
-    no_error="the uncertainty of the core was not propagated to it",
+    no_error="its relative error is that of free_core_nutation",
 ):
     """Period of the free core nutation, for different shapes of the core."""
 
-    free_core_nutation: Value = number("d", "period of the free core nutation in space")
+    free_core_nutation: Pair = measured("d", "period of the free core nutation in space")
     free_core_nutation_sidereal: Value = number(
         "1", "period of the free core nutation in turns of the body"
     )
@@ -369,19 +369,27 @@ class CoreNutation(
 def core_nutation(inside: Inside, body: Body) -> CoreNutation:
     """Compute the period of the free core nutation, for different shapes of the core."""
     shapes = {"hydrostatic": inside.inputs}
+    uncertainties = {"hydrostatic": inside.uncertainty}
     attributes = {}
     observed = inside.interior.observed_core_ellipticity
     # observed in the body itself, not in one that has been changed
     if observed is not None and body.observed_wobble is not None:
         shapes["observed"] = replace(inside.inputs, core_ellipticity=observed.value)
+        own = {"core_ellipticity": observed.relative_uncertainty}
+        uncertainties["observed"] = {**inside.uncertainty, **own}
         attributes["references"] = observed.source
     turns = {
         name: ladder.climb(inputs, *inside.setting).core_turns["fluid-core"]
         for name, inputs in shapes.items()
     }
+    half_widths = {
+        name: propagation.core_nutation_half_width(inputs, uncertainties[name], *inside.setting)
+        for name, inputs in shapes.items()
+    }
     nutation = inside.stack(turns, "core_shape") * body.needed("spin_period")
+    error = inside.stack(half_widths, "core_shape") * abs(body.needed("spin_period"))
     return CoreNutation(
-        free_core_nutation=nutation,
+        free_core_nutation=(nutation, error),
         free_core_nutation_sidereal=nutation / abs(body.needed("spin_period")),
     ).with_attributes(free_core_nutation=attributes)
 

@@ -66,7 +66,8 @@ def sensitivity(tree: Result) -> Table:
     note = ""
     if roots is not None:
         periods = ", ".join(
-            f"{float(row.free_core_nutation):.1f} d ({shape} core)"
+            f"{table.with_error(row.free_core_nutation, row.free_core_nutation_error)} d "
+            f"({shape} core)"
             for shape, row in table.along(roots, "core_shape")
         )
         note = (

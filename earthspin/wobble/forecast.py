@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 
 from earthspin.errors import UndefinedError
-from earthspin.wobble.burg import burg
+from earthspin.wobble.innovations import EXTRAPOLATED, Autoregression, forecast_covariance
 from earthspin.wobble.record import YEAR
 from earthspin.wobble.resonance import chandler_frequency, polar_motion_from
 from earthspin.wobble.state_space import Array, Complex, Filter, StateSpace
@@ -47,9 +47,12 @@ OBSERVATION = 0.03
 #: Standard deviations before the first observation, mas: free wobble, the two states of the fast
 #: excitation, the slow one, circles of a year and of half a year, level; and slope, mas/d.
 BEFORE = np.array([200.0, 50.0, 50.0, SLOW, 100.0, 100.0, 20.0, 20.0, 500.0, 0.05])
-#: Order of the autoregression of the innovations, days from which it is fitted, and days that it
-#: extrapolates.
-ORDER, FITTED_OVER, EXTRAPOLATED = 20, 3650, 40
+#: Bias, x - i y, and standard deviation of the newest row of finals2000A, compared with the values
+#: to which it is revised later, mas. Measured on the 28 releases of June to December 2023:
+#: +0.065 +- 0.006 in y, -0.003 +- 0.007 in x; `python -m data_tools forecast` measures them again.
+NEWEST_BIAS, NEWEST_DEVIATION = -0.065j, 0.035
+#: Horizon at which the covariance of the model takes over from that of the innovations, d.
+TAKEN_OVER = 90.0
 #: Days between observations in a fit of the fast excitation, and its largest number of iterations.
 THINNED, ITERATIONS = 10, 12
 #: White part of the excitation at which a fit starts, mas/sqrt(d), and its bounds.
@@ -188,8 +191,17 @@ class Forecast:
     fast: FastExcitation
 
 
-def forecast(p: Complex, days: int, fast: FastExcitation = SHIPPED, used: int = RECORD) -> Forecast:
+def forecast(
+    p: Complex,
+    days: int,
+    fast: FastExcitation = SHIPPED,
+    used: int = RECORD,
+    newest: bool = False,
+) -> Forecast:
     """Forecast polar motion, with its covariance, from a daily record of observed polar motion.
+
+    The covariance is that of the observed innovations in the first weeks, and that of the model
+    after some months: the innovations of two years do not show the slow part of the excitation.
 
     Parameters
     ----------
@@ -200,6 +212,8 @@ def forecast(p: Complex, days: int, fast: FastExcitation = SHIPPED, used: int = 
     fast : FastExcitation
     used : int
         How many days of the record are used, the last ones.
+    newest : bool
+        Whether the last day is the newest observed row of finals2000A, which is biased.
 
     Raises
     ------
@@ -207,10 +221,21 @@ def forecast(p: Complex, days: int, fast: FastExcitation = SHIPPED, used: int = 
         If the record is too short.
     """
     record = last_of(p, used)
+    if newest:
+        record = np.append(record[:-1], record[-1] - NEWEST_BIAS)
     kalman = _filter(fast, used)
     state, innovations = kalman.run(np.column_stack([record.real, record.imag]))
-    future = _extrapolated(innovations @ np.array([1, 1j]), min(days, EXTRAPOLATED))
     system, gain, covariance = kalman.model, kalman.gains[-1], kalman.covariance
+    series = innovations @ np.array([1, 1j])
+    autoregression = Autoregression.fitted(series)
+    unknown = np.zeros((2, 2))
+    if newest:
+        residual, unknown = autoregression.without_error(NEWEST_DEVIATION**2)
+        change = residual - autoregression.residual
+        series[-1] += change
+        state = state + gain @ [change.real, change.imag]
+    extended = autoregression.extended(series, min(days, EXTRAPOLATED))
+    future = np.column_stack([extended.real, extended.imag])
     rows = {name: _rows(states) for name, states in COMPONENTS.items()}
     pole, spread = np.empty((days, 2)), np.empty((days, 2, 2))
     parts = {name: np.empty((days, 2)) for name in rows}
@@ -225,6 +250,9 @@ def forecast(p: Complex, days: int, fast: FastExcitation = SHIPPED, used: int = 
         for name, row in rows.items():
             parts[name][day] = row @ state
             variances[name][day] = np.diag(row @ covariance @ row.T)
+    observed = forecast_covariance(kalman, autoregression, unknown, days)
+    share = np.exp(-((np.arange(1, days + 1) / TAKEN_OVER) ** 2))[:, None, None]
+    spread = share * observed + (1 - share) * spread
     spread *= np.array([[1, -1], [-1, 1]])  # of x and y, not of x and -y
     complex_parts = {name: part @ np.array([1, 1j]) for name, part in parts.items()}
     return Forecast(pole @ np.array([1, 1j]), spread, complex_parts, variances, fast)
@@ -251,16 +279,6 @@ def _rows(states: list[int]) -> Array:
     row = np.zeros(len(BEFORE))
     row[states] = 1
     return np.asarray(np.kron(np.eye(2), row), dtype=float)
-
-
-def _extrapolated(innovations: Complex, days: int) -> Array:
-    """Extrapolate the innovations of the Kalman filter by autoregression, shape (days, 2)."""
-    filter_ = burg(innovations[-FITTED_OVER:], ORDER)
-    series = list(innovations[-ORDER:])
-    for _ in range(days):
-        series.append(-np.dot(filter_[1:], series[: -ORDER - 1 : -1]))
-    future = np.array(series[ORDER:], dtype=complex)
-    return np.column_stack([future.real, future.imag])
 
 
 def fit(p: Complex, used: int = RECORD) -> FastExcitation:
@@ -290,7 +308,7 @@ def fit(p: Complex, used: int = RECORD) -> FastExcitation:
     return FastExcitation.from_free(best.x)
 
 
-def forecast_with_excitation(p: Complex, chi: Complex, days: int) -> Forecast:
+def forecast_with_excitation(p: Complex, chi: Complex, days: int, newest: bool = False) -> Forecast:
     """Forecast polar motion from a record and from a known excitation that extends beyond it.
 
     The pole that the known excitation drives is computed exactly up to a day before its end. The
@@ -307,6 +325,8 @@ def forecast_with_excitation(p: Complex, chi: Complex, days: int) -> Forecast:
         record as are known; m is at least n.
     days : int
         How many days ahead.
+    newest : bool
+        As of `forecast`.
 
     Raises
     ------
@@ -328,7 +348,7 @@ def forecast_with_excitation(p: Complex, chi: Complex, days: int) -> Forecast:
     known, used = driven[: p.size + days], min(p.size, RECORD)
     ahead = known.size - p.size
     rest = p - known[: p.size]
-    left = forecast(rest, days, fit(rest, used), used)
+    left = forecast(rest, days, fit(rest, used), used, newest)
     pole, covariance = left.pole.copy(), left.covariance.copy()
     pole[:ahead] += known[p.size :]
     if ahead < days:

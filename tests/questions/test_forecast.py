@@ -13,6 +13,7 @@ import xarray as xr
 from astropy.coordinates import AltAz, EarthLocation, SkyCoord
 from astropy.time import Time
 from astropy.utils import iers
+from scipy.stats import binomtest
 
 import earthspin
 from earthspin.constants import ARCSEC, MAS
@@ -80,6 +81,36 @@ def test_predicted_rows_are_never_used(tmp_path: Path) -> None:
     mjd = (newest - np.datetime64("1858-11-17")) / np.timedelta64(1, "D")
     assert float(observed[-1][7:15]) == mjd
     assert whole.time.values[0] == newest + np.timedelta64(1, "D")
+
+
+def test_only_the_newest_row_of_finals_is_corrected(tmp_path: Path) -> None:
+    """Without other rows the newest one is y - 0.065 mas; an origin inside the table is not."""
+    lines = eop.finals_path().read_text(encoding="ascii").splitlines()
+    observed = [line for line in lines if line[16:17] == "I"]
+    file = tmp_path / "finals.txt"
+    file.write_text("\n".join(observed[:-1]) + "\n", encoding="ascii")
+    newest = earthspin.forecast(3, file=str(file))
+    later = earthspin.forecast(3, origin=newest.x.attrs["origin"], file="finals")
+    assert "newest_row_corrected" in newest.x.attrs
+    assert "newest_row_corrected" not in later.x.attrs
+    change = (newest.y - later.y).values * 1e3
+    assert -0.3 < change[0] < -0.05  # mas; the row enters with a weight of one to three
+    named = earthspin.forecast(3, origin=newest.x.attrs["origin"], file=str(file))
+    assert np.array_equal(named.y, newest.y)
+    assert np.all(newest.y_error > later.y_error)
+
+
+def test_coverage_measured_on_releases() -> None:
+    """On releases that nothing was chosen on, 95 % lies in the exact interval of each coverage."""
+    rows = json.loads(SKILL.read_text(encoding="utf-8"))
+    released = [row for row in rows if row["set"] == "releases" and row["horizon"] <= 30]
+    shares = []
+    for row in released:
+        for share in (*row["coverage"], row["ellipse"]):
+            interval = binomtest(round(share * row["origins"]), row["origins"]).proportion_ci(0.95)
+            assert interval.low <= 0.95 <= interval.high
+        shares.append([*row["coverage"], row["ellipse"]])
+    assert np.all(abs(np.mean(shares, axis=0) - 0.95) < 0.02)
 
 
 def test_offsets_after_the_origin_change_no_bit(lines: list[str], tmp_path: Path) -> None:

@@ -202,6 +202,17 @@ def test_free_core_nutation_by_shape() -> None:
     assert float(nutation.sel(core_shape="observed")) == pytest.approx(-431, abs=1.0)
 
 
+def test_the_core_nutation_has_the_error_of_its_core() -> None:
+    """Beside draws of the nutation ladder, 23.8 d, and the published -430.21 d."""
+    core = earthspin.run_tree("wobble", "core_nutation")["core_nutation"].to_dataset()
+    error = core.free_core_nutation_error
+    assert float(error.sel(core_shape="hydrostatic")) == pytest.approx(23.8, abs=0.5)
+    observed = core.sel(core_shape="observed")
+    assert float(observed.free_core_nutation_error) < 3
+    off = abs(float(observed.free_core_nutation) + 430.21)
+    assert off < float(observed.free_core_nutation_error)
+
+
 def test_days_from_each_input_against_the_sampled_error() -> None:
     tree = earthspin.run_tree("wobble", "sensitivity")
     in_line = float(np.sqrt((tree["sensitivity/days_from_input"] ** 2).sum()))
