@@ -145,7 +145,7 @@ class Forecast(
     >>> ahead = earthspin.forecast(30, origin="2020-01-01", file="c04")
     >>> last = ahead.isel(time=-1)
     >>> print(f"{last.x:.3f} ± {last.x_error:.3f}, {last.y:.3f} ± {last.y_error:.3f} arcsec")
-    0.043 ± 0.018, 0.311 ± 0.010 arcsec
+    0.043 ± 0.016, 0.311 ± 0.009 arcsec
     """
 
     views, page, headline = "forecast", "forecast", "x"
