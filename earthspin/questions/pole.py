@@ -19,7 +19,7 @@ from earthspin.motion.effect_sizes import axis_displacements
 from earthspin.motion.effects import NONRIGID
 from earthspin.motion.effects.nonrigid import LARGEST_CORE_NUTATION, RESPONSE
 from earthspin.nutation.angles import on_fixed_ecliptic
-from earthspin.parts.left_out import each_added, switched_off
+from earthspin.parts.left_out import drift_by_planets, each_added, switched_off
 from earthspin.parts.path import (
     INTERIOR,
     SHORTEST_SPAN,
@@ -340,7 +340,11 @@ def neglected(
     """
     off = switched_off(body, perturbers, effects)
     forces, further = each_added(sky, body, perturbers, effects, off)
-    moved = axis_displacements(axis_path, start_of(body, pulls)[1], forces, further)
+    _, epoch = start_of(body, pulls)
+    moved = axis_displacements(axis_path, epoch, forces, further)
+    if {*off} - {*further}:
+        reach = max(abs(day * DAY - epoch) for day in epochs.span())
+        moved |= drift_by_planets(body, reach)
     sizes = {name: size for name, size in moved.items() if size}
     unknown = [name for name in off if name not in moved]
     sources = ["effects that are off: to first order, along the computed path"] if off else []

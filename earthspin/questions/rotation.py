@@ -36,7 +36,7 @@ from earthspin.motion.solution import (
 )
 from earthspin.numerics.arrays import FloatArray
 from earthspin.parts.custom_torque import CustomTorque
-from earthspin.parts.left_out import each_added, switched_off
+from earthspin.parts.left_out import drift_by_planets, each_added, switched_off
 from earthspin.parts.pulls import (
     PULLS,
     AxisMotion,
@@ -535,7 +535,10 @@ def effect_changes(
         return {}
     spinning = body.replace(spin_period=2 * np.pi / rotor.body.unit)
     forces, further = each_added(sky, spinning, perturbers, on, off)
-    return attitude_displacements(rotor.body, rotor.start, rotor.duration, forces, further)
+    unplaced = drift_by_planets(spinning, rotor.duration) if {*off} - {*further} else {}
+    return unplaced | attitude_displacements(
+        rotor.body, rotor.start, rotor.duration, forces, further
+    )
 
 
 @part(unless=(nothing_pulls, no_satellites))
