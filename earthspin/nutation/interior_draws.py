@@ -19,7 +19,6 @@ from earthspin.interior.named import EXPONENT_RANGE
 from earthspin.interior.published import CORE_NUTATION, K_CMB_OUT_OF_PHASE, K_ICB
 from earthspin.numerics.arrays import Array, ComplexArray, FloatArray
 from earthspin.numerics.polynomials import lagrange
-from earthspin.nutation.circles import without_line
 from earthspin.nutation.ladder import Rung, Setting, climb
 
 #: Number of draws, and their seed.
@@ -175,6 +174,8 @@ class Spread:
             Nominal residual, without a linear trend, rad.
         days : ndarray, shape (t,)
         """
+        from earthspin.nutation.circles import without_line
+
         shifts = np.einsum("nk,kt->tn", self.transfer_changes(name, frequency), circles)
         shifts = without_line(days / DAYS_PER_CENTURY, np.hstack([shifts.real, shifts.imag]))
         factors = np.vstack([np.ones(self.weights.shape[1]), self.weights])

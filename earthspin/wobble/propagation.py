@@ -93,6 +93,8 @@ def sampled_half_widths(
 ) -> dict[str, Numeric]:
     """95 % half-widths of the wobble periods in rotations, from random values of the inputs.
 
+    It is the change of the period that 95 % of the draws do not exceed.
+
     Parameters
     ----------
     inputs : Inputs
@@ -111,9 +113,9 @@ def sampled_half_widths(
     for start in range(0, flat[0].size, _BODIES_AT_ONCE):
         block = [v[start : start + _BODIES_AT_ONCE] for v in flat]
         some, turning = Inputs(*block[:inputs_count]), Spin(*block[inputs_count:])
-        for name, turns in _sampled(some, uncertainty, drawn, turning, interior, ocean).items():
-            low, high = np.percentile(turns, [2.5, 97.5], axis=-1)
-            found.setdefault(name, []).append((high - low) / 2)
+        for name, change in _sampled(some, uncertainty, drawn, turning, interior, ocean).items():
+            # the period is not in the middle of the draws, nor its exponent in that of its range
+            found.setdefault(name, []).append(np.quantile(np.abs(change), 0.95, axis=-1))
     return {name: np.concatenate(parts).reshape(shape) for name, parts in found.items()}
 
 
@@ -125,9 +127,9 @@ def _sampled(
     interior: Interior,
     ocean: str,
 ) -> dict[str, Array]:
-    """Wobble period in rotations from each model, for all random inputs, shape (bodies, draws).
+    """Change of the wobble period in rotations by random inputs, for each model.
 
-    It is interpolated quadratically.
+    The shape is (bodies, draws). The period is interpolated quadratically.
     """
     nodes = _exponent_nodes()
     points = _points(inputs, list(drawn.normal), uncertainty, nodes)
@@ -140,11 +142,10 @@ def _sampled(
     for name, turns in climb(points, spin, interior, ocean).turns.items():
         total = np.zeros((turns.shape[-1], drawn.exponent.size))
         # where no input of a rung is uncertain, nothing told its turns apart
-        for at, share in zip(
-            np.broadcast_to(turns, (len(basis), total.shape[0])), basis, strict=True
-        ):
+        points_turns = np.broadcast_to(turns, (len(basis), total.shape[0]))
+        for at, share in zip(points_turns, basis, strict=True):
             total += at[:, None] * share
-        sampled[name] = total
+        sampled[name] = total - points_turns[0][:, None]
     return sampled
 
 

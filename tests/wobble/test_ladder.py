@@ -215,9 +215,12 @@ def test_the_core_nutation_has_the_error_of_its_core() -> None:
 
 def test_days_from_each_input_against_the_sampled_error() -> None:
     tree = earthspin.run_tree("wobble", "sensitivity")
-    in_line = float(np.sqrt((tree["sensitivity/days_from_input"] ** 2).sum()))
-    # An even spread is not normal, and the exponent is not linear: a quarter apart.
-    assert float(tree.period_solar_error[-1]) == pytest.approx(in_line, rel=0.45, abs=0)
+    days = tree["sensitivity/days_from_input"]
+    normal = float(np.sqrt((days.drop_sel(input="anelastic_exponent") ** 2).sum()))
+    # 95 % of 0.04 to 0.19 are nearer to 0.09 than 0.0925; the period is not linear in the exponent
+    far = earthspin.wobble_ladder(anelastic_exponent=0.09 + 0.0925).period_solar[-1]
+    expected = np.hypot(normal, float(far - tree.period_solar[-1]))
+    assert float(tree.period_solar_error[-1]) == pytest.approx(expected, rel=0.1, abs=0)
 
 
 def test_mars() -> None:
