@@ -9,9 +9,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from earthspin.bodies.labelled import Numeric
 from earthspin.constants import PREM_MEAN_MOMENT, PREM_RADIUS
-from earthspin.mass.inertia import polar_moment_factor
+from earthspin.mass.inertia import Numeric, polar_moment_factor
 from earthspin.nutation.budget import Budget
 
 #: Effects whose published sizes measure the error of the computed ones.
