@@ -176,6 +176,8 @@ class Forecast:
         x - i y, mas.
     covariance : array, shape (n, 2, 2)
         Of x and y, mas squared, error of observation included.
+    model_covariance : array, shape (n, 2, 2)
+        The same by the Kalman filter alone.
     components : mapping of str to complex array, shape (n,)
         Parts of the pole, mas.
     component_variance : mapping of str to array, shape (n, 2)
@@ -186,6 +188,7 @@ class Forecast:
 
     pole: Complex
     covariance: Array
+    model_covariance: Array
     components: Mapping[str, Complex]
     component_variance: Mapping[str, Array]
     fast: FastExcitation
@@ -252,10 +255,11 @@ def forecast(
             variances[name][day] = np.diag(row @ covariance @ row.T)
     observed = forecast_covariance(kalman, autoregression, unknown, days)
     share = np.exp(-((np.arange(1, days + 1) / TAKEN_OVER) ** 2))[:, None, None]
-    spread = share * observed + (1 - share) * spread
-    spread *= np.array([[1, -1], [-1, 1]])  # of x and y, not of x and -y
+    signs = np.array([[1, -1], [-1, 1]])  # of x and y, not of x and -y
+    spread *= signs
+    combined = share * observed * signs + (1 - share) * spread
     complex_parts = {name: part @ np.array([1, 1j]) for name, part in parts.items()}
-    return Forecast(pole @ np.array([1, 1j]), spread, complex_parts, variances, fast)
+    return Forecast(pole @ np.array([1, 1j]), combined, spread, complex_parts, variances, fast)
 
 
 def last_of(p: Complex, used: int = RECORD) -> Complex:
@@ -313,8 +317,8 @@ def forecast_with_excitation(p: Complex, chi: Complex, days: int, newest: bool =
 
     The pole that the known excitation drives is computed exactly up to a day before its end. The
     rest of the record is forecast with parameters that are fitted to it, and so is the driven pole
-    beyond that day. The errors of both are taken as independent. The forecast is not separated
-    into components.
+    beyond that day. The errors of both are taken as independent; their covariances are those of the
+    fitted models. The forecast is not separated into components.
 
     Parameters
     ----------
@@ -349,10 +353,10 @@ def forecast_with_excitation(p: Complex, chi: Complex, days: int, newest: bool =
     ahead = known.size - p.size
     rest = p - known[: p.size]
     left = forecast(rest, days, fit(rest, used), used, newest)
-    pole, covariance = left.pole.copy(), left.covariance.copy()
+    pole, covariance = left.pole.copy(), left.model_covariance.copy()
     pole[:ahead] += known[p.size :]
     if ahead < days:
         later = forecast(known, days - ahead, fit(known, used), used)
         pole[ahead:] += later.pole
-        covariance[ahead:] += later.covariance
-    return Forecast(pole, covariance, {}, {}, left.fast)
+        covariance[ahead:] += later.model_covariance
+    return Forecast(pole, covariance, covariance, {}, {}, left.fast)
