@@ -84,7 +84,8 @@ class Ensemble:
     """
 
     def __init__(self, question: Question, *, block: int | None = None) -> None:
-        self.full_question, self.question = question, question.replace(members=None)
+        nominal = {name: getattr(question, name) for name in question.by_body}
+        self.full_question, self.question = question, question.replace(members=None, **nominal)
         members = question.members or Members()
         where = question.where("members")
         for name in members.distributions.keys() & members.values.keys():

@@ -124,6 +124,9 @@ class Question:
         Positional arguments of the call.
     exclusive : tuple of tuple of str
         Groups of keys that exclude one another, such as `times` and (`span`, `step`).
+    by_body : tuple of str
+        Keys whose defaults depend on the numbers of a body; all members of an ensemble have those
+        of the nominal body.
     """
 
     word: ClassVar[str]
@@ -134,6 +137,7 @@ class Question:
     headline: ClassVar[str] = ""
     positional: ClassVar[tuple[str, ...]]
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    by_body: ClassVar[tuple[str, ...]] = ()
     graph: ClassVar[Graph]
     key_table: ClassVar[dict[str, Key]]
 

@@ -67,6 +67,8 @@ EFFECTS_DOC = (
 class AxisMotion(Series):
     """Base class of questions about the motion of a body's axes under torques."""
 
+    by_body = ("effects",)
+
     effects: Effects = key("rigid", doc=EFFECTS_DOC)
 
     def check(self) -> None:

@@ -80,6 +80,22 @@ def test_a_response_that_is_not_known_is_left_out_by_default(scene: dict[str, ob
     assert "nonrigid" not in result.attrs["effects"].split()
 
 
+def test_members_have_the_effects_of_the_nominal_body() -> None:
+    """A member with another H has the response of the interior, as the others."""
+    times, h = ["2010-01-01"], EARTH.number("dynamical_flattening")
+    numbers = xr.Dataset(
+        {
+            "body.dynamical_flattening": ("member", [h, 1.05 * h]),
+            "body.j2": ("member", [EARTH.j2, 1.05 * EARTH.j2]),
+        }
+    )
+    scene = earthspin.Scene(compute="pole", times=times)
+    members = earthspin.ensemble(scene, numbers)
+    other = EARTH.replace(dynamical_flattening=1.05 * h, j2=1.05 * EARTH.j2)
+    alone = earthspin.pole(times=times, body=other, effects="all")
+    assert np.array_equal(members.X.isel(member=1), alone.X)
+
+
 def test_a_default_fits_the_kernel(tmp_path: Path) -> None:
     """A kernel of few years, and one without planets, give what they can by default."""
     whole = SPK.open(str(find_kernel("de421")))
