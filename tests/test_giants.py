@@ -348,3 +348,34 @@ def test_the_uncertainty_of_h_beside_a_changed_h() -> None:
     error = 1.96 * math.hypot(share * slope, 2e-3 / 1.96)
     relative = float(found.precession_rate_error / found.precession_rate)
     assert relative == pytest.approx(error, rel=0.01, abs=0)
+
+
+def test_a_satellite_across_the_laplace_plane_has_a_period() -> None:
+    """At 90 deg the node rests; its period is long, and never negative."""
+    mars = BODIES["mars"]
+    for degrees in (89.0, 90.0, 91.0):
+        moon = Satellite(name="moon", gm=1e9, a=3e7, i=math.radians(degrees))
+        answer = earthspin.precession(body=mars.replace(satellites=[moon]))
+        assert "period -" not in answer.neglected
+
+
+def test_a_satellite_acts_once() -> None:
+    moon = Satellite(name="moon", gm=4.9028e12, a=3.844e8)
+    earth = BODIES["earth"].replace(satellites=[moon])
+    with pytest.raises(SceneError, match="among the satellites of earth"):
+        earthspin.precession(body=earth)
+    assert float(earthspin.precession(body=earth, perturbers=["sun"]).precession_rate[-1]) > 20
+
+
+@pytest.mark.parametrize(
+    "satellites",
+    [
+        [{"name": "a", "gm": "0 m3/s2", "a": "1e8 m"}],
+        [{"name": "a", "gm": 1e9, "a": 1e8}, {"name": "b", "gm": 1e9, "a": 1.00001e8}],
+        [{"name": "a", "gm": 1e9, "a": 9376.0}],
+        None,
+    ],
+)
+def test_satellites_that_cannot_be_are_refused(satellites: object) -> None:
+    with pytest.raises((BodyError, SceneError)):
+        BODIES["mars"].replace(satellites=satellites)

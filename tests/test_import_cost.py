@@ -56,10 +56,10 @@ LEAST_SQUARES = {"scipy.linalg", "scipy.sparse"}
 USED = {
     "precession": {*KERNEL, "skyfield"},
     "torque": KERNEL,
-    "pole": KERNEL,
+    "pole": {*KERNEL, *LEAST_SQUARES, "scipy.optimize"},
     "long-term": KERNEL,
     "iau": KERNEL | LEAST_SQUARES,
-    "nutation": KERNEL | LEAST_SQUARES,
+    "nutation": {*KERNEL, *LEAST_SQUARES, "scipy.special"},
     "rotation": {*KERNEL, *LEAST_SQUARES, "scipy.spatial", "scipy.special"},
     "polar-motion": {"scipy.special"},
     "forecast": {"scipy.linalg"},

@@ -191,7 +191,7 @@ class Body(FromMass):
         if self.position is not None:
             where = Where(f"{self.name}.position")
             object.__setattr__(self, "position", read_position(self.position, where))
-        if self.satellites:
+        if self.satellites != ():
             satellites = self.KINDS["satellites"].read(
                 self.satellites, Where(f"{self.name}.satellites")
             )

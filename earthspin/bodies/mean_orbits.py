@@ -76,6 +76,8 @@ MEAN_MOON = MOON.replace(
 PRECESSING_ORBITS = {MOON.name: MEAN_MOON.orbit, MERCURY.name: MERCURY_ORBIT} | OF_MOONS
 
 _LUNAR_STATE = "energy of the figure averaged over four turns of the node in DE421"
+#: Obliquity of a solid Titan in its Cassini state, as `cassini_states` computes it, deg.
+_TITAN_IF_SOLID = 0.114
 #: Effects not included in the Cassini-state equation, as changes of the obliquity in the upright
 #: state, by name of the body.
 LEFT_OUT_OF_STATES: dict[str, dict[str, Constant]] = {
@@ -100,10 +102,10 @@ LEFT_OUT_OF_STATES: dict[str, dict[str, Constant]] = {
     },
     "titan": {
         "ocean under the shell": Constant(
-            TITAN_OBLIQUITY.value - 0.114,
+            TITAN_OBLIQUITY.value - _TITAN_IF_SOLID,
             "deg",
             None,
-            f"observed, {TITAN_OBLIQUITY.source}, less 0.114 deg of a solid body",
+            f"observed, {TITAN_OBLIQUITY.source}, less {_TITAN_IF_SOLID:g} deg of a solid body",
             f"{TITAN_OBLIQUITY.read_in}; that of a solid body: {COMPUTED}",
         )
     },

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
+from itertools import pairwise
 from typing import Annotated, Any, ClassVar, get_type_hints
 
 from earthspin.bodies.kinds import Magnitude, Plain
@@ -102,13 +103,23 @@ _KINDS: dict[str, Any] = {
 }
 #: Plausibility bound: above mass and size of the observable universe, SI.
 _LARGEST = 1e60
+#: Smallest GM, that of a rock of 15 kg, m3 s-2.
+_LEAST = 1e-9
 #: Conditions on each number.
 _RULES: tuple[tuple[str, Callable[[float], bool], str], ...] = (
-    ("gm", lambda gm: 0 <= gm <= _LARGEST, f"it is zero or more, and at most {_LARGEST:g} m3 s-2"),
+    (
+        "gm",
+        lambda gm: _LEAST <= gm <= _LARGEST,
+        f"it is {_LEAST:g} to {_LARGEST:g} m3 s-2; leave out what has no mass",
+    ),
     ("a", lambda a: 0 < a <= _LARGEST, f"it is greater than zero, and at most {_LARGEST:g} m"),
     ("i", lambda i: 0 <= i <= math.pi, "an inclination must be 0 to 180 deg"),
     ("gm_uncertainty", lambda u: u >= 0, "an uncertainty must be zero or more"),
 )
+
+
+#: Smallest relative distance of two orbits; closer ones do not pull as rings do.
+_APART = 1e-3
 
 
 class SatelliteList:
@@ -125,6 +136,9 @@ class SatelliteList:
         names = [satellite.name for satellite in satellites]
         if len(set(names)) < len(names):
             raise where.error(names, "each satellite has its own name")
+        sizes = sorted(satellite.a for satellite in satellites)
+        if any(outer - inner < _APART * outer for inner, outer in pairwise(sizes)):
+            raise where.error(names, "two satellites share one orbit; join their masses")
         return satellites
 
     def write(self, value: tuple[Satellite, ...]) -> Plain:

@@ -105,6 +105,12 @@ def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
         if not all_of(is_finite(with_size) & ((with_size > 0) | (gm == 0))):
             raise BodyError(name, "radius", radius, "M a2 is out of a float's range")
         _check_density(name, gm, radius)
+        for satellite in body["satellites"]:
+            if not all_of(radius < satellite.a):
+                allowed = (
+                    "its orbit lies inside the body; if this is in km, write the unit"
+                )
+                raise BodyError(name, f"satellites.{satellite.name}.a", satellite.a, allowed)
     for field, u in body["relative_uncertainty"].items():
         if field not in numbers:
             raise BodyError(name, "relative_uncertainty", field, nearest(field, numbers))

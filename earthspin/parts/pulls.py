@@ -31,8 +31,8 @@ from earthspin.units import Several, Word
 
 #: Samples of an orbit for its mean pull; the mean over an ellipse converges exponentially.
 PULL_SAMPLES = 400
-#: Word for the effects that are known for a body; the question replaces it by their names.
-KNOWN = "known"
+#: Words for effects that depend on the body; the question replaces them by names.
+KNOWN, WITHOUT_INTERIOR = "known", "rigid"
 
 
 class EffectNames(Several):
@@ -50,9 +50,8 @@ class EffectNames(Several):
 
     def read(self, value: object, where: Where) -> tuple[str, ...]:
         """Return the names of the effects that one word stands for; otherwise check the names."""
-        sets = {KNOWN: (KNOWN,), "rigid": RIGID, "all": tuple(EFFECTS)}
-        if isinstance(value, str) and value in sets:
-            return sets[value]
+        if isinstance(value, str) and value in (KNOWN, WITHOUT_INTERIOR, "all"):
+            return tuple(EFFECTS) if value == "all" else (value,)
         return super().read(value, where)
 
 
@@ -72,27 +71,25 @@ class AxisMotion(Series):
     effects: Effects = key("rigid", doc=EFFECTS_DOC)
 
     def check(self) -> None:
-        """Replace "known" by names; switch off `planets` if all orbits are given by elements.
-
-        The effect `planets` needs a kernel; it is refused if the user requested it.
-        """
+        """Replace words by the names of effects; refuse `planets` without a kernel."""
         super().check()
-        if self.effects == (KNOWN,):
-            object.__setattr__(self, "effects", self.known_effects())
-        if PLANETS.name not in self.effects or not all_by_elements(self.body, self.perturbers):
-            return
-        if "effects" in self.given:
+        words = {KNOWN: self.known_effects, WITHOUT_INTERIOR: self.rigid_effects}
+        if self.effects and self.effects[0] in words:
+            object.__setattr__(self, "effects", words[self.effects[0]]())
+        elif PLANETS.name in self.effects and all_by_elements(self.body, self.perturbers):
             raise self.error(
                 "effects",
                 PLANETS.name,
                 "all orbits are given by elements, and this effect needs a kernel: remove it, or "
                 "list the planets as perturbers",
             )
-        left = tuple(effect for effect in self.effects if effect != PLANETS.name)
-        object.__setattr__(self, "effects", left)
 
     def known_effects(self) -> tuple[str, ...]:
         """Names of the effects that are known for this body, its perturbers and its kernel."""
+        return self.rigid_effects()
+
+    def rigid_effects(self) -> tuple[str, ...]:
+        """Names of the effects on a rigid body, without `planets` if no kernel holds them."""
         kernel = own_kernel(self.ephemeris)
         no_planets = all_by_elements(self.body, self.perturbers) or (
             kernel is not None and not kernel.holds(BODIES[name].naif for name in bodies.PLANETS)
@@ -168,8 +165,9 @@ def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str
     masses = {p.name: float(p.gm_on(body)) for p in perturbers}
     targets = dict(sky.targets)
     if PLANETS.name in effects:
+        named = {code for member in (body, *perturbers) for code in member.naif}
         for name in bodies.PLANETS:
-            if name not in masses and name != body.name:
+            if name not in masses and name != body.name and named.isdisjoint(BODIES[name].naif):
                 masses[name] = float(BODIES[name].gm_on(body))
                 targets[name] = sky.place(BODIES[name])
     start, end = sky.coverage(targets)

@@ -126,6 +126,10 @@ class PerturbedBody(Question):
             raise self.error("perturbers", names, "'total' is the label of the sum; rename it")
         if self.body.name in names:
             raise self.error("perturbers", names, "a body does not pull on itself")
+        carried = {satellite.name.casefold() for satellite in self.body.satellites}
+        if twice := [name for name in names if name.casefold() in carried]:
+            problem = f"it is among the satellites of {self.body.name}, which act already: "
+            raise self.error("perturbers", twice[0], f"{problem}remove it, or set satellites = []")
         all_by_elements(self.body, self.perturbers)  # refuses inconsistent elements
 
     def needed(self) -> tuple[str, ...]:

@@ -341,7 +341,9 @@ def ahead(
         "parameters": f"{kind}: {_words(predicted.fast)}",
     }
     if record.newest:
-        source["newest_row_corrected"] = f"{NEWEST_BIAS.imag:+.3f} mas in y, its measured bias"
+        source["newest_row_corrected"] = (
+            f"{abs(NEWEST_BIAS.imag):.3f} mas, its measured bias, subtracted from y"
+        )
     if excitation is not None:
         source["excitation"] = (
             f"given from {_day(excitation.rows[0, 0])} to {_day(excitation.rows[0, -1])}"

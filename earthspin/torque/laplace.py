@@ -190,5 +190,5 @@ def nodes(planet: Planet, satellites: Satellites) -> list[Node]:
         ratio = float(np.real(modes[0, mode] / modes[1 + satellite, mode]))
         sine = ratio * np.sin(inclination[satellite])
         rate = np.sqrt(abs(squares[mode])) * np.cos(inclination[satellite] - np.arcsin(sine))
-        found.append(Node(float(rate), float(np.arcsin(abs(sine)))))
+        found.append(Node(abs(float(rate)), float(np.arcsin(abs(sine)))))
     return found

@@ -10,7 +10,7 @@ from jplephem.excerpter import write_excerpt
 from jplephem.spk import SPK
 
 import earthspin
-from earthspin import EARTH, MOON
+from earthspin import EARTH, MARS, MOON
 from earthspin.constants import ARCSEC
 from earthspin.engine.neglected import largest_of
 from earthspin.sky import iau
@@ -78,6 +78,22 @@ def test_the_default_is_the_pole_of_the_sky() -> None:
 def test_a_response_that_is_not_known_is_left_out_by_default(scene: dict[str, object]) -> None:
     result = earthspin.pole(times=["2010-01-01"], **scene)
     assert "nonrigid" not in result.attrs["effects"].split()
+
+
+def test_the_word_rigid_fits_bodies_on_given_orbits() -> None:
+    """The orbit of Saturn is given by elements, which place no planets."""
+    result = earthspin.pole(times=["2010-01-01"], body="saturn", effects="rigid")
+    assert result.attrs["effects"].split() == list(RIGID[1:])
+    with pytest.raises(earthspin.SceneError, match="this effect needs a kernel"):
+        earthspin.pole(times=["2010-01-01"], body="saturn", effects=["planets"])
+
+
+def test_a_renamed_planet_does_not_pull_on_itself() -> None:
+    mars, renamed = (
+        earthspin.pole(times=["2010-01-01"], body=body, perturbers=["sun"])
+        for body in (MARS, MARS.replace(name="x"))
+    )
+    assert np.array_equal(mars.X, renamed.X)
 
 
 def test_members_have_the_effects_of_the_nominal_body() -> None:

@@ -23,7 +23,7 @@ EFFECTS: dict[str, Effect] = {
 #: Names of the effects with which the errors of the solver were measured.
 MEASURED_WITH = tuple(EFFECTS)
 
-#: Names of the effects on a rigid body, which are switched on by default.
+#: Names of the effects on a rigid body.
 RIGID = tuple(name for name in EFFECTS if name != NONRIGID.name)
 
 
