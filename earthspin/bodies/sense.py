@@ -107,9 +107,7 @@ def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
         _check_density(name, gm, radius)
         for satellite in body["satellites"]:
             if not all_of(radius < satellite.a):
-                allowed = (
-                    "its orbit lies inside the body; if this is in km, write the unit"
-                )
+                allowed = "its orbit lies inside the body; if this is in km, write the unit"
                 raise BodyError(name, f"satellites.{satellite.name}.a", satellite.a, allowed)
     for field, u in body["relative_uncertainty"].items():
         if field not in numbers:
