@@ -71,8 +71,8 @@ PUBLISHED = {
     ),
     "jupiter": Published(
         JUPITER_CONSTANT,
-        "published to two digits; with all satellites in the equator our rate would be 2.645, and "
-        "the linear part of the pole of IAU 2015 moves at 2.444",
+        "published to two digits; with all satellites in the equator the computed rate would be "
+        "2.645, and the linear part of the pole of IAU 2015 moves at 2.444",
         True,
     ),
     "saturn": Published(

@@ -63,7 +63,7 @@ def on_its_orbit(body: Body) -> Body:
     orbit = ORBITS[body.name]
     assert orbit.a is not None
     # with its period, the orbit stays the same if an ensemble varies the mass
-    one = BODIES[body.name] if hasattr(body.gm, "dims") else body
-    period = 2 * math.pi * math.sqrt(orbit.a**3 / (SUN.gm + one.gm_on(SUN)))
+    nominal = BODIES[body.name] if hasattr(body.gm, "dims") else body
+    period = 2 * math.pi * math.sqrt(orbit.a**3 / (SUN.gm + nominal.gm_on(SUN)))
     orbit = replace(orbit, period=period)
     return body.replace(orbit=orbit, orbit_pole=body.orbit_pole)

@@ -181,12 +181,12 @@ def swings(body: Body, pull: Numeric, obliquity: float) -> dict[str, Swing]:
     numbers = [*(body.needed(name) for name in names), body.spin_rate, pull]
     planet = _planet([np.full((1, 1), float(np.mean(number))) for number in numbers], obliquity)
     sine = math.sin(obliquity)
-    found = {}
+    nutations = {}
     for satellite, node in zip(body.satellites, nodes(planet, _satellites(body)), strict=True):
         if node.swing:
             rate = _rate(node, sine)
-            found[f"node of {satellite.name}"] = Swing(rate, node.swing, node.rate)
-    return found
+            nutations[f"node of {satellite.name}"] = Swing(rate, node.swing, node.rate)
+    return nutations
 
 
 def largest_torques_of_satellites(body: Body, pull: float) -> dict[str, float]:
@@ -213,15 +213,15 @@ def largest_torques_of_satellites(body: Body, pull: float) -> dict[str, float]:
     }
 
 
-def largest_drifts(found: Mapping[str, Swing], span: float) -> dict[str, float]:
+def largest_drifts(nutations: Mapping[str, Swing], span: float) -> dict[str, float]:
     """Largest displacements of the pole by the nodes of satellites within a span of s, rad."""
     return {
         name: 2 * swing.angle * math.sin(min(swing.node_rate * span, math.pi) / 2)
-        for name, swing in found.items()
+        for name, swing in nutations.items()
     }
 
 
-def drifts(found: Mapping[str, Swing], times: FloatArray) -> dict[str, FloatArray]:
+def drifts(nutations: Mapping[str, Swing], times: FloatArray) -> dict[str, FloatArray]:
     """Displacements of the pole by the nodes of satellites since the epoch, rad, shape (t,) each.
 
     They are chords of the circles that the pole describes, larger by `SWING_SHARE`; `times` are s
@@ -229,7 +229,7 @@ def drifts(found: Mapping[str, Swing], times: FloatArray) -> dict[str, FloatArra
     """
     return {
         name: 2 * (1 + SWING_SHARE) * swing.angle * np.abs(np.sin(swing.node_rate * times / 2))
-        for name, swing in found.items()
+        for name, swing in nutations.items()
     }
 
 

@@ -171,8 +171,8 @@ def left(
         return np.stack([added.real, added.imag], axis=-1).swapaxes(0, 1)
 
     error = residual_error(done, body, theirs, days)
-    some = slice(None, None, max(1, days.size // DAYS_OF_ERRORS))
-    phases = circles.multiples @ iau.delaunay_arguments(days[some])
+    sampled = slice(None, None, max(1, days.size // DAYS_OF_ERRORS))
+    phases = circles.multiples @ iau.delaunay_arguments(days[sampled])
     terms_at_days = circles.amplitude[:, np.newaxis] * np.exp(1j * phases)
     rms, errors = {}, {}
     with progress("residuals", len(factors)) as advance:
@@ -185,8 +185,8 @@ def left(
                 name,
                 circles.frequency,
                 terms_at_days,
-                residual[some, 0] + 1j * residual[some, 1],
-                days[some],
+                residual[sampled, 0] + 1j * residual[sampled, 1],
+                days[sampled],
             )
             errors[name] = math.hypot(error, of_interior)
             advance(1)

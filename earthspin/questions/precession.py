@@ -401,8 +401,8 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
 
 def neglected_nodes(body: Body, mean_rates: MeanRates) -> dict[str, float]:
     """Largest additions to the mean rate by the nodes of satellites, rad/s, with their periods."""
-    found = swings(body, mean_rates.pull, mean_rates.means.obliquity)
-    return {f"{name}, period {swing.years}": swing.rate for name, swing in found.items()}
+    nutations = swings(body, mean_rates.pull, mean_rates.means.obliquity)
+    return {f"{name}, period {swing.years}": swing.rate for name, swing in nutations.items()}
 
 
 @part

@@ -548,8 +548,8 @@ def node_drifts(body: Body, pulls: Pulls, epochs: Epochs) -> dict[str, float]:
     if obliquity is None:
         return {}
     begin, end = epochs.span()
-    found = swings(body, pulls.mean_pull(body.orbital_period), obliquity)
-    return largest_drifts(found, (end - begin) * DAY)
+    nutations = swings(body, pulls.mean_pull(body.orbital_period), obliquity)
+    return largest_drifts(nutations, (end - begin) * DAY)
 
 
 @part

@@ -184,11 +184,11 @@ def nodes(planet: Planet, satellites: Satellites) -> list[Node]:
     # in the slowest mode, the precession, all move together
     shares_of_modes = np.abs(modes[1:]) / np.abs(modes[1:]).max(0)
     shares_of_modes[:, np.argmin(np.abs(squares))] = 0.0
-    found = []
+    result = []
     for satellite in range(gm.size):
         mode = int(np.argmax(shares_of_modes[satellite]))
         ratio = float(np.real(modes[0, mode] / modes[1 + satellite, mode]))
         sine = ratio * np.sin(inclination[satellite])
         rate = np.sqrt(abs(squares[mode])) * np.cos(inclination[satellite] - np.arcsin(sine))
-        found.append(Node(abs(float(rate)), float(np.arcsin(abs(sine)))))
-    return found
+        result.append(Node(abs(float(rate)), float(np.arcsin(abs(sine)))))
+    return result
