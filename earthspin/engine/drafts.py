@@ -114,8 +114,10 @@ def replacing(path: str | Path) -> Iterator[Path]:
         for left in (entry for entry in box.iterdir() if entry.name != _LOCK):
             remove(left)
         try:
-            yield box / target.name
-            put_in_place(box / target.name, target, box)
+            # A thread that still writes the draft of an earlier error does not touch this one.
+            draft = Path(tempfile.mkdtemp(dir=box)) / target.name
+            yield draft
+            put_in_place(draft, target, box)
         finally:
             remove(box)
 

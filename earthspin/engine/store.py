@@ -11,6 +11,7 @@ from __future__ import annotations
 import datetime as dt
 import errno
 import hashlib
+import math
 import os
 import re
 import shutil
@@ -35,6 +36,9 @@ FORMAT, VERSION = "earthspin_format", 2
 CONTENT = "content_sha256"
 #: Attribute of a store that was made in blocks: SHA-256 of the request.
 MADE_OF = "made_of_sha256"
+
+#: Largest size of a chunk of a Zarr store that is written at once, bytes.
+CHUNK = 1 << 28
 
 #: Lock of the netCDF library, which is not thread-safe.
 _NETCDF = threading.RLock()
@@ -428,23 +432,20 @@ _STAMP = re.compile(r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ ")
 read = open
 
 
-def encoding_of(
-    node: xr.Dataset, *, zarr: bool = True, chunked: str = ""
-) -> dict[str, dict[str, Any]]:
+def encoding_of(node: xr.Dataset, *, zarr: bool = True) -> dict[str, dict[str, Any]]:
     """Return, by variable name, the encoding with which each variable is stored in a file.
 
     The CF conventions require that coordinate variables are numeric, so text labels are stored as
     arrays of characters, which xarray reads back as text. The scene is stored as characters too,
     because the netCDF library crashes if a file with variable-length text is opened twice. Missing
-    chunks of a Zarr store are read as NaN.
+    chunks of a Zarr store are read as NaN. A variable up to `CHUNK` bytes is one chunk, because
+    Zarr writes chunks at the same time, and after an error in one of them it writes the others.
 
     Parameters
     ----------
     node : Dataset
     zarr : bool
         Return the encoding for Zarr rather than for netCDF.
-    chunked : str
-        Dimension along which the node is one chunk of a store.
     """
     encoding: dict[str, dict[str, Any]] = {}
     for name, variable in node.variables.items():
@@ -456,8 +457,10 @@ def encoding_of(
             entry["_FillValue"] = None  # no value is missing, and CF forbids it for coordinates
         if not zarr and kind in "UO" and (coordinate or name == SCENE):
             entry["dtype"] = "S1"
-        if chunked in variable.dims:
-            entry["chunks"] = variable.shape
+        if zarr and variable.dims:
+            length, *others = (max(size, 1) for size in variable.shape)
+            rows = CHUNK // (math.prod(others) * variable.dtype.itemsize)
+            entry["chunks"] = (min(length, max(rows, 1)), *others)
     return encoding
 
 

@@ -226,8 +226,12 @@ def begin(folder: Path, request: Mapping[str, str], layout: Layout, first: xr.Da
     whole = first.nbytes / layout.length(0) * layout.size
     drafts.refuse_what_does_not_fit(folder, whole, f"{layout.size} {layout.along}s")
     node = spelled(first).assign_attrs({FORMAT: VERSION, MADE_OF: digest(request)})
+    encoding = encoding_of(node)
+    for name, variable in node.variables.items():
+        if layout.along in variable.dims:
+            encoding[str(name)]["chunks"] = variable.shape
     draft = folder / "begun"
-    zarr_folder.write({"/": node}, draft, {"/": encoding_of(node, chunked=layout.along)})
+    zarr_folder.write({"/": node}, draft, {"/": encoding})
     zarr_folder.lengthen(draft, layout.along, layout.size)
     zarr_folder.seal(draft)
     (folder / REQUEST).write_text(json.dumps(dict(request), indent=1), encoding="utf-8")
