@@ -36,7 +36,7 @@ DIMENSIONS = "_ARRAY_DIMENSIONS"
 #: Options for writing. Version 3 of Zarr has no standard for arrays of text.
 OPTIONS: dict[str, Any] = {"consolidated": False, "zarr_format": 2, "write_empty_chunks": True}
 #: Codec of every chunk.
-_CODEC = numcodecs.Zstd(level=1, checksum=True)
+_CODEC = numcodecs.Zstd(level=0, checksum=True)
 #: Name of the file of a chunk.
 _CHUNK = re.compile(r"\d+(\.\d+)*")
 
