@@ -16,7 +16,8 @@ import os
 import re
 import shutil
 import threading
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +26,7 @@ import numpy as np
 from earthspin.engine.drafts import as_path, check_identity, identity, mismatch_error, replacing
 from earthspin.engine.labels import IN_FILES
 from earthspin.engine.plan import SCENE, scene_of
-from earthspin.errors import EarthspinError, MissingExtraError, OutputError, in_bytes, one_line
+from earthspin.errors import MissingExtraError, OutputError, in_bytes, one_line
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -63,7 +64,7 @@ def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
     result : Dataset or DataTree
     path : str or Path
         Path that ends in ``.nc`` or ``.zarr``. An existing file is replaced when the new one is
-        complete and on the disk. It is not changed if an error occurs.
+        complete. It is not changed if an error occurs.
 
     Returns
     -------
@@ -309,7 +310,12 @@ def verify(path: str | Path) -> Path:
     place = as_path(path)
     if place.suffix == ".zarr":
         zarr_of()
-        attrs = _verify_zarr(place)
+        from earthspin.engine import zarr_folder
+
+        with _reading(place):
+            attrs = zarr_folder.attributes(place)
+            if _format_of(place, attrs) == VERSION:
+                zarr_folder.verify(place)
     else:
         attrs = _read(place)["/"].attrs
     if attrs.get(FORMAT) == VERSION:
@@ -317,22 +323,6 @@ def verify(path: str | Path) -> Path:
     if CONTENT in attrs or any(place.glob("*/SHA256SUMS")):
         raise OutputError(place, "format 1: open it and write it again")
     raise OutputError(place, "it has no checksum", "earthspin.write adds one")
-
-
-def _verify_zarr(store: Path) -> dict[str, Any]:
-    """Compare a Zarr store of this format with its checksums; return the attributes of its root."""
-    from earthspin.engine import zarr_folder
-
-    opened = identity(store)
-    try:
-        attrs = zarr_folder.attributes(store)
-        if _format_of(store, attrs) == VERSION:
-            zarr_folder.verify(store)
-    except (OSError, ValueError, RecursionError) as error:
-        check_identity(store, opened)
-        raise _unreadable(store, error) from None
-    check_identity(store, opened)
-    return attrs
 
 
 def _format_of(path: Path, attrs: Mapping[str, Any]) -> int:
@@ -350,24 +340,31 @@ def _format_of(path: Path, attrs: Mapping[str, Any]) -> int:
     return int(version)
 
 
-def _read(path: Path) -> dict[str, xr.Dataset]:
-    """Read all groups of a file by their paths; units stay in the spelling of files."""
+@contextmanager
+def _reading(path: Path) -> Iterator[None]:
+    """Convert all errors of a damaged file to an `OutputError`; a context manager.
+
+    Raises
+    ------
+    OutputError
+        Also if a Zarr store is replaced while it is read.
+    """
     opened = identity(path)
     try:
+        yield
         if path.suffix == ".zarr":
-            zarr_of()
-            nodes = _read_zarr(path)
             check_identity(path, opened)
-            return nodes
-        if path.is_fifo():
-            raise OutputError(path, "it is a pipe", "give a file")
-        return _read_netcdf(path)
-    except EarthspinError:
-        check_identity(path, opened)
-        raise
     except Exception as error:  # the libraries raise many types for damaged files
         check_identity(path, opened)
         raise _unreadable(path, error) from None
+
+
+def _read(path: Path) -> dict[str, xr.Dataset]:
+    """Read all groups of a file by their paths; units stay in the spelling of files."""
+    if path.suffix == ".zarr":
+        zarr_of()
+    with _reading(path):
+        return _read_zarr(path) if path.suffix == ".zarr" else _read_netcdf(path)
 
 
 def _read_zarr(path: Path) -> dict[str, xr.Dataset]:
@@ -376,8 +373,7 @@ def _read_zarr(path: Path) -> dict[str, xr.Dataset]:
 
     from earthspin.engine import zarr_folder
 
-    attrs = zarr_folder.attributes(path) if (path / ".zattrs").exists() else {}
-    sealed = _format_of(path, attrs) == VERSION
+    sealed = _format_of(path, zarr_folder.attributes(path)) == VERSION
     if sealed:
         zarr_folder.metadata_of(path)
     store: Any = zarr_folder.ZarrFolder(path) if sealed else path
@@ -391,6 +387,8 @@ def _read_netcdf(path: Path) -> dict[str, xr.Dataset]:
     """Read a netCDF file completely, and compare it with the checksum of its content."""
     import xarray as xr
 
+    if path.is_fifo():
+        raise OutputError(path, "it is a pipe", "give a file")
     with _NETCDF:
         nodes = xr.open_groups(path, decode_times=_coder(), engine="netcdf4")
         try:

@@ -109,17 +109,11 @@ def _text(metadata: Mapping[str, Any]) -> str:
 
 
 def attributes(store: Path) -> dict[str, Any]:
-    """Attributes of the root of a store.
-
-    Raises
-    ------
-    OSError, ValueError
-        If they cannot be read.
-    """
-    attrs = json.loads((store / ".zattrs").read_bytes())
-    if not isinstance(attrs, dict):
-        raise ValueError("the attributes of its root are not a JSON object")
-    return attrs
+    """Attributes of the root of a store; empty if another program wrote none that are read here."""
+    files = {path.name for path in store.iterdir()}
+    if ".zmetadata" in files:
+        return dict(json.loads((store / ".zmetadata").read_bytes())["metadata"].get(".zattrs", {}))
+    return dict(json.loads((store / ".zattrs").read_bytes())) if ".zattrs" in files else {}
 
 
 def metadata_of(store: Path) -> dict[str, Any]:

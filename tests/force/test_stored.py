@@ -212,6 +212,15 @@ def test_a_flipped_bit_of_a_chunk_is_found_by_reading(tmp_path: Path, opened: st
             answer.load()
 
 
+@pytest.mark.parametrize("name", [".zattrs", ".zgroup", ".zmetadata", "torque/.zarray"])
+def test_a_store_without_some_of_its_metadata_is_refused(tmp_path: Path, name: str) -> None:
+    path = store.write(small_series(), tmp_path / "r.zarr")
+    (path / name).unlink()
+    for read in (store.open, earthspin.verify):
+        with pytest.raises(OutputError, match="its names, sizes or attributes"):
+            read(path)
+
+
 def test_a_chunk_that_is_gone_is_missed(tmp_path: Path) -> None:
     for name in ("torque/0.0.0", "time/0"):
         path = store.write(small_series(), tmp_path / "r.zarr")
