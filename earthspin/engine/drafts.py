@@ -24,7 +24,7 @@ from filelock import FileLock, Timeout
 from earthspin.errors import EarthspinError, OutputError, in_bytes, one_line
 
 #: Names in the folder of a draft: the lock of its owner, and the old target.
-_LOCK, _OLD = "owner", "old"
+LOCK, _OLD = "owner", "old"
 
 
 def as_path(path: object) -> Path:
@@ -111,7 +111,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
     remedy = "the existing file is not changed" if target.exists() else ""
     box = target.with_name(f".{target.name}.draft")
     with output_errors(path, remedy), claimed(box, target):
-        for left in (entry for entry in box.iterdir() if entry.name != _LOCK):
+        for left in (entry for entry in box.iterdir() if entry.name != LOCK):
             remove(left)
         try:
             # A thread that still writes the draft of an earlier error does not touch this one.
@@ -173,7 +173,7 @@ def claimed(box: Path, target: Path) -> Iterator[None]:
         If another process has locked the folder.
     """
     box.mkdir(exist_ok=True)
-    lock = FileLock(box / _LOCK, blocking=False)
+    lock = FileLock(box / LOCK, blocking=False)
     try:
         lock.acquire()
     except Timeout:

@@ -98,13 +98,14 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
     remedy = f"{stay}: free some space and run it again"
     with drafts.output_errors(place, remedy), unfinished.claimed(target) as folder:
         existing = _digest_of_store(target)
-        if existing == unfinished.digest(request):
-            return verify(place)
-        if existing is not None and not replace:
+        complete = existing == unfinished.digest(request)
+        if existing is not None and not complete and not replace:
             raise OutputError(place, "a store of another question exists there", "move it away")
-        if (folder / STORE).exists():
-            unfinished.refuse_another(folder, request)
-        else:
+        unfinished.refuse_another(folder, request)
+        if complete:
+            drafts.remove(folder)  # a run that was killed after its last block can have left it
+            return verify(place)
+        if not (folder / STORE).exists():
             unfinished.begin(folder, request, layout, work.first())
         _complete(work, Unfinished(folder, layout), target, client)
     return place

@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 
 #: Suffix of the folder of an unfinished store.
 PARTIAL = ".partial"
-#: Names in the folder: the store, and the request.
-STORE, REQUEST = "store", "asked.json"
+#: Names in the folder: the store, the request, and a store whose first block is being written.
+STORE, REQUEST, _DRAFT = "store", "asked.json", "begun"
 
 
 @dataclass(frozen=True)
@@ -125,6 +125,7 @@ class Unfinished:
             problem = "a block differs from what was just written"
             raise OutputError(self.folder, problem, "check the disk and run it again") from None
         drafts.put_in_place(self.store, target, self.folder)
+        drafts.remove(self.folder)
 
 
 def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) -> None:
@@ -159,7 +160,7 @@ def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) ->
 
 @contextmanager
 def claimed(target: Path) -> Iterator[Path]:
-    """Lock and yield the folder of an unfinished store; remove it at the end if it has no store.
+    """Lock and yield the folder of an unfinished store; remove it at the end if none was begun.
 
     Parameters
     ----------
@@ -176,8 +177,13 @@ def claimed(target: Path) -> Iterator[Path]:
         try:
             yield folder
         finally:
-            if not (folder / STORE).exists():
+            if not _is_begun(folder):
                 drafts.remove(folder)
+
+
+def _is_begun(folder: Path) -> bool:
+    """Return True if a folder holds more than the lock and the draft of a store."""
+    return folder.exists() and not {path.name for path in folder.iterdir()} <= {drafts.LOCK, _DRAFT}
 
 
 def refuse_another(folder: Path, request: Mapping[str, str]) -> None:
@@ -187,6 +193,8 @@ def refuse_another(folder: Path, request: Mapping[str, str]) -> None:
     ------
     OutputError
     """
+    if not _is_begun(folder):
+        return
     try:
         begun = json.loads((folder / REQUEST).read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):
@@ -230,7 +238,8 @@ def begin(folder: Path, request: Mapping[str, str], layout: Layout, first: xr.Da
     for name, variable in node.variables.items():
         if layout.along in variable.dims:
             encoding[str(name)]["chunks"] = variable.shape
-    draft = folder / "begun"
+    draft = folder / _DRAFT
+    drafts.remove(draft)
     zarr_folder.write({"/": node}, draft, {"/": encoding})
     zarr_folder.lengthen(draft, layout.along, layout.size)
     zarr_folder.seal(draft)

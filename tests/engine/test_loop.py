@@ -220,6 +220,15 @@ def test_a_failure_is_told_and_what_was_made_is_kept(tmp_path: Path, undisturbed
     assert bytes_of(path) == bytes_of(undisturbed)
 
 
+def test_a_folder_of_others_is_left_alone(tmp_path: Path) -> None:
+    folder = tmp_path / "r.zarr.partial"
+    folder.mkdir()
+    (folder / "letter.txt").write_text("not of this program")
+    with pytest.raises(OutputError, match=r"asked\.json is not what was written"):
+        loop.write(Squares(), tmp_path / "r.zarr")
+    assert (folder / "letter.txt").read_text() == "not of this program"
+
+
 # --- damaged while it was unfinished -------------------------------------------------------------
 
 
