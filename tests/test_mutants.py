@@ -20,7 +20,7 @@ NO_KERNEL = {"__init__", "_checks", "arrays", "effect"}
 BORDER = (
     *("units", "dates", "bodies/figure", "bodies/earth", "constants", "scenes"),
     *("engine/question", "engine/plan", "engine/labels", "engine/neglected", "engine/store"),
-    *("engine/drafts", "engine/checksums", "engine/unfinished", "errors", "process"),
+    *("engine/drafts", "engine/zarr_folder", "engine/unfinished", "errors", "process"),
 )
 
 

@@ -1,28 +1,20 @@
-"""Atomic writes: a result is written to a temporary draft, which then replaces the target file.
+"""Atomic writes: a result is written to a draft, which then replaces the target.
 
-A reader always finds the complete old file or the complete new file, even if the writer is ended by
-an exception, a kill or a power failure. When `replacing` returns, the new file is on the disk, if
-the disk honours the request to store it. Processes that write to the same target do not disturb
-one another, also in different containers, or on different machines if the network folder supports
-locks; the last one to finish wins.
+The draft is in a hidden folder next to the target, ``.<name>.draft``, together with a lock. A
+second writer of the same target is refused while the first one runs. The system releases the lock
+when its owner ends, and the next writer removes the draft of a killed one.
 
-A file is replaced in one step. A folder (a Zarr store) is replaced in one step if the system can
-exchange two folders, as Linux and macOS can on their own file systems. Otherwise there are two
-steps: the old folder is moved aside, then the new folder is moved to the target. A reader between
-the two steps waits for the second one. If the writer is killed between them, the next process that
-opens or writes the target restores the old folder.
+A file is replaced in one step, so a reader finds the complete old file or the complete new one. A
+folder (a Zarr store) is replaced in two steps: the old folder is moved into the hidden folder, then
+the draft is moved to the target. If the writer is killed between them, the next writer restores the
+old folder. Nothing is flushed to the disk: that is left to the system.
 """
 
 from __future__ import annotations
 
-import ctypes
-import errno
-import glob
 import os
 import shutil
-import sys
 import tempfile
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -31,13 +23,8 @@ from filelock import FileLock, Timeout
 
 from earthspin.errors import EarthspinError, OutputError, in_bytes, one_line
 
-#: Names in the hidden folder of a draft: the lock of its owner, and the old target.
-_LOCK, _OLD = "owner", "old"
-#: Age by the clock of the disk after which a draft without a lock has no owner, s. A new draft has
-#: no lock for a moment.
-_GRACE = 60.0
-#: Time between two checks of a folder that is being replaced, s, and the number of checks.
-_WAIT, _WAITS = 0.01, 500
+#: Names in the folder of a draft: the lock of its owner, and the old target.
+LOCK, _OLD = "owner", "old"
 
 
 def as_path(path: object) -> Path:
@@ -118,13 +105,21 @@ def replacing(path: str | Path) -> Iterator[Path]:
     Raises
     ------
     OutputError
-        If the target cannot be written; it is then not changed.
+        If the target cannot be written, or another process writes it; it is then not changed.
     """
     target = prepared(path)
     remedy = "the existing file is not changed" if target.exists() else ""
-    with output_errors(path, remedy), box_of(target) as box:
-        yield box / target.name
-        put_in_place(box / target.name, target, box)
+    box = target.with_name(f".{target.name}.draft")
+    with output_errors(path, remedy), claimed(box, target):
+        for left in (entry for entry in box.iterdir() if entry.name != LOCK):
+            remove(left)
+        try:
+            # A thread that still writes the draft of an earlier error does not touch this one.
+            draft = Path(tempfile.mkdtemp(dir=box)) / target.name
+            yield draft
+            put_in_place(draft, target, box)
+        finally:
+            remove(box)
 
 
 def prepared(path: str | Path) -> Path:
@@ -161,43 +156,68 @@ def output_errors(path: str | Path, remedy: str = "") -> Iterator[None]:
         raise OutputError(path, f"it cannot be written: {one_line(error)}", remedy) from None
 
 
-# --- drafts and their owners ---------------------------------------------------------------------
-
-
 @contextmanager
-def box_of(target: Path) -> Iterator[Path]:
-    """Yield a new locked hidden folder for a temporary draft, next to the target file.
+def claimed(box: Path, target: Path) -> Iterator[None]:
+    """Create the folder of a draft and lock it; a context manager.
 
-    Abandoned drafts are removed first.
-    """
-    box = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".draft", dir=target.parent))
-    lock = FileLock(box / _LOCK)
-    with suppress(OSError, NotImplementedError):  # without locks, abandoned drafts stay
-        lock.acquire()
-    try:
-        _clear_abandoned_drafts(target, box)
-        yield box
-    finally:
-        _remove(box, target)
-        lock.release()
-
-
-def put_back(path: str | Path) -> None:
-    """Restore a folder if a process was killed while it was replacing the folder.
+    Where the file system has no locks, writers are not kept apart.
 
     Parameters
     ----------
-    path : str or Path
-        Path of the folder; if it exists, nothing is done. If the writer still runs, this function
-        waits for the new folder.
+    box, target : Path
+        Folder of the draft, and the file or folder that the draft will replace.
+
+    Raises
+    ------
+    OutputError
+        If another process has locked the folder.
     """
-    with suppress(OSError):
-        target = Path(path).resolve()
-        for _ in range(_WAITS):
-            if target.exists() or not any((box / _OLD).exists() for box in _boxes(target)):
-                break
-            _clear_abandoned_drafts(target)
-            time.sleep(_WAIT)
+    box.mkdir(exist_ok=True)
+    lock = FileLock(box / LOCK, blocking=False)
+    try:
+        lock.acquire()
+    except Timeout:
+        remedy = "wait for that run, or stop it"
+        raise OutputError(target, "another run is writing it", remedy) from None
+    except (OSError, NotImplementedError):
+        pass
+    try:
+        _restore(box, target)
+        yield
+    finally:
+        lock.release()
+
+
+def put_in_place(draft: Path, target: Path, box: Path) -> None:
+    """Move a complete draft to its target; if this fails, the old target stays.
+
+    Parameters
+    ----------
+    draft, target : Path
+    box : Path
+        Folder into which an old Zarr store is moved.
+    """
+    try:
+        if target.is_dir():
+            remove(box / _OLD)
+            os.replace(target, box / _OLD)
+        os.replace(draft, target)
+    finally:
+        _restore(box, target)
+
+
+def _restore(box: Path, target: Path) -> None:
+    """Move an old store back to a target that is missing."""
+    if (box / _OLD).exists() and not target.exists():
+        os.replace(box / _OLD, target)
+
+
+def remove(path: Path) -> None:
+    """Remove a file, or a folder with its contents."""
+    if path.is_dir():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        path.unlink(missing_ok=True)
 
 
 def identity(path: Path) -> tuple[int, int, int] | None:
@@ -220,81 +240,7 @@ def check_identity(path: Path, opened: tuple[int, int, int] | None) -> None:
         raise OutputError(path, "it was replaced while it was read", "open it again")
 
 
-def _clear_abandoned_drafts(target: Path, own: Path | None = None) -> None:
-    """Remove the drafts of processes that have ended, and restore a target left in such a draft."""
-    for box in _boxes(target):
-        if box != own and _is_abandoned(box, own):
-            _remove(box, target)
-
-
-def _remove(box: Path, target: Path) -> None:
-    """Remove the hidden folder of a draft; if the target is missing, restore its old version."""
-    if (box / _OLD).exists() and not target.exists():
-        os.replace(box / _OLD, target)
-    shutil.rmtree(box, ignore_errors=True)
-
-
-def _boxes(target: Path) -> Iterator[Path]:
-    return target.parent.glob(f".{glob.escape(target.name)}.*.draft")
-
-
-def _is_abandoned(box: Path, own: Path | None) -> bool:
-    """Return True if the process that made a draft has ended."""
-    with suppress(OSError, NotImplementedError, Timeout):
-        if not (box / _LOCK).exists():
-            # The owner may be about to lock it. Both times are by the clock of the disk.
-            return own is not None and own.stat().st_mtime - box.stat().st_mtime > _GRACE
-        with FileLock(box / _LOCK, blocking=False):
-            return True
-    return False
-
-
-# --- replacement of the target -------------------------------------------------------------------
-
-
-def put_in_place(draft: Path, target: Path, box: Path) -> None:
-    """Replace the target by the draft, with both safely on the disk.
-
-    If the draft cannot be moved, the end of `box_of` restores the old target.
-    """
-    sync(draft)
-    if not (target.is_dir() and _exchange(draft, target)):
-        if target.is_dir():
-            os.replace(target, box / _OLD)
-        os.replace(draft, target)
-    sync_one(target.parent)
-
-
-def _exchange(draft: Path, target: Path) -> bool:
-    """Exchange two folders in one step; return False if the system does not support it."""
-    here, swap = -100, 2  # AT_FDCWD; RENAME_EXCHANGE of Linux and RENAME_SWAP of macOS
-    names = os.fsencode(draft), os.fsencode(target)
-    try:
-        library = ctypes.CDLL(None)
-        if sys.platform == "darwin":
-            return bool(library.renamex_np(*names, swap) == 0)
-        return bool(library.renameat2(here, names[0], here, names[1], swap) == 0)
-    except (OSError, AttributeError, TypeError):
-        return False
-
-
-def sync(path: Path) -> None:
-    """Write a file, or a folder with all its contents, from the cache to the disk."""
-    for each in (*path.rglob("*"), path):
-        sync_one(each)
-
-
-def sync_one(path: Path) -> None:
-    """Write one file, or the directory entry list of one folder, from the cache to the disk."""
-    try:
-        file = os.open(path, os.O_RDONLY)
-    except OSError:
-        return  # a folder on Windows
-    try:
-        os.fsync(file)
-    except OSError as error:
-        # Some file systems cannot sync; errors of a full or broken disk must be raised.
-        if error.errno not in (errno.EINVAL, errno.ENOTSUP, errno.EBADF, errno.EACCES):
-            raise
-    finally:
-        os.close(file)
+def mismatch_error(path: Path, what: str) -> OutputError:
+    """Make the error for a file that does not match its checksum."""
+    remedy = "if they were changed on purpose, read the file with xarray.open_dataset"
+    return OutputError(path, f"{what} are not what was written", remedy)

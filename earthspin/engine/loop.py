@@ -2,13 +2,13 @@
 
 A `Work` holds the request, the division of the result into blocks, and a method that makes a block.
 Blocks are independent, and an ended run can be resumed. Without a client, blocks are made one after
-the other; with a client of ``dask.distributed``, its workers make and write them. Only the process
-that holds the lock of the store writes its ledger (`earthspin.engine.unfinished`).
+the other; with a client of ``dask.distributed``, its workers make and write them. How blocks are
+stored is described in `earthspin.engine.unfinished`.
 """
 
 from __future__ import annotations
 
-import shutil
+import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from itertools import islice
@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from earthspin.engine import drafts, unfinished
-from earthspin.engine.store import MADE_OF, verify, zarr_of
-from earthspin.engine.unfinished import Layout, Unfinished, write_block
+from earthspin.engine.store import MADE_OF, VERSION, verify, zarr_of
+from earthspin.engine.unfinished import STORE, Layout, Unfinished, write_block
 from earthspin.errors import EarthspinError, MissingExtraError, OutputError, SceneError, one_line
 from earthspin.progress import progress
 
@@ -92,25 +92,23 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
         raise OutputError(place, problem, "long results can only be written to Zarr")
     zarr_of()
     target, layout = drafts.prepared(place), work.layout
-    request = dict(work.request) | {"size": f"{layout.size} along {layout.along} by {layout.block}"}
-    existing = _digest_of_store(target)
-    if existing is not None and existing != unfinished.digest(request) and not replace:
-        raise OutputError(place, "a store of another question exists there", "move it away")
-    if existing == unfinished.digest(request):
-        # a run that was stopped after its last block can have left a folder
-        with unfinished.locked_folder(target, request) as left:
-            if left is not None:
-                shutil.rmtree(left)
-        return verify(place)
-    folder_name = f"{target.name}{unfinished.PARTIAL}"
-    remedy = f"finished blocks stay in {folder_name}: free some space and run it again"
-    with drafts.output_errors(place, remedy):
-        while True:
-            with unfinished.locked_folder(target, request) as folder:
-                if folder is not None:
-                    _complete(work, Unfinished(folder, layout), target, client)
-                    return place
-            unfinished.begin(target, request, layout, work.first())
+    size = f"{layout.size} along {layout.along} by {layout.block}"
+    request = dict(work.request) | {"size": size, "format of files": str(VERSION)}
+    stay = f"finished blocks stay in {target.name}{unfinished.PARTIAL}"
+    remedy = f"{stay}: free some space and run it again"
+    with drafts.output_errors(place, remedy), unfinished.claimed(target) as folder:
+        existing = _digest_of_store(target)
+        complete = existing == unfinished.digest(request)
+        if existing is not None and not complete and not replace:
+            raise OutputError(place, "a store of another question exists there", "move it away")
+        unfinished.refuse_another(folder, request)
+        if complete:
+            drafts.remove(folder)  # a run that was killed after its last block can have left it
+            return verify(place)
+        if not (folder / STORE).exists():
+            unfinished.begin(folder, request, layout, work.first())
+        _complete(work, Unfinished(folder, layout), target, client)
+    return place
 
 
 def hold(work: Work, *, client: object = None) -> xr.Dataset:
@@ -146,24 +144,16 @@ def hold(work: Work, *, client: object = None) -> xr.Dataset:
 
 
 def _complete(work: Work, store: Unfinished, target: Path, client: object) -> None:
-    """Compute missing and damaged blocks until all match their checksums; then finish the store."""
-    layout, own = work.layout, set[int]()
+    """Compute the missing blocks of an unfinished store; then finish the store."""
+    layout, done = work.layout, store.length
     try:
-        store.drop_damaged()
-        while True:
-            with progress(work.what, layout.size, store.length) as advance:
-                for number, sums in _blocks(work, store.missing, client, store.folder):
-                    store.note(number, sums)
-                    own.add(number)
-                    advance(layout.length(number))
-            if not (damaged := store.drop_damaged()):
-                break
-            if own.intersection(damaged):
-                problem = f"block {damaged[0]} differs from what was just written"
-                raise OutputError(store.folder, problem, "check the disk and run it again")
+        with progress(work.what, layout.size, done) as advance:
+            for number, _ in _blocks(work, store.missing, client, store.folder):
+                done += layout.length(number)
+                advance(layout.length(number))
     except BaseException as ended:
         if not isinstance(ended, Exception):  # interrupted from outside, as by Ctrl-C
-            state = f"{store.length} of {layout.size} are stored in {store.folder.name}"
+            state = f"{done} of {layout.size} are stored in {store.folder.name}"
             ended.add_note(f"{state}; run the same command to continue")
         raise
     store.finish(target)
@@ -172,10 +162,7 @@ def _complete(work: Work, store: Unfinished, target: Path, client: object) -> No
 def _blocks(
     work: Work, numbers: list[int], client: object, folder: Path | None = None
 ) -> Iterator[tuple[int, Any]]:
-    """Compute blocks; yield each number with its data, or with checksums if written to a folder.
-
-    Checksums are given if there is a folder into which the blocks are written.
-    """
+    """Compute blocks; yield each number with its data, or None if there is a folder for them."""
     if client is None:
         yield from (_make_block(work, number, folder) for number in numbers)
     elif numbers:
@@ -186,7 +173,10 @@ def _blocks(
 def _make_block(work: Work, number: int, folder: Path | None) -> tuple[int, Any]:
     """Compute one block of the result, and write it if a folder is given."""
     block = work.make(number)
-    return number, block if folder is None else write_block(folder, work.layout, number, block)
+    if folder is None:
+        return number, block
+    write_block(folder, work.layout, number, block)
+    return number, None
 
 
 def _blocks_from_cluster(
@@ -259,10 +249,9 @@ def _check_client(client: object) -> None:
 
 def _digest_of_store(target: Path) -> str | None:
     """Hash that identifies the computation in a complete store; None without a store."""
-    drafts.put_back(target)
     if not target.exists():
         return None
     try:
-        return str(zarr_of().open_group(target, mode="r", zarr_format=2).attrs.get(MADE_OF, ""))
-    except Exception:  # zarr raises many types for damaged folders: treat it as another store
+        return str(json.loads((target / ".zattrs").read_bytes())[MADE_OF])
+    except (OSError, ValueError, LookupError, TypeError):  # treat it as another store
         return ""

@@ -1,33 +1,45 @@
-"""Write and read results as netCDF or Zarr, with atomic writes and checksums.
+"""Write, read and verify results as netCDF or Zarr.
 
-A result is written to a draft, which is moved to the target when it is complete
-(`earthspin.engine.drafts`). It contains checksums (`earthspin.engine.checksums`). The bytes of a
-netCDF file are compared with its last line before it is opened; if another program has removed that
-line, the content is compared with an attribute. The files of a Zarr store are compared with its
-ledger when they are read, and `verify` compares all of them.
+A result is written to a draft, which replaces the target when it is complete
+(`earthspin.engine.drafts`). An attribute of a netCDF file holds the SHA-256 of its content: names,
+dimensions, types, attributes and values. The checksums of a Zarr store are described in
+`earthspin.engine.zarr_folder`.
 """
 
 from __future__ import annotations
 
 import datetime as dt
 import errno
+import hashlib
+import math
 import os
 import re
 import shutil
 import threading
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from earthspin.engine import checksums
-from earthspin.engine.drafts import as_path, check_identity, identity, put_back, replacing
+from earthspin.engine.drafts import as_path, check_identity, identity, mismatch_error, replacing
 from earthspin.engine.labels import IN_FILES
 from earthspin.engine.plan import SCENE, scene_of
-from earthspin.errors import EarthspinError, MissingExtraError, OutputError, in_bytes, one_line
+from earthspin.errors import MissingExtraError, OutputError, in_bytes, one_line
 
 if TYPE_CHECKING:
     import xarray as xr
+
+#: Attribute of the root: version of the way in which results are stored.
+FORMAT, VERSION = "earthspin_format", 2
+#: Attribute of the root of a netCDF file: SHA-256 of its content.
+CONTENT = "content_sha256"
+#: Attribute of a store that was made in blocks: SHA-256 of the request.
+MADE_OF = "made_of_sha256"
+
+#: Largest size of a chunk of a Zarr store that is written at once, bytes.
+CHUNK = 1 << 28
 
 #: Lock of the netCDF library, which is not thread-safe.
 _NETCDF = threading.RLock()
@@ -52,7 +64,7 @@ def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
     result : Dataset or DataTree
     path : str or Path
         Path that ends in ``.nc`` or ``.zarr``. An existing file is replaced when the new one is
-        complete and on the disk. It is not changed if an error occurs.
+        complete. It is not changed if an error occurs.
 
     Returns
     -------
@@ -101,7 +113,7 @@ def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
     groups = _groups(result)
     if scene := groups["/"].attrs.pop(SCENE, ""):
         groups["/"][SCENE] = ((), scene, {"long_name": "the complete question, a scene in TOML"})
-    root = groups["/"].assign_attrs({checksums.CONTENT: checksums.of_content(groups)})
+    root = groups["/"].assign_attrs({CONTENT: content_hash(groups)})
     with _NETCDF:
         try:
             for group, node in (groups | {"/": root}).items():
@@ -111,7 +123,6 @@ def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
         except (RuntimeError, OSError) as error:  # "HDF error" for every reason
             _raise_system_error(path, sum(node.nbytes + _FRAME for node in groups.values()))
             raise OSError(f"the netCDF library says: {one_line(error)}") from None
-        checksums.append_line(path)
 
 
 #: Types of numbers that netCDF holds.
@@ -164,7 +175,7 @@ def _raise_system_error(path: Path, size: int) -> None:
 def _groups(result: xr.Dataset | xr.DataTree) -> dict[str, xr.Dataset]:
     """Datasets of a result and of its sections, by the path of their group in the file.
 
-    The date is added to the attribute `history`.
+    The root has the version of the format, and the date in the attribute `history`.
     """
     import xarray as xr
 
@@ -173,6 +184,7 @@ def _groups(result: xr.Dataset | xr.DataTree) -> dict[str, xr.Dataset]:
         "/" if path == "." else f"/{path}": spelled(node.to_dataset(inherit=False))
         for path, node in tree.subtree_with_keys
     }
+    groups["/"] = groups["/"].assign_attrs({FORMAT: VERSION})
     history = groups["/"].attrs.get("history")
     if history is not None:
         stamp = dt.datetime.now(dt.UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
@@ -196,16 +208,11 @@ def spelled(node: xr.Dataset) -> xr.Dataset:
 
 def _write_zarr(result: xr.Dataset | xr.DataTree, path: Path) -> None:
     """Write a result with its sections to a Zarr store, one group for each section."""
-    with zarr_of().config.set({"threading.max_workers": 1}):
-        for group, node in _groups(result).items():
-            mode: Any = "w" if group == "/" else "a"
-            node.to_zarr(path, mode=mode, group=group, encoding=encoding_of(node), **ZARR)
-    checksums.write_ledger(path, checksums.of_files(path, checksums.files_in(path)))
+    from earthspin.engine import zarr_folder
 
-
-#: Options of Zarr stores. Zarr version 3 has no standard for arrays of text. Chunks with fill
-#: values only are written too, so that a missing chunk always means a loss of data.
-ZARR: dict[str, Any] = {"consolidated": False, "zarr_format": 2, "write_empty_chunks": True}
+    groups = _groups(result)
+    zarr_folder.write(groups, path, {name: encoding_of(node) for name, node in groups.items()})
+    zarr_folder.seal(path)
 
 
 def zarr_of() -> Any:
@@ -230,8 +237,7 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
     ----------
     path : str or Path
         A netCDF file is read completely and compared with its checksum. A Zarr store is read when
-        values are used, and each of its files is compared with the ledger when it is read;
-        `verify` reads all of them.
+        values are used, and each chunk is compared with its checksum; `verify` reads all of them.
 
     Returns
     -------
@@ -290,7 +296,7 @@ def verify(path: str | Path) -> Path:
     Raises
     ------
     OutputError
-        If the file was changed, cannot be read, or has no checksum.
+        If the file was changed, cannot be read, has no checksum, or is of format 1.
     TypeError
         If `path` is not a path.
 
@@ -302,77 +308,106 @@ def verify(path: str | Path) -> Path:
     precession.nc
     """
     place = as_path(path)
-    if place.suffix == ".zarr" and _verify_files(place):
+    if place.suffix == ".zarr":
+        zarr_of()
+        from earthspin.engine import zarr_folder
+
+        with _reading(place):
+            attrs = zarr_folder.attributes(place)
+            if _format_of(place, attrs) == VERSION:
+                zarr_folder.verify(place)
+    else:
+        attrs = _read(place)["/"].attrs
+    if attrs.get(FORMAT) == VERSION:
         return place
-    attrs = _read(place)["/"].attrs
-    if place.suffix != ".zarr" and (checksums.CONTENT in attrs or checksums.line_holds(place)):
-        return place
-    if any(name in attrs for name in checksums.EARLIER):
-        problem = "it has only checksums of an earlier version, which cannot be checked"
-        raise OutputError(place, problem, "open it and write it again")
+    if CONTENT in attrs or any(place.glob("*/SHA256SUMS")):
+        raise OutputError(place, "format 1: open it and write it again")
     raise OutputError(place, "it has no checksum", "earthspin.write adds one")
 
 
-def _verify_files(store: Path) -> bool:
-    """Compare all files of a Zarr store with its checksum list; return False without a list.
+def _format_of(path: Path, attrs: Mapping[str, Any]) -> int:
+    """Version of the format of a file; 1 for files that do not state it, such as those of others.
 
     Raises
     ------
     OutputError
-        If a file was changed or cannot be read.
+        If the version is unknown.
     """
-    put_back(store)
-    opened = identity(store)
-    try:
-        ledger = checksums.ledger_of(store)
-        if ledger is None:
-            return False
-        sums = checksums.of_files(store, [*ledger, *checksums.files_in(store)])
-    except OSError as error:
-        check_identity(store, opened)
-        raise _unreadable(store, error) from None
-    check_identity(store, opened)
-    for name, digest in sums.items():
-        checksums.check_file(store, name, digest, ledger)
-    return True
+    version = attrs.get(FORMAT, 1)
+    if version not in (1, VERSION):
+        problem = f"its format is {version}, and this version of earthspin reads 1 and {VERSION}"
+        raise OutputError(path, problem, "update earthspin")
+    return int(version)
 
 
-def _read(path: Path) -> dict[str, xr.Dataset]:
-    """Read all groups of a file by their paths; units stay in the spelling of files.
+@contextmanager
+def _reading(path: Path) -> Iterator[None]:
+    """Convert all errors of a damaged file to an `OutputError`; a context manager.
 
-    A netCDF file is compared with the checksum of its bytes, or of its content if it has no other.
+    Raises
+    ------
+    OutputError
+        Also if a Zarr store is replaced while it is read.
     """
-    import xarray as xr
-
-    coder = xr.coders.CFDatetimeCoder(time_unit="us")
-    put_back(path)
     opened = identity(path)
     try:
+        yield
         if path.suffix == ".zarr":
-            zarr_of()
-            from earthspin.engine.zarr_folder import ZarrFolder
-
-            options: dict[str, Any] = {"engine": "zarr", "consolidated": False}
-            return xr.open_groups(ZarrFolder(path), decode_times=coder, **options)  # type: ignore[arg-type]
-        with _NETCDF:
-            if path.is_fifo():
-                raise OutputError(path, "it is a pipe", "give a file")
-            line_holds = checksums.line_holds(path)
-            if line_holds is False:
-                raise checksums.mismatch_error(path, "its bytes")
-            nodes = xr.open_groups(path, decode_times=coder, engine="netcdf4")
-            for node in nodes.values():
-                with node:
-                    node.load()
-        content = None if line_holds else nodes["/"].attrs.get(checksums.CONTENT)
-        if content and content != checksums.of_content(nodes):
-            raise checksums.mismatch_error(path, "its names, numbers, words or attributes")
-        return nodes
-    except EarthspinError:
-        raise
+            check_identity(path, opened)
     except Exception as error:  # the libraries raise many types for damaged files
         check_identity(path, opened)
         raise _unreadable(path, error) from None
+
+
+def _read(path: Path) -> dict[str, xr.Dataset]:
+    """Read all groups of a file by their paths; units stay in the spelling of files."""
+    if path.suffix == ".zarr":
+        zarr_of()
+    with _reading(path):
+        return _read_zarr(path) if path.suffix == ".zarr" else _read_netcdf(path)
+
+
+def _read_zarr(path: Path) -> dict[str, xr.Dataset]:
+    """Open the groups of a Zarr store; those of this format have metadata with a checksum."""
+    import xarray as xr
+
+    from earthspin.engine import zarr_folder
+
+    sealed = _format_of(path, zarr_folder.attributes(path)) == VERSION
+    if sealed:
+        zarr_folder.metadata_of(path)
+    store: Any = zarr_folder.ZarrFolder(path) if sealed else path
+    options: dict[str, Any] = {"engine": "zarr", "consolidated": sealed}
+    nodes = xr.open_groups(store, decode_times=_coder(), **options)
+    nodes["/"].attrs.pop(zarr_folder.METADATA, None)
+    return nodes
+
+
+def _read_netcdf(path: Path) -> dict[str, xr.Dataset]:
+    """Read a netCDF file completely, and compare it with the checksum of its content."""
+    import xarray as xr
+
+    if path.is_fifo():
+        raise OutputError(path, "it is a pipe", "give a file")
+    with _NETCDF:
+        nodes = xr.open_groups(path, decode_times=_coder(), engine="netcdf4")
+        try:
+            for node in nodes.values():
+                node.load()
+        finally:
+            for node in nodes.values():
+                node.close()
+    attrs = nodes["/"].attrs
+    if _format_of(path, attrs) == VERSION and attrs.get(CONTENT) != content_hash(nodes):
+        raise mismatch_error(path, "its names, numbers, words or attributes")
+    return nodes
+
+
+def _coder() -> xr.coders.CFDatetimeCoder:
+    """Coder that reads times in microseconds, as they were written."""
+    import xarray as xr
+
+    return xr.coders.CFDatetimeCoder(time_unit="us")
 
 
 def _unreadable(path: Path, error: Exception) -> OutputError:
@@ -386,10 +421,8 @@ def _unreadable(path: Path, error: Exception) -> OutputError:
     return OutputError(path, f"it cannot be read: {reason}")
 
 
-#: Attribute of a store that was made in blocks: SHA-256 of the request.
-MADE_OF = "made_of_sha256"
 #: Attributes of the file that are not part of the answer.
-_FILE_ATTRIBUTES = (checksums.CONTENT, *checksums.EARLIER, MADE_OF)
+_FILE_ATTRIBUTES = (FORMAT, CONTENT, MADE_OF)
 #: Pattern of the date at the start of a file's history.
 _STAMP = re.compile(r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ ")
 
@@ -397,23 +430,20 @@ _STAMP = re.compile(r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ ")
 read = open
 
 
-def encoding_of(
-    node: xr.Dataset, *, zarr: bool = True, chunked: str = ""
-) -> dict[str, dict[str, Any]]:
+def encoding_of(node: xr.Dataset, *, zarr: bool = True) -> dict[str, dict[str, Any]]:
     """Return, by variable name, the encoding with which each variable is stored in a file.
 
     The CF conventions require that coordinate variables are numeric, so text labels are stored as
     arrays of characters, which xarray reads back as text. The scene is stored as characters too,
     because the netCDF library crashes if a file with variable-length text is opened twice. Missing
-    chunks of a Zarr store are read as NaN.
+    chunks of a Zarr store are read as NaN. A variable up to `CHUNK` bytes is one chunk, because
+    Zarr writes chunks at the same time, and after an error in one of them it writes the others.
 
     Parameters
     ----------
     node : Dataset
     zarr : bool
         Return the encoding for Zarr rather than for netCDF.
-    chunked : str
-        Dimension along which the node is one chunk of a store.
     """
     encoding: dict[str, dict[str, Any]] = {}
     for name, variable in node.variables.items():
@@ -425,6 +455,50 @@ def encoding_of(
             entry["_FillValue"] = None  # no value is missing, and CF forbids it for coordinates
         if not zarr and kind in "UO" and (coordinate or name == SCENE):
             entry["dtype"] = "S1"
-        if chunked in variable.dims:
-            entry["chunks"] = variable.shape
+        if zarr and variable.dims:
+            length, *others = (max(size, 1) for size in variable.shape)
+            rows = CHUNK // (math.prod(others) * variable.dtype.itemsize)
+            entry["chunks"] = (min(length, max(rows, 1)), *others)
     return encoding
+
+
+# --- checksum of the content ---------------------------------------------------------------------
+
+
+def content_hash(groups: Mapping[str, xr.Dataset]) -> str:
+    """SHA-256 of a result, the same before writing and after reading.
+
+    Parameters
+    ----------
+    groups : mapping of str to Dataset
+        Groups by path, ``"/"`` for the root, whose attribute `CONTENT` is ignored.
+    """
+    total = hashlib.sha256()
+    for group, node in sorted(groups.items()):
+        total.update(repr((group, _listed(node.attrs))).encode("utf-8", "surrogatepass"))
+        for name, variable in sorted(node.variables.items(), key=lambda item: str(item[0])):
+            kind, content = _bytes(variable.values)
+            head = (name, dict(variable.sizes), kind, _listed(variable.attrs), len(content))
+            total.update(repr(head).encode("utf-8", "surrogatepass"))
+            total.update(content)
+    return total.hexdigest()
+
+
+def _listed(attrs: Mapping[Any, Any]) -> list[tuple[str, list[Any]]]:
+    """List attributes by name. netCDF reads a list of one number as the number."""
+    values = {k: [v] if isinstance(v, str) else np.ravel(v).tolist() for k, v in attrs.items()}
+    return sorted((name, value) for name, value in values.items() if name != CONTENT)
+
+
+def _bytes(values: np.ndarray[Any, Any]) -> tuple[str, bytes]:
+    """Type of an array, and its values as bytes that depend on neither machine nor file format."""
+    kind = values.dtype.kind
+    if kind in "OUST":
+        words = [
+            w.decode("utf-8", "replace") if isinstance(w, bytes) else str(w) for w in values.flat
+        ]
+        return "words", repr(words).encode()
+    if kind == "M":
+        values = values.astype("M8[us]").astype(np.int64)
+    ordered = np.ascontiguousarray(values, values.dtype.newbyteorder("<"))
+    return f"{kind}{ordered.itemsize}", ordered.tobytes()

@@ -1,23 +1,235 @@
-"""Read a Zarr store in a folder, and compare each file with its checksum.
+"""Zarr stores in a folder: write, read and verify.
 
-Zarr itself reads a missing chunk as the fill value, and mixes two stores without notice if a folder
-is replaced while it is read.
+Each chunk is compressed by zstd with its checksum, which every reader compares. The metadata of a
+store (names, sizes, types and attributes) are written twice, in the files of each array and
+together in ``.zmetadata``, and an attribute of the root holds their SHA-256. Chunks with fill
+values only are written too, so a missing chunk always means a loss of data; Zarr itself reads such
+a chunk as the fill value.
 """
 
 from __future__ import annotations
 
 import hashlib
+import json
+import math
+import re
+from collections.abc import Iterator, Mapping
+from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+import numcodecs
+import numpy as np
+import zarr
 from zarr.storage import LocalStore
 
-from earthspin.engine import checksums
-from earthspin.engine.drafts import check_identity, identity
+from earthspin.engine.drafts import check_identity, identity, mismatch_error
+from earthspin.errors import OutputError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Attribute of the root: SHA-256 of all other metadata.
+METADATA = "metadata_sha256"
+#: Attribute in which xarray stores the names of the dimensions of an array.
+DIMENSIONS = "_ARRAY_DIMENSIONS"
+#: Options for writing. Version 3 of Zarr has no standard for arrays of text.
+OPTIONS: dict[str, Any] = {"consolidated": False, "zarr_format": 2, "write_empty_chunks": True}
+#: Codec of every chunk.
+_CODEC = numcodecs.Zstd(level=0, checksum=True)
+#: Name of the file of a chunk.
+_CHUNK = re.compile(r"\d+(\.\d+)*")
+
+
+# --- write ---------------------------------------------------------------------------------------
+
+
+def write(groups: Mapping[str, xr.Dataset], path: Path, encoding: Mapping[str, Any]) -> None:
+    """Write Datasets to the groups of a new store.
+
+    Parameters
+    ----------
+    groups : mapping of str to Dataset
+        Datasets by the path of their group, ``"/"`` first.
+    path : Path
+    encoding : mapping of str to dict
+        Encoding of the variables of each group, by path; the codec is added.
+    """
+    for number, (group, node) in enumerate(groups.items()):
+        coded = {
+            name: entry | {"compressors": (_CODEC,)} for name, entry in encoding[group].items()
+        }
+        mode: Any = "a" if number else "w"
+        with zarr.config.set({"threading.max_workers": 1}):
+            node.to_zarr(path, mode=mode, group=group, encoding=coded, **OPTIONS)
+
+
+def write_region(node: xr.Dataset, store: Path, region: Mapping[str, slice]) -> None:
+    """Write a Dataset into a part of a store, given by index ranges along dimensions.
+
+    Raises
+    ------
+    ValueError
+        If the Dataset does not fit.
+    """
+    with zarr.config.set({"threading.max_workers": 1}):
+        node.to_zarr(store, mode="r+", region=dict(region), **OPTIONS)
+
+
+def lengthen(store: Path, along: str, size: int) -> None:
+    """Give all arrays along a dimension their full length; no chunk is written."""
+    group = zarr.open_group(store, mode="r+")
+    for _, array in group.arrays():
+        dimensions: Any = array.attrs[DIMENSIONS]
+        if along in dimensions:
+            array.resize((size, *array.shape[1:]))
+
+
+def seal(store: Path) -> None:
+    """Write the hash of the metadata of a store, and all metadata together."""
+    files = sorted(path.relative_to(store).as_posix() for path in store.rglob(".z*"))
+    metadata = {name: json.loads((store / name).read_bytes()) for name in files}
+    metadata[".zattrs"][METADATA] = _digest(metadata)
+    (store / ".zattrs").write_text(json.dumps(metadata[".zattrs"], indent=2))
+    consolidated = {"metadata": metadata, "zarr_consolidated_format": 1}
+    (store / ".zmetadata").write_text(json.dumps(consolidated, indent=2))
+
+
+def _digest(metadata: Mapping[str, Any]) -> str:
+    """SHA-256 of all metadata except the attribute that holds it."""
+    root = {name: value for name, value in metadata[".zattrs"].items() if name != METADATA}
+    return hashlib.sha256(_text({**metadata, ".zattrs": root}).encode()).hexdigest()
+
+
+def _text(metadata: Mapping[str, Any]) -> str:
+    return json.dumps(metadata, sort_keys=True)
+
+
+# --- verify --------------------------------------------------------------------------------------
+
+
+def attributes(store: Path) -> dict[str, Any]:
+    """Attributes of the root of a store; empty if another program wrote none that are read here."""
+    files = {path.name for path in store.iterdir()}
+    if ".zmetadata" in files:
+        return dict(json.loads((store / ".zmetadata").read_bytes())["metadata"].get(".zattrs", {}))
+    return dict(json.loads((store / ".zattrs").read_bytes())) if ".zattrs" in files else {}
+
+
+def metadata_of(store: Path) -> dict[str, Any]:
+    """Read the metadata of a store, by file, and compare them with their hash.
+
+    Raises
+    ------
+    OutputError
+        If they differ from what was written.
+    """
+    try:
+        metadata = json.loads((store / ".zmetadata").read_bytes())["metadata"]
+        files = {name: json.loads((store / name).read_bytes()) for name in metadata}
+        intact = _text(files) == _text(metadata) and metadata[".zattrs"][METADATA] == _digest(files)
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
+        intact = False
+    if not intact:
+        raise mismatch_error(store, "its names, sizes or attributes")
+    return dict(metadata)
+
+
+def verify(store: Path, *, besides: str = "") -> dict[str, Any]:
+    """Compare all metadata of a store with their hash, and chunks with their checksums.
+
+    One chunk at a time is in memory.
+
+    Parameters
+    ----------
+    store : Path
+    besides : str
+        Dimension along which the chunks of an unfinished store are not compared.
+
+    Returns
+    -------
+    dict of str to dict
+        See `metadata_of`.
+
+    Raises
+    ------
+    OutputError
+        If anything is missing or damaged.
+    """
+    metadata = metadata_of(store)
+    for name in _arrays(metadata):
+        if besides not in metadata[f"{name}/.zattrs"][DIMENSIONS]:
+            for chunk in _chunks(metadata[f"{name}/.zarray"]):
+                _check_chunk(store, name, chunk, metadata[f"{name}/.zarray"])
+    return metadata
+
+
+def damaged_chunks(store: Path, metadata: Mapping[str, Any], along: str, number: int) -> list[str]:
+    """List the files of a block that are missing or damaged.
+
+    Parameters
+    ----------
+    store : Path
+    metadata : mapping of str to dict
+        See `metadata_of`.
+    along : str
+        Dimension that is divided into blocks, the first of every array that has it.
+    number : int
+        Number of the block.
+    """
+    damaged = []
+    for name in _arrays(metadata):
+        dimensions = metadata[f"{name}/.zattrs"][DIMENSIONS]
+        if along in dimensions:
+            chunk = ".".join([str(number)] + ["0"] * (len(dimensions) - 1))
+            try:
+                _check_chunk(store, name, chunk, metadata[f"{name}/.zarray"])
+            except OutputError:
+                damaged.append(f"{name}/{chunk}")
+    return damaged
+
+
+def _arrays(metadata: Mapping[str, Any]) -> list[str]:
+    """Paths of the arrays of a store."""
+    return [file.removesuffix("/.zarray") for file in metadata if file.endswith("/.zarray")]
+
+
+def _chunks(array: Mapping[str, Any]) -> Iterator[str]:
+    """Yield the file name of each chunk of an array."""
+    sizes = zip(array["shape"], array["chunks"], strict=True)
+    for index in product(*(range(-(-size // max(chunk, 1))) for size, chunk in sizes)):
+        yield ".".join(map(str, index)) or "0"
+
+
+def _check_chunk(store: Path, name: str, chunk: str, array: Mapping[str, Any]) -> None:
+    """Compare a chunk of an array with its checksum.
+
+    Raises
+    ------
+    OutputError
+        If the chunk is missing or damaged.
+    """
+    length = math.prod(array["chunks"]) * np.dtype(array["dtype"]).itemsize
+    try:
+        codec, coded = numcodecs.get_codec(array["compressor"]), (store / name / chunk).read_bytes()
+        intact = len(codec.decode(coded)) == length or bool(array["filters"])
+    except FileNotFoundError:
+        raise _missing(store, f"{name}/{chunk}") from None
+    except Exception:  # a decoder raises many types for damaged bytes
+        intact = False
+    if not intact:
+        raise mismatch_error(store, "its numbers or words")
+
+
+def _missing(store: Path, chunk: str) -> OutputError:
+    return OutputError(store, f"the chunk '{chunk}' is missing", "write it again")
+
+
+# --- read ----------------------------------------------------------------------------------------
 
 
 class ZarrFolder(LocalStore):
-    """A read-only Zarr store that compares each file with its checksum when it is read.
+    """A read-only store that refuses a missing chunk, and to read on after it was replaced.
 
     Parameters
     ----------
@@ -28,19 +240,18 @@ class ZarrFolder(LocalStore):
 
     def __init__(self, root: Path, *, read_only: bool = True) -> None:
         super().__init__(root, read_only=read_only)
-        self._opened, self._ledger = identity(root), checksums.ledger_of(root)
+        self._opened = identity(root)
 
     async def get(self, key: str, prototype: Any = None, byte_range: Any = None) -> Any:
-        """Read a file of the store and compare it with its checksum.
+        """Read a file of the store.
 
         Raises
         ------
         OutputError
-            If the file differs from what was written, or the store was replaced.
+            If it is a chunk that is missing, or the store was replaced.
         """
         content = await super().get(key, prototype, byte_range)
         check_identity(self.root, self._opened)
-        if self._ledger is not None and byte_range is None:
-            digest = "" if content is None else hashlib.sha256(content.to_bytes()).hexdigest()
-            checksums.check_file(self.root, key, digest, self._ledger)
+        if content is None and _CHUNK.fullmatch(key.rpartition("/")[2]):
+            raise _missing(self.root, key)
         return content

@@ -40,7 +40,7 @@ class Pendulums:
     layout = Layout("member", MEMBERS, BLOCK)
 
     @property
-    def asked(self) -> Mapping[str, str]:
+    def request(self) -> Mapping[str, str]:
         return {"question": "pendulums"}
 
     def first(self) -> xr.Dataset:

@@ -159,7 +159,7 @@ def test_a_file_that_changed_is_noticed(orbits: Path) -> None:
     before = bytes_of(complete)
     begun.mkdir()
     work = Ensemble(mixed(9), block=2)
-    record = dict(work.request) | {"size": "9 along member by 2"}
+    record = dict(work.request) | {"size": "9 along member by 2", "format of files": "2"}
     (begun / "asked.json").write_text(json.dumps(record))
     write_orbit(ROUND, 0.02)
     with pytest.raises(OutputError, match="a store of another question"):

@@ -1,5 +1,6 @@
 """On disk: what is read back, and what is left when a write goes wrong."""
 
+import errno
 import os
 import re
 import signal
@@ -8,10 +9,12 @@ import sys
 import textwrap
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
+import zarr
 
 import earthspin
 from earthspin import OutputError
@@ -124,7 +127,7 @@ def test_killed_while_writing(tmp_path: Path, kind: str) -> None:
 def test_a_folder_that_a_dead_process_had_moved_aside_is_put_back(tmp_path: Path) -> None:
     """Killed between the two moves: the next write that fails finds the old store again."""
     path = store.write(small(1.0), tmp_path / "r.zarr")
-    box = tmp_path / ".r.zarr.x.draft"
+    box = tmp_path / ".r.zarr.draft"
     box.mkdir()
     (box / "owner").touch()
     path.rename(box / "old")
@@ -145,12 +148,33 @@ def test_a_folder_that_cannot_be_replaced_is_put_back(
             raise OSError(5, "disk trouble")
         original(source, target)
 
-    monkeypatch.setattr(drafts, "_exchange", lambda draft, target: False)
     monkeypatch.setattr(os, "replace", fail_on_the_draft)
     with pytest.raises(OutputError, match="disk trouble"):
         store.write(small(2.0), path)
     monkeypatch.undo()
     assert np.all(store.open(path).x == 1.0)
+
+
+def test_a_full_disk_leaves_the_old_store_and_nothing_else(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of 8 MB: no part of the store is written after the error."""
+    path = store.write(small(1.0), tmp_path / "r.zarr")
+    real = zarr.storage.LocalStore.set
+
+    async def full(folder: zarr.storage.LocalStore, key: str, value: Any) -> None:
+        if key == "x/0":
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        await real(folder, key, value)
+
+    monkeypatch.setattr(zarr.storage.LocalStore, "set", full)
+    large = xr.Dataset({"x": ("n", np.random.default_rng(1).random(1_000_000))})
+    with pytest.raises(OutputError, match="No space left on device; the existing file is not"):
+        store.write(large, path)
+    monkeypatch.undo()
+    time.sleep(0.5)
+    assert list(tmp_path.iterdir()) == [path]
+    xr.testing.assert_identical(store.open(path).load(), small(1.0))
 
 
 def test_other_endings_are_refused(tmp_path: Path) -> None:

@@ -51,9 +51,10 @@ class Squares:
 
 
 def blocks_in(partial: Path) -> int:
-    """How many blocks the ledger of a store in the making has: each has three files."""
-    ledger = partial / "ledger"
-    return ledger.read_bytes().count(b"\n") // 3 if ledger.exists() else 0
+    """How many blocks a store in the making has: each is a chunk of three variables."""
+    store = partial / "store"
+    numbers = (chunk.name.removesuffix(".0") for chunk in store.glob("square/*.0"))
+    return sum((store / "member" / n).exists() and (store / "day" / n).exists() for n in numbers)
 
 
 def bytes_of(store: Path) -> dict[str, str]:

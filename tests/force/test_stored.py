@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 import shutil
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from hashlib import sha256
 from pathlib import Path
 
 import netCDF4
@@ -19,10 +19,12 @@ from hypothesis.extra import numpy as hnp
 
 import earthspin
 from earthspin import OutputError, scenes
-from earthspin.engine import checksums, store
+from earthspin.engine import store
 from tests import shipped
+from tests.engine.work import bytes_of
 
 SEED = 20261121
+DATA = Path(__file__).parents[1] / "data"
 #: An answer with sections, words and dates, and a plain series.
 SCENES = ("precession", "torque")
 
@@ -52,96 +54,67 @@ def flipped(path: Path, place: int) -> Iterator[None]:
         flip()
 
 
-def refused(path: Path) -> bool:
+def read_or_refused(path: Path, answer: xr.Dataset | xr.DataTree) -> bool:
+    """Return True if a damaged file is refused; if it is read, nothing may differ."""
     try:
-        store.open(path)
-    except OutputError as error:
-        return "its bytes are not what was written" in str(error)
+        back = store.open(path)
+    except OutputError:
+        return True
+    assert same(back, answer)
     return False
 
 
-def test_every_bit_of_a_netcdf_file_counts(tmp_path: Path) -> None:
-    """Each of a short file: HDF5, which some keep busy without end, sees a file with none."""
-    answer = xr.Dataset({"x": ("n", np.arange(3.0), {"units": "m"})}, attrs={"title": "short"})
+def test_no_flipped_bit_of_the_numbers_or_attributes_of_a_netcdf_file_is_read(
+    tmp_path: Path,
+) -> None:
+    """Of an answer with sections, words and dates: each found by reading the file."""
+    answer = shipped.tree("precession")
     path = store.write(answer, tmp_path / "r.nc")
-    passed = []
-    for place in range(8 * path.stat().st_size):
-        with flipped(path, place):
-            if checksums.line_holds(path) is not False:
-                passed.append(place)
-    assert passed == []
+    content = path.read_bytes()
+    rate, obliquity = (answer[name].values.tobytes() for name in ("precession_rate", "obliquity"))
+    places = [content.index(word) for word in (rate, obliquity, b"arcsec s-1", b"dynamical_flat")]
+    for bit in (bit for place in places for bit in range(8 * place, 8 * place + 64, 3)):
+        with flipped(path, bit):
+            assert read_or_refused(path, answer)
+            with pytest.raises(OutputError):
+                earthspin.verify(path)
     assert same(store.open(path), answer)
 
 
-def refused_with(path: Path, place: int) -> bool:
-    with flipped(path, place):
-        return refused(path)
-
-
-def test_no_flipped_bit_of_a_netcdf_file_is_read(tmp_path: Path) -> None:
-    """Of answers with sections, words and dates: 1,000 bits anywhere, 534 at the end."""
-    rng = np.random.default_rng(SEED)
-    for answer in (shipped.tree("precession"), small_series()):
-        path = store.write(answer, tmp_path / "r.nc")
-        bits = 8 * path.stat().st_size
-        places = [*rng.integers(0, bits, 1000).tolist(), *range(bits - 1600, bits, 3)]
-        assert [place for place in places if not refused_with(path, place)] == []
-        assert same(store.open(path), answer)
-
-
-def test_a_netcdf_file_that_was_cut_short_is_refused_or_whole(tmp_path: Path) -> None:
-    """Cut within its last line, it holds all that was written."""
-    answer = small_series()
-    path = store.write(answer, tmp_path / "r.nc")
+def test_a_netcdf_file_that_was_cut_short_is_refused(tmp_path: Path) -> None:
+    path = store.write(small_series(), tmp_path / "r.nc")
     whole = path.read_bytes()
     rng = np.random.default_rng(SEED)
-    inside = len(whole) - checksums.LENGTH
-    for size in (0, 1, *rng.integers(0, inside, 20).tolist(), inside - 1):
+    for size in (0, 1, *rng.integers(0, len(whole), 20).tolist(), len(whole) - 1):
         path.write_bytes(whole[:size])
         with pytest.raises(OutputError, match="cannot be read"):
             store.open(path)
-    for size in range(inside, len(whole), 7):
-        path.write_bytes(whole[:size])
-        assert refused(path) or same(store.open(path), answer)
 
 
-def test_many_bytes_damaged_at_the_end_are_not_taken_for_another_program(tmp_path: Path) -> None:
-    path = store.write(small_series(), tmp_path / "r.nc")
-    whole = path.read_bytes()
-    for damage in (b"\0" * 64, b"\xff" * 75):
-        path.write_bytes(whole[: -len(damage)] + damage)
-        assert refused(path)
-
-
-def test_the_last_line_is_the_checksum_of_what_stands_before_it(tmp_path: Path) -> None:
-    """By hand: ``head -c -110 r.nc | sha256sum; tail -n 1 r.nc``."""
-    path = store.write(shipped.tree("precession"), tmp_path / "r.nc")
-    whole = path.read_bytes()
-    assert checksums.LENGTH == 110
-    line = f"\nearthspin: SHA-256 of all before this line: {sha256(whole[:-110]).hexdigest()}\n"
-    assert whole[-110:] == line.encode()
-
-
-def test_a_file_that_another_program_changed_has_no_last_line(tmp_path: Path) -> None:
-    """HDF5 cuts off what it did not write; the checksums inside stay, and hold."""
+def test_a_file_that_another_program_opened_for_writing_keeps_its_checksum(tmp_path: Path) -> None:
     answer = small_series()
     path = store.write(answer, tmp_path / "r.nc")
     with netCDF4.Dataset(path, "a"):
         pass
-    assert b"SHA-256 of all" not in path.read_bytes()
     assert same(store.open(path), answer)
     assert earthspin.verify(path) == path
 
 
-def test_the_ledger_of_a_zarr_store_is_what_sha256sum_reads(tmp_path: Path) -> None:
-    path = store.write(shipped.tree("precession"), tmp_path / "r.zarr")
-    (ledger,) = path.rglob(checksums.LEDGER)
-    rows = [line.split("  ", 1) for line in ledger.read_text().splitlines()]
-    files = {str(p.relative_to(path)) for p in path.rglob("*") if p.is_file() and p != ledger}
-    assert {name for _, name in rows} == files
-    assert all(sha256((path / name).read_bytes()).hexdigest() == digest for digest, name in rows)
-    with xr.open_dataset(path, engine="zarr", consolidated=False) as raw:  # without a warning
-        assert checksums.LEDGER not in raw.variables
+def test_xarray_and_zarr_open_a_store_without_a_warning(tmp_path: Path) -> None:
+    """In all ways that read a group, and with all numbers."""
+    import zarr
+
+    answer = shipped.tree("precession")
+    path = store.write(answer, tmp_path / "r.zarr")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with xr.open_zarr(path) as raw:
+            assert np.array_equal(raw.load().obliquity, answer.obliquity)
+        with xr.open_zarr(path, group="seasons") as raw:
+            raw.load()
+        with xr.open_datatree(path, engine="zarr") as tree:
+            assert set(tree.children) == set(answer.children)
+        assert zarr.open_group(path, mode="r")["obliquity"][()] == answer.obliquity
 
 
 def test_a_number_that_another_program_changed_is_noticed(tmp_path: Path) -> None:
@@ -153,29 +126,54 @@ def test_a_number_that_another_program_changed_is_noticed(tmp_path: Path) -> Non
             read(path)
 
 
+# --- files in the first format --------------------------------------------------------------------
+
+
 @pytest.mark.parametrize("kind", ["nc", "zarr"])
-def test_files_of_the_version_before_are_read_and_verify_says_what_it_cannot_check(
-    tmp_path: Path, kind: str
+def test_files_in_the_first_format_open_and_are_not_verified(tmp_path: Path, kind: str) -> None:
+    path = DATA / f"format1.{kind}"
+    answer = store.open(path)
+    assert isinstance(answer, xr.Dataset)
+    # The Moon's torque on the Earth is at most 2.2e22 N m.
+    assert answer.torque.shape == (9, 2, 3)
+    assert np.all(np.abs(answer.torque) < 2.5e22)
+    assert answer.identical(store.open(DATA / "format1.nc"))
+    with pytest.raises(OutputError, match="format 1: open it and write it again"):
+        earthspin.verify(path)
+    again = store.write(answer, tmp_path / f"r.{kind}")
+    assert earthspin.verify(again) == again
+    assert same(store.open(again).load(), answer)
+
+
+def test_a_killed_run_in_the_first_format_is_refused_and_left_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Their checksums of content have other names; only the last line is still held to."""
-    answer = small_series()
-    old = answer.assign_attrs(header_sha256="0" * 64, data_sha256="0" * 64, made_in_blocks="time 9")
+    monkeypatch.setattr(scenes, "BLOCK", 3)
+    scene = earthspin.load_scene("torque").replace(span=("2000-01-01", "2000-01-03"), step="6 h")
+    shutil.copytree(DATA / "format1-killed.zarr.partial", tmp_path / "r.zarr.partial")
+    before = bytes_of(tmp_path)
+    with pytest.raises(OutputError, match=r"begun with another .*format of files"):
+        earthspin.write_series(scene, tmp_path / "r.zarr")
+    assert bytes_of(tmp_path) == before
+    shutil.rmtree(tmp_path / "r.zarr.partial")
+    path = earthspin.write_series(scene, tmp_path / "r.zarr")
+    assert earthspin.open(path).identical(earthspin.run(scene))
+
+
+@pytest.mark.parametrize("kind", ["nc", "zarr"])
+def test_a_file_in_a_format_of_the_future_is_refused(tmp_path: Path, kind: str) -> None:
+    answer = small_series().assign_attrs(earthspin_format=3)
     path = tmp_path / f"r.{kind}"
     if kind == "nc":
-        old.to_netcdf(path, engine="netcdf4")
+        answer.to_netcdf(path)
     else:
-        from numcodecs import CRC32, Shuffle
+        answer.to_zarr(path, zarr_format=2)
+    for read in (store.open, earthspin.verify):
+        with pytest.raises(OutputError, match=r"its format is 3.*update earthspin"):
+            read(path)
 
-        filters = {"filters": [Shuffle(8), CRC32()]}
-        old.to_zarr(path, consolidated=False, zarr_format=2, encoding={"torque": filters})
-    back = store.open(path)
-    assert isinstance(back, xr.Dataset)
-    assert same(back.load(), answer)
-    with pytest.raises(OutputError, match="earlier version"):
-        earthspin.verify(path)
-    if kind == "nc":
-        checksums.append_line(path)
-        assert earthspin.verify(path) == path
+
+# --- damaged, changed, and of others --------------------------------------------------------------
 
 
 def test_a_pipe_is_refused(tmp_path: Path) -> None:
@@ -185,30 +183,42 @@ def test_a_pipe_is_refused(tmp_path: Path) -> None:
 
 
 def test_no_flipped_bit_of_a_zarr_store_passes_verify(tmp_path: Path) -> None:
+    """Bits of chunks, and of metadata; a few change nothing, such as one of the level of zstd."""
     answer = small_series()
     path = store.write(answer, tmp_path / "r.zarr")
-    earthspin.verify(path)
     files = sorted(p for p in path.rglob("*") if p.is_file())
     rng = np.random.default_rng(SEED)
     noticed = 0
-    for file in rng.choice(len(files), 60).tolist():
-        whole = files[file].read_bytes()
-        place = int(rng.integers(0, 8 * len(whole)))
-        bits = bytearray(whole)
-        bits[place // 8] ^= 1 << (place % 8)
-        files[file].write_bytes(bits)
-        try:
-            earthspin.verify(path)
-        except OutputError:
-            noticed += 1
-        else:
-            back = store.open(path)
-            assert isinstance(back, xr.Dataset)
-            assert same(back.load(), answer), files[file]
-        files[file].write_bytes(whole)
-    print(noticed)
-    assert noticed >= 30
+    for number in range(3 * len(files)):
+        file = files[number // 3]
+        with flipped(file, int(rng.integers(0, 8 * file.stat().st_size))):
+            try:
+                earthspin.verify(path)
+            except OutputError:
+                noticed += 1
+            else:
+                assert same(store.open(path).load(), answer), file
+    assert noticed > 2.9 * len(files)
     earthspin.verify(path)
+
+
+@pytest.mark.parametrize("opened", ["by earthspin", "by xarray"])
+def test_a_flipped_bit_of_a_chunk_is_found_by_reading(tmp_path: Path, opened: str) -> None:
+    path = store.write(small_series(), tmp_path / "r.zarr")
+    chunk = path / "torque" / "0.0.0"
+    with flipped(chunk, 4 * chunk.stat().st_size):
+        answer = store.open(path) if opened == "by earthspin" else xr.open_zarr(path)
+        with pytest.raises(RuntimeError, match="Zstd decompression error"):
+            answer.load()
+
+
+@pytest.mark.parametrize("name", [".zattrs", ".zgroup", ".zmetadata", "torque/.zarray"])
+def test_a_store_without_some_of_its_metadata_is_refused(tmp_path: Path, name: str) -> None:
+    path = store.write(small_series(), tmp_path / "r.zarr")
+    (path / name).unlink()
+    for read in (store.open, earthspin.verify):
+        with pytest.raises(OutputError, match="its names, sizes or attributes"):
+            read(path)
 
 
 def test_a_chunk_that_is_gone_is_missed(tmp_path: Path) -> None:
@@ -245,9 +255,8 @@ def test_a_series_in_blocks_carries_checksums(
     path = earthspin.write_series(scene, tmp_path / "blocks.zarr")
     assert earthspin.verify(path) == path
     assert earthspin.open(path).identical(earthspin.run(scene))
-    third = path / "torque" / "2.0.0"
-    third.write_bytes((path / "torque" / "1.0.0").read_bytes())  # whole, and of another block
-    with pytest.raises(OutputError, match="are not what was written"):
+    (path / "torque" / "2.0.0").unlink()
+    with pytest.raises(OutputError, match=r"'torque/2\.0\.0' is missing"):
         earthspin.verify(path)
 
 
@@ -266,12 +275,16 @@ def test_an_attribute_that_was_changed_is_noticed(tmp_path: Path, kind: str) -> 
             read(path)
 
 
-def test_a_file_of_others_is_read_but_not_verified(tmp_path: Path) -> None:
-    answer = small_series()
-    answer.to_netcdf(tmp_path / "plain.nc")
-    assert same(store.open(tmp_path / "plain.nc"), answer)
+@pytest.mark.parametrize("kind", ["nc", "zarr"])
+def test_a_file_of_others_is_read_but_not_verified(tmp_path: Path, kind: str) -> None:
+    answer, path = small_series(), tmp_path / f"plain.{kind}"
+    if kind == "nc":
+        answer.to_netcdf(path)
+    else:
+        answer.to_zarr(path, zarr_format=2)
+    assert same(store.open(path).load(), answer)
     with pytest.raises(OutputError, match="has no checksum"):
-        earthspin.verify(tmp_path / "plain.nc")
+        earthspin.verify(path)
 
 
 def test_what_was_read_carries_no_checksum(tmp_path: Path) -> None:

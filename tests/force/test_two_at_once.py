@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 import textwrap
@@ -56,19 +55,20 @@ ELSEWHERE = """
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["nc", "zarr"])
-def test_a_writer_in_another_container_keeps_its_draft(tmp_path: Path, kind: str) -> None:
-    path = tmp_path / f"r.{kind}"
+def test_a_second_writer_is_refused(tmp_path: Path, kind: str) -> None:
+    path = store.write(small(0.0), tmp_path / f"r.{kind}")
     other = python(ELSEWHERE, str(path))
     assert other.stdin is not None
     assert other.stdout is not None
     assert other.stdout.readline() == b"begun\n"
-    (draft,) = tmp_path.glob(".*.draft")
-    store.write(small(1.0), path)
-    assert store.open(path).identical(small(1.0))
-    assert draft.exists()
+    with pytest.raises(OutputError, match="another run is writing it; wait for that run"):
+        store.write(small(1.0), path)
+    assert store.open(path).identical(small(0.0))
     out, complaint = other.communicate(b"\n", timeout=60)
     assert (out, complaint, other.returncode) == (b"done\n", b"", 0)
     assert store.open(path).identical(small(2.0))
+    store.write(small(1.0), path)
+    assert store.open(path).identical(small(1.0))
     assert list(tmp_path.iterdir()) == [path]
 
 
@@ -88,7 +88,10 @@ def test_readers_find_the_old_or_the_new(tmp_path: Path, kind: str) -> None:
                 assert found.identical(small(value))
                 seen.append(value)
             except OutputError as error:
-                if "was replaced while it was read" not in str(error):
+                # A store is missing for a moment, between two moves.
+                expected = ["was replaced while it was read"]
+                expected += ["No such file", "does not exist"] * (kind == "zarr")
+                if not any(words in str(error) for words in expected):
                     trouble.append(error)
             except BaseException as error:
                 trouble.append(error)
@@ -104,13 +107,13 @@ def test_readers_find_the_old_or_the_new(tmp_path: Path, kind: str) -> None:
     assert not trouble
 
 
-def test_a_store_whose_writer_was_killed_between_two_moves_is_found(tmp_path: Path) -> None:
+def test_a_store_whose_writer_was_killed_between_two_moves_is_restored(tmp_path: Path) -> None:
+    """By the next writer, even if that one fails."""
     path = store.write(small(1.0), tmp_path / "r.zarr")
     program = """
         import os, signal, sys
         from earthspin.engine import drafts, store
         from tests.force.test_two_at_once import small
-        drafts._exchange = lambda draft, target: False   # a system that cannot
         move = os.replace
         def move_and_die(source, target):
             move(source, target)
@@ -123,92 +126,10 @@ def test_a_store_whose_writer_was_killed_between_two_moves_is_found(tmp_path: Pa
     process.communicate()
     assert process.returncode == -9
     assert not path.exists()
-    found = store.open(path)
-    assert isinstance(found, xr.Dataset)
-    assert found.load().identical(small(1.0))
-    assert list(tmp_path.iterdir()) == [path]
-
-
-def test_a_store_is_never_absent_where_folders_can_change_places(tmp_path: Path) -> None:
-    one, other = tmp_path / "one", tmp_path / "other"
-    for folder in (one, other):
-        folder.mkdir()
-        (folder / folder.name).touch()
-    if not drafts._exchange(one, other):
-        pytest.fail("this system cannot exchange folders; the tests are made for one that can")
-    assert [p.name for p in one.iterdir()] == ["other"]
-    assert [p.name for p in other.iterdir()] == ["one"]
-
-
-def test_a_reader_waits_for_a_store_that_is_being_replaced(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Between the two moves, as long as the writer lives."""
-    path = store.write(small(1.0), tmp_path / "r.zarr")
-    moved, real = threading.Event(), os.replace
-
-    def slow(source: Path, target: Path) -> None:
-        real(source, target)
-        if Path(target).name == "old":
-            moved.set()
-            time.sleep(0.3)
-
-    monkeypatch.setattr(drafts, "_exchange", lambda draft, target: False)  # a system that cannot
-    monkeypatch.setattr(os, "replace", slow)
-    writer = threading.Thread(target=store.write, args=(small(2.0), path))
-    writer.start()
-    moved.wait()
-    assert not path.exists()
-    found = store.open(path)
-    writer.join()
-    assert found.load().identical(small(2.0))
-
-
-@pytest.mark.parametrize("kind", ["nc", "zarr"])
-def test_what_takes_its_place_is_on_the_disk(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str
-) -> None:
-    """Every file before the move, the folder that names it after."""
-    synced: list[str] = []
-    real = os.fsync
-
-    def fsync(file: int) -> None:
-        synced.append(os.readlink(f"/proc/self/fd/{file}"))
-        real(file)
-
-    monkeypatch.setattr(os, "fsync", fsync)
-    path = store.write(small(), tmp_path / f"r.{kind}")
-    assert synced[-1] == str(tmp_path)
-    written = {p.relative_to(path) for p in path.rglob("*")} if path.is_dir() else {Path()}
-    drafted = {name.partition(f".draft/{path.name}")[2].lstrip("/") for name in synced[:-1]}
-    assert {str(p) for p in written} - {"."} <= drafted | {"."}
-    assert len(synced) > len(written)
-
-
-def test_a_disk_that_fails_to_keep_it_leaves_the_old_file(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    path = store.write(small(1.0), tmp_path / "r.nc")
-
-    def full(file: int) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(os, "fsync", full)
-    with pytest.raises(OutputError, match="No space left"):
-        store.write(small(2.0), path)
+    with pytest.raises(RuntimeError, match="half-way"), drafts.replacing(path):
+        raise RuntimeError("half-way")
     assert store.open(path).identical(small(1.0))
     assert list(tmp_path.iterdir()) == [path]
-
-
-def test_drafts_without_a_lock_are_given_time(tmp_path: Path) -> None:
-    """One that is being made has no lock yet; one that has been there for a while has no owner."""
-    young, old = tmp_path / ".r.nc.young.draft", tmp_path / ".r.nc.old.draft"
-    young.mkdir()
-    old.mkdir()
-    os.utime(old, (1e9, 1e9))
-    store.write(small(), tmp_path / "r.nc")
-    assert young.exists()
-    assert not old.exists()
 
 
 @pytest.mark.slow
