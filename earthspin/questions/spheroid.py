@@ -46,7 +46,7 @@ class Spheroid(
     [-8.148] m/s2
     """
 
-    views, page, headline = "spheroid", "rotors", "potential"
+    page, headline = "rotors", "potential"
 
     body: Body = key(EARTH, doc="body whose mass and figure the spheroid has")
     position: Annotated[FloatArray, Numbers("m", "7000 km", (None, 3))] = setting(
