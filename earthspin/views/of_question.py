@@ -139,6 +139,7 @@ def print_tables(tree: Result, *, with_plan: bool = False) -> None:
     for table in [*tables_for(tree), *(what_ran(tree) if with_plan else ())]:
         console.print_table(table)
         console.print()
+    console.print(BRACKETS, style="dim")
 
 
 def scene_page(tree: Result) -> str:

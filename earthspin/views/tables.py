@@ -89,16 +89,13 @@ def tables(tree: Result, without: Iterable[str] = ()) -> list[Table]:
         Sections that are not shown; the answer itself is the empty text.
     """
     answer = answer_of(tree)
+    nodes = {} if "" in without else {str(answer.attrs["title"]): answer}
     names = [] if isinstance(tree, xr.Dataset) else [*tree.children]
-    shown = [name for name in ("", *names) if name not in {"plan", *without}]
-    return [
-        table
-        for name in shown
-        for table in tables_of(
-            needed(tree, name) if name else answer,
-            name.replace("_", " ").capitalize() if name else str(answer.attrs["title"]),
-        )
-    ]
+    for name in (name for name in names if name not in {"plan", *without}):
+        data = needed(tree, name)
+        if any(array.size for array in data.values()):
+            nodes[name.replace("_", " ").capitalize()] = data
+    return [table for title, data in nodes.items() for table in tables_of(data, title)]
 
 
 def tables_of(data: xr.Dataset, title: str) -> Iterator[Table]:
@@ -224,15 +221,18 @@ def _notes(data: xr.Dataset, columns: Iterable[_Column], said: set[str]) -> str:
     left_out: dict[str, None] = {}
     for name in dict.fromkeys(column.name for column in columns):
         attrs = data[name].attrs
-        if error := _half_width(data, name):
+        error = _half_width(data, name)
+        if error:
             left_out[data[error].attrs.get("not_modelled", "")] = None
         if name not in said:
             quantity = label(data[name].assign_attrs(units=""))
             words = [str(attrs[key]) for key in NOTED if attrs.get(key, quantity) != quantity]
             if source := attrs.get("references"):
                 words.append(f"source: {source}")
+            if error not in ("", f"{name}_error") and error not in said:
+                words.append(f"in brackets: {data[error].attrs.get('long_name', error)}")
             lines += [f"{quantity}: {'; '.join(words)}."] if words else []
-            said.add(name)
+            said |= {name, error}
     lines += [f"Left out: {effect}." for effect in left_out if effect]
     return "\n".join(lines)
 

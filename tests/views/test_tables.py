@@ -144,11 +144,11 @@ def test_every_variable_of_every_section_stands_in_a_table(scene: str) -> None:
     heads |= {head for table in shown for head in table.headers}
     for name, node in tree.children.items():
         if name != "plan":
-            for variable in node.to_dataset().data_vars:
+            for variable, values in node.to_dataset().data_vars.items():
                 words = label(needed(tree, name)[variable]).rpartition(", ")
                 quantity = words[0] or words[2]
-                is_error = "_error" in str(variable)
-                assert is_error or any(head.startswith(quantity) for head in heads), variable
+                hidden = "_error" in str(variable) or not values.size
+                assert hidden or any(head.startswith(quantity) for head in heads), variable
     for table in shown:
         assert len(table.rows) <= MOST_ROWS
         assert all(len(row) == len(table.headers) for row in table.rows)
@@ -202,3 +202,12 @@ def test_long_series_are_sampled_from_first_to_last() -> None:
     assert series.note.startswith(f"{SAMPLE} of 1000 rows.")
     _, all_rows = tables_of(small(MOST_ROWS), "Small")
     assert len(all_rows.rows) == MOST_ROWS
+
+
+def test_numbers_of_an_ensemble_are_medians_with_half_of_the_central_interval() -> None:
+    many = earthspin.ensemble("precession", 100)
+    low, middle, high = np.quantile(many.precession_rate.isel(perturber=-1), (0.025, 0.5, 0.975))
+    spread, *_ = tables_for(many)
+    rate = spread.headers.index("precession rate, arcsec/yr")
+    assert spread.rows[-1][0] == "total"
+    assert spread.rows[-1][rate] == with_error(middle, (high - low) / 2)
