@@ -143,7 +143,11 @@ def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
 class States(Variables, along=("state",), no_error="it is so or not"):
     """Obliquity, tilt to the mean orbit normal, and stability of each Cassini state of a body."""
 
-    obliquity: Pair = measured("deg", "angle from the normal of the orbit to the axis")
+    obliquity: Pair = measured(
+        "deg",
+        "angle from the normal of the orbit to the axis",
+        comment="half-widths from the uncertainty of the body's numbers",
+    )
     tilt: Pair = measured("deg", "angle from the pole of the orbit's plane to the axis")
     towards_pole: Value = number("1", "whether the axis leans from the normal towards that pole")
     stable: Value = number("1", "whether an axis beside it stays")

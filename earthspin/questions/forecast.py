@@ -335,6 +335,7 @@ def ahead(
     sx, sy = np.sqrt(covariance[:, 0, 0]), np.sqrt(covariance[:, 1, 1])
     source = {
         "references": record.name,
+        "comment": f"observations up to {_day(newest)}",
         "origin": _day(newest if origin is None else origin),
         "newest_row": _day(newest),
         "age_of_newest_row": f"{0.0 if origin is None else origin - newest:g} d at the origin",
@@ -514,7 +515,12 @@ def pole_offsets(
     table = offsets_until(file, float(record.time[-1]))
     mjd = record.time[-1] + np.arange(1, int(days) + 1)[_shown(days, step)] + MJD
     value, error = (pair.T for pair in predicted_offsets(table, mjd))
-    source = {"references": f"IERS {table.name}", "newest_row": _day(table.mjd[-1] - MJD)}
+    newest = _day(table.mjd[-1] - MJD)
+    source = {
+        "references": f"IERS {table.name}",
+        "comment": f"observations up to {newest}",
+        "newest_row": newest,
+    }
     return AheadOffsets(
         time=_times(record, days, step), dX=(value[0], error[0]), dY=(value[1], error[1])
     ).with_attributes(dX=source, dY=source)

@@ -419,7 +419,13 @@ class Nutation(Variables, along=("term",)):
         "1", "ratio of IAU 2000A to the computed rigid amplitude", error="ratio_error"
     )
     ratio_error: Value = number("1", "95 % half-width of the ratio")
-    transfer: Pair = amplitude("1", "fitted resonance formula", no_error=_FIT)
+    transfer: Pair = amplitude(
+        "1",
+        "fitted resonance formula",
+        no_error=_FIT,
+        comment="the prograde annual term is not fitted: IAU 2000A includes an atmospheric tide of "
+        "0.11 mas there",
+    )
     left: Pair = amplitude(
         "uas",
         "IAU 2000A minus response times rigid amplitude",
@@ -467,7 +473,12 @@ _ABSORBING = "the response that absorbs what it can"
 class Core(Variables):
     """Parameters of the free core nutation from a fit of the resonance formula to IAU 2000A."""
 
-    core_nutation_period: Pair = measured("d", "period of the free core nutation in space")
+    core_nutation_period: Pair = measured(
+        "d",
+        "period of the free core nutation in space",
+        comment="IAU 2000A is the product of a response and a rigid series, so that the fit only "
+        "recovers what was built into it; it is no new measurement",
+    )
     core_nutation_quality: Pair = measured("1", "quality factor of the free core nutation")
     strength_real: Value = number(
         "1", "fitted strength, real part", along=("mode",), no_error=_LEFT
@@ -545,7 +556,9 @@ class Angles(Variables, along=("angle", "degree")):
     """Polynomial coefficients of the precession angles: computed values and those of IAU 2006."""
 
     angle_coefficient: Value = number(
-        "arcsec", "coefficient of (t/century)^degree, computed pole, ecliptic of IAU 2006"
+        "arcsec",
+        "coefficient of (t/century)^degree, computed pole, ecliptic of IAU 2006",
+        comment="eps_A, chi_A and p_A need the ecliptic of date, which torques do not give",
     )
     angle_coefficient_iau: Value = number(
         "arcsec",
@@ -587,7 +600,13 @@ def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
 class Inferred(Variables, along=("origin",)):
     """Dynamical flattening H and C/(M a2) of the Earth, according to three sources."""
 
-    flattening: Pair = measured("1", "dynamical flattening H", short="H = (C-A)/C")
+    flattening: Pair = measured(
+        "1",
+        "dynamical flattening H",
+        short="H = (C-A)/C",
+        comment="PREM gives C from densities, and its H is J2 divided by that C/(M a2); the "
+        "observed moment was among its data",
+    )
     polar_moment: Pair = measured("1", "C/(M a2)", short="C/(M a2)")
     origin: Labels = labels()
 

@@ -313,7 +313,12 @@ def readings(solved: solutions.Solved, wanted: FloatArray, body: Body) -> readin
 class LongTermSeries(FromStart, along=("epoch",)):
     """Obliquity, precession, eccentricity, poles and precession rates at every epoch."""
 
-    obliquity: Pair = measured("deg", "angle from the orbit's normal to the spin axis")
+    obliquity: Pair = measured(
+        "deg",
+        "angle from the orbit's normal to the spin axis",
+        comment="half-widths from method, orbit, start, and the assumed uncertainty of tides and "
+        "figure in the past",
+    )
     longitude_of_perihelion: Pair = measured(
         "deg", "longitude of perihelion from the moving equinox, without jumps"
     )

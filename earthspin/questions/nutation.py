@@ -206,7 +206,12 @@ class RungSizes(Variables, along=("rung",), error="rms_error"):
     """Root mean square of predicted pole minus IAU 2000A, for each model of the ladder."""
 
     rms_dpsi_sineps: Value = number(
-        "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
+        "mas",
+        f"{_RMS} {_LONGITUDE}",
+        references=SOURCES,
+        short="dpsi sin(eps)",
+        comment="H is the observed one throughout; the rungs up to 'anelastic' take no other "
+        "number from the motion of the pole",
     )
     rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
     rms_error: Value = number("mas", _RMS_ERROR)
@@ -236,7 +241,12 @@ class ModelSizes(Variables, along=("model",), error="model_rms_error"):
     )
     model_rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
     model_rms_error: Value = number("mas", _RMS_ERROR)
-    model_adds: Value = words(_ADDS, short="what it adds")
+    model_adds: Value = words(
+        _ADDS,
+        short="what it adds",
+        comment="a core in a rigid mantle has a far shorter nutation of its own; the H of "
+        "hydrostatic equilibrium is one per cent too small",
+    )
     model: Labels = labels()
 
 
@@ -268,7 +278,11 @@ class Terms(Variables, along=("term",)):
         no_error="it follows from the adopted arguments of IERS 2003",
     )
     predicted: Pair = amplitude(
-        "mas", "predicted amplitude", along=("rung", "term"), error="predicted_error"
+        "mas",
+        "predicted amplitude",
+        along=("rung", "term"),
+        error="predicted_error",
+        comment="the half-widths do not hold the sizes of what a rung leaves out",
     )
     predicted_error: Value = number(
         "mas",
@@ -330,6 +344,9 @@ class Modes(Variables, along=("mode",)):
         "d",
         "period: of a nutation in space, negative if retrograde; else in the body",
         short="period",
+        comment="a rung that lacks a part lacks its mode; half-widths from the Love numbers, the "
+        "core and the inner core, the ocean, the loss in the mantle, and numbers inferred from "
+        "nutation",
     )
     mode_quality: Value = number(
         "1",

@@ -121,7 +121,10 @@ class FreeWobble(
 
     chandler_period: Pair = measured("d", "period of the free wobble", along=(), short="period")
     chandler_amplitude: Pair = measured(
-        "mas", "amplitude of the free wobble", cell_methods="middle: mean (one beat of the wobbles)"
+        "mas",
+        "amplitude of the free wobble",
+        cell_methods="middle: mean (one beat of the wobbles)",
+        comment="mean over one beat of the free and the annual wobble",
     )
     chandler_phase: Value = number(
         "deg", "phase of the free wobble against a steady one of its period"

@@ -96,6 +96,8 @@ class CoreNutation(Variables, along=("middle",)):
         "amplitude of the free core nutation",
         cell_methods="middle: mean (one window)",
         short="amplitude",
+        comment="a constant, a line and a retrograde circle of the published period are fitted in "
+        "each window; half-widths from the noise at the same frequency in the other sense",
     )
     core_nutation_phase: Pair = measured(
         "deg", "phase of the free core nutation against a steady circle of its published period"
@@ -154,7 +156,7 @@ class CorePeriod(Variables):
         "d",
         "period of the free core nutation in space, negative because retrograde",
         comment="maximum likelihood of an oscillator driven at random, beside seasonal terms, "
-        "a cubic drift and red noise",
+        "a cubic drift and red noise; random excitation limits how well the period is known",
         short="period",
     )
     core_nutation_period_published: Pair = measured(
@@ -162,6 +164,7 @@ class CorePeriod(Variables):
         "published period of the free core nutation",
         references=OBSERVED_CORE_NUTATION.source,
         short="published period",
+        comment="from the resonance in the forced nutations and in the tides",
     )
 
 

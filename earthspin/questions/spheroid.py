@@ -46,7 +46,7 @@ class Spheroid(
     [-8.148] m/s2
     """
 
-    views, page, headline = "spheroid", "rotors", "potential"
+    page, headline = "rotors", "potential"
 
     body: Body = key(EARTH, doc="body whose mass and figure the spheroid has")
     position: Annotated[FloatArray, Numbers("m", "7000 km", (None, 3))] = setting(
@@ -73,7 +73,12 @@ class Field(Variables, along=_VECTOR, error="relative_error"):
     position: Value = number(
         "m", "coordinates of the point from the centre", no_error="as it was given", frame=_FRAME
     )
-    potential: Value = number("J/kg", "gravitational potential", along=("point",))
+    potential: Value = number(
+        "J/kg",
+        "gravitational potential",
+        along=("point",),
+        comment="of a homogeneous spheroid with the mass, radius and flattening of the body",
+    )
     attraction: Value = number("m/s2", "acceleration of gravity", frame=_FRAME)
     torque: Value = number("N m", "torque of the point mass on the spheroid", frame=_FRAME)
     relative_error: Value = number(

@@ -1,39 +1,12 @@
-"""Tables and figure of Cassini states and their stability."""
+"""Figure of Cassini states and their stability."""
 
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
 
 from earthspin.views.drawing import BLUE, GREY, RED, Axes, PageFigure, axes
-from earthspin.views.reading import Result, answer_of, needed
-from earthspin.views.table import Column, Table, along, beside_observed, table_along
-
-
-def states(tree: Result) -> Table:
-    """Table of the Cassini states with obliquity and stability."""
-    answer, left_out = answer_of(tree), needed(tree, "neglected")
-
-    def with_left_out(name: str) -> Column:
-        def text(row: xr.Dataset) -> str:
-            # sizes of what is left out are those in the upright state, the first
-            known = left_out if row.state == answer.state[0] else None
-            return beside_observed(row[name], row[f"{name}_error"], known)
-
-        return Column(name, text)
-
-    note = (
-        "Obliquity is counted from the normal of the orbit, tilt from the pole that this normal "
-        f"goes round. The spin is {answer.obliquity.attrs['spin']}. Errors hold the uncertainty of "
-        "the body's numbers and the sizes of what the model leaves out; where these are not known, "
-        "the table says numbers only."
-    )
-    stable = Column("stable", lambda row: "stable" if row.stable else "unstable", "beside it")
-    columns = with_left_out("obliquity"), with_left_out("tilt"), stable
-    return table_along(answer, "state", "Cassini states", columns, note)
-
-
-TABLES = [("", states)]
+from earthspin.views.reading import Result, answer_of
+from earthspin.views.table import along
 
 
 def _caption(tree: Result) -> str:

@@ -12,12 +12,12 @@ from earthspin.engine.member_values import MEMBER
 from earthspin.engine.spread import inputs_of, members_needed, quantiles, sensitivity
 from earthspin.errors import SceneError
 from earthspin.numerics.arrays import FloatArray
-from earthspin.views import plain
 from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, PageFigure, axes
 from earthspin.views.reading import Result, views_of
 from earthspin.views.table import Table, short_exponents, with_error
+from earthspin.views.tables import tables_of
 
-#: So many values of one number are shown, and so many inputs have a colour.
+#: The figure of shares has at most so many bars and colours.
 MOST_ROWS, MOST_COLOURS = 12, 6
 #: Shares of variance below this are not told apart.
 SMALL = 5e-4
@@ -40,66 +40,62 @@ class Number(NamedTuple):
         return ", ".join([self.name.replace("_", " "), *labels])
 
 
-def spread(tree: Result) -> Table:
-    """Table of the spread of each quantity over the members of an ensemble of runs."""
+def tables(tree: Result) -> list[Table]:
+    """Tables of an ensemble: medians with half of the central 95 %, and shares of the variance."""
     answer = _whole(tree)
-    numbers, count = _numbers(answer), answer.sizes[MEMBER]
-    if not numbers:
-        alike = plain.numbers(answer)
-        return replace(alike, note=f"{_alike(answer)} {alike.note}".rstrip())
-    shown, ends = numbers[: 4 * MOST_ROWS], quantiles(answer)
-    rows = []
-    for number in shown:
-        low, middle, high = ends[number.name].sel(number.labels).values
-        half = with_error(middle, (high - low) / 2)
-        rows.append((number.words, half, _digits(low, high), _digits(high, low), number.units))
-    note = f"{count} members, which differ in {', '.join(inputs_of(answer))}."
+    if not _numbers(answer):
+        first, *others = tables_of(answer.isel({MEMBER: 0}), str(answer.attrs["title"]))
+        return [replace(first, note=f"{_alike(answer)}\n{first.note}"), *others]
+    first, *others = tables_of(_spread(answer), "Spread of the members")
+    note = (
+        f"{answer.sizes[MEMBER]} members, which differ in {', '.join(inputs_of(answer))}. Values "
+        "are medians; brackets hold half of the central 95 %."
+    )
     if "members_dropped" in answer.attrs:
         note += f" Left out were {answer.attrs['members_dropped']}."
-    if len(numbers) > len(shown):
-        note += f" {len(numbers) - len(shown)} further numbers are not shown."
-    headers = ("number", "middle, and half of the central 95 %", "2.5 %", "97.5 %", "unit")
-    return Table("Spread of the members", headers, rows, note, words=(0, 4))
+    if _enough(answer):
+        others += tables_of(_percentages(answer), "Shares of the variance")
+    return [replace(first, note=f"{note}\n{first.note}"), *others]
 
 
-def shares(tree: Result) -> Table:
-    """Table of the share of each input in the variance of each quantity of an ensemble.
-
-    The table is empty if the members are too few.
-    """
-    answer = _whole(tree)
-    rows, headers = [], ["number"]
-    note = (
-        "By straight lines in all inputs together; the last column is what they leave. The errors "
-        "follow from the number of members."
-    )
-    if _numbers(answer) and _enough(answer):
-        numbers, share, error, rest = _shares(answer)
-        seen = np.abs(share).max(axis=0) >= SMALL
-        rows = [
-            (number.words, *map(_percent, own[seen], errors[seen]), _percent(left))
-            for number, own, errors, left in zip(numbers, share, error, rest, strict=True)
-        ]
-        inputs = np.array([*inputs_of(answer)])
-        headers += [name.replace("_", " ") for name in inputs[seen]]
-        if not seen.all():
-            note += f" Less than {100 * SMALL:g} % everywhere: {', '.join(inputs[~seen])}."
-    return Table("Shares of the variance, in per cent", (*headers, "rest"), rows, note)
+def _spread(answer: xr.Dataset) -> xr.Dataset:
+    """Median of each quantity that differs among the members, and half of its central 95 %."""
+    names = [*dict.fromkeys(number.name for number in _numbers(answer))]
+    low, middle, high = (quantiles(answer)[names].isel(quantile=k, drop=True) for k in range(3))
+    half = ((high - low) / 2).rename({name: f"{name}_error" for name in names})
+    for name in names:
+        middle[name].attrs["ancillary_variables"] = f"{name}_error"
+        half[f"{name}_error"].attrs["units"] = middle[name].attrs.get("units", "")
+    return middle.merge(half)
 
 
-TABLES = [("", spread), ("", shares)]
+def _percentages(answer: xr.Dataset) -> xr.Dataset:
+    """Share of each input in the variance of the main quantities, and what inputs leave, in %."""
+    result, shares = sensitivity(answer), xr.Dataset()
+    for name in _chiefs(answer):
+        share, error, rest = (
+            100 * result[f"{name}_{what}"] for what in ("share", "share_error", "unexplained")
+        )
+        seen = abs(share) >= 100 * SMALL
+        rest = rest.where(abs(rest) >= 100 * SMALL, 0.0).expand_dims(input=["rest"])
+        share = xr.concat([share.where(seen, 0.0), rest], "input")
+        share.attrs = {
+            "units": "%",
+            "long_name": f"share of the variance of {name.replace('_', ' ')}, by straight lines in "
+            "all inputs together; the last row is what the lines leave",
+            "ancillary_variables": f"{name}_error",
+        }
+        half = xr.concat([error.where(seen, 0.0), xr.zeros_like(rest)], "input")
+        half.attrs = {"units": "%", "long_name": "from the number of members"}
+        shares[name], shares[f"{name}_error"] = share, half
+    return shares
 
 
-def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray, FloatArray, list[float]]:
-    """Main quantities of an ensemble, shares of the inputs with errors, and the rest."""
+def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray]:
+    """Main quantities of an ensemble, and the share of each input in their variance."""
     result, chiefs = sensitivity(answer), _chiefs(answer)
     rows = [number for number in _numbers(answer) if number.name in chiefs]
-    share, error = (
-        np.array([result[name + ending].sel(labels).values for name, labels, _ in rows])
-        for ending in ("_share", "_share_error")
-    )
-    rest = [float(result[f"{name}_unexplained"].sel(labels)) for name, labels, _ in rows]
-    return rows, share, error, rest
+    return rows, np.array([result[f"{n.name}_share"].sel(n.labels).values for n in rows])
 
 
 def lead(tree: Result) -> str:
@@ -171,7 +167,7 @@ def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
     answer = _whole(result)
     if not _numbers(answer):
         raise SceneError("ensemble", answer.attrs["title"], _alike(answer))
-    rows, share, _, _ = _shares(answer)
+    rows, share = _shares(answer)
     rows, share, inputs = rows[:MOST_ROWS], share[:MOST_ROWS], [*inputs_of(answer)]
     order = np.argsort(-share.max(axis=0))
     seen = [int(i) for i in order if share[:, i].max() >= SMALL][:MOST_COLOURS]
@@ -268,9 +264,3 @@ def _digits(value: float, other: float) -> str:
     apart = abs(other - value) / max(abs(value), abs(other), 1e-300)
     digits = int(np.clip(2 - np.floor(np.log10(max(apart, 1e-15))), 3, 16))
     return short_exponents(f"{value:.{digits}g}")
-
-
-def _percent(share: float, error: float = 0.0) -> str:
-    if abs(share) < SMALL:
-        return "0"
-    return with_error(100 * share, 100 * error) if error > SMALL / 10 else f"{100 * share:.2f}"

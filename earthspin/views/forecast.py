@@ -1,4 +1,4 @@
-"""Tables and figures of a polar motion forecast, and of the errors of past forecasts."""
+"""Figures of a polar motion forecast, and of the errors of past forecasts."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing
 from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed, section
-from earthspin.views.table import Table, along, date, measured
+from earthspin.views.table import date
 
-#: Days after the origin at which a table has a row and the path an ellipse.
-ROWS, ELLIPSES = (1, 3, 10, 30, 90, 180, 365, 730), (30, 90, 365)
+#: Days after the origin that the axis of the skill names, and at which the path has an ellipse.
+TICKS, ELLIPSES = (1, 3, 10, 30, 90, 180, 365, 730), (30, 90, 365)
 #: Half-width of an interval over the standard deviation, and the same of an ellipse of 95 %.
 ONE_COORDINATE, BOTH = 1.959964, float(np.sqrt(-2 * np.log(0.05)))
 #: Sets of origins whose skill is drawn, with their colours and the forecast beside ours: those that
@@ -23,67 +23,6 @@ DRAWN = {
     "C04 2014-2025": (drawing.BLUE, "least squares with autoregression"),
     "releases": (drawing.RED, "Bulletin A"),
 }
-
-
-def at_horizons(tree: Result) -> Table:
-    """Table of the forecast x and y of the pole, for selected days after the last observation."""
-    answer = answer_of(tree)
-    days = _days(answer)
-    rows = [
-        (f"{day:.0f}", date(row.time), measured(row, "x"), measured(row, "y"))
-        for day, (_, row) in zip(days, along(answer, "time"), strict=True)
-        if round(day) in ROWS
-    ]
-    attrs = answer.x.attrs
-    words = (
-        f"Observations: {attrs['references']} up to {attrs['origin']}. Parameters: "
-        f"{attrs['parameters'].split(':')[0]}. Half-widths are 95 %."
-    )
-    headers = ("days ahead", "date", "x, arcsec", "y, arcsec")
-    return Table("Forecast of polar motion", headers, rows, words)
-
-
-def skill(tree: Result) -> Table:
-    """Table of the measured errors of past forecasts, by number of days ahead."""
-    data = needed(tree, "skill")
-    rows = []
-    for _, row in along(data, "case"):
-        numbers = [
-            " / ".join(f"{value:.2f}" for value in row[variable].values)
-            for variable in ("mean_absolute_error", "coverage", "other_mean_absolute_error")
-        ]
-        rows.append(
-            (str(row.skill_set.values), f"{row.horizon:.0f}", f"{row.origins:.0f}", *numbers)
-        )
-    headers = ("origins of", "days", "number", "MAE x / y, mas", "coverage", "other MAE, mas")
-    words = (
-        "The other forecast is that of Bulletin A on releases, and least squares with "
-        "autoregression on C04."
-    )
-    return Table("Measured skill", headers, rows, words)
-
-
-def offsets(tree: Result) -> Table:
-    """Table of the forecast celestial pole offsets, for selected days after the last data."""
-    data = needed(tree, "pole_offsets")
-    rows = [
-        (f"{day:.0f}", date(row.time), measured(row, "dX"), measured(row, "dY"))
-        for day, (_, row) in zip(_days(answer_of(tree)), along(data, "time"), strict=True)
-        if round(day) in ROWS
-    ]
-    words = (
-        f"Observations: {data.dX.attrs['references']} up to {data.dX.attrs['newest_row']}. "
-        "Offsets from IAU 2006/2000A. Half-widths are 95 %."
-    )
-    return Table(
-        "Forecast of the celestial pole offsets",
-        ("days ahead", "date", "dX, mas", "dY, mas"),
-        rows,
-        words,
-    )
-
-
-TABLES = [("", at_horizons), ("pole_offsets", offsets), ("skill", skill)]
 
 
 def _days(answer: xr.Dataset) -> FloatArray:
@@ -182,7 +121,7 @@ def plot_skill(result: Result, *, figure: Figure | None = None) -> Figure:
     errors.set_yticks([0.1, 1, 10], ["0.1", "1", "10"])
     errors.legend(loc="lower right")
     shares.set(xlabel="time after the origin (days)", ylabel="coverage (%)", ylim=(80, 101))
-    shares.set_xticks(ROWS, [str(day) for day in ROWS])
+    shares.set_xticks(TICKS, [str(day) for day in TICKS])
     shares.minorticks_off()
     return figure
 

@@ -1,4 +1,4 @@
-"""Tables, figures and three-dimensional pictures of a rotor without torque."""
+"""Figures and three-dimensional pictures of a rotor without torque."""
 
 from __future__ import annotations
 
@@ -9,39 +9,8 @@ from earthspin.numerics.quaternion import multiply, rotate
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.views import drawing, solids
 from earthspin.views.drawing import BLUE, GREEN, RED, Axes, PageFigure, axes
-from earthspin.views.reading import Result, answer_of, needed, section
+from earthspin.views.reading import Result, answer_of, needed
 from earthspin.views.solids import BLACK, GREY, Solid
-from earthspin.views.table import Table, listed, quantities
-
-
-def constants(tree: Result) -> Table:
-    """Table of a free rotor's constants of motion: energy, angular momentum, and periods."""
-    answer, poinsot = answer_of(tree).isel(time=0), section(tree, "poinsot")
-    momentum = float(np.linalg.norm(answer.angular_momentum_body))
-    rows = [
-        *quantities(answer, "energy:.10g"),
-        ("angular momentum, kg m2/s", f"{momentum:.10g}"),
-    ]
-    if poinsot is not None:
-        inner, outer = poinsot.herpolhode_radius.values
-        advance = "none (the polhode has no period)"
-        if "herpolhode_advance" in poinsot:
-            advance = f"{float(np.degrees(poinsot.herpolhode_advance)):.8f}"
-        rows += [
-            *quantities(poinsot, "polhode_period:.10g", "invariable_plane_distance:.10g"),
-            ("radii of the herpolhode, rad/s", f"{inner:.8g} and {outer:.8g}"),
-            ("advance of the herpolhode per period, deg", advance),
-            ("growth rate about x, y, z, 1/s", listed(poinsot.growth_rate.values)),
-        ]
-    note = (
-        "All values are constants of the motion. The growth rate is that of a small tilt away from "
-        "each axis; it is 0 if rotation about the axis is stable."
-    )
-    return Table("Free rotor", ("quantity", "value"), rows, note)
-
-
-TABLES = [("", constants)]
-
 
 # --- figures -------------------------------------------------------------------------------------
 

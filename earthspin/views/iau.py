@@ -5,14 +5,10 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from earthspin.interior.published import CORE_NUTATION, CORE_NUTATION_QUALITY
 from earthspin.views import drawing, table
 from earthspin.views.drawing import Axes, PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed
-from earthspin.views.table import Column, Table, neighbour_share, table_along
-
-#: Terms to which IAU 2000A adds something that are printed: those to which it adds most.
-ADDITIONS_SHOWN = 6
+from earthspin.views.table import Column, Table, table_along
 
 #: Up to here the axis of the budget is linear, mas per century.
 LINEAR = 1.0
@@ -101,108 +97,10 @@ def observed(tree: Result) -> Table:
     return table_along(sizes, "model", title, columns, note, first="")
 
 
-def nutation(tree: Result) -> Table:
-    """Table of the largest nutation terms of the computed pole and of the IAU pole."""
-
-    def residual(row: xr.Dataset) -> str:
-        return f"{np.hypot(float(row.left_in_phase), float(row.left_out_of_phase)):.1f}"
-
-    terms = needed(tree, "nutation")
-    pairs = [(term, row.neighbour.item()) for term, row in table.along(terms, "term")]
-    neighbours = "; ".join(f"{beside} next to {term}" for term, beside in pairs if beside)
-    columns = (
-        "period:.2f",
-        Column("rigid_in_phase", ".3f", "rigid"),
-        Column("iau_in_phase", ".3f", "IAU"),
-        Column("iau_out_of_phase", "+.3f", "IAU, out"),
-        Column("neighbour_in_phase", neighbour_share, "neighbour"),
-        Column("ratio_in_phase", ".5f", "ratio"),
-        Column("ratio_out_of_phase", "+.5f", "ratio, out"),
-        Column("", residual, "residual, uas"),
-    )
-    note = (
-        "Circular amplitudes are in mas, and in phase unless marked 'out' (out of phase); a "
-        "negative period is retrograde. 'rigid' is the amplitude computed here for a rigid body, "
-        "'IAU' that of IAU 2000A, 'ratio' the second divided by the first, and 'residual' the "
-        "part that the fitted resonance formula does not explain. Where 150 years are too short to "
-        "separate a term from a neighbour, both amplitudes include the neighbour; the column "
-        f"'neighbour' gives its share in the amplitude of IAU 2000A: {neighbours}. The prograde "
-        "annual term is not fitted, because IAU 2000A includes an atmospheric tide of 0.11 mas "
-        "there."
-    )
-    title, first = "The largest nutations", "l l' F D node"
-    return table_along(terms, "term", title, columns, note, first=first)
-
-
-def core(tree: Result) -> Table:
-    """Table of the free core nutation that is fitted to IAU 2000A."""
-    fit = needed(tree, "core")
-    quality = float(fit.core_nutation_quality), CORE_NUTATION_QUALITY.value
-    rows = [
-        ("period in space, d", f"{float(fit.core_nutation_period):.2f}", f"{CORE_NUTATION.value}"),
-        ("quality factor", *(f"{value:,.0f}" for value in quality)),
-    ]
-    for _, row in table.along(fit.isel(added_to=slice(ADDITIONS_SHOWN)), "added_to"):
-        words = f"added to a response at {float(row.added_period):.2f} d, uas"
-        rows.append((words, _both_phases(row, "added"), _both_phases(row, "added_published")))
-    return Table(
-        "Free core nutation in IAU 2000A",
-        ("quantity", "recovered", "built into IAU 2000A"),
-        rows,
-        "IAU 2000A is the product of a response and a rigid series, so the fit only recovers what "
-        "was built into it; it is no new measurement. Geodesic nutation, which no torque makes, "
-        "and what the authors of IAU 2000A add to a response at single terms are taken away before "
-        f"the fit, whose residuals are {float(fit.apart_rms):.1f} uas rms. A response that is "
-        "fitted with them in absorbs what it can: its core nutation comes out at "
-        f"{float(fit.core_nutation_period_absorbing):.2f} d, and its residuals over all terms are "
-        f"{float(fit.response_rms):.1f} uas rms, and {float(fit.response_maximum):.0f} uas at "
-        "most.",
-    )
-
-
-def _both_phases(row: xr.Dataset, name: str) -> str:
-    in_phase, out_of_phase = float(row[f"{name}_in_phase"]), float(row[f"{name}_out_of_phase"])
-    return f"{in_phase:+.0f}, out of phase {out_of_phase:+.0f}"
-
-
-def angles(tree: Result) -> Table:
-    """Table of the polynomial coefficients of the precession angles."""
-    rows = [
-        (f"{angle}, {whose}", *(f"{coefficient:.6f}" for coefficient in row[name].values[:4]))
-        for angle, row in table.along(needed(tree, "angles"), "angle")
-        for whose, name in (("computed", "angle_coefficient"), ("IAU", "angle_coefficient_iau"))
-    ]
-    note = (
-        "Coefficients are in arcsec, with t in Julian centuries from J2000.0, fitted over the "
-        "analysed span. eps_A, chi_A and p_A need the ecliptic of date, which torques cannot give; "
-        "it is taken from IAU 2006. The rows marked IAU are the angles of IAU 2006, fitted in the "
-        "same way."
-    )
-    return Table("Angles of precession", ("angle", "constant", "t", "t2", "t3"), rows, note)
-
-
-def flattening(tree: Result) -> Table:
-    """Table of the dynamical flattening H and of C/(M a2) from three sources."""
-
-    def value(row: xr.Dataset) -> str:
-        error = float(row.flattening_error)
-        return table.with_error(row.flattening, error) if error else f"{float(row.flattening):.10f}"
-
-    columns = Column("flattening", value), "polar_moment:.7f"
-    note = (
-        "PREM gives C from densities, independently of the pole, although the observed moment was "
-        "among its data; its H is J2 divided by that C/(M a2)."
-    )
-    origins, title = needed(tree, "inferred_flattening"), "H and C from the rate of precession"
-    return table_along(origins, "origin", title, columns, note)
-
-
 TABLES = [
     ("", budget),
     ("residual_sizes", residuals),
     ("observed", observed),
-    *[("nutation", nutation), ("core", core), ("angles", angles)],
-    ("inferred_flattening", flattening),
 ]
 
 

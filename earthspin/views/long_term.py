@@ -1,4 +1,4 @@
-"""Tables and figures of obliquity, precession and eccentricity over millennia."""
+"""Figures of obliquity, precession and eccentricity over millennia."""
 
 from __future__ import annotations
 
@@ -12,30 +12,6 @@ from earthspin.views import drawing
 from earthspin.views.drawing import Axes, PageFigure, axes
 from earthspin.views.reading import Result, answer_of, needed
 from earthspin.views.stars import YEARS, on_the_chart, plot_path, year_labels
-from earthspin.views.table import Column, Table, table_along
-
-#: Rows of the table, about.
-ROWS = 11
-
-
-def epochs(tree: Result) -> Table:
-    """Table of obliquity, eccentricity, climatic precession and precession period by epoch."""
-    answer = in_order(answer_of(tree))
-    shown = answer.isel(epoch=np.unique(np.linspace(0, answer.epoch.size - 1, ROWS).astype(int)))
-    columns = (
-        Column("epoch", lambda row: f"{float(row.epoch) / 1000:g}", "kyr"),
-        *("obliquity", "eccentricity", "climatic_precession"),
-        Column("precession_period", lambda row: f"{float(row.precession_period[-1]):.0f}"),
-    )
-    note = (
-        "Epochs count from J2000.0 TDB. Climatic precession is the eccentricity times the sine of "
-        "the longitude of perihelion from the moving equinox. Errors are 95 % half-widths: method, "
-        "orbit, start, and what tides and figure of the past are taken to be uncertain by."
-    )
-    return table_along(shown, "epoch", "Over millennia", columns, note, first="")
-
-
-TABLES = [("", epochs)]
 
 
 def _caption_of_climate(tree: Result) -> str:

@@ -1,112 +1,18 @@
-"""Tables and figures of the nutation predicted from the layers of the body."""
+"""Figures of the nutation predicted from the layers of the body."""
 
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
 
 from earthspin.interior.published import CORE_NUTATION
 from earthspin.views import drawing
 from earthspin.views.drawing import Axes, PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed
-from earthspin.views.table import (
-    Column,
-    Table,
-    neighbour_share,
-    quality,
-    table_along,
-    with_error,
-)
 
 #: Frequencies in space between which the transfer function is shown, cycles per year.
 SHOWN = 6.0
 #: How far from 1 the transfer function is drawn, on its way to infinity.
 BEYOND = 0.6
-
-
-# --- tables --------------------------------------------------------------------------------------
-
-
-def _sizes(title: str, data: xr.Dataset, dim: str, note: str, prefix: str = "") -> Table:
-    def size(angle: str) -> Column:
-        name = f"{prefix}rms_{angle}"
-        return Column(name, lambda row: with_error(row[name], row[f"{prefix}rms_error"]))
-
-    columns = size("dpsi_sineps"), size("deps"), f"{prefix}adds"
-    return table_along(data, dim, title, columns, note, words=(0, 3))
-
-
-def ladder(tree: Result) -> Table:
-    """Table of the rms of predicted pole minus IAU 2000A, for each model of the ladder."""
-    return _sizes(
-        "Nutation predicted from the layers",
-        answer_of(tree),
-        "rung",
-        "Root mean square of the predicted pole minus the IAU's; a constant and a rate are "
-        "removed. The error in brackets is that of the inputs of the interior, of H and of the "
-        "integration; what a model leaves out is not in it. H is the observed one throughout; the "
-        "rungs up to 'anelastic' take no other number from the motion of the pole.",
-    )
-
-
-def beside(tree: Result) -> Table:
-    """Table of the rms of predicted pole minus IAU 2000A, for two models outside the ladder."""
-    return _sizes(
-        "Beside the ladder",
-        needed(tree, "beside"),
-        "model",
-        "A core in a rigid mantle has a far shorter nutation of its own; a body in hydrostatic "
-        "equilibrium has an H that is one per cent too small.",
-        "model_",
-    )
-
-
-def modes(tree: Result) -> Table:
-    """Table of the free modes (wobbles and nutations) of each model of the ladder."""
-    columns = (
-        *("mode_rung", "mode_name", "mode_period"),
-        Column("mode_quality", lambda row: quality(row, "mode_quality", ".3g")),
-    )
-    note = (
-        "Nutations have their periods in space, negative if retrograde; wobbles in the body. A "
-        "rung that lacks a part lacks its mode. The errors follow from the uncertainty of the "
-        "Love numbers, of size, flattening and density of the core and the inner core, of the "
-        "ocean, of the mantle's loss, and of numbers inferred from nutation."
-    )
-    modes = needed(tree, "modes")
-    return table_along(modes, "mode", "Free modes", columns, note, first="", words=(0, 1))
-
-
-def terms(tree: Result) -> Table:
-    """Table of the largest circular nutation terms, of the most detailed model and of the IAU."""
-    data = needed(tree, "terms")
-
-    def predicted(phase: str, head: str) -> Column:
-        name = f"predicted_{phase}"
-        return Column(name, lambda row: with_error(row[name], row.predicted_error), head)
-
-    columns = (
-        "period:.2f",
-        predicted("in_phase", "in phase"),
-        Column("iau_in_phase", ".3f", "IAU"),
-        Column("neighbour_in_phase", neighbour_share, "neighbour"),
-        predicted("out_of_phase", "out of phase"),
-        Column("iau_out_of_phase", "+.3f", "IAU, out"),
-    )
-    note = (
-        "Circular amplitudes are in mas; a negative period is retrograde. The errors hold the "
-        "uncertainty of the numbers of the inside only, not the sizes of what the rung leaves out. "
-        "Where 150 years are too short to separate a term from a neighbour, all amplitudes "
-        "include the neighbour; the column 'neighbour' gives its share in that of IAU 2000A."
-    )
-    title = f"The largest nutations, rung '{data.rung.values[-1]}'"
-    return table_along(data.isel(rung=-1), "term", title, columns, note, first="l l' F D node")
-
-
-TABLES = [("", ladder), ("beside", beside), ("modes", modes), ("terms", terms)]
-
-
-# --- figures -------------------------------------------------------------------------------------
 
 
 def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:

@@ -13,7 +13,7 @@ from earthspin.engine.plan import NOT_REQUESTED, REUSED
 from earthspin.engine.spread import is_ensemble
 from earthspin.errors import SceneError
 from earthspin.scenes import plan, run_tree
-from earthspin.views import ensemble
+from earthspin.views import ensemble, tables
 from earthspin.views.drawing import Drawing, Figure, PageFigure, style
 from earthspin.views.reading import Result, answer_of, changes_of, question_of, section, views_of
 from earthspin.views.solids import Solid
@@ -44,13 +44,28 @@ def tables_for(tree: Result) -> list[Table]:
     ----------
     tree : Dataset or DataTree
         As `run` or `run_tree` give it; sections that it does not hold are not shown.
+
+    Returns
+    -------
+    list of Table
+        Those of the question's own view module, then one or more for the answer and for each
+        section that these do not show. What the model leaves out stands below the errors that do
+        not hold it, or else below the first table.
     """
     answer = answer_of(tree)
-    tables: list[Table] = _made(tree, _view(tree).TABLES)
-    first, *others = [table for table in tables if table.rows]
+    first, *others = ensemble.tables(tree) if is_ensemble(tree) else _tables(tree)
     left_out = f"Left out: {answer.attrs['neglected']}."
-    note = "\n".join(filter(None, [first.note, *changes_of(answer), left_out]))
-    return [replace(first, note=note), *others]
+    said = any(left_out in table.note.split("\n") for table in (first, *others))
+    note = [*changes_of(answer), first.note, "" if said else left_out]
+    return tables.numbered([replace(first, note="\n".join(filter(None, note))), *others])
+
+
+def _tables(tree: Result) -> list[Table]:
+    """Tables of the view module, and those of the sections that these do not show."""
+    makers: Sequence[tuple[str, Callable[[Result], Table]]] = getattr(_view(tree), "TABLES", ())
+    shown = {name for sections, _ in makers for name in sections.split() or [""]}
+    special = [table for table in _made(tree, makers) if table.rows]
+    return [*special, *tables.tables(tree, without=shown)]
 
 
 def drawings_for(tree: Result) -> list[Drawing]:
@@ -124,6 +139,7 @@ def print_tables(tree: Result, *, with_plan: bool = False) -> None:
     for table in [*tables_for(tree), *(what_ran(tree) if with_plan else ())]:
         console.print_table(table)
         console.print()
+    console.print(BRACKETS, style="dim")
 
 
 def scene_page(tree: Result) -> str:
@@ -169,7 +185,7 @@ def page_of(
         lead = says(trees[0]) if says else " ".join(changes_of(answer_of(trees[0])))
     return page(
         title,
-        [table for tree in trees for table in tables_for(tree)],
+        tables.numbered(table for tree in trees for table in tables_for(tree)),
         [d for tree in trees for d in drawings_for(tree)] if drawings is None else drawings,
         [solid for tree in trees for solid in solids_for(tree)],
         lead=lead,
@@ -207,9 +223,9 @@ def what_ran(*trees: Result) -> list[Table]:
 
 
 def _view(tree: Result) -> ModuleType:
-    """Return the module of `earthspin.views` that makes the tables and figures of a result.
+    """Return the module of `earthspin.views` with the figures and further tables of a result.
 
-    It is that for ensembles, that of the question, or `plain`.
+    It is that for ensembles, that of the question, or `tables`.
     """
     return ensemble if is_ensemble(tree) else views_of(tree)
 

@@ -1,8 +1,7 @@
-"""Tables and figures of observed polar motion: path of the pole, spectra, and free wobble."""
+"""Figures of observed polar motion: path of the pole, spectra, and free wobble."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
@@ -14,7 +13,7 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing
 from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed
-from earthspin.views.table import Table, date, measured, quantities, with_error
+from earthspin.views.table import date
 from earthspin.wobble.record import NEAR, YEAR
 
 JULIAN = 365.25  # d, the year of the axes
@@ -23,91 +22,9 @@ JULIAN = 365.25  # d, the year of the axes
 # --- tables --------------------------------------------------------------------------------------
 
 
-def series(tree: Result) -> Table:
-    """Table of the smallest, the largest and the last observed coordinate of the pole."""
-    answer = answer_of(tree)
-    first, last, end = date(answer.time[0]), date(answer.time[-1]), answer.isel(time=-1)
-    rows = [
-        (
-            name,
-            f"{float(answer[name].min()):+.6f}",
-            f"{float(answer[name].max()):+.6f}",
-            measured(end, name),
-        )
-        for name in ("x", "y")
-    ]
-    source = answer.x.attrs["references"]
-    note = f"{answer.time.size} epochs from {first} to {last}; source: {source}."
-    headers = "coordinate, arcsec", "smallest", "largest", "last"
-    return Table("Polar motion", headers, rows, note)
-
-
-def observed(tree: Result) -> Table:
-    """Table of period, quality factor and present amplitude of the observed free wobble."""
-    fit = needed(tree, "chandler")
-    rows = quantities(fit, "chandler_period")
-    low, high = (float(fit[f"chandler_quality_factor_{end}"]) for end in ("low", "high"))
-    ends = f"{low:.0f} to {high:.0f}" if math.isfinite(high) else f"{low:.0f} or more"
-    rows.append(("quality factor", f"{float(fit.chandler_quality_factor):.0f} ({ends})"))
-    size = fit.chandler_amplitude.values
-    for words, at in (("largest", size.argmax()), ("smallest", size.argmin()), ("last", -1)):
-        window = fit.isel(middle=at)
-        year = date(window.middle, "Y")
-        rows.append((f"{words} amplitude, mas, {year}", measured(window, "chandler_amplitude")))
-    annual = f"{float(fit.annual_amplitude.median()):.1f}"
-    rows.append(("median amplitude of the prograde annual wobble, mas", annual))
-    note = (
-        f"Method: {fit.chandler_period.attrs['method']}. Errors and intervals are 95 %. "
-        "Amplitudes are means over windows of one beat of the free and the annual wobble; the year "
-        "is that of the middle of the window."
-    )
-    return Table("The observed wobble", ("quantity", "value"), rows, note)
-
-
-def statements(tree: Result) -> Table:
-    """Table that compares what the source text states about the wobble with observations."""
-    fit, metres = needed(tree, "chandler"), _metres(answer_of(tree))
-    period, error = float(fit.chandler_period), float(fit.chandler_period_error)
-    size = fit.chandler_amplitude
-    rows = []
-    for words, text, scale, form in (
-        ("circle of 6 m", 6.0, metres, ".1f"),
-        ("cone of 0.2 arcsec", 0.2, 1e-3, ".3f"),
-    ):
-        if scale:
-            low, high = float(size.min()) * scale, float(size.max()) * scale
-            rows.append((words, f"{low:{form}} to {high:{form}}", _years_near(size, text / scale)))
-    within = "within the error" if abs(434 - period) <= error else "outside the error"
-    return Table(
-        "Statements of the source text (I.6)",
-        ("statement", "observed", "true within 25 %"),
-        [*rows, ("period of 434 days", with_error(period, error), within)],
-        'The source text is Appendix I, "Rigid Body Dynamics". The observed values are those of '
-        "the free wobble alone, without the annual one.",
-    )
-
-
-TABLES = [("", series), ("chandler", observed), ("chandler", statements)]
-
-
 def _metres(answer: xr.Dataset) -> float:
     """Distance on the ground, m, that corresponds to 1 mas of polar motion; 0 if not known."""
     return float(answer.polar_radius) * MAS if "polar_radius" in answer else 0.0
-
-
-def _years_near(amplitude: xr.DataArray, size: float) -> str:
-    """First and last year, as text, in which the wobble amplitude is within 25 % of a value.
-
-    The share of the time is added; the text is "never" if there is no such year.
-    """
-    near = abs(amplitude.values / size - 1) <= 0.25
-    if not near.any():
-        return "never"
-    times = amplitude.middle.values[near]
-    return f"{date(times[0], 'Y')} to {date(times[-1], 'Y')}, {near.mean():.0%} of the time"
-
-
-# --- figures -------------------------------------------------------------------------------------
 
 
 def plot_amplitude_and_phase(tree: Result) -> Figure:

@@ -1,40 +1,13 @@
-"""Table and figure of the directions of a body's axes over time."""
+"""Figure of the directions of a body's axes over time."""
 
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
 
 from earthspin.bodies import MOON
 from earthspin.constants import DAY
 from earthspin.views.drawing import Axes, PageFigure, axes
 from earthspin.views.reading import Result, answer_of
-from earthspin.views.table import Column, Table, date, table_along
-
-
-def ends(tree: Result) -> Table:
-    """Table of the directions of the body's axes at the first and the last date."""
-    answer = answer_of(tree)
-    ends = answer.isel(time=[0, -1]).stack(place=("time", "axis"), create_index=False)
-
-    def date_and_axis(row: xr.Dataset) -> str:
-        return f"{date(row.time, 's')} {row.axis.item().replace('_', ' ')}"
-
-    method, given = (
-        f"{1e6 * float(answer[f'direction_error_{share}'].max()):.2g}"
-        for share in ("method", "input")
-    )
-    note = (
-        f"The path has {answer.time.size} epochs, of which the first and the last are shown. The "
-        f"error of the method is at most {method} uas; the uncertainty of H adds up to {given} uas "
-        "over this span (95 %)."
-    )
-    angles = ("psi:.6f", "eps:.6f") if "psi" in answer else ()
-    columns = Column("", date_and_axis, "TDB, axis"), "X:+.12f", "Y:+.12f", *angles
-    return table_along(ends, "place", "The axes in the GCRS", columns, note, first="")
-
-
-TABLES = [("", ends)]
 
 
 def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = None) -> Axes:

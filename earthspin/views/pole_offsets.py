@@ -1,4 +1,4 @@
-"""Tables and figures of observed celestial pole offsets and of their free core nutation."""
+"""Figures of observed celestial pole offsets and of their free core nutation."""
 
 from __future__ import annotations
 
@@ -8,78 +8,10 @@ import xarray as xr
 from earthspin.views import drawing
 from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed
-from earthspin.views.table import Table, date, measured, quantities, with_error
+from earthspin.views.table import date
 
 #: Largest offset that is drawn, mas: the noise of the first years is larger.
 DRAWN = 1.5
-#: Part of the middles of windows that the table shows: one in so many.
-ONE_IN = 24
-
-
-# --- tables --------------------------------------------------------------------------------------
-
-
-def series(tree: Result) -> Table:
-    """Table of rms, range and last value of the observed celestial pole offsets dX and dY."""
-    answer = answer_of(tree)
-    end = answer.isel(time=-1)
-    rows = [
-        (
-            name,
-            f"{float(np.sqrt((answer[name] ** 2).mean())):.3f}",
-            f"{float(answer[name].min()):+.3f}",
-            f"{float(answer[name].max()):+.3f}",
-            measured(end, name),
-        )
-        for name in ("dX", "dY")
-    ]
-    words = (
-        f"{answer.time.size} epochs from {date(answer.time[0])} to {date(answer.time[-1])}; "
-        f"source: {answer.dX.attrs['references']}. Observed X, Y of the celestial pole minus those "
-        "of IAU 2006/2000A; predicted rows are left out."
-    )
-    headers = "offset, mas", "rms", "smallest", "largest", "last"
-    return Table("Celestial pole offsets", headers, rows, words)
-
-
-def core_nutation(tree: Result) -> Table:
-    """Table of the amplitude of the free core nutation, at dates about two years apart."""
-    fit = needed(tree, "core_nutation")
-    rows = [
-        (
-            date(row.middle, "D"),
-            with_error(row.core_nutation_amplitude, row.core_nutation_amplitude_error),
-            f"{float(row.detection_limit):.0f}",
-            "yes" if row.detected else "no",
-        )
-        for row in (fit.isel(middle=at) for at in range(fit.middle.size - 1, -1, -ONE_IN))
-    ]
-    days = float(fit.window_length)
-    words = (
-        f"Windows of {days:.0f} d, in each of which a constant, a line and a retrograde circle of "
-        "the published period are fitted. Errors are 95 %, from the noise at the same frequency in "
-        "the other sense. Noise alone exceeds the detection limit in 1 % of the windows."
-    )
-    headers = "middle of the window", "amplitude, uas", "detection limit, uas", "detected"
-    return Table("Free core nutation by window", headers, rows[::-1], words)
-
-
-def period(tree: Result) -> Table:
-    """Table of the period of the free core nutation, fitted and published."""
-    names = "core_nutation_period", "core_nutation_period_published"
-    rows = quantities(needed(tree, "period"), *names)
-    words = (
-        "From the whole series: the free motion is excited at random, which limits how well "
-        "its period is known. The published period comes from the resonance in the forced "
-        "nutations and in the tides, and is far better known."
-    )
-    return Table("Period of the free core nutation", ("quantity", "value"), rows, words)
-
-
-TABLES = [("", series), ("core_nutation", core_nutation), ("period", period)]
-
-
-# --- figures -------------------------------------------------------------------------------------
 
 
 def plot_offsets(result: Result, *, figure: Figure | None = None) -> Figure:

@@ -121,8 +121,7 @@ def rates(tree: Result) -> Table:
         f"{table.date(answer.reference_epoch, 'm')} TDB; the obliquity is "
         f"{float(answer.obliquity):.6f} deg. Torques are averaged with the "
         f"{answer.precession_rate.attrs['window']}. In the error of the last rate, {method} "
-        f"arcsec/yr are due to averaging and {given} arcsec/yr to the given numbers. "
-        f"{table.BRACKETS}"
+        f"arcsec/yr are due to averaging and {given} arcsec/yr to the given numbers."
     )
     return table_along(answer, "perturber", "Precession", columns, note, first="pulled by")
 

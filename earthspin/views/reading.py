@@ -28,9 +28,9 @@ def question_of(result: Result) -> type[Question] | None:
 
 
 def views_of(result: Result) -> ModuleType:
-    """Return the view module of a result's question; `plain`, which makes tables, by default."""
+    """Return the view module of a result's question; `tables` if it has none of its own."""
     question = question_of(result)
-    return import_module(f"earthspin.views.{question.views if question else 'plain'}")
+    return import_module(f"earthspin.views.{question.views if question else 'tables'}")
 
 
 def section(result: Result, name: str) -> xr.Dataset | None:

@@ -1,4 +1,4 @@
-"""Tables, figures and animated picture of the attitude of a rigid body."""
+"""Figures and animated picture of the attitude of a rigid body."""
 
 from __future__ import annotations
 
@@ -10,61 +10,13 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.quaternion import rotate
 from earthspin.views import drawing, solids
 from earthspin.views.drawing import BLUE, CYCLE, GREEN, RED, Axes, PageFigure, axes
-from earthspin.views.reading import Result, answer_of, body_of, needed
+from earthspin.views.reading import Result, answer_of, needed
 from earthspin.views.solids import BLACK, Solid
-from earthspin.views.table import Column, Table, date, listed, quantities, table_along
 
 #: An attitude is lost where its error is a quarter of a turn, deg.
 LOST = 90.0
 #: Poses that a picture which plays shows at most.
 POSES = 481
-
-
-def known_until(answer: xr.Dataset) -> np.datetime64 | None:
-    """First date when the attitude error reaches 90 degrees; None if it does not.
-
-    The error does not include position errors of the perturbers.
-    """
-    error = np.hypot(answer.attitude_error_method, answer.attitude_error_input).values
-    lost = np.flatnonzero(error >= LOST)
-    return answer.time.values[lost[0]] if lost.size else None
-
-
-def attitude(tree: Result) -> Table:
-    """Table of the attitude and spin of the body at the first and the last time."""
-    answer = answer_of(tree)
-    columns = (
-        Column("", lambda row: date(row.time, "s"), "TDB"),
-        Column("attitude", lambda row: listed(row.attitude.values)),
-        Column("omega", lambda row: listed(row.omega.values)),
-        Column("attitude_error_method", ".2g", "error of the method, deg"),
-    )
-    lost = known_until(answer)
-    note = (
-        f"The error of the method stays below {LOST:g} deg."
-        if lost is None
-        else f"From {str(lost)[:16]} on the attitude is not known: its error is {LOST:g} deg or "
-        "more, and what follows is one motion of many."
-    )
-    title, ends = f"The attitude of {body_of(answer)}", answer.isel(time=[0, -1])
-    return table_along(ends, "time", title, columns, note, first="", words=(0, 1, 2))
-
-
-def divergence(tree: Result) -> Table:
-    """Table of the growth of a small change of the rotation, with the Lyapunov time."""
-    neighbour = needed(tree, "divergence")
-    rate, spread = (float(neighbour[f"growth_rate{end}"]) * DAY for end in ("", "_error"))
-    rows = [
-        *quantities(neighbour, "course"),
-        ("growth rate, 1/d", f"{rate:.3g} ± {spread:.2g}"),
-    ]
-    if "lyapunov_time" in neighbour:
-        rows.append(("Lyapunov time, d", _lyapunov_time(neighbour)))
-    note = "The half-width comes from the scatter of the rate between eight stretches of the span."
-    return Table("How neighbouring rotations part", ("quantity", "value"), rows, note)
-
-
-TABLES = [("", attitude), ("divergence", divergence)]
 
 
 # --- figures -------------------------------------------------------------------------------------

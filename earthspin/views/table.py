@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, SupportsFloat
 
@@ -14,6 +14,10 @@ import xarray as xr
 MAS_PER_CENTURY = 1e5  # of an arcsec/yr
 #: From here on, numbers are written with a power of ten.
 LARGE = 1e9
+#: Text of a cell up to this length stands on one line.
+SHORT = 32
+#: Characters between two columns on the terminal.
+SPACE = 3
 #: What the brackets mean, for whoever meets them first.
 BRACKETS = (
     "Every error is the half-width of a 95 % interval; digits in brackets give it in units of the "
@@ -133,6 +137,16 @@ def table_along(
     return Table(title, headers, [*rows, *more], note, words)
 
 
+def least_width(head: str, cells: Sequence[str]) -> int:
+    """Characters that a column needs so that no number, word or short text is broken.
+
+    Headers take at most three lines, or more if their longest word is short.
+    """
+    whole = [cell for cell in cells if len(cell) <= SHORT]
+    broken = " ".join(cell for cell in cells if len(cell) > SHORT).split()
+    return max(len(head) // 3, *map(len, [*head.split(), *whole, *broken, ""]))
+
+
 def quantities(data: xr.Dataset, *rows: Column | str) -> list[tuple[str, str]]:
     """Rows of a table with one quantity in each row: its label, and its value as text."""
     return [(row.header(data), row.text(data)) for row in map(_column, rows)]
@@ -160,10 +174,10 @@ def with_error(value: SupportsFloat, error: SupportsFloat, unit: str = "") -> st
         return "none (no motion)"
     if error <= 0 or not math.isfinite(error):
         text = short_exponents(f"{value:.6g}")
-    elif abs(value) < LARGE:
+    elif (size := max(abs(value), error)) < LARGE:
         text = _in_brackets(value, error)
     else:
-        power = math.floor(math.log10(abs(value)))
+        power = math.floor(math.log10(size))
         text = f"{_in_brackets(value / 10.0**power, error / 10.0**power)}e{power}"
     return f"{text} {unit}".rstrip()
 
@@ -188,11 +202,6 @@ def two_digits(value: SupportsFloat) -> str:
 def quality(row: xr.Dataset, name: str = "quality_factor", shown: str = ".0f") -> str:
     """Format a quality factor as text; the text is empty if the factor is infinite."""
     return f"{float(row[name]):{shown}}" if math.isfinite(row[name]) else ""
-
-
-def neighbour_share(row: xr.Dataset) -> str:
-    """Format the share of a neighbour in a term of nutation; empty for a term without one."""
-    return f"{float(row.neighbour_in_phase):+.3f}" if row.neighbour else ""
 
 
 def beside_observed(
@@ -231,11 +240,6 @@ def some_unknown(left_out: xr.Dataset) -> bool:
 def measured(data: xr.Dataset, name: str, unit: str = "") -> str:
     """Format a variable of a Dataset, with two digits of its half-width in brackets."""
     return with_error(data[name], data[f"{name}_error"], unit)
-
-
-def listed(values: Iterable[SupportsFloat]) -> str:
-    """Format several numbers as one text, separated by commas."""
-    return ", ".join(f"{float(value):.6g}" for value in values)
 
 
 def date(time: xr.DataArray | np.datetime64, to: Literal["Y", "D", "m", "s"] = "D") -> str:

@@ -11,7 +11,7 @@ from rich.table import Table as RichTable
 from rich.text import Text
 
 from earthspin.errors import printable
-from earthspin.views.table import short_exponents
+from earthspin.views.table import SHORT, SPACE, least_width, short_exponents
 
 if TYPE_CHECKING:
     from earthspin.views.table import Table
@@ -32,11 +32,22 @@ class Terminal(Console):
 
     def print_table(self, table: Table) -> None:
         """Print a table with its note and its run time."""
-        shown = RichTable(
-            title=_plain(table.title), title_justify="left", title_style="bold", box=box.SIMPLE_HEAD
+        self.print(_plain(table.title), style="bold")
+        shown = RichTable(box=box.SIMPLE_HEAD)
+        columns = [[row[number] for row in table.rows] for number in range(len(table.headers))]
+        natural = sum(
+            SPACE + max(map(len, [header, *cells]))
+            for header, cells in zip(table.headers, columns, strict=True)
         )
-        for number, header in enumerate(table.headers):
-            shown.add_column(_plain(header), justify="left" if number in table.words else "right")
+        for number, (header, cells) in enumerate(zip(table.headers, columns, strict=True)):
+            # of a table that is too wide, headers and long text are wrapped, and no numbers
+            least = least_width(header, cells) if natural > self.width else None
+            flexible = any(len(cell) > SHORT for cell in cells)
+            shown.add_column(
+                _plain(header),
+                justify="left" if number in table.words else "right",
+                width=None if flexible else least,
+            )
         for row in table.rows:
             shown.add_row(*(_plain(short_exponents(cell)) for cell in row))
         self.print(shown)

@@ -1,4 +1,4 @@
-"""Tables, figures and three-dimensional picture of a heavy top."""
+"""Figures and three-dimensional picture of a heavy top."""
 
 from __future__ import annotations
 
@@ -6,21 +6,7 @@ import numpy as np
 
 from earthspin.views import solids
 from earthspin.views.drawing import BLUE, RED, Axes, Figure, PageFigure, axes, empty
-from earthspin.views.reading import Result, answer_of, needed, section
-from earthspin.views.table import Table, quantities
-
-
-def motion(tree: Result) -> Table:
-    """Table of a heavy top's motion: shape of the path, nutation period, and precession rate."""
-    answer, turning = answer_of(tree), section(tree, "turning")
-    rows = quantities(answer, "pattern", "nutation_period:.10g", "mean_precession_rate:.10g")
-    if turning is not None:
-        upper, lower = np.degrees(turning.turning_angle.values)
-        rows.insert(1, ("turning angles, deg", f"{upper:.8f} and {lower:.8f}"))
-    return Table("Heavy top", ("quantity", "value"), rows)
-
-
-TABLES = [("", motion)]
+from earthspin.views.reading import Result, answer_of, needed
 
 
 def _plot_potential_and_nutation(tree: Result) -> Figure:

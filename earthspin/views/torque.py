@@ -1,4 +1,4 @@
-"""Tables and figures of the torques of perturbers over time."""
+"""Figures of the torques of perturbers over time."""
 
 from __future__ import annotations
 
@@ -10,37 +10,11 @@ import xarray as xr
 from earthspin.views import drawing
 from earthspin.views.drawing import CYCLE, Axes, Figure, PageFigure, axes, legend_above
 from earthspin.views.reading import Result, answer_of
-from earthspin.views.table import Column, Table, along, date, table_along
+from earthspin.views.table import along
 
 COLOURS = {"sun": "#E69F00", "moon": "#0072B2", "total": "#222222"}
 #: What turns more often than this in a figure is drawn as a band.
 MANY_SWINGS = 200
-
-
-def extremes(tree: Result) -> Table:
-    """Table of the smallest and largest declination, distance and torque, by perturber."""
-    answer = answer_of(tree)
-    first, last = date(answer.time[0], "s"), date(answer.time[-1], "s")
-
-    def range_of(name: str, shown: str) -> Column:
-        low_to_high = f"{{:{shown}}} to {{:{shown}}}".format
-        return Column(name, lambda row: low_to_high(float(row[name].min()), float(row[name].max())))
-
-    def largest(name: str, shown: str, head: str) -> Column:
-        return Column(name, lambda row: f"{float(row[name].max()):{shown}}", head)
-
-    columns = (
-        range_of("declination", "+.4f"),
-        range_of("distance", ".6e"),
-        largest("torque_magnitude", ".4e", "largest torque, N m"),
-        largest("torque_magnitude_error", ".1e", "error, N m"),
-    )
-    frame = answer.torque.attrs["frame"]
-    note = f"{answer.time.size} times from {first} to {last} TDB, {frame}."
-    return table_along(answer, "perturber", "Torque", columns, note, first="pulled by")
-
-
-TABLES = [("", extremes)]
 
 
 def through(tree: Result, title: str, smooth_days: float) -> drawing.Drawing:

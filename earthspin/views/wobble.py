@@ -1,4 +1,4 @@
-"""Tables and figure of the free wobble period from models of increasing detail."""
+"""Table and figure of the free wobble period from models of increasing detail."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import xarray as xr
 
 from earthspin.views import table
 from earthspin.views.drawing import BLUE, RED, Axes, PageFigure, axes, note, rungs
-from earthspin.views.reading import Result, answer_of, changes_of, needed, section
+from earthspin.views.reading import Result, answer_of, changes_of, section
 from earthspin.views.table import Column, Table, table_along
 
 #: Numbers that an ensemble of answers shows first.
@@ -54,31 +54,7 @@ def ladder(tree: Result) -> Table:
     return table_along(answer, "rung", title, columns, " ".join(notes), more=more)
 
 
-def sensitivity(tree: Result) -> Table:
-    """Table of derivatives of the most detailed model's wobble period, one for each input."""
-    inputs, roots = needed(tree, "sensitivity"), section(tree, "core_nutation")
-    columns = (
-        "input",
-        Column("", lambda row: table.with_error(row.input_value, row.input_half_width), "value"),
-        Column("days_per_unit", ".4g", "days per unit of input"),
-        Column("days_from_input", ".2g", "days from error of input"),
-    )
-    note = ""
-    if roots is not None:
-        periods = ", ".join(
-            f"{table.with_error(row.free_core_nutation, row.free_core_nutation_error)} d "
-            f"({shape} core)"
-            for shape, row in table.along(roots, "core_shape")
-        )
-        note = (
-            "The other root of the equations is the free core nutation; its period in space: "
-            f"{periods}."
-        )
-    used = inputs.isel(input=np.flatnonzero(inputs.input_value))
-    return table_along(used, "input", "Sensitivity of the last rung", columns, note, first="")
-
-
-TABLES = [("", ladder), ("sensitivity", sensitivity)]
+TABLES = [("", ladder)]
 
 
 def _caption(tree: Result) -> str:

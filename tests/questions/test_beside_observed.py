@@ -58,12 +58,14 @@ def test_an_orbit_of_ones_own_has_no_sizes() -> None:
     assert sizes(heavier) == {}
 
 
-def test_a_table_of_states_says_numbers_only_where_no_size_is_known() -> None:
-    (moon,) = tables_for(earthspin.cassini_states("moon"))
-    assert moon.rows[0][1] == "6.731(47)"
-    assert NUMBERS_ONLY in moon.rows[1][1]
-    (mercury,) = tables_for(earthspin.cassini_states("mercury"))
-    assert all(NUMBERS_ONLY in row[1] for row in mercury.rows)
+def test_a_table_of_states_gives_the_size_that_is_larger_than_its_errors() -> None:
+    tree = earthspin.run_tree(CassiniStates(body=MOON), ["neglected"])
+    (effect, largest), *_ = sizes(tree).items()
+    error = float(tree.obliquity_error[0])
+    assert abs(largest) > error
+    table, *_ = tables_for(tree.to_dataset())
+    assert table.rows[0][1] == f"{float(tree.obliquity[0]):.6f}({error * 1e6:.0f})"
+    assert f"Left out: {effect}: {largest:.3g} deg" in table.note
 
 
 def test_the_rung_beside_the_observed_wobble_holds_what_it_leaves_out() -> None:

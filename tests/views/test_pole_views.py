@@ -25,17 +25,16 @@ def iau() -> xr.DataTree:
 
 
 def test_table_of_the_path(pole: xr.Dataset) -> None:
-    (table,) = tables_for(pole)
-    assert len(table.rows) == 6
-    assert float(table.rows[2][3]) == pytest.approx(float(pole.psi[0, 2]), abs=1e-6)
+    head = "psi figure, arcsec"
+    (table,) = (table for table in tables_for(pole) if head in table.headers)
+    first, last = (row[table.headers.index(head)] for row in (table.rows[0], table.rows[-1]))
+    for text, at in ((first, 0), (last, -1)):
+        assert float(text.split("(")[0]) == pytest.approx(float(pole.psi[at, 2]), abs=1e-5)
 
 
 def test_tables_of_the_comparison(iau: xr.DataTree) -> None:
-    tables = tables_for(iau)
-    assert len(tables) == 7
-    budget = tables[0]
+    budget, *_ = tables_for(iau)
     assert float(budget.rows[-1][1]) == pytest.approx(float(iau.closure) * 1e5, abs=1e-3)
-    assert len(tables[3].rows) == 30
 
 
 def test_figures_draw_what_is_there(pole: xr.Dataset, iau: xr.DataTree) -> None:
