@@ -31,9 +31,7 @@ from earthspin.engine.inputs import (
 )
 from earthspin.engine.member_values import MEMBER
 from earthspin.engine.members import TWICE, Members, count_of, draw
-from earthspin.engine.plan import SCENE
-from earthspin.engine.question import Question
-from earthspin.engine.run import plan_data, scene_text
+from earthspin.engine.question import SCENE, Question, scene_text
 from earthspin.engine.series import request_of
 from earthspin.engine.unfinished import Layout
 from earthspin.engine.variants import Names, Variants
@@ -135,7 +133,7 @@ class Ensemble:
     def variants(self) -> Variants:
         """Copies of the question, one for each combination of inputs by name (such as files)."""
         keys = tuple(entry.key for entry in self.inputs.values() if entry.named)
-        return Variants(self.question, keys, {entry.key for entry in self.numbers.values()})
+        return Variants(self.question, keys)
 
     def names(self, index: int) -> Names:
         """Inputs of one member that are given by name, such as files, as a tuple of names."""
@@ -186,7 +184,7 @@ class Ensemble:
 
     def plan_data(self) -> xr.Dataset:
         """Plan of the computation for the first member, as a Dataset."""
-        return plan_data(self.variants[self.names(0)]().plan)
+        return self.variants[self.names(0)].plan().dataset()
 
     def hold(self, client: object = None) -> xr.Dataset:
         """Compute the ensemble and return it in memory.
@@ -304,8 +302,9 @@ class Ensemble:
     def _answer(self, names: Names, values: Mapping[str, Any], which: str) -> xr.Dataset:
         """Compute the answer for one member, or for several members with equal inputs by name."""
         try:
-            rerun = self.variants[names]
-            answer = rerun(with_values(rerun.plan.question, self.numbers, values)).numbers()
+            nominal = self.variants[names]
+            changed = with_values(nominal.question, self.numbers, values)
+            answer = nominal.again(changed).numbers()
         except EarthspinError as error:
             error.args = (f"member {which}: {error}",)
             raise

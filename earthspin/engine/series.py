@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from earthspin._version import __version__, version
 from earthspin.engine.part import BLOCK, Block
-from earthspin.engine.question import Question
-from earthspin.engine.run import Rerun, scene_text
+from earthspin.engine.question import NEGLECTED, Question, scene_text
+from earthspin.engine.run import Run
 from earthspin.engine.unfinished import Layout
 
 if TYPE_CHECKING:
@@ -44,16 +44,21 @@ class Series:
         return Layout("time", self.size, self.length)
 
     @cached_property
-    def _rerun(self) -> Rerun:
-        return Rerun(self.question, {BLOCK})
+    def _run(self) -> Run:
+        """Run that keeps the results which all blocks share."""
+        return Run(self.question, block=self._block(0))
 
     def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in vars(self).items() if name != "_rerun"}
+        return {name: value for name, value in vars(self).items() if name != "_run"}
+
+    def _block(self, number: int) -> Block:
+        return Block(*self.layout.bounds(number))
 
     @cached_property
     def request(self) -> Mapping[str, str]:
         """Texts that identify the run: question, software versions and checksums of files."""
-        return request_of(self.question, self._rerun.fixed.provenance)
+        ends = [*self.question.graph.answer, NEGLECTED]
+        return request_of(self.question, self._run.provenance(ends, but=[BLOCK]))
 
     def first(self) -> xr.Dataset:
         """Compute the first block of times, with the attributes of the whole series."""
@@ -61,7 +66,7 @@ class Series:
 
     def make(self, number: int) -> xr.Dataset:
         """Compute one block of consecutive times, by its number."""
-        return self._rerun(block=Block(*self.layout.bounds(number))).answer()
+        return self._run.again(block=self._block(number)).answer()
 
 
 def request_of(question: Question, provenance: Mapping[str, str]) -> dict[str, str]:
