@@ -16,13 +16,13 @@ import numpy as np
 import earthspin
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
-from earthspin.engine import answering, loop
+from earthspin.engine import answering, blocks
+from earthspin.engine.blocks import Series
 from earthspin.engine.members import TWICE
 from earthspin.engine.part import BLOCK as BY_BLOCK
 from earthspin.engine.plan import Plan
 from earthspin.engine.question import Question, keys_of, scene_of
 from earthspin.engine.run import Run
-from earthspin.engine.series import Series
 from earthspin.engine.store import open as open_file
 from earthspin.errors import SceneError, nearest, no_plain_file
 from earthspin.parts.times import epochs
@@ -417,7 +417,7 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
     >>> print(earthspin.open(path).sizes["time"])
     87673
     """
-    return loop.write(_series(load_scene(scene)), path, client=client, replace=True)
+    return blocks.write(_series(load_scene(scene)), path, client=client, replace=True)
 
 
 def _series(question: Question) -> Series:

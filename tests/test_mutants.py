@@ -20,7 +20,7 @@ NO_KERNEL = {"__init__", "_checks", "arrays", "effect"}
 BORDER = (
     *("units", "dates", "bodies/figure", "bodies/earth", "constants", "scenes"),
     *("engine/question", "engine/run", "engine/labels", "engine/neglected", "engine/store"),
-    *("engine/drafts", "engine/zarr_folder", "engine/unfinished", "errors", "process"),
+    *("engine/drafts", "engine/zarr_folder", "engine/blocks", "errors", "process"),
 )
 
 

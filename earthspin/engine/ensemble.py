@@ -20,7 +20,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.engine import loop
+from earthspin.engine import blocks
+from earthspin.engine.blocks import Layout, request_of
 from earthspin.engine.inputs import (
     Input,
     along_members,
@@ -32,8 +33,6 @@ from earthspin.engine.inputs import (
 from earthspin.engine.member_values import MEMBER
 from earthspin.engine.members import TWICE, Members, count_of, draw
 from earthspin.engine.question import SCENE, Question, scene_text
-from earthspin.engine.series import request_of
-from earthspin.engine.unfinished import Layout
 from earthspin.engine.variants import Names, Variants
 from earthspin.errors import ApartError, EarthspinError
 
@@ -198,11 +197,11 @@ class Ensemble:
         if size > LARGEST_IN_MEMORY:
             problem = f"they need about {size / 1e9:.3g} GB; give a path to write them to a store"
             raise self.question.error("members", self.layout.size, problem)
-        return loop.hold(self, client=client)
+        return blocks.hold(self, client=client)
 
     def write(self, path: str | Path, client: object = None) -> Path:
         """Compute the ensemble into a Zarr store, or continue an unfinished store."""
-        return loop.write(self, path, client=client)
+        return blocks.write(self, path, client=client)
 
     # --- the members -----------------------------------------------------------------------------
 
