@@ -2,9 +2,9 @@
 
 Each chunk is shuffled and compressed by zstd with its checksum, which every reader compares. The
 metadata of a store (names, sizes, types and attributes) are written twice, in the files of each
-array and together in ``.zmetadata``, and an attribute of the root holds their SHA-256. Chunks with fill
-values only are written too, so a missing chunk always means a loss of data; Zarr itself reads such
-a chunk as the fill value.
+array and together in ``.zmetadata``, and an attribute of the root holds their SHA-256. Chunks with
+fill values only are written too, so a missing chunk always means a loss of data; Zarr itself reads
+such a chunk as the fill value.
 """
 
 from __future__ import annotations
