@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from earthspin.errors import BodyError, UndefinedError
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import BoolArray, FloatArray
 
 
 def positive(body: str, field: str, value: ArrayLike) -> FloatArray:
@@ -40,6 +40,6 @@ def degree(name: str, value: Any) -> int:
     return int(value)
 
 
-def first(values: FloatArray, wrong: NDArray[np.bool_]) -> float:
+def first(values: FloatArray, wrong: BoolArray) -> float:
     """Return the first element of `values` for which `wrong` is true."""
     return float(values[wrong].flat[0])

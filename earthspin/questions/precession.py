@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import Body, all_of, in_a_sentence
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
@@ -26,6 +25,7 @@ from earthspin.engine.variables import (
     words,
 )
 from earthspin.mass import inertia
+from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import seasons as calendar
 from earthspin.nutation.budget import closure, published_effects
 from earthspin.parts import reasons
@@ -384,7 +384,7 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
 
     moon = {"moon": sky.targets["moon"]}
 
-    def declination(days: NDArray[np.float64]) -> NDArray[np.float64]:
+    def declination(days: FloatArray) -> FloatArray:
         return sky.radec(body, days, moon)["moon"][1]
 
     extremes = find_standstills(declination, stretch.first, stretch.last)

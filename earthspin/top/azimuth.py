@@ -31,14 +31,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import ellipkm1, elliprj
 
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.numerics.elliptic import complete_third_kind
 from earthspin.top.height import Nutation, Place
-
-BoolArray = NDArray[np.bool_]
 
 # cosine of a whole number of quarter turns
 _COSINE = np.array([1.0, 0.0, -1.0, 0.0])

@@ -19,9 +19,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.top.start import HeavyTop, axis_heights
 
 #: A top slower than the first number (rad/s) is at rest; theta' or a pendulum's rate below the
@@ -47,7 +46,7 @@ class AxisStart(NamedTuple):
         In units of `rate_unit`, or its square.
     """
 
-    turned: NDArray[np.bool_]
+    turned: BoolArray
     rate_unit: FloatArray
     below: FloatArray
     above: FloatArray
@@ -68,7 +67,7 @@ class AxisStart(NamedTuple):
         return self.theta_rate**2 + self.phi_rate**2 * self.sine2
 
     @property
-    def asleep(self) -> NDArray[np.bool_]:
+    def asleep(self) -> BoolArray:
         """Return True if the axis is vertical and not moving, whether stable or not."""
         return np.asarray((self.sine2 == 0) & (self.theta_rate == 0))
 
@@ -166,7 +165,7 @@ def cubic_gaps(start: AxisStart) -> Gaps:
 
 
 def _pair_about_start(
-    start: AxisStart, c0: FloatArray, c1: FloatArray, c2: FloatArray, wanted: NDArray[np.bool_]
+    start: AxisStart, c0: FloatArray, c1: FloatArray, c2: FloatArray, wanted: BoolArray
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Distances between roots, start and poles, if the two lower roots are close together.
 
@@ -187,7 +186,7 @@ def _pair_about_start(
 
 
 def _pair_about_pole(
-    start: AxisStart, c0: FloatArray, wanted: NDArray[np.bool_]
+    start: AxisStart, c0: FloatArray, wanted: BoolArray
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Distances between roots, start and poles, if the two upper roots are close together.
 
@@ -213,9 +212,7 @@ def _pair_about_pole(
     return lower, upper, upper_pole, outer
 
 
-def _largest_root(
-    c2: FloatArray, c1: FloatArray, c0: FloatArray, wanted: NDArray[np.bool_]
-) -> FloatArray:
+def _largest_root(c2: FloatArray, c1: FloatArray, c0: FloatArray, wanted: BoolArray) -> FloatArray:
     """Largest root of x^3 + c2 x^2 + c1 x + c0, well separated, by Newton's method.
 
     Newton's method converges monotonically from above.

@@ -16,15 +16,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import ellipkm1, elliprf
 
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.numerics.elliptic import jacobi_sncndn
 from earthspin.top.cubic import AxisStart, Gaps, axis_start, cubic_gaps
 from earthspin.top.start import HeavyTop
-
-BoolArray = NDArray[np.bool_]
 
 #: Half period assigned to motion on the separatrix: longer than any time in the rate unit.
 _NEVER = 1e290

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from earthspin.errors import BodyError
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import BoolArray, ComplexArray, FloatArray
 from earthspin.top.azimuth import shared_rate, turned_at
 from earthspin.top.cubic import AxisStart
 from earthspin.top.height import AxisHeight, Nutation, Place, height_at, nutation_of, place_at
@@ -79,17 +79,17 @@ class Angle(NamedTuple):
         return np.pi / 2 * self.quarters + self.rest
 
     @property
-    def half(self) -> NDArray[np.complex128]:
+    def half(self) -> ComplexArray:
         """Complex number e^(i angle/2) of this angle, exact also after many turns."""
         eighths = np.mod(self.quarters, 8).astype(int)
-        phase: NDArray[np.complex128] = np.exp(0.5j * self.rest) * _EIGHTHS[eighths]
+        phase: ComplexArray = np.exp(0.5j * self.rest) * _EIGHTHS[eighths]
         return phase
 
     def plus(self, other: FloatArray) -> Angle:
         """Return the sum of this angle and another angle in rad."""
         return Angle(self.quarters, self.rest + other)
 
-    def replaced(self, where: NDArray[np.bool_], other: FloatArray) -> Angle:
+    def replaced(self, where: BoolArray, other: FloatArray) -> Angle:
         """Return this angle with the elements where `where` is True replaced, rad."""
         return Angle(np.where(where, 0.0, self.quarters), np.where(where, other, self.rest))
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.top.cubic import AxisStart, axis_start
 from earthspin.top.start import HeavyTop, axis_heights, top_constants
 
@@ -107,7 +107,7 @@ def pattern_limits(top: HeavyTop) -> PatternLimits:
     return PatternLimits(cusp, np.stack([a / above, -a / below], axis=-1))
 
 
-def _is_steady(start: AxisStart) -> NDArray[np.bool_]:
+def _is_steady(start: AxisStart) -> BoolArray:
     """Return True if theta' = theta'' = 0 at the start, so that the inclination is constant."""
     phi_rate = start.phi_rate
     gyroscopic, centrifugal = 2 * phi_rate * start.a, 2 * phi_rate**2 * start.cosine

@@ -10,13 +10,13 @@ from __future__ import annotations
 from dataclasses import fields
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.top.motion import HeavyTopMotion, heavy_top_motion
 from earthspin.top.start import HeavyTop
 
-Numbers = NDArray[np.complex128] | FloatArray
+Numbers = ComplexArray | FloatArray
 
 #: Error bound of the closed form, unless twice the effect of rounding is larger: measured with 500
 #: starts in each of ten families (`python -m tests.top.accuracy 500`).

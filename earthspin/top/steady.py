@@ -8,10 +8,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.top.start import HeavyTop, top_constants
 
 _ROUNDING = 8 * float(np.finfo(float).eps)
@@ -54,7 +53,7 @@ class SleepingTop(NamedTuple):
     """
 
     critical_spin: FloatArray
-    stable: NDArray[np.bool_]
+    stable: BoolArray
     growth_rate: FloatArray
     fall_angle: FloatArray
     rates: FloatArray
@@ -99,7 +98,7 @@ def steady_precession(top: HeavyTop) -> SteadyPrecession:
     return SteadyPrecession(slow, fast)
 
 
-def _refuse_slow_spin(top: HeavyTop, slow: NDArray[np.bool_]) -> None:
+def _refuse_slow_spin(top: HeavyTop, slow: BoolArray) -> None:
     """Raise an error if a top spins too slowly for steady precession at its inclination."""
     if np.any(slow):
         spin, theta, least = (

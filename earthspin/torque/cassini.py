@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.numerics.kepler import true_anomaly
 
 #: Quadrature nodes per revolution for Hansen's coefficients.
@@ -88,7 +88,7 @@ class States(NamedTuple):
 
     number: NDArray[np.int64]
     obliquity: FloatArray
-    stable: NDArray[np.bool_]
+    stable: BoolArray
 
 
 def is_locked(spin_rate: float, motion: float) -> bool:
@@ -167,7 +167,7 @@ def cassini_states(of: Precessing) -> States:
     return States(number[order], angles[order], stable[order])
 
 
-def _numbers(angles: FloatArray, stable: NDArray[np.bool_]) -> NDArray[np.int64]:
+def _numbers(angles: FloatArray, stable: BoolArray) -> NDArray[np.int64]:
     """Conventional numbers 1 to 4 of Cassini states, from their obliquities and stability."""
     number = np.where(angles < 0, 1, 2)
     number[~stable] = 4

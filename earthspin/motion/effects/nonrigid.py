@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from earthspin.constants import MAS, UAS
+from earthspin.constants import DAYS_PER_YEAR, MAS, UAS
 from earthspin.motion.effects.effect import Effect, Numbers
 from earthspin.motion.forces import Forces
 
@@ -21,7 +21,7 @@ class Growth(NamedTuple):
 
     def at(self, day: float) -> float:
         """Bound at a time in days from J2000.0, rad."""
-        return MAS * (self.swing + self.rate * abs(day) / 365.25)
+        return MAS * (self.swing + self.rate * abs(day) / DAYS_PER_YEAR)
 
 
 def _switch_on(forces: Forces, body: Numbers) -> Forces:
