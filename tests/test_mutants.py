@@ -56,7 +56,7 @@ def test_every_kernel_has_one() -> None:
 
 @pytest.mark.slow
 def test_one_is_caught_from_end_to_end(capsys: pytest.CaptureFixture[str]) -> None:
-    mutant = next(m for m in MUTANTS if m.file == "earthspin/mass/inertia.py")
+    mutant = next(m for m in MUTANTS if m.file == "earthspin/mass/figure.py")
     finding = try_mutant(mutant)
     assert finding.caught
     assert finding.witness == "tests/mass/test_relations.py::test_j2_and_back"

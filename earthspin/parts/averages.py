@@ -14,7 +14,7 @@ from earthspin.bodies.limits import OF_AVERAGE, largest, refuse_fast_axis
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
-from earthspin.mass.inertia import moment_difference
+from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.estimate import Estimate
 from earthspin.parts.elements import ellipse_chains, exact_means, no_exact_means

@@ -19,7 +19,7 @@ from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import Yielding, elastic, yielding
 from earthspin.interior.modes import free_modes, mode_period, numbers_of, parts_of
 from earthspin.interior.named import ANELASTIC_EXPONENT
-from earthspin.mass.inertia import ellipticity_from_h
+from earthspin.mass.figure import ellipticity_from_h
 from earthspin.numerics.arrays import ComplexArray
 from earthspin.parts.layered import FROM_LAYERS, LayeredInterior, layers, require_layers
 from earthspin.units import Number

@@ -14,7 +14,7 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Pair, Value, labels, measured, number
-from earthspin.mass.inertia import moment_difference
+from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import FloatArray
 from earthspin.parts.reasons import no_iau_model
 from earthspin.parts.satellites import largest_torques_of_satellites

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from earthspin.constants import JULIAN_YEAR, UAS
-from earthspin.mass.inertia import ellipticity_from_h
+from earthspin.mass.figure import ellipticity_from_h
 from earthspin.numerics import quaternion
 from earthspin.numerics.arrays import FloatArray
 from earthspin.rotor.axisymmetric import SymmetricRotor
