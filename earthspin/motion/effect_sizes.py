@@ -36,7 +36,7 @@ from earthspin.motion.triaxial import semidiurnal_amplitudes
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.gauss_windows import Windows
-from earthspin.torque.quadrupole import apply, dot
+from earthspin.torque.gravity import apply, dot
 
 #: Nodes in a window, 8 d of a path or a quarter of a turn. With eight, sizes differ by up to 0.5 %.
 NODES = 4

@@ -20,7 +20,7 @@ import numpy as np
 
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.gauss_windows import Windows
-from earthspin.torque.quadrupole import cross
+from earthspin.torque.gravity import cross
 
 #: Terms below this change no digit of a unit vector, rad.
 _ROUNDING = 1e-17

@@ -12,8 +12,7 @@ import numpy as np
 
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.gauss_windows import Windows
-from earthspin.torque.harmonics import zonal_law
-from earthspin.torque.quadrupole import quadrupole_torque, tidal_tensor
+from earthspin.torque.gravity import quadrupole_torque, tidal_tensor, zonal_law
 
 #: Positions by name, each of shape (t, 3), m, at times in s from J2000.0.
 Positions = Callable[[FloatArray], Mapping[str, FloatArray]]

@@ -23,7 +23,7 @@ import numpy as np
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.numerics.gauss_windows import Windows
-from earthspin.torque.quadrupole import apply
+from earthspin.torque.gravity import apply
 
 #: Smallest distance from the resonance of a flat body for which the series converges.
 NEAREST_RESONANCE = 0.2
@@ -62,7 +62,7 @@ def semidiurnal_amplitudes(
     ----------
     windows : Windows
     tensor : ndarray, shape (6, w, n)
-        `earthspin.torque.quadrupole.tidal_tensor`.
+        `earthspin.torque.gravity.tidal_tensor`.
     figure : ndarray, shape (3, w, n)
         Figure axis without this motion.
     tilt : ndarray, shape (3, w, n)

@@ -26,7 +26,7 @@ from earthspin.parts.sky import KernelName, Sky, places, sky
 from earthspin.parts.times import Series, epochs
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.protocol import Place
-from earthspin.torque.quadrupole import cross
+from earthspin.torque.gravity import cross
 from earthspin.units import Several, Word
 
 #: Samples of an orbit for its mean pull; the mean over an ellipse converges exponentially.

@@ -21,8 +21,7 @@ from earthspin.parts.satellites import largest_torques_of_satellites
 from earthspin.parts.sky import Sky, places, sky
 from earthspin.parts.times import SPAN_DOC, Dated, Series, by_region, days_of, epochs
 from earthspin.sky.sources import OF_DATE, SourceName
-from earthspin.torque.gravity import torque_error, torque_from_declination
-from earthspin.torque.neglected import largest_torque_on_figure
+from earthspin.torque.gravity import largest_torque_on_figure, torque_error, torque_from_declination
 
 if TYPE_CHECKING:
     import xarray as xr

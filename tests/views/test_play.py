@@ -23,7 +23,7 @@ from earthspin.top.height import nutation_period, turning_angles
 from earthspin.top.motion import heavy_top_motion
 from earthspin.top.start import HeavyTop
 from earthspin.torque.average import precessing_torque
-from earthspin.torque.quadrupole import quadrupole_torque, tidal_tensor
+from earthspin.torque.gravity import quadrupole_torque, tidal_tensor
 from earthspin.torque.rates import precession_rate
 from earthspin.views.page import source
 from earthspin.views.play import PLAYS, play_page

@@ -23,7 +23,7 @@ from earthspin.motion.effects.effect import Effect, Numbers
 from earthspin.motion.forces import Forces, Places, RateLaw, Torque
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.gauss_windows import Windows
-from earthspin.torque.quadrupole import cross, dot
+from earthspin.torque.gravity import cross, dot
 
 
 def geodesic_rate(
