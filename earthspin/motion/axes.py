@@ -20,7 +20,7 @@ from earthspin.constants import ARCSEC, DAY, NORMAL_95
 from earthspin.errors import UndefinedError
 from earthspin.motion.forces import Forces, equatorial_basis, semidiurnal_amplitudes, tilt_of_figure
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.numerics.gauss_windows import Windows, integrated
+from earthspin.numerics.polynomials import Windows, integrated
 
 # --- segments -------------------------------------------------------------------------------------
 # The axis moves by arcseconds during an orbit of a perturber, so the torque hardly depends on this

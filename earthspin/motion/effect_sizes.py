@@ -33,7 +33,7 @@ from earthspin.motion.forces import Forces, semidiurnal_amplitudes, tilt_of_figu
 from earthspin.motion.solution import State
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.gauss_windows import Windows
+from earthspin.numerics.polynomials import Windows
 from earthspin.torque.gravity import apply, dot
 
 #: Nodes in a window, 8 d of a path or a quarter of a turn. With eight, sizes differ by up to 0.5 %.

@@ -14,7 +14,7 @@ import numpy as np
 from earthspin.constants import DAYS_PER_YEAR, MAS, SPEED_OF_LIGHT, UAS
 from earthspin.motion.forces import Forces, Places, RateLaw, Torque
 from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.gauss_windows import Windows
+from earthspin.numerics.polynomials import Windows
 from earthspin.torque.gravity import cross, dot
 
 # --- effects and their register -------------------------------------------------------------------

@@ -13,7 +13,7 @@ import numpy as np
 
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.numerics.gauss_windows import Windows
+from earthspin.numerics.polynomials import Windows
 from earthspin.torque.gravity import apply, cross, quadrupole_torque, tidal_tensor, zonal_law
 
 #: Positions by name, each of shape (t, 3), m, at times in s from J2000.0.

@@ -28,7 +28,7 @@ from earthspin.motion.forces import Forces, equatorial_basis
 from earthspin.motion.march import CONVERGED, FINEST, ORDER, Masses, Piece, Solver, half_windows
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.gauss_windows import Windows
+from earthspin.numerics.polynomials import Windows
 
 # --- bodies and their neighbours ------------------------------------------------------------------
 # A neighbour is the same body with one uncertain number changed by its half-width. The difference

@@ -15,8 +15,7 @@ from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
 from earthspin.mass.figure import moment_difference
-from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.estimate import Estimate
+from earthspin.numerics.arrays import Estimate, FloatArray
 from earthspin.parts.elements import ellipse_chains, exact_means, no_exact_means
 from earthspin.parts.satellites import Carried, carried, without_swings
 from earthspin.parts.sky import Sky, Stretch

@@ -19,7 +19,7 @@ from earthspin.mass.figure import inverse_polar_moment
 from earthspin.motion.effects import EFFECTS, PLANETS, RIGID
 from earthspin.motion.forces import Figure, Forces, Places, RateLaw, Torque
 from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.gauss_windows import Windows
+from earthspin.numerics.polynomials import Windows
 from earthspin.parts.elements import all_by_elements
 from earthspin.parts.satellites import common_turn
 from earthspin.parts.sky import KernelName, Sky, places, sky

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.numerics.gauss_windows import Windows, rule
+from earthspin.numerics.polynomials import Windows, rule
 from earthspin.secular.orbit import Pull
 from earthspin.torque.gravity import dot
 
