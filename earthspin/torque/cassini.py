@@ -135,12 +135,12 @@ def hansen(multiple: int, eccentricity: float) -> float:
     return float(np.mean(nearness**3 * np.cos(2 * true - multiple * mean)))
 
 
-def cassini_states(of: Precessing) -> States:
+def cassini_states(body: Precessing) -> States:
     """Compute obliquity and stability of all Cassini states of a body.
 
     Parameters
     ----------
-    of : Precessing
+    body : Precessing
         Body and orbit.
 
     Raises
@@ -148,22 +148,22 @@ def cassini_states(of: Precessing) -> States:
     UndefinedError
         If the orbit does not precess, or is perpendicular to the plane of precession.
     """
-    i, nu = of.inclination, of.node_rate
+    i, nu = body.inclination, body.node_rate
     if nu == 0 or np.sin(i) == 0:
         raise UndefinedError(
             "an orbit whose plane does not move has no Cassini states; give it an inclination and "
             "a period of its node"
         )
     # with z = exp(i eps), the slope is a quartic polynomial in z
-    single = nu * np.cos(i) - 1.5 * of.locked
-    double = -0.75 * (of.axial + of.locked)
+    single = nu * np.cos(i) - 1.5 * body.locked
+    double = -0.75 * (body.axial + body.locked)
     roots = np.roots(
         [double, single - 1j * nu * np.sin(i), 0, -single - 1j * nu * np.sin(i), -double]
     )
     angles = np.angle(roots[np.abs(np.abs(roots) - 1) < ON_CIRCLE])
     for _ in range(3):  # Newton steps to full precision
-        angles = angles - of.slope(angles) / of.curvature(angles)
-    stable = of.curvature(angles) * nu * np.sin(i) / np.sin(angles) > 0
+        angles = angles - body.slope(angles) / body.curvature(angles)
+    stable = body.curvature(angles) * nu * np.sin(i) / np.sin(angles) > 0
     number = _numbers(angles * np.sign(nu), stable)
     order = np.argsort(number)
     return States(number[order], angles[order], stable[order])
@@ -195,8 +195,6 @@ def locked_ratio(
 ) -> float | None:
     """Rotations per orbit of a body in spin-orbit resonance, from positions; otherwise None.
 
-    Return None if there is no resonance.
-
     Parameters
     ----------
     times : ndarray, shape (n,)
@@ -209,8 +207,8 @@ def locked_ratio(
         rad/s, not negative, about that axis.
     """
     across = np.cross(axis, position[0])
-    first, second = np.cross(across, axis), across
-    angle = np.unwrap(np.arctan2(position @ second, position @ first))
+    x_axis, y_axis = np.cross(across, axis), across
+    angle = np.unwrap(np.arctan2(position @ y_axis, position @ x_axis))
     mean_motion = (angle[-1] - angle[0]) / (times[-1] - times[0])
     if mean_motion <= 0:
         return None
