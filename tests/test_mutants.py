@@ -19,8 +19,8 @@ NO_KERNEL = {"__init__"}
 #: Modules between what is given and the kernels, and between the kernels and the answer.
 BORDER = (
     *("units", "dates", "bodies/figure", "bodies/earth", "constants", "scenes"),
-    *("engine/question", "engine/plan", "engine/labels", "engine/neglected", "engine/store"),
-    *("engine/drafts", "engine/zarr_folder", "engine/unfinished", "errors", "process"),
+    *("engine/question", "engine/run", "engine/labels", "engine/neglected", "engine/store"),
+    *("engine/drafts", "engine/zarr_folder", "engine/blocks", "errors", "process"),
 )
 
 

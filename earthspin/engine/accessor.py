@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 import xarray as xr
 
 import earthspin
-from earthspin.engine.plan import Plan, plan_parts, scene_of, with_run_times
+from earthspin.engine.plan import Plan
+from earthspin.engine.run import Run
 from earthspin.engine.spread import quantiles, sensitivity
 from earthspin.errors import SceneError
 
@@ -42,7 +43,7 @@ class Answer:
         The question of this answer, with every number.
     plan : Plan
         Plan of the run: parts that ran, and parts that were left out, with reasons; with run times
-        if it ran in this process.
+        in an answer as it was returned, but not in a copy or a selection.
 
     Examples
     --------
@@ -54,6 +55,7 @@ class Answer:
 
     def __init__(self, answer: xr.Dataset | xr.DataTree) -> None:
         self._dataset = answer.to_dataset() if isinstance(answer, xr.DataTree) else answer
+        self._plan: Plan | None = None
 
     @property
     def scene(self) -> Question:
@@ -64,7 +66,11 @@ class Answer:
     @property
     def plan(self) -> Plan:
         """Plan of the run: functions that ran, and functions left out, with the reasons."""
-        return with_run_times(plan_parts(self.scene), scene_of(self._dataset))
+        return self._plan or Run(self.scene).plan()
+
+    @plan.setter
+    def plan(self, plan: Plan) -> None:
+        self._plan = plan
 
     def to_frame(self) -> pd.DataFrame:
         """Return the result as a pandas table: a row for each label, a column for each number.
