@@ -266,8 +266,8 @@ class Motion:
             np.concatenate([rotations.rotated(start.attitude, start.momentum), start.attitude]),
             np.concatenate([start.momentum, start.attitude])[:, :1],
         )
-        self._now: tuple[Piece, Piece] | None = None
-        self._asked = 0.0
+        self._current: tuple[Piece, Piece] | None = None
+        self._last_time = 0.0
         self._worst = np.zeros((body.lanes, len(KINDS), 1))
 
     @property
@@ -313,21 +313,21 @@ class Motion:
         -------
         RotationSeries
         """
-        if times[0] < self._asked:
+        if times[0] < self._last_time:
             self._restart()
-        self._asked = float(times[-1])
+        self._last_time = float(times[-1])
         states, errors, done = [], [], 0
         while done < times.size:
-            if self._now is None or times[done] > self._now[1].edges[-1]:
-                if self._now is not None:
-                    self._worst = self._errors_until(self._now[0].edges)[..., -1:]
-                self._now = next(self._pieces)
+            if self._current is None or times[done] > self._current[1].edges[-1]:
+                if self._current is not None:
+                    self._worst = self._errors_until(self._current[0].edges)[..., -1:]
+                self._current = next(self._pieces)
                 if tell is not None:
-                    tell(float(self._now[1].edges[-1]))
-            upto = int(np.searchsorted(times, self._now[1].edges[-1], side="right"))
+                    tell(float(self._current[1].edges[-1]))
+            upto = int(np.searchsorted(times, self._current[1].edges[-1], side="right"))
             part = times[done:upto]
-            states.append(self._now[1].at(part)[:, 0])
-            edges = self._now[0].edges
+            states.append(self._current[1].at(part)[:, 0])
+            edges = self._current[0].edges
             last_edge = np.clip(np.searchsorted(edges, part) - 1, 0, None)
             before = self._errors_until(edges)[..., last_edge]
             errors.append(np.maximum(before, self._errors(part)))
@@ -350,8 +350,8 @@ class Motion:
         The shape is (lanes, kinds, t): the first lane has the error of the method, each other lane
         that of one uncertain input.
         """
-        assert self._now is not None
-        rough, exact = self._now
+        assert self._current is not None
+        rough, exact = self._current
         states = exact.at(times)
         other = rough.along_sky(times)
         method = TWICE * differences(self._body.first(), states[:, 0], other)

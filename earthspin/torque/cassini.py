@@ -27,6 +27,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.numerics.kepler import true_anomaly
@@ -187,7 +188,7 @@ def _numbers(angles: FloatArray, stable: BoolArray) -> NDArray[np.int64]:
 #: tolerance.
 MOST_HALF_TURNS, CLOSENESS, ORBITS = 6, 0.01, 20
 #: Rotation period, s, below which a body is far from resonance with orbits of days or longer.
-SLOW = 5 * 86400.0
+SLOW = 5 * DAY
 
 
 def locked_ratio(
