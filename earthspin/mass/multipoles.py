@@ -323,7 +323,7 @@ class Multipoles:
     def zonal(self) -> FloatArray:
         """Zonal moments Z_n (multipole moments of order 0) for n = 0 to n_max, kg.
 
-        They are defined as in `earthspin.mass.multipoles`.
+        They are defined as in `zonal_integrals`.
         """
         return np.real(self.moments[:, 0])
 

@@ -274,7 +274,7 @@ class Shape:
         Parameters
         ----------
         vertices, faces
-            As for `earthspin.mass.shape.closed_mesh`.
+            As for `closed_mesh`.
         density, mass : float
             Exactly one of the two, kg m-3 or kg.
         radius : float, optional

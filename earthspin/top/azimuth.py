@@ -1,6 +1,6 @@
 """Euler angles phi and psi of a top in time, accurate also near the poles (I.7.9).
 
-It is computed by integrals of the third kind that are regular at the poles.
+The angles are computed by integrals of the third kind that are regular at the poles.
 
 Half the sum and half the difference of phi and psi (for I1 = I3),
 
@@ -86,10 +86,9 @@ def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
 def shared_rate(nutation: Nutation) -> FloatArray:
     """Constant rate of phi and psi that the angles of `turned_at` do not include.
 
-    It is half the axial angular momentum over I1, or zero.
-
-    It is separated if the axis stays so near the upper pole that phi and psi are nearly degenerate;
-    their sum then advances almost at the rate of the spin.
+    It is half the axial angular momentum over I1, or zero. It is separated if the axis stays so
+    near the upper pole that phi and psi are nearly degenerate; their sum then advances almost at
+    the rate of the spin.
     """
     return np.where(_has_lower_arc(nutation), 0.0, nutation.start.a / 2)
 
