@@ -12,12 +12,11 @@ from typing import Any, TypeVar
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 
 #: Real values, or complex values for vectors in a plane.
-_AnyArray = TypeVar("_AnyArray", NDArray[np.float64], NDArray[np.complex128])
+_AnyArray = TypeVar("_AnyArray", FloatArray, ComplexArray)
 
 _CHUNK = 1 << 15  # times evaluated in one call, so that the basis stays in the processor's cache
 

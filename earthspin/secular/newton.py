@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.numerics.gauss_windows import Windows, rule
 from earthspin.secular.orbit import Pull
-from earthspin.torque.quadrupole import dot
+from earthspin.torque.gravity import dot
 
 #: Largest number of sweeps for the linear equations of windows, and the size that counts as
 #: divergence.

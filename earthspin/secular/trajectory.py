@@ -22,7 +22,7 @@ from earthspin.secular.angles import broadcast_over_members
 from earthspin.secular.newton import TINY, Turn, moved, slope, step
 from earthspin.secular.orbit import Orbit, Pull, pull, reference_axes
 from earthspin.secular.strength import Strength
-from earthspin.torque.quadrupole import dot
+from earthspin.torque.gravity import dot
 
 #: Number of nodes per window of the orbit.
 ORDER = 16
