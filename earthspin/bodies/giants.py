@@ -10,10 +10,9 @@ from __future__ import annotations
 import math
 
 from earthspin.bodies.body import Body
-from earthspin.bodies.figure import flattening_of
 from earthspin.bodies.inner import IAU_2015, SWING
-from earthspin.bodies.orbit import Orbit
-from earthspin.bodies.satellites import Satellite
+from earthspin.bodies.orbit import Orbit, Satellite
+from earthspin.bodies.shapes import flattening_of
 from earthspin.constants import (
     ARCSEC,
     AU,

@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 
 from earthspin.bodies.body import Body
-from earthspin.bodies.figure import flattening_of
 from earthspin.bodies.giants import JPL, JPL_READ, SATELLITES
 from earthspin.bodies.inner import IAU_2015
 from earthspin.bodies.orbit import Orbit
+from earthspin.bodies.shapes import flattening_of
 from earthspin.constants import (
     DAY,
     DAYS_PER_CENTURY,

@@ -10,7 +10,7 @@ import numpy as np
 
 from earthspin._version import version
 from earthspin.bodies import Body, Numeric, in_a_sentence
-from earthspin.bodies.limits import OF_AVERAGE, largest, refuse_fast_axis
+from earthspin.bodies.checks import OF_AVERAGE, largest, refuse_fast_axis
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError

@@ -12,7 +12,7 @@ import numpy as np
 
 from earthspin._version import version
 from earthspin.bodies import EARTH, MOON, SUN, Body, all_of
-from earthspin.bodies.limits import extent, overlap, refuse_break_up
+from earthspin.bodies.checks import extent, overlap, refuse_break_up
 from earthspin.bodies.planets import on_its_orbit, pulled_by
 from earthspin.dates import Span
 from earthspin.engine.part import part

@@ -7,7 +7,7 @@ from typing import Annotated
 import numpy as np
 
 from earthspin.bodies import EARTH, Body, in_a_sentence
-from earthspin.bodies.limits import refuse_break_up
+from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import earthspin
 from earthspin import EARTH, MARS, SceneError, UndefinedError
-from earthspin.bodies.layered import Layers
+from earthspin.bodies.kinds import Layers
 from earthspin.errors import Where
 from earthspin.interior.layers import Layer, LayeredBody
 from earthspin.interior.love import elastic
