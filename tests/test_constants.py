@@ -18,9 +18,9 @@ from earthspin.bodies.moons import TITAN_MOMENT
 from earthspin.bodies.planets import PRECESSING_ORBITS
 from earthspin.engine.labels import FROM_SI
 from earthspin.interior import mars
-from earthspin.interior.diurnal_ocean import WAVES
 from earthspin.interior.love import elastic
 from earthspin.interior.named import MARS_K2
+from earthspin.interior.ocean_and_anelasticity import WAVES
 
 
 def test_each_constant_has_a_source_and_says_where_it_was_read() -> None:

@@ -12,9 +12,8 @@ import numpy as np
 
 from earthspin.constants import Constant
 from earthspin.errors import EarthspinError, Where, nearest
-from earthspin.interior.layers import Layer, LayeredBody
+from earthspin.interior.layers import Layer, LayeredBody, from_samples
 from earthspin.interior.named import INTERIORS
-from earthspin.interior.samples import from_samples
 from earthspin.sky.sources import read_position, write_position
 from earthspin.units import Text, pack, quantity, real_numbers, unpack
 

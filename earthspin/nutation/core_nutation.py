@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from earthspin.constants import DAYS_PER_YEAR
 from earthspin.errors import UndefinedError
-from earthspin.interior.published import OBSERVED_CORE_NUTATION
+from earthspin.interior.named import OBSERVED_CORE_NUTATION
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 
 #: Period in space, d.

@@ -15,8 +15,7 @@ import numpy as np
 
 from earthspin.constants import DAYS_PER_CENTURY
 from earthspin.interior.modes import mode_period
-from earthspin.interior.named import EXPONENT_RANGE
-from earthspin.interior.published import CORE_NUTATION, K_CMB_OUT_OF_PHASE, K_ICB
+from earthspin.interior.named import CORE_NUTATION, EXPONENT_RANGE, K_CMB_OUT_OF_PHASE, K_ICB
 from earthspin.numerics.arrays import Array, ComplexArray, FloatArray
 from earthspin.numerics.polynomials import lagrange
 from earthspin.nutation.ladder import Rung, Setting, climb

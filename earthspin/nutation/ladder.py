@@ -13,14 +13,13 @@ from functools import lru_cache
 import numpy as np
 
 from earthspin.constants import COMPUTED, DAY, Constant
-from earthspin.interior.anelastic import anelastic_strain
-from earthspin.interior.diurnal_ocean import diurnal_response
 from earthspin.interior.equilibrium import Figure, figure
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import Yielding, elastic, yielding
 from earthspin.interior.modes import MODES, Parts, all_fluid, free_modes, transfer
 from earthspin.interior.modes import parts_of as interior_parts
-from earthspin.interior.published import CORE_NUTATION, K_CMB_OUT_OF_PHASE, K_ICB
+from earthspin.interior.named import CORE_NUTATION, K_CMB_OUT_OF_PHASE, K_ICB
+from earthspin.interior.ocean_and_anelasticity import anelastic_strain, diurnal_response
 from earthspin.numerics.arrays import Array
 
 #: Effect added by each rung, in order.

@@ -16,11 +16,10 @@ from typing import Any
 import numpy as np
 
 from earthspin.errors import UndefinedError
-from earthspin.interior.anelastic import anelastic_strain
 from earthspin.interior.equilibrium import hydrostatic_core
 from earthspin.interior.love import elastic, softening
 from earthspin.interior.named import ANELASTIC_EXPONENT, Interior
-from earthspin.interior.ocean import global_ocean
+from earthspin.interior.ocean_and_anelasticity import anelastic_strain, global_ocean
 from earthspin.mass.figure import ellipticity_from_h, polar_moment_factor
 from earthspin.numerics.arrays import Array
 from earthspin.wobble.mantle_and_core import Core, Mantle, Roots, over, solve

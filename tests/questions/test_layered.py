@@ -12,11 +12,9 @@ import earthspin
 from earthspin import EARTH, MARS, SceneError, UndefinedError
 from earthspin.bodies.kinds import Layers
 from earthspin.errors import Where
-from earthspin.interior.layers import Layer, LayeredBody
+from earthspin.interior.layers import PREM, Layer, LayeredBody, from_samples
 from earthspin.interior.love import elastic
 from earthspin.interior.mars import MARS as MARS_LAYERS
-from earthspin.interior.prem import PREM
-from earthspin.interior.samples import from_samples
 from tests import shipped
 from tests.refusals import refused
 
