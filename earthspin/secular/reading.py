@@ -16,7 +16,7 @@ import numpy as np
 from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import ApartError, UndefinedError
 from earthspin.numerics.arrays import FloatArray
-from earthspin.nutation.angles import followed, general_precession
+from earthspin.nutation.analysis import followed, general_precession
 from earthspin.secular.budget import Quantiles, Setting, Solved, changed, draws
 from earthspin.secular.orbit import Orbit, broadcast_over_members, moons_height, reference_axes
 from earthspin.secular.trajectory import Trajectory, solve
