@@ -37,7 +37,7 @@ def test_nothing_but_bodies_and_scenes_knows_the_earth() -> None:
         *("parts/sky.py", "parts/pole_table.py"),
         "views/play.py",  # pages to play with start from the Earth
         "views/of_question.py",  # by the titles of pages of the documentation
-        "sky/kernel_differences.py",  # what was measured, by the codes of the bodies
+        "sky/kernel.py",  # differences of kernels, by the codes of the bodies
         "sky/orbit_files.py",  # whose orbit a file holds if none is named, and the check of it
         "sky/orbit_table.py",  # what was measured of the orbits that are shipped
     }

@@ -35,8 +35,7 @@ from earthspin.card import card
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
 from earthspin.interior.layers import LayeredBody
 from earthspin.sky.elements import Plane
-from earthspin.sky.pole_tables import Angles
-from earthspin.sky.poles import Direction, FixedPole, Pole, pole_of
+from earthspin.sky.poles import Angles, Direction, FixedPole, Pole, pole_of
 from earthspin.sky.sources import describe_position, read_position
 from earthspin.units import Text
 

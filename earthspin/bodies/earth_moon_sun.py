@@ -22,8 +22,7 @@ from earthspin.constants import (
     Constant,
     Tabulated,
 )
-from earthspin.sky.moving_pole import MovingPole
-from earthspin.sky.poles import IAU_2006, Direction
+from earthspin.sky.poles import IAU_2006, Direction, MovingPole
 
 # --- Earth ----------------------------------------------------------------------------------------
 

@@ -26,8 +26,7 @@ from earthspin.constants import (
     Constant,
     Tabulated,
 )  # fmt: skip
-from earthspin.sky.moving_pole import MovingPole
-from earthspin.sky.poles import Direction
+from earthspin.sky.poles import Direction, MovingPole
 
 ELEMENTS = "Standish & Williams, approximate elements 1800-2050"
 _JUNO = "Durante et al. 2020, Geophys. Res. Lett. 47, e2019GL086572 (Juno)"

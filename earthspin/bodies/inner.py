@@ -24,8 +24,7 @@ from earthspin.constants import (
     Constant,
     Tabulated,
 )
-from earthspin.sky.moving_pole import MovingPole
-from earthspin.sky.poles import Direction, FixedPole
+from earthspin.sky.poles import Direction, FixedPole, MovingPole
 
 # --- Mercury and Venus ----------------------------------------------------------------------------
 

@@ -23,7 +23,7 @@ from earthspin.constants import (
     Tabulated,
 )
 from earthspin.mass.figure import homogeneous_ellipsoid
-from earthspin.sky.moving_pole import MovingPole
+from earthspin.sky.poles import MovingPole
 
 _IESS = "Iess et al. 2012, Science 337, 457 (Cassini)"
 #: For the moment of inertia of Titan the relation of Radau and Darwin gives J2 = 33.29e-6 and

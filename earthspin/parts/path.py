@@ -37,7 +37,7 @@ from earthspin.parts.reasons import no_iau_model
 from earthspin.parts.satellites import drifts, obliquity_of, swings
 from earthspin.parts.times import days_of
 from earthspin.progress import progress
-from earthspin.sky.kernel_differences import DRIFT_FROM, growth
+from earthspin.sky.kernel import DRIFT_FROM, growth
 
 if TYPE_CHECKING:
     from earthspin.nutation.analysis import Circles, PoleAnalysis, Secular

@@ -380,7 +380,7 @@ class Standstills(Variables, along=("standstill",)):
 @part(unless=reasons.no_moon)
 def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
     """Find major and minor lunar standstills, with dates and extreme declinations."""
-    from earthspin.sky.standstill import find_standstills
+    from earthspin.sky.iau import find_standstills
 
     moon = {"moon": sky.targets["moon"]}
 
