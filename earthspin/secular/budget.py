@@ -180,9 +180,7 @@ class Solved:
 def solved(setting: Setting, span: tuple[float, float], uncertainty: Uncertainty) -> Solved:
     """Integrate the spin axis with nominal inputs, and again with each error source varied.
 
-    A further integration has windows of twice the length.
-
-    The doubled windows give the error of the method.
+    A further integration with windows of twice the length gives the error of the method.
 
     Parameters
     ----------
@@ -192,29 +190,14 @@ def solved(setting: Setting, span: tuple[float, float], uncertainty: Uncertainty
     uncertainty : Uncertainty
     """
     path = solve(setting.strength, setting.orbit, setting.start, span, pieces=2)
-    others = (("method", setting), *changes(setting, uncertainty))
-    return Solved(
-        path,
-        setting,
-        uncertainty,
-        tuple(
-            (
-                name,
-                solve(
-                    changed_setting.strength,
-                    changed_setting.orbit,
-                    changed_setting.start,
-                    span,
-                    near=path,
-                ),
-                changed_setting,
-            )
-            for name, changed_setting in others
-        ),
-    )
+    others = []
+    for cause, varied in (("method", setting), *changes(setting, uncertainty)):
+        varied_path = solve(varied.strength, varied.orbit, varied.start, span, near=path)
+        others.append((cause, varied_path, varied))
+    return Solved(path, setting, uncertainty, tuple(others))
 
 
-def moved(orbit: Orbit, error: HalfWidths, ways: Sequence[float]) -> ModifiedOrbit:
+def shifted_orbit(orbit: Orbit, error: HalfWidths, ways: Sequence[float]) -> ModifiedOrbit:
     """Orbit whose normal and eccentricity are shifted by multiples of their half-widths.
 
     Parameters
@@ -288,7 +271,7 @@ def changed(setting: Setting, uncertainty: Uncertainty, amounts: FloatArray) -> 
     if any(angles):
         start = inclined_axis(setting, angles)
     if any(ways):
-        orbit = moved(orbit, uncertainty.orbit, ways)
+        orbit = shifted_orbit(orbit, uncertainty.orbit, ways)
     stronger, faster = 1 + constant * uncertainty.constant, 1 + tides * TIDES_SHARE
     strength = replace(
         strength,

@@ -214,33 +214,31 @@ class Readings:
 
     def apart(self, name: str) -> dict[str, FloatArray]:
         """Change of a derived quantity due to each error source, by name of the source."""
-        return _by_cause(
-            (cause, moved_by(changed, self.mine, name)) for cause, changed in self.moved
-        )
+        return _by_cause((cause, moved_by(varied, self.mine, name)) for cause, varied in self.moved)
 
     def poles_apart(self, which: Literal["pole", "normal"]) -> dict[str, FloatArray]:
         """Change in direction, rad, of spin axis or orbit normal due to each error source."""
-        mine = getattr(self.mine, which)
+        nominal = getattr(self.mine, which)
         return _by_cause(
-            (cause, angle(getattr(changed, which), mine)) for cause, changed in self.moved
+            (cause, angle(getattr(varied, which), nominal)) for cause, varied in self.moved
         )
 
 
-def moved_by(of: Read, mine: Read, name: str) -> FloatArray:
+def moved_by(varied: Read, nominal: Read, name: str) -> FloatArray:
     """Difference of a derived quantity between a varied and the nominal solution."""
-    moved = of.values[name] - mine.values[name]
+    moved = varied.values[name] - nominal.values[name]
     if name != "longitude_of_perihelion":
         return moved
     # the perihelion of a nearly circular orbit may differ by whole turns between solutions, which
     # is no physical change
-    by_axis = of.values["general_precession"] - mine.values["general_precession"]
+    by_axis = varied.values["general_precession"] - nominal.values["general_precession"]
     by_orbit = moved - by_axis
     return np.asarray(by_axis + by_orbit - _TURN * np.rint(by_orbit / _TURN))
 
 
-def angle(of: FloatArray, mine: FloatArray) -> FloatArray:
+def angle(varied: FloatArray, nominal: FloatArray) -> FloatArray:
     """Angle between unit vectors of two arrays, rad; the first axis holds x, y, z."""
-    half = np.linalg.norm(of - mine, axis=0) / 2
+    half = np.linalg.norm(varied - nominal, axis=0) / 2
     return np.asarray(2 * np.arcsin(np.minimum(half, 1.0)))
 
 

@@ -41,17 +41,15 @@ from earthspin.torque.gravity import dot
 
 #: Largest number of sweeps for the linear equations of windows, and the size that counts as
 #: divergence.
-MOST_SWEEPS, DIVERGED = 40, 1e6
+MOST_SWEEPS, SWEEPS_DIVERGE = 40, 1e6
 #: Smallest change used as a divisor.
 TINY = 1e-300
 
 
 class Turn(NamedTuple):
-    """Averaged torque on a spin axis at the nodes, resolved along a reference axis N.
+    """Averaged torque on a spin axis at the nodes: axis m, constant a and an additional rotation g.
 
-    The components perpendicular to N are complex numbers.
-
-    The torque has the axis m, the constant a, and an additional rotation g.
+    Vectors are resolved along a reference axis N; components perpendicular to N are complex.
 
     Attributes
     ----------
@@ -70,22 +68,20 @@ class Turn(NamedTuple):
     constant: FloatArray
 
     @classmethod
-    def of(cls, on: Pull, axes: FloatArray, windows: Windows) -> Turn:
+    def of(cls, torque: Pull, axes: FloatArray, windows: Windows) -> Turn:
         """Resolve an averaged torque into components along and perpendicular to the axis N."""
         shape = windows.times.shape
 
-        def seen(vector: FloatArray) -> tuple[ComplexArray, FloatArray]:
+        def components(vector: FloatArray) -> tuple[ComplexArray, FloatArray]:
             x, y, z = (dot(row, vector).reshape(*vector.shape[1:-1], *shape) for row in axes)
             return x + 1j * y, z
 
-        constant = on.constant.reshape(*on.constant.shape[:-1], *shape)
-        return cls(*seen(on.axis), *seen(on.geodesic), constant)
+        constant = torque.constant.reshape(*torque.constant.shape[:-1], *shape)
+        return cls(*components(torque.axis), *components(torque.geodesic), constant)
 
 
 class Slope(NamedTuple):
     """Rates of a spin axis's longitude and of its component along N at the nodes, with derivatives.
-
-    Their derivatives by longitude and height are included.
 
     The shape is (..., w, n) for w windows of n nodes.
 
@@ -105,39 +101,37 @@ class Slope(NamedTuple):
     by_longitude: FloatArray
 
 
-def slope(on: Turn, phi: FloatArray, z: FloatArray) -> Slope:
-    """Compute the rates of a spin axis's longitude and component along N, with their derivatives.
-
-    The rates are in rad/s and in 1/s.
+def slope(torque: Turn, phi: FloatArray, z: FloatArray) -> Slope:
+    """Compute the rates of a spin axis's longitude (rad/s) and height (1/s), with derivatives.
 
     The height is the component along the reference axis.
     """
-    seen = np.empty(phi.shape, dtype=complex)
-    np.cos(phi, out=seen.real)
-    np.negative(np.sin(phi), out=seen.imag)
+    rotation = np.empty(phi.shape, dtype=complex)
+    np.cos(phi, out=rotation.real)
+    np.negative(np.sin(phi), out=rotation.imag)
     rho2 = 1 - z * z
     rho = np.sqrt(rho2)
     slant = z / rho
-    axis = on.axis * seen
+    axis = torque.axis * rotation
     towards = axis.real.copy()
-    lift_by_phi, lift_by_z = rho * axis.imag, on.axis_height - slant * towards
-    pull = on.constant * (rho * towards + z * on.axis_height)  # a L
-    turn = on.drift * seen - pull * axis
+    lift_by_phi, lift_by_z = rho * axis.imag, torque.axis_height - slant * towards
+    pull = torque.constant * (rho * towards + z * torque.axis_height)  # a L
+    turn = torque.drift * rotation - pull * axis
     along = turn.real.copy()
     across = turn.imag.copy()
     rates = np.empty((2, *phi.shape))
-    np.subtract(on.drift_height - pull * on.axis_height, slant * along, out=rates[0])
+    np.subtract(torque.drift_height - pull * torque.axis_height, slant * along, out=rates[0])
     np.multiply(rho, -across, out=rates[1])
-    steep = on.constant * lift_by_z
+    steep = torque.constant * lift_by_z
     return Slope(
         rates,
         -steep * lift_by_phi - slant * across,
         -steep * lift_by_z - along / (rho2 * rho),
-        on.constant * lift_by_phi**2 + rho * along,
+        torque.constant * lift_by_phi**2 + rho * along,
     )
 
 
-def moved(
+def advance(
     windows: Windows, rates: FloatArray, state: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Integrate the rates of a spin axis's longitude and component along N over time windows.
@@ -151,7 +145,7 @@ def moved(
 
 
 def step(
-    windows: Windows, on: Turn, values: FloatArray, state: FloatArray, left: FloatArray
+    windows: Windows, torque: Turn, values: FloatArray, state: FloatArray, left: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Make one Newton step for a spin axis's longitude and component along N; return also its size.
 
@@ -162,7 +156,7 @@ def step(
     Parameters
     ----------
     windows : Windows
-    on : Turn
+    torque : Turn
     values : ndarray, shape (2, ..., w, n)
         Longitude and height.
     state : ndarray, shape (2, ...)
@@ -176,33 +170,34 @@ def step(
     change : ndarray, shape (...)
         Largest change; infinity if the linear equations could not be solved.
     """
-    at = slope(on, *values)
-    inside, starts, _ = moved(windows, at.rates, state)
+    slopes = slope(torque, *values)
+    inside, starts, _ = advance(windows, slopes.rates, state)
     sides = np.zeros((2, 3, *values.shape[1:]))
     np.subtract(starts[..., np.newaxis] + inside, values, out=sides[:, 0])
     sides[0, 1] = sides[1, 2] = 1.0
-    change, ends, settled = _linear(windows, at, sides, left)
+    change, ends, settled = _linear(windows, slopes, sides, left)
     by_phi, by_z = _shifts(ends)[..., np.newaxis]
     total = change[:, 0] + change[:, 1] * by_phi + change[:, 2] * by_z
     return values + total, np.where(settled, np.abs(total).max(axis=(0, -2, -1)), np.inf)
 
 
 def _linear(
-    windows: Windows, at: Slope, sides: FloatArray, left: FloatArray
+    windows: Windows, slopes: Slope, sides: FloatArray, left: FloatArray
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
     """Solve the linear equations of one Newton step, in every time window.
 
     The equation is d = c + S J d for the change d, the defect c, the Jacobian J and the integral S.
 
-    The result has the shape (2, k, ..., w, n).
-
     Each sweep solves for the height and then for the longitude; the coupling of longitude to height
-    is small, so the residual decreases fast. Returns also the change over each window, shape (2, k,
-    ..., w), and which axes converged; each axis has as many sweeps as it would alone.
+    is small, so the residual decreases fast. Return d, shape (2, k, ..., w, n), the change over
+    each window, shape (2, k, ..., w), and which axes converged; each axis has as many sweeps as it
+    would alone.
     """
     gauss = rule(windows.order)
     jacobian = np.empty((3, *sides.shape[1:]))  # as wide as the sides: broadcasting is slower
-    for wide, derivative in zip(jacobian, (at.mixed, at.by_height, at.by_longitude), strict=True):
+    for wide, derivative in zip(
+        jacobian, (slopes.mixed, slopes.by_height, slopes.by_longitude), strict=True
+    ):
         wide[:] = derivative * windows.half
     mixed, by_z, by_phi = jacobian
     phi, z = sides
@@ -218,7 +213,7 @@ def _linear(
         change = np.abs(longitude - phi).max(axis=(0, -2, -1)) / size
         phi, z = longitude, height
         settled = settled | (change * np.minimum(change / before, 1.0) < left)
-        if settled.all() or size.max() > DIVERGED:
+        if settled.all() or size.max() > SWEEPS_DIVERGE:
             break
         before = np.maximum(change, TINY)
     ends = [rate @ gauss.weights for rate in (mixed * phi + by_z * z, by_phi * phi - mixed * z)]
@@ -253,7 +248,7 @@ BLOCK = 50
 #: Convergence tolerance of a block, rad: stop when the predicted next Newton step is smaller. The
 #: prediction uses the residual of the sweeps and the ratio of the last two steps.
 SETTLED = 1e-9
-MOST_STEPS, DIVERGES = 25, 10.0
+MOST_STEPS, STEPS_DIVERGE = 25, 10.0
 #: Fraction of a step that sweeps may leave for the next step, per radian of the previous step.
 SWEPT = 0.1
 #: Largest height |Z| at which the longitude is well conditioned: 8 degrees from the axis.
@@ -433,23 +428,25 @@ class _BlockSolver:
         Return the Legendre series and the final longitude and height; None if Newton's method does
         not converge.
         """
-        on = Turn.of(self._pull(windows.times.ravel(), state[..., np.newaxis]), self.axes, windows)
-        values, before = self._guess(windows, on, state), np.ones(state.shape[1:])
+        torque = Turn.of(
+            self._pull(windows.times.ravel(), state[..., np.newaxis]), self.axes, windows
+        )
+        values, before = self._guess(windows, torque, state), np.ones(state.shape[1:])
         settled = np.zeros(state.shape[1:], dtype=bool)
         for _ in range(MOST_STEPS):
             self.steps += 1
             residual_share = SWEPT * np.minimum(before, 1.0)
-            new, change = step(windows, on, values, state, residual_share)
+            new, change = step(windows, torque, values, state, residual_share)
             if settled.any():
                 new = np.where(settled[..., np.newaxis, np.newaxis], values, new)
             values = new
-            if not (np.all(change < DIVERGES) and np.abs(values[1]).max() < 1):
+            if not (np.all(change < STEPS_DIVERGE) and np.abs(values[1]).max() < 1):
                 return None
             settled = settled | (change * np.maximum(change / before, residual_share) < SETTLED)
             if settled.all():
                 self.height = values[1].mean(axis=(-2, -1))
-                rates = slope(on, *values).rates
-                _, starts, end = moved(windows, rates, state)
+                rates = slope(torque, *values).rates
+                _, starts, end = advance(windows, rates, state)
                 return integrated(windows.coefficients(rates), windows.half, starts), end
             before = np.maximum(change, TINY)
         return None
@@ -461,19 +458,19 @@ class _BlockSolver:
         )
         return pull(self.strength, (normal, eccentricity, turning), times)
 
-    def _guess(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
+    def _guess(self, windows: Windows, torque: Turn, state: FloatArray) -> FloatArray:
         """First guess of a spin axis at all nodes: longitude, and component along the axis N.
 
         It is a neighbouring trajectory shifted to the initial state, or uniform precession.
         """
         if self.near is None:
-            return self._at_one_height(windows, on, state)
+            return self._at_one_height(windows, torque, state)
         times = np.append(windows.times, windows.edges[0])
         values = self.near.about(times)
         values += state[..., np.newaxis] - values[..., -1:]
         return values[..., :-1].reshape(*state.shape, *windows.times.shape)
 
-    def _at_one_height(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
+    def _at_one_height(self, windows: Windows, torque: Turn, state: FloatArray) -> FloatArray:
         """First guess of the spin axis's motion: uniform precession about the reference axis.
 
         The height, the component along that axis, is constant: that of the start, or the mean of
@@ -482,7 +479,7 @@ class _BlockSolver:
         phi, z = state[..., np.newaxis, np.newaxis]
         if self.height is not None:
             z = self.height[..., np.newaxis, np.newaxis]
-        rate = on.drift_height - on.constant * z * on.axis_height**2
+        rate = torque.drift_height - torque.constant * z * torque.axis_height**2
         inside, across = windows.integral(rate)
         before = np.cumsum(across, axis=-1) - across
         guess = np.empty((2, *inside.shape))
