@@ -13,8 +13,8 @@ from earthspin.bodies import BODIES, SUN, Numeric
 from earthspin.constants import AU, DAY, SOLAR_CONSTANT
 from earthspin.engine.labels import si
 from earthspin.errors import SceneError, UndefinedError, Where
+from earthspin.secular.budget import Quantiles, draws
 from earthspin.secular.insolation import Season, daily, over_days, true_longitude
-from earthspin.secular.sample import Quantiles, draws
 from earthspin.units import quantity
 
 _NEEDED = ("obliquity", "eccentricity", "longitude_of_perihelion")

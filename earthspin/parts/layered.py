@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated
 
 from earthspin.bodies import BODIES, Body, all_of, in_a_sentence
-from earthspin.bodies.layered import Layers
+from earthspin.bodies.kinds import Layers
 from earthspin.engine.part import part
 from earthspin.engine.question import Question
 from earthspin.errors import nearest

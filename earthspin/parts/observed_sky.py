@@ -77,7 +77,7 @@ class ObservedSky:
         error : float
             95 % half-width of a residual of the models.
         """
-        from earthspin.nutation.circles import without_line
+        from earthspin.nutation.analysis import without_line
 
         series = {IAU: np.zeros((self.rows.size, 2)), **models}
         residual = np.stack([model[self.rows] - self.offsets for model in series.values()], axis=1)

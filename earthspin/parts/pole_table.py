@@ -89,7 +89,7 @@ def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     SceneError
         If there are no x and y with units along time, or the days are not ascending.
     """
-    from earthspin.wobble.resonance import pole_of
+    from earthspin.wobble.excitation import pole_of
 
     time, x, y = labelled_series(pole, ("x", "y"), ("arcsec", "mas"))
     for name, values in (("x", x), ("y", y)):

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 from earthspin.bodies import Body, in_a_sentence
 from earthspin.engine.part import part
-from earthspin.interior.diurnal_ocean import FES2004_SOURCE
-from earthspin.interior.named import ANELASTIC_EXPONENT, Interior
-from earthspin.interior.published import CORE_NUTATION, K_CMB_OUT_OF_PHASE
+from earthspin.interior.named import ANELASTIC_EXPONENT, CORE_NUTATION, K_CMB_OUT_OF_PHASE, Interior
+from earthspin.interior.ocean_and_anelasticity import FES2004_SOURCE
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import ladder
 from earthspin.parts.layered import interior_of, of_another_body

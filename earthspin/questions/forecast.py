@@ -480,15 +480,15 @@ def offsets_until(file: str | Path, last: float | None) -> PoleSeries:
 
 def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Predict celestial pole offsets and their half-widths at given dates, shape (n, 2) each."""
-    from earthspin.nutation.offset_prediction import predict
+    from earthspin.nutation.core_nutation import predict
 
     return predict(table.mjd, table.x, table.y, table.x_error, table.y_error, mjd)
 
 
 def no_offsets(file: str | Path | GivenSeries, origin: float | None, days: float) -> str | None:
     """Return the reason (text) to omit celestial pole offsets without a forecast, else None."""
-    from earthspin.nutation.offset_prediction import LONGEST as FARTHEST
-    from earthspin.nutation.offset_prediction import too_short
+    from earthspin.nutation.core_nutation import LONGEST as FARTHEST
+    from earthspin.nutation.core_nutation import too_short
 
     if isinstance(file, GivenSeries):
         return "polar motion has no celestial pole offsets; name a table"

@@ -29,8 +29,8 @@ from earthspin.engine.variables import (
 from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.nutation import flattening as flat
-from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
+from earthspin.nutation import budget as flat
+from earthspin.nutation.analysis import ANGLES, polynomials, precession_angles
 from earthspin.nutation.budget import Budget, budget_of
 from earthspin.parts.observed_sky import ObservedSizes, ObservedSky, observed_sky
 from earthspin.parts.path import (
@@ -267,7 +267,7 @@ def differences(
     predicted_shift: Shift | None = None,
 ) -> Differences:
     """Compute time series of computed pole minus IAU pole, for different sets of effects."""
-    from earthspin.nutation.circles import complex_nutation, without_line
+    from earthspin.nutation.analysis import complex_nutation, without_line
     from earthspin.sky import iau
 
     done = pole_analysis
@@ -437,8 +437,7 @@ class Nutation(Variables, along=("term",)):
 @part
 def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation:
     """Compare the thirty largest circular nutation terms of the computed pole and the IAU pole."""
-    from earthspin.nutation.circles import phases, term_names
-    from earthspin.nutation.neighbours import amplitude_error, neighbours_of
+    from earthspin.nutation.analysis import amplitude_error, neighbours_of, phases, term_names
     from earthspin.sky import iau
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
@@ -527,7 +526,7 @@ def core(
     pole_analysis: PoleComparison, core_response: Response, response_apart: ResponseFit
 ) -> Core:
     """Return the parameters of the free core nutation fitted to IAU 2000A, and fit residuals."""
-    from earthspin.nutation.circles import phases, term_names
+    from earthspin.nutation.analysis import phases, term_names
     from earthspin.nutation.response import added_half_width
 
     apart, alone = response_apart, response_apart.response
@@ -575,7 +574,7 @@ class Angles(Variables, along=("angle", "degree")):
 @part
 def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
     """Fit polynomials to the precession angles of the computed pole and the IAU pole."""
-    from earthspin.nutation.circles import SLOW_DEGREE
+    from earthspin.nutation.analysis import SLOW_DEGREE
     from earthspin.sky import iau
 
     t = pole_analysis.days / DAYS_PER_CENTURY

@@ -25,9 +25,8 @@ from earthspin.parts.side_by_side import SideBySide
 from earthspin.parts.sky import PerturbedBody, Sky, Stretch, places, sky
 from earthspin.secular import budget as solutions
 from earthspin.secular import reading
-from earthspin.secular.angles import equator_and_equinox, equinox_error, inclined_axis
-from earthspin.secular.orbit import moons_height
-from earthspin.secular.strength import Strength, Tides, geodesic_precession
+from earthspin.secular.orbit import Strength, Tides, geodesic_precession, moons_height
+from earthspin.secular.reading import equator_and_equinox, equinox_error, inclined_axis
 from earthspin.sky.orbit_table import OrbitTable, shipped
 from earthspin.torque import rates
 from earthspin.torque.gravity import dot

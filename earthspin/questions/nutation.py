@@ -30,7 +30,7 @@ from earthspin.interior.modes import mode_period
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import ladder
-from earthspin.nutation.interior_draws import Spread, spread_of
+from earthspin.nutation.ladder import Spread, spread_of
 from earthspin.parts.path import (
     MERGED,
     NEIGHBOUR,
@@ -156,7 +156,7 @@ def left(
     effects: tuple[str, ...],
 ) -> RungResiduals:
     """Compute the residuals of predicted pole minus IAU pole for each model."""
-    from earthspin.nutation.circles import complex_nutation, responses, without_line
+    from earthspin.nutation.analysis import complex_nutation, responses, without_line
     from earthspin.sky import iau
 
     done = pole_analysis
@@ -305,8 +305,7 @@ class Terms(Variables, along=("term",)):
 @part
 def terms(pole_analysis: PoleComparison, models: Prediction, interior_spread: Spread) -> Terms:
     """Compute the largest circular nutation terms of each model, in phase and out of phase."""
-    from earthspin.nutation.circles import phases, term_names
-    from earthspin.nutation.neighbours import amplitude_error, neighbours_of
+    from earthspin.nutation.analysis import amplitude_error, neighbours_of, phases, term_names
     from earthspin.sky import iau
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles

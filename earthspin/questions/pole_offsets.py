@@ -14,7 +14,7 @@ from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, setting
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import UndefinedError
-from earthspin.interior.published import OBSERVED_CORE_NUTATION
+from earthspin.interior.named import OBSERVED_CORE_NUTATION
 from earthspin.nutation import core_nutation as core
 from earthspin.parts.pole_table import MJD, Daily, OfTable, not_observed, within
 from earthspin.sky.eop import PoleSeries, read_pole_offsets

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 
 from earthspin.bodies import Body
-from earthspin.bodies.beyond_rigid import BEYOND_RIGID
-from earthspin.bodies.limits import refuse_break_up
-from earthspin.bodies.planets import pulled_by
+from earthspin.bodies.checks import refuse_break_up
+from earthspin.bodies.planets import BEYOND_RIGID, pulled_by
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
 from earthspin.engine.asking import public_call

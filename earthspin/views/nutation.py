@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from earthspin.constants import DAYS_PER_YEAR
-from earthspin.interior.published import CORE_NUTATION
+from earthspin.interior.named import CORE_NUTATION
 from earthspin.views import drawing
 from earthspin.views.drawing import Axes, PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed
