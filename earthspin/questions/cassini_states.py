@@ -52,7 +52,7 @@ class CassiniStates(
     [  6.73 175.68] deg
     """
 
-    views, page, headline = "cassini_states", "frames", "obliquity"
+    page, headline = "frames", "obliquity"
 
     body: Body = key(MOON, doc="body with the spin axis")
     orbit: Annotated[Orbit | None, Orbit] = key(

@@ -48,6 +48,7 @@ from earthspin.wobble.forecast import Forecast as Predicted
 if TYPE_CHECKING:
     import xarray as xr
 
+    from earthspin.engine.accessor import Answer
     from earthspin.sky.iers_table import PoleTable
 
 #: How far a date may be from midnight, d.
@@ -148,7 +149,7 @@ class Forecast(
     0.043 ± 0.016, 0.311 ± 0.009 arcsec
     """
 
-    views, page, headline = "forecast", "forecast", "x"
+    page, headline = "forecast", "x"
 
     body: Body = key(EARTH, doc="body whose pole is forecast")
     days: Annotated[float, Number("d", "365 d", above=0.0)] = key(
@@ -556,14 +557,40 @@ define_parts(
 forecast = public_call(Forecast)
 
 
-def iers_table(question: Forecast) -> PoleTable:
-    """Table of Earth orientation for astropy, with forecast values after the origin.
+def to_iers_table(answer: Answer) -> PoleTable:
+    """Convert a forecast to an astropy table of Earth orientation parameters.
+
+    Polar motion and celestial pole offsets are observed up to the origin and forecast after
+    it, day by day and without errors. UT1 - UTC is that of finals2000A. Dates outside the table
+    are refused, even if astropy would only warn.
+
+    Parameters
+    ----------
+    answer : Answer
+        Accessor of the forecast, of which this is a method.
+
+    Returns
+    -------
+    astropy.utils.iers.IERS_A
 
     Raises
     ------
     SceneError
-        If polar motion was given without a table, or finals2000A has no UT1 - UTC as far ahead.
+        If the answer is not a forecast, if the forecast used polar motion without a table, or
+        if it reaches farther than the UT1 - UTC of finals2000A.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> from astropy.utils import iers
+    >>> table = earthspin.forecast(90).earthspin.to_iers_table()
+    >>> with iers.earth_orientation_table.set(table):
+    ...     pass  # transformations of astropy.coordinates
     """
+    question = answer.scene
+    if not isinstance(question, Forecast):
+        problem = f"an answer of '{question.word}' has no table; give one of 'forecast'"
+        raise SceneError("to_iers_table", question.word, problem)
     from earthspin.sky.iers_table import last_ut1, with_pole
 
     results = run_parts(plan_parts(question, ["pole_offsets"])).results

@@ -111,7 +111,7 @@ class FreeRotor(
     [ 1.    0.53 -1.  ]
     """
 
-    views, page, headline = "free_rotor", "rotors", "attitude"
+    page, headline = "rotors", "attitude"
 
     exclusive = (("times",), ("duration", "points"))
 

@@ -93,7 +93,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     computed pole minus the IAU's in obliquity, nothing removed
     """
 
-    views, page, headline = "iau", "pole", "closure"
+    page, headline = "pole", "closure"
 
     def check(self) -> None:
         """Refuse bodies whose position errors are unknown, as the comparison needs them."""

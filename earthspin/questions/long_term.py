@@ -79,7 +79,7 @@ class LongTerm(
     101 23.439
     """
 
-    views, page, headline = "long_term", "long_term", "obliquity"
+    page, headline = "long_term", "obliquity"
 
     exclusive = (("times",), ("span", "step"))
     many_pulls = True

@@ -60,7 +60,7 @@ class LoveNumbers(
     [ 393.6 -455.6  475.5 2411. ]
     """
 
-    views, page, headline = "love_numbers", "wobble", "love_number"
+    page, headline = "wobble", "love_number"
 
     interior: LayeredInterior | None = key(None, doc="layers; those of the body if not given")
     body: Body = key(EARTH, doc="body with the layers, the spin and the dynamical flattening")

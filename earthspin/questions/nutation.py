@@ -90,7 +90,7 @@ class NutationLadder(
     [21.7 22.5  2.8  2.7  2.   1.9  0.4]
     """
 
-    views, page, headline = "nutation", "nutation", "rms_dpsi_sineps"
+    page, headline = "nutation", "rms_dpsi_sineps"
 
     coupling: Literal["none", "inferred"] = setting(
         "none",

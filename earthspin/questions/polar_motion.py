@@ -72,7 +72,7 @@ class PolarMotion(OfTable, word="polar-motion", call="polar_motion", table="pola
     IERS c04
     """
 
-    views, page, headline = "polar_motion", "wobble", "x"
+    page, headline = "wobble", "x"
 
     method: Method = setting("burg", doc="method that fits the free wobble")
     window: Days | None = setting(

@@ -86,7 +86,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
     13 ['angular_momentum' 'rotation' 'figure']
     """
 
-    views, page, headline = "pole", "pole", "direction_error"
+    page, headline = "pole", "direction_error"
     with_satellites = True
 
     span: Span = key(("1980-01-01T12:00:00", "2020-01-01T12:00:00"), doc=SPAN_DOC)

@@ -52,7 +52,7 @@ class PoleOffsets(OfTable, word="pole-offsets", call="pole_offsets", table="pole
     mas 7306
     """
 
-    views, page, headline = "pole_offsets", "pole_offsets", "dX"
+    page, headline = "pole_offsets", "dX"
 
     window: Days | None = setting(
         None, doc="length of the sliding windows; three years if not given"

@@ -72,7 +72,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     [81259. 37614. 25712.]
     """
 
-    views, page, headline = "precession", "theory", "precession_rate"
+    page, headline = "theory", "precession_rate"
     with_satellites = True
 
     source: SourceName = key("skyfield", doc=SOURCE_DOC)

@@ -94,7 +94,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
     [7.2722e-06 7.2722e-06 7.2722e-06]
     """
 
-    views, page, headline = "rotation", "rotation", "attitude"
+    page, headline = "rotation", "attitude"
 
     span: Span = key(("2000-01-01T12:00:00", "2000-02-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("6 h", doc="interval between dates")

@@ -64,7 +64,7 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     cusp
     """
 
-    views, page, headline = "top", "rotors", "theta"
+    page, headline = "rotors", "theta"
 
     exclusive = (("times",), ("duration", "points"))
 

@@ -53,7 +53,7 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
     23.439
     """
 
-    views, page, headline = "torque", "theory", "torque_magnitude"
+    page, headline = "theory", "torque_magnitude"
     with_satellites = True
 
     span: Span = key(("2000-01-01T12:00:00", "2001-01-01T12:00:00"), doc=SPAN_DOC)

@@ -74,7 +74,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
     [297.4 303.6 303.6 444.4 393.9 423.7 431.6]
     """
 
-    views, page, headline = "wobble", "wobble", "period_solar"
+    page, headline = "wobble", "period_solar"
 
     body: Body = key(EARTH, doc="body that wobbles")
     ocean: Literal["real", "global", "none"] = setting("real", doc="kind of ocean on the body")

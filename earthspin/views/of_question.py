@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from types import ModuleType
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import xarray as xr
 
@@ -13,13 +13,53 @@ from earthspin.engine.plan import NOT_REQUESTED, REUSED
 from earthspin.engine.spread import is_ensemble
 from earthspin.errors import SceneError
 from earthspin.scenes import plan, run_tree
-from earthspin.views import ensemble, tables
+from earthspin.views import (
+    cassini_states,
+    ensemble,
+    forecast,
+    free_rotor,
+    iau,
+    long_term,
+    love_numbers,
+    nutation,
+    polar_motion,
+    pole,
+    pole_offsets,
+    precession,
+    rotation,
+    tables,
+    top,
+    torque,
+    wobble,
+)
 from earthspin.views.drawing import Drawing, Figure, PageFigure, style
-from earthspin.views.reading import Result, answer_of, changes_of, question_of, section, views_of
+from earthspin.views.reading import Result, answer_of, changes_of, question_of, section
 from earthspin.views.solids import Solid
 from earthspin.views.table import BRACKETS, Table, along
 
+if TYPE_CHECKING:
+    from earthspin.engine.accessor import Answer
+
 T = TypeVar("T")
+
+#: Modules with the figures of questions, and with tables other than those of every answer.
+VIEWS = {
+    "cassini-states": cassini_states,
+    "forecast": forecast,
+    "free-rotor": free_rotor,
+    "iau": iau,
+    "long-term": long_term,
+    "love-numbers": love_numbers,
+    "nutation": nutation,
+    "polar-motion": polar_motion,
+    "pole": pole,
+    "pole-offsets": pole_offsets,
+    "precession": precession,
+    "rotation": rotation,
+    "top": top,
+    "torque": torque,
+    "wobble": wobble,
+}
 
 #: Titles of the pages of the documentation that explain the method of a question, by their files.
 PAGES = {
@@ -119,6 +159,40 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
             shared = {dim: answer[dim] for dim in node.indexes if dim in answer.indexes}
             nodes[name] = node.sel(shared)
     return [drawing.figure for drawing in drawings_for(xr.DataTree.from_dict(nodes))]
+
+
+def plot(answer: Answer) -> list[Figure]:
+    """Draw the standard figures of a result.
+
+    Parameters
+    ----------
+    answer : Answer
+        Accessor of the result, of which this is a method.
+
+    Returns
+    -------
+    list of Figure
+
+    Raises
+    ------
+    SceneError
+        If this is a selection of an answer that cannot be drawn.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> year = earthspin.torque_series("2026-01-01", "2027-01-01", "6 h")
+    >>> year.earthspin.plot()[0].savefig("torque.png")
+    """
+    if figures := figures_of_fit(answer.dataset):
+        return figures
+    question = answer.scene
+    try:
+        return figures_of(answer.dataset)
+    except (AttributeError, KeyError, ValueError):
+        selection = f"a selection of the answer to '{question.word}'"
+        remedy = "plot the full result, which earthspin.run(ds) computes again"
+        raise SceneError("plot", selection, remedy) from None
 
 
 def figures_of_fit(fit: xr.Dataset) -> list[Figure]:
@@ -227,7 +301,7 @@ def _view(tree: Result) -> ModuleType:
 
     It is that for ensembles, that of the question, or `tables`.
     """
-    return ensemble if is_ensemble(tree) else views_of(tree)
+    return ensemble if is_ensemble(tree) else VIEWS.get(tree.attrs["compute"], tables)
 
 
 def _explained(tree: Result) -> str:

@@ -17,9 +17,6 @@ from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, changes_of, needed, section
 from earthspin.views.table import Column, Table, measured, table_along
 
-#: Numbers that an ensemble of answers shows first.
-CHIEF = ("precession_rate", "mean_torque")
-
 #: Once round, arcsec.
 FULL_TURN = 360 * 3600.0
 

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
-from importlib import import_module
-from types import ModuleType
 
 import xarray as xr
 
@@ -25,12 +23,6 @@ def answer_of(result: Result) -> xr.Dataset:
 def question_of(result: Result) -> type[Question] | None:
     """Return the class of the question that gave a result; None if it is not in this package."""
     return QUESTIONS.get(result.attrs["compute"])
-
-
-def views_of(result: Result) -> ModuleType:
-    """Return the view module of a result's question; `tables` if it has none of its own."""
-    question = question_of(result)
-    return import_module(f"earthspin.views.{question.views if question else 'tables'}")
 
 
 def section(result: Result, name: str) -> xr.Dataset | None:

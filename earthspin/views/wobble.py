@@ -10,9 +10,6 @@ from earthspin.views.drawing import BLUE, RED, Axes, PageFigure, axes, note, run
 from earthspin.views.reading import Result, answer_of, changes_of, section
 from earthspin.views.table import Column, Table, table_along
 
-#: Numbers that an ensemble of answers shows first.
-CHIEF = ("period_solar",)
-
 
 def ladder(tree: Result) -> Table:
     """Table of the free wobble period for each model of the ladder, from rigid to deformable."""

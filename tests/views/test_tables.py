@@ -1,7 +1,5 @@
 """Tables: numbers written with as many digits as they have."""
 
-from importlib import import_module
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -10,7 +8,7 @@ import earthspin
 from earthspin import EARTH
 from earthspin.questions.precession import Rates
 from earthspin.scenes import QUESTIONS
-from earthspin.views.of_question import drawings_for, scene_page, tables_for, what_ran
+from earthspin.views.of_question import VIEWS, drawings_for, scene_page, tables_for, what_ran
 from earthspin.views.reading import answer_of, needed
 from earthspin.views.table import label, quantities, table_along, with_error
 from earthspin.views.tables import MOST_ROWS, SAMPLE, tables, tables_of
@@ -128,7 +126,7 @@ def test_a_view_reads_declared_labels_and_leaves_the_answer_as_it_is(
 @pytest.mark.parametrize("word", QUESTIONS)
 def test_views_need_sections_of_their_question(word: str) -> None:
     sections = QUESTIONS[word].graph.sections
-    views = import_module(f"earthspin.views.{QUESTIONS[word].views}")
+    views = VIEWS.get(word)
     figures = getattr(views, "FIGURES", ())
     needed = {name for figure in figures for name in (figure.section, *figure.uses)}
     for names, _ in (*getattr(views, "TABLES", ()), *getattr(views, "SOLIDS", ())):
