@@ -17,8 +17,7 @@ from earthspin.questions import MODULES as _QUESTIONS
 _HOME = {
     "earthspin.bodies": ("BODIES", "EARTH", "MARS", "MOON", "SUN", "Body", "Orbit"),
     "earthspin.sky.orbit_files": ("read_orbit",),
-    "earthspin.parts.insolation": ("daily_insolation",),
-    "earthspin.parts.pole_stars": ("pole_stars",),
+    "earthspin.insolation_and_stars": ("daily_insolation", "pole_stars"),
     "earthspin.questions.polar_motion": (
         "excitation",
         "fit_chandler",

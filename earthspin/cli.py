@@ -230,7 +230,7 @@ def _play(options: Namespace) -> None:
 def _run(options: Namespace) -> None:
     """Command `run`: run a scene, print its tables, and write its results."""
     from earthspin.engine import drafts, store
-    from earthspin.parts import times
+    from earthspin.questions import times
     from earthspin.scenes import members_of, run_tree, series_length, write_series
     from earthspin.views.closing import closing_line
 

@@ -36,7 +36,7 @@ from earthspin.engine.plan import scene_of
 from earthspin.engine.question import Question
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.parts.times import epochs
+from earthspin.questions.times import epochs
 from earthspin.scenes import VERSIONS, load_scene, members_of, run, run_tree, warn_of_versions
 from earthspin.secular.angles import equator_and_equinox, equinox_error
 from earthspin.secular.reading import NO_EQUINOX

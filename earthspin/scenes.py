@@ -23,8 +23,8 @@ from earthspin.engine.question import Question, keys_of
 from earthspin.engine.series import Series
 from earthspin.engine.store import open as open_file
 from earthspin.errors import SceneError, nearest, no_plain_file
-from earthspin.parts.times import epochs
 from earthspin.questions import MODULES
+from earthspin.questions.times import epochs
 from earthspin.units import FileName
 
 if TYPE_CHECKING:

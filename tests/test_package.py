@@ -70,7 +70,7 @@ def test_nothing_but_bodies_and_scenes_knows_the_earth() -> None:
         "bodies/mean_orbits.py",  # about what Sun and Moon go
         "bodies/beyond_rigid.py",  # sizes of neglected effects by body
         *("__init__.py", "__init__.pyi"),
-        *("parts/sky.py", "parts/pole_table.py"),
+        *("questions/sky.py", "questions/observed_pole.py"),
         "views/play.py",  # pages to play with start from the Earth
         "views/of_question.py",  # by the titles of pages of the documentation
         "sky/kernel_differences.py",  # what was measured, by the codes of the bodies

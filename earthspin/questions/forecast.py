@@ -31,8 +31,8 @@ from earthspin.engine.variables import (
 )
 from earthspin.errors import SceneError, SeriesError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.parts.pole_table import MJD, TableFile, complex_pole, labelled_series
-from earthspin.parts.reasons import no_iau_model
+from earthspin.questions.observed_pole import MJD, TableFile, complex_pole, labelled_series
+from earthspin.questions.reasons import no_iau_model
 from earthspin.sky.eop import (
     PoleSeries,
     file_of,

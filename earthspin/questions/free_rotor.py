@@ -15,7 +15,7 @@ from earthspin.engine.question import Question, define_parts, setting
 from earthspin.engine.variables import Labels, Value, labels, number
 from earthspin.errors import Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.parts.times import FromStart, Seconds, instants
+from earthspin.questions.times import FromStart, Seconds, instants
 from earthspin.rotor.moments import KEYS
 from earthspin.units import Duration, Numbers, Plain, Whole, quantity
 

@@ -32,8 +32,9 @@ from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.nutation import flattening as flat
 from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
 from earthspin.nutation.budget import Budget, budget_of
-from earthspin.parts.observed_sky import ObservedSizes, ObservedSky, observed_sky
-from earthspin.parts.path import (
+from earthspin.progress import progress
+from earthspin.questions.observed_pole import ObservedSizes, ObservedSky, observed_sky
+from earthspin.questions.path import (
     INTERIOR,
     MERGED,
     NEIGHBOUR,
@@ -50,11 +51,10 @@ from earthspin.parts.path import (
     rigid,
     steady_figure,
 )
-from earthspin.parts.pulls import PULLS, Pulls, start_of
-from earthspin.parts.reasons import neglected_rates
-from earthspin.parts.sky import unmeasured
-from earthspin.parts.times import Dated
-from earthspin.progress import progress
+from earthspin.questions.pulls import PULLS, Pulls, start_of
+from earthspin.questions.reasons import neglected_rates
+from earthspin.questions.sky import unmeasured
+from earthspin.questions.times import Dated
 
 if TYPE_CHECKING:
     from earthspin.nutation.response import Response

@@ -21,7 +21,7 @@ from earthspin.interior.love import Yielding, elastic, yielding
 from earthspin.interior.modes import free_modes, mode_period, numbers_of, parts_of
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.mass.inertia import ellipticity_from_h
-from earthspin.parts.layered import FROM_LAYERS, LayeredInterior, layers, require_layers
+from earthspin.questions.interiors import FROM_LAYERS, LayeredInterior, layers, require_layers
 from earthspin.units import Number
 
 

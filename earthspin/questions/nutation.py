@@ -31,7 +31,9 @@ from earthspin.interior.modes import mode_period
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.nutation import ladder
 from earthspin.nutation.interior_draws import Spread, spread_of
-from earthspin.parts.path import (
+from earthspin.progress import progress
+from earthspin.questions.interiors import SOURCES, Prediction, no_layers, predict
+from earthspin.questions.path import (
     MERGED,
     NEIGHBOUR,
     NEIGHBOUR_SHARE,
@@ -45,9 +47,7 @@ from earthspin.parts.path import (
     residual_error,
     steady_figure,
 )
-from earthspin.parts.predicted import SOURCES, Prediction, no_layers, predict
-from earthspin.parts.pulls import PULLS, Pulls
-from earthspin.progress import progress
+from earthspin.questions.pulls import PULLS, Pulls
 from earthspin.units import Number
 
 #: Terms of the table: the largest circles.

@@ -19,7 +19,7 @@ from earthspin.engine.run import in_range
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.parts.pole_table import (
+from earthspin.questions.observed_pole import (
     MJD,
     Daily,
     OfTable,

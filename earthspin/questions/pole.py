@@ -19,8 +19,8 @@ from earthspin.motion.effect_sizes import axis_displacements
 from earthspin.motion.effects import NONRIGID
 from earthspin.motion.effects.nonrigid import LARGEST_CORE_NUTATION, RESPONSE
 from earthspin.nutation.angles import on_fixed_ecliptic
-from earthspin.parts.left_out import drift_by_planets, each_added, switched_off
-from earthspin.parts.path import (
+from earthspin.questions.interiors import SOURCES, no_layers
+from earthspin.questions.path import (
     INTERIOR,
     SHORTEST_SPAN,
     LongitudeCycles,
@@ -31,23 +31,25 @@ from earthspin.parts.path import (
     drift_of_nodes,
     longitude_cycles,
 )
-from earthspin.parts.predicted import SOURCES, no_layers
-from earthspin.parts.pulls import (
+from earthspin.questions.pulls import (
     EFFECTS_DOC,
     PULLS,
     AxisMotion,
     Effects,
     Pulls,
+    drift_by_planets,
+    each_added,
     idle_note,
     own_kernel,
     start_error,
     start_note,
     start_of,
+    switched_off,
 )
-from earthspin.parts.reasons import no_iau_model, north_note, not_the_iaus_earth
-from earthspin.parts.satellites import no_satellites
-from earthspin.parts.sky import Sky
-from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
+from earthspin.questions.reasons import no_iau_model, north_note, not_the_iaus_earth
+from earthspin.questions.satellites import no_satellites
+from earthspin.questions.sky import Sky
+from earthspin.questions.times import SPAN_DOC, Dated, by_region, days_of
 
 if TYPE_CHECKING:
     import xarray as xr

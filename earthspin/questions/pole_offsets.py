@@ -16,7 +16,7 @@ from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, m
 from earthspin.errors import UndefinedError
 from earthspin.interior.published import OBSERVED_CORE_NUTATION
 from earthspin.nutation import core_nutation as core
-from earthspin.parts.pole_table import MJD, Daily, OfTable, not_observed, within
+from earthspin.questions.observed_pole import MJD, Daily, OfTable, not_observed, within
 from earthspin.sky.eop import PoleSeries, read_pole_offsets
 from earthspin.units import Days
 from earthspin.wobble.record import shortest_span

@@ -28,12 +28,11 @@ from earthspin.engine.variables import (
 from earthspin.mass import inertia
 from earthspin.nutation import seasons as calendar
 from earthspin.nutation.budget import closure, published_effects
-from earthspin.parts import reasons
-from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples
-from earthspin.parts.observed_wobble import observed_wobble
-from earthspin.parts.reasons import north_note
-from earthspin.parts.satellites import describe_pole, swings
-from earthspin.parts.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
+from earthspin.questions import reasons
+from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, Samples
+from earthspin.questions.reasons import north_note, observed_wobble
+from earthspin.questions.satellites import describe_pole, swings
+from earthspin.questions.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
 from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
 from earthspin.sky.sources import SourceName
 from earthspin.torque import rates

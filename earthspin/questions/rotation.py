@@ -35,22 +35,24 @@ from earthspin.motion.solution import (
     start_of,
 )
 from earthspin.numerics.arrays import FloatArray
-from earthspin.parts.custom_torque import CustomTorque
-from earthspin.parts.left_out import drift_by_planets, each_added, switched_off
-from earthspin.parts.pulls import (
+from earthspin.progress import progress
+from earthspin.questions.pulls import (
     PULLS,
     AxisMotion,
+    CustomTorque,
     Pulls,
+    drift_by_planets,
+    each_added,
     figure_of,
     forces_of,
     idle_note,
     start_note,
+    switched_off,
     switched_on,
 )
-from earthspin.parts.satellites import largest_drifts, no_satellites, obliquity_of, swings
-from earthspin.parts.sky import Sky
-from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
-from earthspin.progress import progress
+from earthspin.questions.satellites import largest_drifts, no_satellites, obliquity_of, swings
+from earthspin.questions.sky import Sky
+from earthspin.questions.times import SPAN_DOC, Dated, by_region, days_of
 from earthspin.sky.elements import ByElements, Elements
 from earthspin.units import Number, Numbers
 

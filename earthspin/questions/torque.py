@@ -16,10 +16,10 @@ from earthspin.engine.part import Block, part
 from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Pair, Value, labels, measured, number
 from earthspin.mass.inertia import moment_difference
-from earthspin.parts.reasons import no_iau_model
-from earthspin.parts.satellites import largest_torques_of_satellites
-from earthspin.parts.sky import Sky, places, sky
-from earthspin.parts.times import SPAN_DOC, Dated, Series, by_region, days_of, epochs
+from earthspin.questions.reasons import no_iau_model
+from earthspin.questions.satellites import largest_torques_of_satellites
+from earthspin.questions.sky import Sky, places, sky
+from earthspin.questions.times import SPAN_DOC, Dated, Series, by_region, days_of, epochs
 from earthspin.sky.sources import OF_DATE, SourceName
 from earthspin.torque.gravity import torque_error, torque_from_declination
 from earthspin.torque.neglected import largest_torque_on_figure

@@ -16,7 +16,7 @@ import earthspin
 from earthspin import CoverageError, Scene, SceneError, load_scene, scenes
 from earthspin.engine.plan import plan_parts
 from earthspin.engine.run import run_parts
-from earthspin.parts import averages
+from earthspin.questions import averages
 from earthspin.scenes import run, run_blocks
 from earthspin.sky import ephemeris
 from earthspin.sky.poles import FixedPole

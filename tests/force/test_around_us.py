@@ -139,7 +139,7 @@ def test_signals_end_in_one_line_that_says_how_to_go_on(
                 time.sleep(60)
             return real(series, number)
         real, Series.make = Series.make, slow
-        from earthspin.parts import times
+        from earthspin.questions import times
         times.LONGEST_IN_MEMORY, scenes.BLOCK = 100, 500
         sys.exit(cli.main(["run", "torque", "--out", sys.argv[1]]))
     """

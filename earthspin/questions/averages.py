@@ -17,9 +17,9 @@ from earthspin.errors import UndefinedError
 from earthspin.mass.inertia import moment_difference
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.estimate import Estimate
-from earthspin.parts.elements import ellipse_chains, exact_means, no_exact_means
-from earthspin.parts.satellites import Carried, carried, without_swings
-from earthspin.parts.sky import Sky, Stretch
+from earthspin.questions.elements import ellipse_chains, exact_means, no_exact_means
+from earthspin.questions.satellites import Carried, carried, without_swings
+from earthspin.questions.sky import Sky, Stretch
 from earthspin.sky.elements import Elements
 from earthspin.sky.equator import angle, rotate
 from earthspin.sky.moving_pole import MovingPole

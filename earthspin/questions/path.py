@@ -31,12 +31,12 @@ from earthspin.motion.figure import fastest_sweep
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation.angles import followed, on_fixed_ecliptic
 from earthspin.nutation.budget import published_effects
-from earthspin.parts.predicted import CHOSEN, Prediction, no_layers, prediction
-from earthspin.parts.pulls import AxisMotion, Pulls, forces_of, start_of
-from earthspin.parts.reasons import no_iau_model
-from earthspin.parts.satellites import drifts, obliquity_of, swings
-from earthspin.parts.times import days_of
 from earthspin.progress import progress
+from earthspin.questions.interiors import CHOSEN, Prediction, no_layers, prediction
+from earthspin.questions.pulls import AxisMotion, Pulls, forces_of, start_of
+from earthspin.questions.reasons import no_iau_model
+from earthspin.questions.satellites import drifts, obliquity_of, swings
+from earthspin.questions.times import days_of
 from earthspin.sky.kernel_differences import DRIFT_FROM, growth
 
 if TYPE_CHECKING:
