@@ -54,7 +54,7 @@ _MODULE_OF = _QUESTIONS | {name: module for module, names in _HOME.items() for n
 
 _registry.FUNCTIONS["load_scene"] = "earthspin.scenes"
 _registry.METHODS |= {
-    "plot": "earthspin.views.of_question",
+    "plot": "earthspin.views.answers",
     "to_iers_table": "earthspin.questions.forecast",
 }
 

@@ -55,7 +55,7 @@ def imported(module: str) -> set[str]:
 def test_no_modules_import_one_another_in_a_circle_late_imports_included() -> None:
     """Also where a function imports, or text names the module for `import_module`."""
     before = {module: imported(module) for module in MODULES}
-    assert "earthspin.views.page" in before["earthspin.views.of_question"]  # a late import
+    assert "earthspin.views.page" in before["earthspin.views.answers"]  # a late import
     assert "earthspin.questions.precession" in before["earthspin.questions"]  # text
     while free := {module for module, others in before.items() if not others}:
         before = {module: others - free for module, others in before.items() if others}
@@ -72,7 +72,7 @@ def test_nothing_but_bodies_and_scenes_knows_the_earth() -> None:
         *("__init__.py", "__init__.pyi"),
         *("questions/sky.py", "questions/observed_pole.py"),
         "views/play.py",  # pages to play with start from the Earth
-        "views/of_question.py",  # by the titles of pages of the documentation
+        "views/answers.py",  # by the titles of pages of the documentation
         "sky/kernel_differences.py",  # what was measured, by the codes of the bodies
         "sky/orbit_files.py",  # whose orbit a file holds if none is named, and the check of it
         "sky/orbit_table.py",  # what was measured of the orbits that are shipped

@@ -13,12 +13,14 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import numpy as np
 import xarray as xr
 
 from earthspin.views.reading import Result, section
+from earthspin.views.solids import Solid
+from earthspin.views.tables import Table
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -27,6 +29,8 @@ if TYPE_CHECKING:
 #: Types for annotations, which do not import the library.
 Axes: TypeAlias = "matplotlib.axes.Axes"
 Figure: TypeAlias = "matplotlib.figure.Figure"
+
+T = TypeVar("T")
 
 #: Colours that remain apart for colour-blind eyes (Okabe & Ito 2008) and in print.
 BLUE, RED, GREEN, PINK, ORANGE, SKY = (
@@ -189,6 +193,30 @@ class PageFigure:
         if self.phone:
             phone = figure_of(self.plot(tree, ax=axes(None, NARROW, self.phone)))
         return Drawing(self.title, caption, figure, self.square, phone)
+
+
+#: Tables or pictures of a result, each with the names of the sections that it needs.
+Makers: TypeAlias = Sequence[tuple[str, Callable[[Result], T]]]
+
+
+@dataclass(frozen=True)
+class Views:
+    """What is shown of the answers to one question besides the tables of every answer.
+
+    Attributes
+    ----------
+    figures : sequence of PageFigure
+    solids, tables : sequence of (str, callable)
+        Names of the sections that it needs, and the function that makes it. A table replaces that
+        of the answer, if it names no section, or those of the sections that it names.
+    lead : callable, optional
+        Function that makes the first sentence of the page.
+    """
+
+    figures: Sequence[PageFigure] = ()
+    solids: Makers[Solid] = ()
+    tables: Makers[Table] = ()
+    lead: Callable[[Result], str] | None = None
 
 
 def figure_of(shown: Axes | Figure) -> Figure:

@@ -1,11 +1,10 @@
-"""Make the tables, figures and pages of a result, as the view module of its question says."""
+"""Tables, figures and pages of a result, with those that its question adds to the usual ones."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from types import ModuleType
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 import xarray as xr
 
@@ -14,51 +13,33 @@ from earthspin.engine.spread import is_ensemble
 from earthspin.errors import SceneError
 from earthspin.scenes import plan, run_tree
 from earthspin.views import (
-    cassini_states,
     ensemble,
-    forecast,
-    free_rotor,
-    iau,
     long_term,
-    love_numbers,
-    nutation,
-    polar_motion,
+    observed_pole,
     pole,
-    pole_offsets,
     precession,
-    rotation,
+    rotors,
     tables,
-    top,
     torque,
     wobble,
 )
-from earthspin.views.drawing import Drawing, Figure, PageFigure, style
+from earthspin.views.drawing import Drawing, Figure, T, Views, style
 from earthspin.views.reading import Result, answer_of, changes_of, question_of, section
 from earthspin.views.solids import Solid
-from earthspin.views.table import BRACKETS, Table, along
+from earthspin.views.tables import BRACKETS, Table, along
 
 if TYPE_CHECKING:
     from earthspin.engine.accessor import Answer
 
-T = TypeVar("T")
-
-#: Modules with the figures of questions, and with tables other than those of every answer.
+#: Figures, pictures and special tables of the answers to each question.
 VIEWS = {
-    "cassini-states": cassini_states,
-    "forecast": forecast,
-    "free-rotor": free_rotor,
-    "iau": iau,
-    "long-term": long_term,
-    "love-numbers": love_numbers,
-    "nutation": nutation,
-    "polar-motion": polar_motion,
-    "pole": pole,
-    "pole-offsets": pole_offsets,
-    "precession": precession,
-    "rotation": rotation,
-    "top": top,
-    "torque": torque,
-    "wobble": wobble,
+    **precession.VIEWS,
+    **torque.VIEWS,
+    **pole.VIEWS,
+    **rotors.VIEWS,
+    **long_term.VIEWS,
+    **observed_pole.VIEWS,
+    **wobble.VIEWS,
 }
 
 #: Titles of the pages of the documentation that explain the method of a question, by their files.
@@ -88,7 +69,7 @@ def tables_for(tree: Result) -> list[Table]:
     Returns
     -------
     list of Table
-        Those of the question's own view module, then one or more for the answer and for each
+        Those of the question's own views, then one or more for the answer and for each
         section that these do not show. What the model leaves out stands below the errors that do
         not hold it, or else below the first table.
     """
@@ -101,27 +82,21 @@ def tables_for(tree: Result) -> list[Table]:
 
 
 def _tables(tree: Result) -> list[Table]:
-    """Tables of the view module, and those of the sections that these do not show."""
-    makers: Sequence[tuple[str, Callable[[Result], Table]]] = getattr(_view(tree), "TABLES", ())
-    shown = {name for sections, _ in makers for name in sections.split() or [""]}
-    special = [table for table in _made(tree, makers) if table.rows]
-    return [*special, *tables.tables(tree, without=shown)]
+    """Special tables of the question, and those of the sections that these do not show."""
+    special = _views(tree).tables
+    shown = {name for sections, _ in special for name in sections.split() or [""]}
+    made = [table for table in _made(tree, special) if table.rows]
+    return [*made, *tables.tables(tree, without=shown)]
 
 
 def drawings_for(tree: Result) -> list[Drawing]:
     """Draw all figures of a result and of its sections, with captions."""
-    return [figure.drawn(tree) for figure in _figures(tree) if figure.is_there(tree)]
-
-
-def _figures(tree: Result) -> Sequence[PageFigure]:
-    """Descriptions of the figures for a result, from the view module of its question."""
-    figures: Sequence[PageFigure] = getattr(_view(tree), "FIGURES", ())
-    return figures
+    return [figure.drawn(tree) for figure in _views(tree).figures if figure.is_there(tree)]
 
 
 def solids_for(tree: Result) -> list[Solid]:
     """Three-dimensional pictures of a result, some of which are animated."""
-    return _made(tree, getattr(_view(tree), "SOLIDS", ()))
+    return _made(tree, _views(tree).solids)
 
 
 def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> list[T]:
@@ -131,6 +106,11 @@ def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> 
         for sections, make in makers
         if all(section(tree, name) is not None for name in sections.split())
     ]
+
+
+def _views(tree: Result) -> Views:
+    """Figures, pictures and special tables of a result, or of an ensemble."""
+    return ensemble.VIEWS if is_ensemble(tree) else VIEWS.get(tree.attrs["compute"], Views())
 
 
 def figures_of(answer: xr.Dataset) -> list[Figure]:
@@ -150,7 +130,7 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
         problem = "a section or an edited dataset has no scene; plot the whole answer or its tree"
         raise SceneError("plot", answer.attrs.get("title", "a dataset"), problem)
     there = plan(answer, "all").sections
-    needed = {name for figure in _figures(answer) for name in (figure.section, *figure.uses)}
+    needed = {name for figure in _views(answer).figures for name in (figure.section, *figure.uses)}
     nodes = {"/": answer}
     if names := [name for name in there if name in needed]:
         sections = run_tree(answer, names)
@@ -199,7 +179,7 @@ def figures_of_fit(fit: xr.Dataset) -> list[Figure]:
     """Draw the result of `fit_chandler`; for any other Dataset, return an empty list."""
     if "scene" in fit.attrs or not {"time", "chandler_amplitude"} <= set(fit.variables):
         return []
-    from earthspin.views.polar_motion import plot_amplitude_and_phase
+    from earthspin.views.observed_pole import plot_amplitude_and_phase
 
     with style():
         return [plot_amplitude_and_phase(fit)]
@@ -255,7 +235,7 @@ def page_of(
     from earthspin.views.page import page
 
     if lead is None:
-        says = getattr(_view(trees[0]), "lead", None)
+        says = _views(trees[0]).lead
         lead = says(trees[0]) if says else " ".join(changes_of(answer_of(trees[0])))
     return page(
         title,
@@ -294,14 +274,6 @@ def what_ran(*trees: Result) -> list[Table]:
     headers = "part", "what it computes", "ms"
     cost = f"{sum(float(parts.run_time.sum()) for parts in plans):.2f} s in total"
     return [Table(title, headers, rows, words=(0, 1), cost=cost)] if plans else []
-
-
-def _view(tree: Result) -> ModuleType:
-    """Return the module of `earthspin.views` with the figures and further tables of a result.
-
-    It is that for ensembles, that of the question, or `tables`.
-    """
-    return ensemble if is_ensemble(tree) else VIEWS.get(tree.attrs["compute"], tables)
 
 
 def _explained(tree: Result) -> str:
