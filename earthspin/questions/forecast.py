@@ -307,15 +307,15 @@ class ForecastPole(AheadOfOrigin):
     )
 
 
-def _shown(days: float, step: float) -> Any:
+def _days_returned(days: float, step: float) -> Any:
     """Return the slice that selects the requested days from a daily forecast."""
     every = round(step / DAY)
     return slice(every - 1, int(days), every)
 
 
-def _times(record: Record, days: float, step: float) -> Any:
+def _dates(record: Record, days: float, step: float) -> Any:
     """Dates that a forecast returns: every `step` up to `days` after the origin."""
-    return datetime64(record.time[-1] + np.arange(1, int(days) + 1)[_shown(days, step)])
+    return datetime64(record.time[-1] + np.arange(1, int(days) + 1)[_days_returned(days, step)])
 
 
 @part
@@ -331,7 +331,7 @@ def ahead(
     """Return the forecast x and y of the pole, with half-widths and correlation of errors."""
     newest = float(record.time[-1])
     kind = parameters or ("shipped" if excitation is None else "fitted")
-    shown = _shown(days, step)
+    shown = _days_returned(days, step)
     p, covariance = predicted.pole[shown] * MAS, predicted.covariance[shown] * MAS**2
     sx, sy = np.sqrt(covariance[:, 0, 0]), np.sqrt(covariance[:, 1, 1])
     source = {
@@ -351,7 +351,7 @@ def ahead(
             f"given from {_day(excitation.rows[0, 0])} to {_day(excitation.rows[0, -1])}"
         )
     return ForecastPole(
-        time=_times(record, days, step),
+        time=_dates(record, days, step),
         x=(p.real, NORMAL_95 * sx),
         y=(-p.imag, NORMAL_95 * sy),
         correlation_xy=covariance[:, 0, 1] / (sx * sy),
@@ -381,12 +381,12 @@ def not_separated(excitation: GivenSeries | None) -> str | None:
 @part(unless=not_separated)
 def components(record: Record, predicted: Predicted, days: float, step: float) -> Components:
     """Compute the forecast Chandler, annual and semiannual wobbles and slow pole, with errors."""
-    shown = _shown(days, step)
+    shown = _days_returned(days, step)
     p = np.array([values[shown] for values in predicted.components.values()]) * MAS
     variance = np.array([values[shown] for values in predicted.component_variance.values()])
     half_width = NORMAL_95 * np.sqrt(variance) * MAS
     return Components(
-        time=_times(record, days, step),
+        time=_dates(record, days, step),
         component_x=(p.real, half_width[..., 0]),
         component_y=(-p.imag, half_width[..., 1]),
     )
@@ -459,7 +459,7 @@ def bulletin_a(
     """Read the polar motion predicted by Bulletin A, with 95 % half-widths, from the table."""
     table = None if isinstance(file, GivenSeries) else read_bulletin_a(file)
     assert table is not None
-    rows = _shown(days, step)
+    rows = _days_returned(days, step)
     return BulletinA(
         time=datetime64(table.mjd[rows] - MJD),
         bulletin_a_x=(table.x[rows], NORMAL_95 * table.x_error[rows]),
@@ -514,7 +514,7 @@ def pole_offsets(
     """Forecast the celestial pole offsets from those observed up to the origin of the forecast."""
     assert not isinstance(file, GivenSeries)
     table = offsets_until(file, float(record.time[-1]))
-    mjd = record.time[-1] + np.arange(1, int(days) + 1)[_shown(days, step)] + MJD
+    mjd = record.time[-1] + np.arange(1, int(days) + 1)[_days_returned(days, step)] + MJD
     value, error = (pair.T for pair in predicted_offsets(table, mjd))
     newest = _day(table.mjd[-1] - MJD)
     source = {
@@ -523,7 +523,7 @@ def pole_offsets(
         "newest_row": newest,
     }
     return AheadOffsets(
-        time=_times(record, days, step), dX=(value[0], error[0]), dY=(value[1], error[1])
+        time=_dates(record, days, step), dX=(value[0], error[0]), dY=(value[1], error[1])
     ).with_attributes(dX=source, dY=source)
 
 
@@ -586,6 +586,8 @@ def to_iers_table(answer: Answer) -> PoleTable:
     >>> table = earthspin.forecast(90).earthspin.to_iers_table()
     >>> with iers.earth_orientation_table.set(table):
     ...     pass  # transformations of astropy.coordinates
+    >>> print(table["PM_x"].unit)
+    arcsec
     """
     question = answer.scene
     if not isinstance(question, Forecast):

@@ -211,15 +211,15 @@ def budget(rates_by_effect: Budget) -> EffectRates:
         closure=rates.closure,
         omega_closure=rates.omega_closure,
         omega_closure_with_tides=rates.omega_closure_with_tides,
-        closure_over_flattening=_over(rates.closure, rates.psi_from_h),
-        closure_over_uncertainty=_over(rates.closure, both),
+        closure_over_flattening=_ratio(rates.closure, rates.psi_from_h),
+        closure_over_uncertainty=_ratio(rates.closure, both),
         psi_rate_analysis_error=rates.psi_analysis_error,
         omega_rate_analysis_error=rates.omega_analysis_error,
         effect=list(rates.psi),
     )
 
 
-def _over(closure: float, uncertainty: float) -> float:
+def _ratio(closure: float, uncertainty: float) -> float:
     """Ratio of an unexplained rate to its uncertainty; infinite if that uncertainty is zero."""
     return closure / uncertainty if uncertainty else math.copysign(math.inf, closure)
 

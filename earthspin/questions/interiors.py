@@ -79,14 +79,6 @@ def no_interior(body: Body) -> str | None:
     return f"no interior of {in_a_sentence(body.name)} is known" if none else None
 
 
-def not_layered(body: Body) -> str | None:
-    """Return the reason (text) to omit results if no layers of the body are known, else None."""
-    interior = interior_of(body)
-    if interior is None or interior.layers is not None:
-        return no_interior(body)
-    return f"interior '{interior.name}' has published numbers, but no layers"
-
-
 def require_layers(question: Question, interior: LayeredBody | None, body: Body) -> None:
     """Raise an error if neither the question nor its body has a layered interior.
 
@@ -96,22 +88,24 @@ def require_layers(question: Question, interior: LayeredBody | None, body: Body)
         If neither has layers.
     """
     refuse_unknown(question, body)
-    if interior is None and (why := not_layered(body)):
-        raise question.error("body", body.name, f"{why}; give layers as interior")
-
-
-def layers_of(body: Body) -> LayeredBody:
-    """Layers of the body's interior, which the caller knows to exist."""
-    within = interior_of(body)
-    assert within is not None
-    assert within.layers is not None
-    return within.layers
+    known = interior_of(body)
+    if interior is not None or (known is not None and known.layers is not None):
+        return
+    reason = no_interior(body)
+    if known is not None:
+        reason = f"interior '{known.name}' has published numbers, but no layers"
+    raise question.error("body", body.name, f"{reason}; give layers as interior")
 
 
 @part
 def layers(interior: LayeredBody | None, body: Body) -> LayeredBody:
     """Layers that the user gives as input, or by default those of the body."""
-    return layers_of(body) if interior is None else interior
+    if interior is not None:
+        return interior
+    known = interior_of(body)
+    assert known is not None
+    assert known.layers is not None  # `require_layers` has refused other bodies
+    return known.layers
 
 
 # --- predicted response --------------------------------------------------------------------------
@@ -170,8 +164,8 @@ def no_layers(body: Body) -> str | None:
 
     The body needs an IAU model, and layers with an inner core that have its mass and radius.
     """
-    if no_iau_model(body):
-        return no_iau_model(body)
+    if reason := no_iau_model(body):
+        return reason
     interior = layered(body)
     if interior is None:
         return f"no layers with an inner core are known for {in_a_sentence(body.name)}"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 
 import numpy as np
 
-from earthspin.bodies import MOON, SUN, Body, Numeric, in_a_sentence
+from earthspin.bodies import MOON, SUN, Body, in_a_sentence
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
@@ -17,7 +17,7 @@ from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, item_of
+from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, of_perturber
 from earthspin.questions.pulls import start_error
 from earthspin.questions.reasons import no_iau_model, north_note, not_sun_and_moon
 from earthspin.questions.satellites import mean_pole_error
@@ -265,11 +265,11 @@ def numbers(
     longitude_shift: float,
 ) -> SideBySide:
     """Broadcast to one shape all inputs of the long-term precession that may be arrays."""
-    rate, error = mean_rates.total()
+    (rate, error), j2 = mean_rates.total(), body.needed("j2")
     as_published = 0.0 if not_sun_and_moon(body, perturbers) else body.are_as_named
     return SideBySide.of(
         **{
-            name: item_of(mean_rates.rate.value, place)
+            name: of_perturber(mean_rates.rate.value, place)
             for place, name in enumerate(mean_rates.means.labels)
         },
         relative_error=np.hypot(error / np.abs(rate), CLOSURE * as_published),
@@ -277,7 +277,7 @@ def numbers(
         spin_rate=body.spin_rate,
         tides=tides,
         ellipticity=ellipticity,
-        j2_rate=_relative_j2_rate(body) if j2_rate is None else j2_rate,
+        j2_rate=body.j2_rate / (j2 + (j2 == 0)) if j2_rate is None else j2_rate,
         obliquity_shift=obliquity_shift,
         longitude_shift=longitude_shift,
     )
@@ -331,12 +331,6 @@ def _published() -> float:
         for name, effect in PUBLISHED_EFFECTS.items()
         if name != "geodesic"
     )
-
-
-def _relative_j2_rate(body: Body) -> Numeric:
-    """Rate of change of J2 divided by J2, s-1; zero if J2 does not change."""
-    j2 = body.needed("j2")
-    return body.j2_rate / (j2 + (j2 == 0))
 
 
 @part

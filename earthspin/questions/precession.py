@@ -398,18 +398,13 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
     ).with_attributes(no_error=sky.no_error)
 
 
-def neglected_nodes(body: Body, mean_rates: MeanRates) -> dict[str, float]:
-    """Largest additions to the mean rate by the nodes of satellites, rad/s, with their periods."""
-    nutations = swings(body, mean_rates.pull, mean_rates.means.obliquity)
-    return {f"{name}, period {swing.years}": swing.rate for name, swing in nutations.items()}
-
-
 @part
 def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -> Neglected:
     """Published contributions to the precession rate of effects that are not modelled."""
     unknown = reasons.not_the_iaus_earth(body, perturbers)
     published = LEFT_OUT_OF_RATES.get(body.name, {}) if body.is_as_named else {}
-    nodes = neglected_nodes(body, mean_rates)
+    nutations = swings(body, mean_rates.pull, mean_rates.means.obliquity)
+    nodes = {f"{name}, period {swing.years}": swing.rate for name, swing in nutations.items()}
     if published:
         what = "contribution to the rate that the model leaves out; others were not measured"
         cited = Neglected.cited(published, what)

@@ -29,8 +29,8 @@ def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
     These need a body with an IAU precession model and only the Sun and the Moon as perturbers.
     """
-    if no_iau_model(body):
-        return no_iau_model(body)
+    if reason := no_iau_model(body):
+        return reason
     names = {p.name for p in perturbers}
     missing = [name for name in ("sun", "moon") if name not in names]
     if missing:
@@ -43,8 +43,8 @@ def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
     These need the unmodified Earth, with only the Sun and the Moon as perturbers.
     """
-    if not_sun_and_moon(body, perturbers):
-        return not_sun_and_moon(body, perturbers)
+    if reason := not_sun_and_moon(body, perturbers):
+        return reason
     if body.is_as_named:
         return None
     return f"the IAU's numbers do not apply to a modified {proper(body.name)}: {body.changes}"
@@ -52,8 +52,8 @@ def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """Return the reason (text) to omit lunar results if the Moon is no perturber, else None."""
-    if no_iau_model(body):
-        return no_iau_model(body)
+    if reason := no_iau_model(body):
+        return reason
     has_moon = "moon" in {p.name for p in perturbers}
     return None if has_moon else "the moon is not among the perturbers"
 

@@ -181,7 +181,7 @@ class Inside:
 
     def stack(self, values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
         """Stack arrays with one value per body along a new dimension, labelled by name."""
-        return _along({name: self.label(value) for name, value in values.items()}, dim)
+        return _stacked({name: self.label(value) for name, value in values.items()}, dim)
 
 
 @part(unless=why_rigid)
@@ -268,14 +268,14 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
             (spread, sampled),
         ):
             lower |= {name: inside.label(value) for name, value in upper.items()}
-    sidereal, day = _along(turns, "rung"), abs(body.needed("spin_period"))
+    sidereal, day = _stacked(turns, "rung"), abs(body.needed("spin_period"))
     period = sidereal * day
     like = xr.zeros_like(period)
     rungs = Rungs(
-        period_solar=(period, _along(spread, "rung") * day + like),
+        period_solar=(period, _stacked(spread, "rung") * day + like),
         period_sidereal=sidereal + like,
         factor=period.copy(data=ladder.factors(sidereal.values)),
-        quality_factor=_along(quality, "rung") + like,
+        quality_factor=_stacked(quality, "rung") + like,
         rung_formula=np.array([ladder.FORMULAS[name] for name in turns]),
     )
     rung = {"left_out": "; ".join(f"{k}: {v}" for k, v in left_out.items()) or "none"}
@@ -308,7 +308,7 @@ def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric
     return spread
 
 
-def _along(values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
+def _stacked(values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
     """Stack the arrays of a mapping along a new dimension, labelled by the keys of the mapping."""
     import xarray as xr
 

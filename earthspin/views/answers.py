@@ -164,25 +164,17 @@ def plot(answer: Answer) -> list[Figure]:
     >>> year = earthspin.torque_series("2026-01-01", "2027-01-01", "6 h")
     >>> year.earthspin.plot()[0].savefig("torque.png")
     """
-    if figures := figures_of_fit(answer.dataset):
-        return figures
+    data = answer.dataset
+    if "scene" not in data.attrs and {"time", "chandler_amplitude"} <= set(data.variables):
+        with style():  # a result of `fit_chandler`
+            return [observed_pole.plot_amplitude_and_phase(data)]
     question = answer.scene
     try:
-        return figures_of(answer.dataset)
+        return figures_of(data)
     except (AttributeError, KeyError, ValueError):
         selection = f"a selection of the answer to '{question.word}'"
         remedy = "plot the full result, which earthspin.run(ds) computes again"
         raise SceneError("plot", selection, remedy) from None
-
-
-def figures_of_fit(fit: xr.Dataset) -> list[Figure]:
-    """Draw the result of `fit_chandler`; for any other Dataset, return an empty list."""
-    if "scene" in fit.attrs or not {"time", "chandler_amplitude"} <= set(fit.variables):
-        return []
-    from earthspin.views.observed_pole import plot_amplitude_and_phase
-
-    with style():
-        return [plot_amplitude_and_phase(fit)]
 
 
 def print_tables(tree: Result, *, with_plan: bool = False) -> None:

@@ -258,16 +258,6 @@ def lines(ax: Axes, x: Any, values: xr.DataArray, **how: Any) -> None:
         ax.plot(x, value, color=colour, label=label, **how)
 
 
-def plot_both_angles(
-    ax: Axes, time: Any, dpsi_sineps: Any, deps: Any, title: str, label: str
-) -> None:
-    """Draw celestial pole offsets in longitude and obliquity over time, on the same axes."""
-    ax.plot(time, dpsi_sineps, color=BLUE, lw=0.6, label="dpsi sin(eps)")
-    ax.plot(time, deps, color=RED, lw=0.6, label="deps")
-    ax.set_title(title, loc="left", fontsize=9)
-    ax.set_ylabel(label)
-
-
 def rungs(ax: Axes, labels: Sequence[object]) -> None:
     """Label the horizontal axis with the names of models of increasing detail (rungs)."""
     ax.set_xticks(range(len(labels)), [str(label) for label in labels])

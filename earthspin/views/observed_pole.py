@@ -81,8 +81,8 @@ def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None =
     ax.set(aspect="equal", ylabel="x, towards the prime meridian (mas)")
     ax.set_xlabel("y, towards 90° west (mas)")
     if metres := _metres(answer):
-        ax.secondary_xaxis("top", functions=_times(metres)).set_xlabel("y (m)")
-        ax.secondary_yaxis("right", functions=_times(metres)).set_ylabel("x (m)")
+        ax.secondary_xaxis("top", functions=_scaling(metres)).set_xlabel("y (m)")
+        ax.secondary_yaxis("right", functions=_scaling(metres)).set_ylabel("x (m)")
     bar = ax.figure.colorbar(
         dots, ax=ax, location="bottom", shrink=0.8, aspect=40, format="%.0f", label="time (years)"
     )
@@ -133,7 +133,7 @@ def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
     note(ax, '0.2", the text', (time[0], 200), (2, 3), color=drawing.GREY)
     ax.set(ylim=(0, 235), ylabel="amplitude (mas)")
     if metres := _metres(answer_of(result)):
-        ax.secondary_yaxis("right", functions=_times(metres)).set_ylabel("amplitude (m)")
+        ax.secondary_yaxis("right", functions=_scaling(metres)).set_ylabel("amplitude (m)")
     ax.legend(loc="lower left", ncols=2)
     return ax
 
@@ -195,7 +195,7 @@ def _plot_free_wobble(
     return fit, time
 
 
-def _times(factor: float) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
+def _scaling(factor: float) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
     """Return functions that multiply and divide by a factor, for a second axis in other units."""
     return lambda v: v * factor, lambda v: v / factor
 

@@ -138,15 +138,15 @@ def typeset(words: str) -> Markup:
     text = _POWER.sub(_power, text)
     text = _MINUS.sub("\u2212", text)
     text = _DIFFERENCE.sub("C\\1\u2212\\2A", text)
-    text = _SQUARE.sub(lambda found: f"<sup>{found[0]}</sup>", text)
-    text = _SUBSCRIPT.sub(lambda found: f"{_GREEK[found[1]]}<sub>A</sub>", text)
+    text = _SQUARE.sub(lambda match: f"<sup>{match[0]}</sup>", text)
+    text = _SUBSCRIPT.sub(lambda match: f"{_GREEK[match[1]]}<sub>A</sub>", text)
     text = re.sub(r"\buas\b", "\u00b5as", text)
     return Markup(text)
 
 
-def _power(found: re.Match[str]) -> str:
-    sign = "\u2212" if found[2] == "-" else ""
-    return f"{found[1]} \u00d7 10<sup>{sign}{found[3]}</sup>"
+def _power(match: re.Match[str]) -> str:
+    sign = "\u2212" if match[2] == "-" else ""
+    return f"{match[1]} \u00d7 10<sup>{sign}{match[3]}</sup>"
 
 
 #: Greys and colours of figures, as the page's style sheet turns them for light and dark.
@@ -189,8 +189,8 @@ def figure_on_page(svg: str, name: str, words: str, width: str) -> Markup:
     return Markup(svg)
 
 
-def _mixture(found: re.Match[str]) -> str:
-    share = round(100 * (1 - int(found[1], 16) / 255))
+def _mixture(match: re.Match[str]) -> str:
+    share = round(100 * (1 - int(match[1], 16) / 255))
     if share == 100:
         return "var(--ink)"
     return (

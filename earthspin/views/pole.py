@@ -109,15 +109,16 @@ def budget(tree: Result) -> Table:
     return table_along(rates, "effect", title, columns, note, more=more)
 
 
+def _both_angles(name: str) -> Column:
+    """Column with the values of a variable in longitude and in obliquity."""
+    return Column(name, lambda row: " / ".join(f"{value:.3f}" for value in row[name].values))
+
+
 def residuals(tree: Result) -> Table:
     """Table of the rms and maximum of computed minus IAU pole, for different sets of effects."""
-
-    def both(name: str) -> Column:
-        return Column(name, lambda row: " / ".join(f"{v:.3f}" for v in row[name].values))
-
     columns = (
         Column("model", lambda row: MODELS[row.model.item()]),
-        *map(both, ("residual_rms", "residual_maximum", "residual_rms_unfitted")),
+        *map(_both_angles, ("residual_rms", "residual_maximum", "residual_rms_unfitted")),
     )
     note = (
         "Each cell gives dpsi sin(eps) / deps. A constant and a rate were fitted to each and "
@@ -130,14 +131,10 @@ def residuals(tree: Result) -> Table:
 
 def observed(tree: Result) -> Table:
     """Table of the root mean square of computed minus observed pole, for each set of effects."""
-
-    def both(name: str) -> Column:
-        return Column(name, lambda row: " / ".join(f"{v:.3f}" for v in row[name].values))
-
     sizes = needed(tree, "observed")
     columns = (
         Column("model", lambda row: MODELS.get(row.model.item(), row.model.item())),
-        *map(both, ("observed_rms", "observed_rms_without_core", "observed_rms_unfitted")),
+        *map(_both_angles, ("observed_rms", "observed_rms_without_core", "observed_rms_unfitted")),
     )
     note = (
         f"Each cell gives dpsi sin(eps) / deps, root mean square over {int(sizes.observed_dates)} "
@@ -204,11 +201,16 @@ def plot_pole_residuals(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     series = needed(result, "residuals")
     ax = axes(ax, 7.5, 3)
-    offset = series.dpsi_sineps, series.deps
-    sizes = (float(np.sqrt(np.mean(part**2))) for part in offset)
-    title = f"computed pole minus IAU 2006/2000A; rms {' and '.join(f'{s:.2f}' for s in sizes)} mas"
-    drawing.plot_both_angles(ax, series.time, *offset, title, "residual (mas)")
-    ax.set_xlabel("time (TDB); constant and rate removed")
+    sizes = []
+    for name, label, colour in (
+        ("dpsi_sineps", "dpsi sin(eps)", drawing.BLUE),
+        ("deps", "deps", drawing.RED),
+    ):
+        ax.plot(series.time, series[name], color=colour, lw=0.6, label=label)
+        sizes.append(f"{float(np.sqrt(np.mean(series[name] ** 2))):.2f}")
+    title = f"computed pole minus IAU 2006/2000A; rms {' and '.join(sizes)} mas"
+    ax.set_title(title, loc="left", fontsize=9)
+    ax.set(xlabel="time (TDB); constant and rate removed", ylabel="residual (mas)")
     ax.legend(loc="best", ncols=2)
     return ax
 

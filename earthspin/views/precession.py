@@ -104,8 +104,12 @@ def rates(tree: Result) -> Table:
         for share in ("method", "input")
     )
 
+    neglected = answer.attrs["neglected"]
+    largest = None if "unknown size" in neglected else largest_of(neglected)
+    size = "size unknown" if largest is None else f"{largest[1]:g} ({largest[0]})"
+
     def left_out(row: xr.Dataset) -> str:
-        return _largest_left_out(answer) if row.perturber == last else ""
+        return size if row.perturber == last else ""
 
     columns = (
         "precession_rate",
@@ -121,13 +125,6 @@ def rates(tree: Result) -> Table:
         f"arcsec/yr are due to averaging and {given} arcsec/yr to the given numbers."
     )
     return table_along(answer, "perturber", "Precession", columns, note, first="pulled by")
-
-
-def _largest_left_out(answer: xr.Dataset) -> str:
-    """Name and size, as text, of the largest effect on the precession rate that is not modelled."""
-    text = answer.attrs["neglected"]
-    effect = None if "unknown size" in text else largest_of(text)
-    return "size unknown" if effect is None else f"{effect[1]:g} ({effect[0]})"
 
 
 def sky_and_calendar(tree: Result) -> Table:

@@ -22,7 +22,7 @@ Result = xr.Dataset | xr.DataTree
 def answer_of(result: Result) -> xr.Dataset:
     """Return the main Dataset of a result; for many bodies or starts, select the first."""
     whole = result.to_dataset() if isinstance(result, xr.DataTree) else result
-    return _first(whole, whole.attrs)
+    return _first_case(whole, whole.attrs)
 
 
 def question_of(result: Result) -> type[Question] | None:
@@ -34,7 +34,7 @@ def section(result: Result, name: str) -> xr.Dataset | None:
     """Return the section (Dataset) of a result with the given name, or None if there is none."""
     if not isinstance(result, xr.DataTree) or name not in result.children:
         return None
-    return _first(result[name].to_dataset(), result.attrs)
+    return _first_case(result[name].to_dataset(), result.attrs)
 
 
 def needed(result: Result, name: str) -> xr.Dataset:
@@ -45,11 +45,11 @@ def needed(result: Result, name: str) -> xr.Dataset:
     SceneError
         If the question has no such section, or the section does not apply; the error says why.
     """
-    found = section(result, name)
-    if found is None:
-        found = section(run_tree(result, [name]), name)
-    assert found is not None
-    return found
+    data = section(result, name)
+    if data is None:
+        data = section(run_tree(result, [name]), name)
+    assert data is not None
+    return data
 
 
 def body_of(answer: xr.Dataset) -> str:
@@ -83,7 +83,7 @@ def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:
     ]
 
 
-def _first(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
+def _first_case(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
     """Select the first body or initial state from a Dataset with many of them.
 
     That is, the first along dimensions that no part of the question declares.

@@ -312,11 +312,6 @@ LOST = 90.0
 POSES = 481
 
 
-def _lyapunov_time(neighbour: xr.Dataset) -> str:
-    time, error = float(neighbour.lyapunov_time), float(neighbour.lyapunov_time_error)
-    return f"{time:.3g} ± {error:.2g}"
-
-
 def _days(answer: xr.Dataset) -> FloatArray:
     time = answer.time.values
     return np.asarray((time - time[0]) / np.timedelta64(1, "D"))
@@ -378,8 +373,9 @@ def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
     days = _days(neighbour)
     ax.plot(days, neighbour.growth, color=RED, lw=1.2, label="neighbour")
     if "lyapunov_time" in neighbour:
-        words = f"e-fold in {_lyapunov_time(neighbour)} d"
-        ax.plot(days, days / float(neighbour.lyapunov_time), "k--", lw=0.9, label=words)
+        time, error = float(neighbour.lyapunov_time), float(neighbour.lyapunov_time_error)
+        words = f"e-fold in {time:.3g} ± {error:.2g} d"
+        ax.plot(days, days / time, "k--", lw=0.9, label=words)
     return _label(ax, "logarithm of the distance (1)")
 
 
