@@ -52,7 +52,7 @@ _HOME = {
 }
 _MODULE_OF = _QUESTIONS | {name: module for module, names in _HOME.items() for name in names}
 
-_registry.FUNCTIONS["load_scene"] = "earthspin.scenes"
+_registry.FUNCTIONS |= {"load_scene": "earthspin.scenes", "plan": "earthspin.scenes"}
 _registry.METHODS |= {
     "plot": "earthspin.views.answers",
     "to_iers_table": "earthspin.questions.forecast",

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
-from earthspin.engine.plan import Plan, plan_parts, scene_of, with_run_times
+from earthspin.engine.plan import Plan
 from earthspin.engine.registry import METHODS, registered
 from earthspin.engine.spread import quantiles, sensitivity
 from earthspin.errors import SceneError
@@ -46,7 +46,7 @@ class Answer:
         The question of this answer, with every number.
     plan : Plan
         Plan of the run: parts that ran, and parts that were left out, with reasons; with run times
-        if it ran in this process.
+        in an answer as it was returned, but not in a copy or a selection.
 
     Examples
     --------
@@ -58,6 +58,7 @@ class Answer:
 
     def __init__(self, answer: xr.Dataset | xr.DataTree) -> None:
         self.dataset = answer.to_dataset() if isinstance(answer, xr.DataTree) else answer
+        self._plan: Plan | None = None
 
     def __getattr__(self, name: str) -> Any:
         """Return a registered method by its name."""
@@ -78,7 +79,13 @@ class Answer:
     @property
     def plan(self) -> Plan:
         """Plan of the run: functions that ran, and functions left out, with the reasons."""
-        return with_run_times(plan_parts(self.scene), scene_of(self.dataset))
+        if self._plan is None:
+            self._plan = registered("plan")(self.scene)
+        return self._plan
+
+    @plan.setter
+    def plan(self, plan: Plan) -> None:
+        self._plan = plan
 
     def to_frame(self) -> pd.DataFrame:
         """Return the result as a pandas table: a row for each label, a column for each number.

@@ -10,9 +10,8 @@ import numpy as np
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.member_values import MEMBER
 from earthspin.engine.members import Members
-from earthspin.engine.plan import ALL, plan_parts
 from earthspin.engine.question import NEGLECTED, Question
-from earthspin.engine.run import run_parts
+from earthspin.engine.run import ALL, Run
 from earthspin.errors import SceneError
 
 if TYPE_CHECKING:
@@ -46,7 +45,7 @@ def answer(question: Question) -> xr.Dataset:
     """
     if question.members is not None:
         return Ensemble(question).hold()
-    result = run_parts(plan_parts(question)).answer()
+    result = Run(question).answer()
     return _with_sample(question, result) if question.uncertainty == "sample" else result
 
 
@@ -79,7 +78,7 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
             single = work.variants.question(work.names(0))
             nodes[NEGLECTED] = answer_tree(single, NEGLECTED)[NEGLECTED].to_dataset()
         return xr.DataTree.from_dict(nodes)
-    tree = run_parts(plan_parts(question, sections)).tree()
+    tree = Run(question).tree(sections)
     if question.uncertainty == "sample":
         tree.dataset = _with_sample(question, tree.to_dataset())
     return tree

@@ -20,7 +20,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.engine import loop
+from earthspin.engine import blocks
+from earthspin.engine.blocks import Layout, request_of
 from earthspin.engine.inputs import (
     Input,
     along_members,
@@ -31,11 +32,7 @@ from earthspin.engine.inputs import (
 )
 from earthspin.engine.member_values import MEMBER
 from earthspin.engine.members import TWICE, Members, count_of, draw
-from earthspin.engine.plan import SCENE
-from earthspin.engine.question import Question
-from earthspin.engine.run import plan_data, scene_text
-from earthspin.engine.series import request_of
-from earthspin.engine.unfinished import Layout
+from earthspin.engine.question import SCENE, Question, scene_text
 from earthspin.engine.variants import Names, Variants
 from earthspin.errors import ApartError, EarthspinError
 
@@ -135,7 +132,7 @@ class Ensemble:
     def variants(self) -> Variants:
         """Copies of the question, one for each combination of inputs by name (such as files)."""
         keys = tuple(entry.key for entry in self.inputs.values() if entry.named)
-        return Variants(self.question, keys, {entry.key for entry in self.numbers.values()})
+        return Variants(self.question, keys)
 
     def names(self, index: int) -> Names:
         """Inputs of one member that are given by name, such as files, as a tuple of names."""
@@ -186,7 +183,7 @@ class Ensemble:
 
     def plan_data(self) -> xr.Dataset:
         """Plan of the computation for the first member, as a Dataset."""
-        return plan_data(self.variants[self.names(0)]().plan)
+        return self.variants[self.names(0)].plan().dataset()
 
     def hold(self, client: object = None) -> xr.Dataset:
         """Compute the ensemble and return it in memory.
@@ -200,11 +197,11 @@ class Ensemble:
         if size > LARGEST_IN_MEMORY:
             problem = f"they need about {size / 1e9:.3g} GB; give a path to write them to a store"
             raise self.question.error("members", self.layout.size, problem)
-        return loop.hold(self, client=client)
+        return blocks.hold(self, client=client)
 
     def write(self, path: str | Path, client: object = None) -> Path:
         """Compute the ensemble into a Zarr store, or continue an unfinished store."""
-        return loop.write(self, path, client=client)
+        return blocks.write(self, path, client=client)
 
     # --- the members -----------------------------------------------------------------------------
 
@@ -304,8 +301,9 @@ class Ensemble:
     def _answer(self, names: Names, values: Mapping[str, Any], which: str) -> xr.Dataset:
         """Compute the answer for one member, or for several members with equal inputs by name."""
         try:
-            rerun = self.variants[names]
-            answer = rerun(with_values(rerun.plan.question, self.numbers, values)).numbers()
+            nominal = self.variants[names]
+            changed = with_values(nominal.question, self.numbers, values)
+            answer = nominal.again(changed).numbers()
         except EarthspinError as error:
             error.args = (f"member {which}: {error}",)
             raise

@@ -10,8 +10,8 @@ from collections import OrderedDict
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from earthspin.engine.question import Question
-from earthspin.engine.run import Rerun
+from earthspin.engine.question import NEGLECTED, Question
+from earthspin.engine.run import Run
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -33,13 +33,11 @@ class Variants:
     question : Question
     keys : tuple of str
         Keys whose names vary.
-    moving : iterable of str
-        Keys whose numbers vary.
     """
 
-    def __init__(self, question: Question, keys: tuple[str, ...], moving: Iterable[str]) -> None:
-        self._question, self._keys, self._moving = question, keys, {*moving}
-        self._runs: OrderedDict[Names, Rerun] = OrderedDict()
+    def __init__(self, question: Question, keys: tuple[str, ...]) -> None:
+        self._question, self._keys = question, keys
+        self._runs: OrderedDict[Names, Run] = OrderedDict()
         self._descriptions: dict[Names, dict[str, Mapping[str, Any]]] = {}
 
     def question(self, names: Names) -> Question:
@@ -54,10 +52,10 @@ class Variants:
             return self._question
         return self._question.replace(**dict(zip(self._keys, names, strict=True)))
 
-    def __getitem__(self, names: Names) -> Rerun:
-        """Return the stored `Rerun` of the variant that has the given names as inputs."""
+    def __getitem__(self, names: Names) -> Run:
+        """Return the stored `Run` of the variant that has the given names as inputs."""
         if names not in self._runs:
-            self._runs[names] = Rerun(self.question(names), self._moving)
+            self._runs[names] = Run(self.question(names))
             if len(self._runs) > LARGEST_NUMBER_OF_RUNS:
                 self._runs.popitem(last=False)
         self._runs.move_to_end(names)
@@ -65,11 +63,11 @@ class Variants:
 
     def nominal(self, names: Names) -> xr.Dataset:
         """Compute the answer of one variant with the question's own numbers."""
-        run = self[names]()
+        run = self[names]
         answer = run.answer()
         self._descriptions[names] = {
             _WHOLE: answer.attrs,
-            _SOURCES: run.provenance,
+            _SOURCES: run.provenance([*run.graph.answer, NEGLECTED]),
             **{str(name): array.attrs for name, array in answer.variables.items()},
         }
         return answer

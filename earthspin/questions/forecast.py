@@ -16,9 +16,8 @@ from earthspin.dates import Spacing, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.plan import plan_parts
 from earthspin.engine.question import Question, define_parts, key
-from earthspin.engine.run import run_parts
+from earthspin.engine.run import Run
 from earthspin.engine.variables import (
     Labels,
     Pair,
@@ -595,18 +594,18 @@ def to_iers_table(answer: Answer) -> PoleTable:
         raise SceneError("to_iers_table", question.word, problem)
     from earthspin.sky.iers_table import last_ut1, with_pole
 
-    results = run_parts(plan_parts(question, ["pole_offsets"])).results
     file = question.file
     if isinstance(file, GivenSeries):
         raise SceneError("file", "polar motion", "name a table, which has celestial pole offsets")
-    seen: Record = results["record"]
+    run = Run(question)
+    seen: Record = run["record"]
     mjd, horizon = seen.time + MJD, int(question.days)
     offsets = offsets_until(file, float(seen.time[-1]))
     rapid = file_of(file) if offsets.name == "finals2000A" else finals_path()
     if (reach := last_ut1(rapid) - mjd[-1]) < horizon:
         problem = f"{rapid.name} has UT1-UTC for {reach:.0f} d after the origin; take no more days"
         raise SceneError("days", f"{question.days:g} d", problem)
-    p = np.concatenate([seen.p, results["predicted"].pole]) * MAS
+    p = np.concatenate([seen.p, run["predicted"].pole]) * MAS
     pole = np.array([_continued(mjd, mjd[-1] + horizon), p.real, -p.imag])
     days = _continued(offsets.mjd, mjd[-1] + horizon)
     later, _ = predicted_offsets(offsets, days[offsets.mjd.size :])

@@ -6,9 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated
 
-import numpy as np
-from numpy.typing import NDArray
-
 from earthspin.bodies import BODIES, Body, all_of, in_a_sentence
 from earthspin.bodies.layered import Layers
 from earthspin.engine.part import part
@@ -18,6 +15,7 @@ from earthspin.interior.diurnal_ocean import FES2004_SOURCE
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.named import ANELASTIC_EXPONENT, INTERIORS, Interior, with_layers
 from earthspin.interior.published import CORE_NUTATION, K_CMB_OUT_OF_PHASE
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import ladder
 from earthspin.questions.reasons import no_iau_model
 from earthspin.wobble.ladder import Spin
@@ -142,7 +140,7 @@ class Prediction:
         """Names of the models in order of detail (rungs), except those used only for comparison."""
         return [name for name in self.rungs if name not in ladder.BESIDE]
 
-    def transfer(self, name: str, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
+    def transfer(self, name: str, frequency: FloatArray) -> ComplexArray:
         """Transfer function (non-rigid over rigid nutation) of one model, at frequencies in rad/s.
 
         The frequencies are in space.

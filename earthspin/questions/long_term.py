@@ -32,7 +32,7 @@ from earthspin.sky.columns import is_table
 from earthspin.sky.orbit_files import read_orbit
 from earthspin.sky.orbit_table import OrbitTable, shipped
 from earthspin.torque import rates
-from earthspin.torque.quadrupole import dot
+from earthspin.torque.gravity import dot
 from earthspin.units import FileName, Number, Plain, pack, unpack
 from earthspin.years import YearList, YearSpan, YearStep, grid
 

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from earthspin.bodies import MOON
-from earthspin.constants import DAY
+from earthspin.constants import DAY, DAYS_PER_YEAR
 from earthspin.interior.published import CORE_NUTATION
 from earthspin.views import drawing, tables
 from earthspin.views.drawing import Axes, PageFigure, Views, axes, note
@@ -37,7 +37,7 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
     x, y = (angles - design[:, :2] @ line[:2]).T
     points = np.stack([x, y], axis=1)
     steps = list(np.stack([points[:-1], points[1:]], axis=1))
-    path = LineCollection(steps, array=days[:-1] / 365.25, cmap="viridis", lw=0.7)
+    path = LineCollection(steps, array=days[:-1] / DAYS_PER_YEAR, cmap="viridis", lw=0.7)
     ax.add_collection(path)
     ax.autoscale_view()
     words = "time from the start (years)"
@@ -225,11 +225,11 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
     """
     terms, period = needed(result, "nutation"), float(needed(result, "core").core_nutation_period)
-    terms = terms.assign(frequency=365.25 / terms.period).sortby("frequency")
+    terms = terms.assign(frequency=DAYS_PER_YEAR / terms.period).sortby("frequency")
     ax = axes(ax, 7.2, 4.2)
-    ax.axvline(365.25 / period, color="0.6", lw=0.8, ls="--", zorder=0)
+    ax.axvline(DAYS_PER_YEAR / period, color="0.6", lw=0.8, ls="--", zorder=0)
     words = f"free core nutation\n{period:.1f} d"
-    note(ax, words, (365.25 / period, 1.25), (8, 0), ha="left", color="0.4")
+    note(ax, words, (DAYS_PER_YEAR / period, 1.25), (8, 0), ha="left", color="0.4")
     ax.axhline(1, color="0.8", lw=0.8, zorder=0)
     size = 10 + 25 * np.log10(1 + abs(terms.rigid_in_phase.values))
     words = "IAU 2000A / rigid"
@@ -319,7 +319,7 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
     """
     data, main = needed(result, "transfer"), needed(result, "terms")
-    per_year = 365.25 * 1.00273781191135448
+    per_year = DAYS_PER_YEAR * 1.00273781191135448
     frequency = data.frequency.values * per_year
     ax = axes(ax, 7.5, 4.2)
     ax.axhline(1, color="0.8", lw=0.8, zorder=0)
@@ -333,10 +333,10 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
             words = str(rung) if number == 0 else None
             ax.plot(frequency[piece], transfer[piece], color=colour, lw=width, label=words)
     ratio = (main.iau_in_phase / main.predicted_in_phase.sel(rung="rigid")).values
-    at = 365.25 / main.period.values
+    at = DAYS_PER_YEAR / main.period.values
     inside = np.abs(at) < SHOWN
     ax.plot(at[inside], ratio[inside], "o", color=drawing.ORANGE, ms=5, label="IAU 2000A / rigid")
-    note(ax, "free core nutation", (365.25 / CORE_NUTATION.value, 0.9), (-8, 0), ha="right")
+    note(ax, "free core nutation", (DAYS_PER_YEAR / CORE_NUTATION.value, 0.9), (-8, 0), ha="right")
     ax.set(
         ylim=(0.85, 1.45),
         xlabel="frequency in space, negative if retrograde (cycles per year)",

@@ -132,7 +132,7 @@ def test_signals_end_in_one_line_that_says_how_to_go_on(
         if int(sys.argv[2]) == signal.SIGINT:
             signal.signal(signal.SIGINT, signal.default_int_handler)
         from earthspin import cli, scenes
-        from earthspin.engine.series import Series
+        from earthspin.engine.blocks import Series
         def slow(series, number):
             while number == 2:
                 print("half-way", flush=True)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 import earthspin
 from earthspin import EARTH
 from earthspin.constants import UAS
-from earthspin.engine.plan import plan_parts
+from earthspin.engine.run import Run
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation.additions import ADDITIONS, added_to
 from earthspin.nutation.circles import MULTIPLES, phases
@@ -74,13 +74,8 @@ class Terms:
 @cache
 def terms() -> Terms:
     """Those of the comparison with the IAU."""
-    planned = plan_parts(earthspin.load_scene("iau"), ["core"])
-    values = planned.question.keys()
-    for step in planned.parts:
-        if "response_apart" not in values:
-            there = (*step.needs, *(name for name in step.uses if name in values))
-            values[step.name] = step(**{name: values[name] for name in there})
-    apart, circles = values["response_apart"], values["pole_analysis"].our_circles
+    run = Run(earthspin.load_scene("iau"))
+    apart, circles = run["response_apart"], run["pole_analysis"].our_circles
     iau = apart.left + apart.response.transfer(circles.frequency) * apart.rigid
     return Terms(circles.multiples, circles.frequency, apart.rigid, iau, apart.added)
 
