@@ -268,9 +268,7 @@ def _run(options: Namespace) -> None:
             with drafts.replacing(page) as draft:
                 draft.write_text(answers.scene_page(tree), encoding="utf-8")
         if options.json:
-            from earthspin.views.as_json import write_json
-
-            write_json(tree, sys.stdout)
+            answers.write_json(tree, sys.stdout)
         else:
             answers.print_tables(tree, with_plan=options.plan)
             others = [name for name in question.graph.sections if name not in tree.children]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -30,7 +30,7 @@ from earthspin.engine.variables import (
 )
 from earthspin.errors import SceneError, SeriesError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.questions.observed_pole import MJD, TableFile, complex_pole, labelled_series
+from earthspin.questions.observed_pole import MJD, Daily, TableFile, complex_pole, labelled_series
 from earthspin.questions.reasons import no_iau_model
 from earthspin.sky.eop import (
     PoleSeries,
@@ -41,7 +41,7 @@ from earthspin.sky.eop import (
     read_pole_offsets,
 )
 from earthspin.units import Number, Plain, pack, unpack
-from earthspin.wobble.forecast import COMPONENTS, LONGEST, NEWEST_BIAS, SKILL, FastExcitation
+from earthspin.wobble.forecast import COMPONENTS, LONGEST, NEWEST_BIAS, SKILL
 from earthspin.wobble.forecast import Forecast as Predicted
 
 if TYPE_CHECKING:
@@ -234,11 +234,6 @@ def record(file: str | Path | GivenSeries, origin: float | None) -> Record:
         wrong = whole.time[:-1][abs(steps - 1) > _MIDNIGHT][0]
         problem = "a forecast needs one row for each day"
         raise SceneError("file", f"a step of {steps.max():g} d after {_day(wrong)}", problem)
-    return _until(whole, origin)
-
-
-def _until(whole: Record, origin: float | None) -> Record:
-    """Select the rows of a record up to the origin, the last day that the forecast uses."""
     if origin is None:
         return whole
     first, last = whole.time[[0, -1]]
@@ -247,7 +242,7 @@ def _until(whole: Record, origin: float | None) -> Record:
         raise SceneError("origin", _day(origin), problem)
     count = int(np.floor(origin - first + _MIDNIGHT)) + 1
     newest = whole.newest and count == whole.time.size
-    return Record(whole.time[:count], whole.p[:count], whole.name, whole.sha256, newest)
+    return replace(whole, time=whole.time[:count], p=whole.p[:count], newest=newest)
 
 
 def _day(time: float) -> str:
@@ -290,13 +285,7 @@ def _from_common_day(record: Record, excitation: GivenSeries) -> tuple[ComplexAr
     return record.p[max(skipped, 0) :], (chi1 + 1j * chi2)[max(-skipped, 0) :]
 
 
-class AheadOfOrigin(Variables, along=("time",)):
-    """Base class of results given at the times of a forecast, which lie after its origin."""
-
-    time: Labels = labels("time", standard_name="time", comment="0h UTC in daily tables")
-
-
-class ForecastPole(AheadOfOrigin):
+class ForecastPole(Daily):
     """Forecast of polar motion."""
 
     x: Pair = measured("arcsec", "coordinate of the pole towards the prime meridian")
@@ -312,9 +301,10 @@ def _days_returned(days: float, step: float) -> Any:
     return slice(every - 1, int(days), every)
 
 
-def _dates(record: Record, days: float, step: float) -> Any:
-    """Dates that a forecast returns: every `step` up to `days` after the origin."""
-    return datetime64(record.time[-1] + np.arange(1, int(days) + 1)[_days_returned(days, step)])
+def _days_ahead(record: Record, days: float, step: float) -> FloatArray:
+    """Days from J2000.0 that a forecast returns: every `step` up to `days` after the origin."""
+    ahead: FloatArray = np.arange(1.0, int(days) + 1)[_days_returned(days, step)]
+    return ahead + float(record.time[-1])
 
 
 @part
@@ -329,6 +319,7 @@ def ahead(
 ) -> ForecastPole:
     """Return the forecast x and y of the pole, with half-widths and correlation of errors."""
     newest = float(record.time[-1])
+    fast = ", ".join(f"{name} = {value:.4g}" for name, value in predicted.fast.as_mapping().items())
     kind = parameters or ("shipped" if excitation is None else "fitted")
     shown = _days_returned(days, step)
     p, covariance = predicted.pole[shown] * MAS, predicted.covariance[shown] * MAS**2
@@ -339,7 +330,7 @@ def ahead(
         "origin": _day(newest if origin is None else origin),
         "newest_row": _day(newest),
         "age_of_newest_row": f"{0.0 if origin is None else origin - newest:g} d at the origin",
-        "parameters": f"{kind}: {_words(predicted.fast)}",
+        "parameters": f"{kind}: {fast}",
     }
     if record.newest:
         source["newest_row_corrected"] = (
@@ -350,19 +341,14 @@ def ahead(
             f"given from {_day(excitation.rows[0, 0])} to {_day(excitation.rows[0, -1])}"
         )
     return ForecastPole(
-        time=_dates(record, days, step),
+        time=datetime64(_days_ahead(record, days, step)),
         x=(p.real, NORMAL_95 * sx),
         y=(-p.imag, NORMAL_95 * sy),
         correlation_xy=covariance[:, 0, 1] / (sx * sy),
     ).with_attributes(x=source, y=source)
 
 
-def _words(fast: FastExcitation) -> str:
-    """Write the parameters of the fast excitation of polar motion as one line of text."""
-    return ", ".join(f"{name} = {value:.4g}" for name, value in fast.as_mapping().items())
-
-
-class Components(AheadOfOrigin):
+class Components(Daily):
     """Parts of the forecast polar motion: Chandler, annual and semiannual wobble, and slow pole."""
 
     component_x: Pair = measured("mas", "part of x", along=("component", "time"))
@@ -385,7 +371,7 @@ def components(record: Record, predicted: Predicted, days: float, step: float) -
     variance = np.array([values[shown] for values in predicted.component_variance.values()])
     half_width = NORMAL_95 * np.sqrt(variance) * MAS
     return Components(
-        time=_dates(record, days, step),
+        time=datetime64(_days_ahead(record, days, step)),
         component_x=(p.real, half_width[..., 0]),
         component_y=(-p.imag, half_width[..., 1]),
     )
@@ -433,7 +419,7 @@ def skill() -> Skill:
     )
 
 
-class BulletinA(AheadOfOrigin):
+class BulletinA(Daily):
     """Polar motion x and y as predicted in Bulletin A of the IERS."""
 
     bulletin_a_x: Pair = measured("arcsec", "x predicted by Bulletin A")
@@ -466,7 +452,7 @@ def bulletin_a(
     )
 
 
-class AheadOffsets(AheadOfOrigin):
+class AheadOffsets(Daily):
     """Forecast of the celestial pole offsets."""
 
     dX: Pair = measured("mas", "X of the celestial pole minus that of IAU 2006/2000A")
@@ -513,8 +499,8 @@ def pole_offsets(
     """Forecast the celestial pole offsets from those observed up to the origin of the forecast."""
     assert not isinstance(file, GivenSeries)
     table = offsets_until(file, float(record.time[-1]))
-    mjd = record.time[-1] + np.arange(1, int(days) + 1)[_days_returned(days, step)] + MJD
-    value, error = (pair.T for pair in predicted_offsets(table, mjd))
+    time = _days_ahead(record, days, step)
+    value, error = (pair.T for pair in predicted_offsets(table, time + MJD))
     newest = _day(table.mjd[-1] - MJD)
     source = {
         "references": f"IERS {table.name}",
@@ -522,7 +508,7 @@ def pole_offsets(
         "newest_row": newest,
     }
     return AheadOffsets(
-        time=_dates(record, days, step), dX=(value[0], error[0]), dY=(value[1], error[1])
+        time=datetime64(time), dX=(value[0], error[0]), dY=(value[1], error[1])
     ).with_attributes(dX=source, dY=source)
 
 

@@ -46,6 +46,7 @@ from earthspin.questions.path import (
     Shift,
     core_response,
     iau_nutation,
+    largest_terms,
     path_over,
     residual_error,
     rigid,
@@ -437,32 +438,19 @@ class Nutation(Variables, along=("term",)):
 @part
 def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation:
     """Compare the thirty largest circular nutation terms of the computed pole and the IAU pole."""
-    from earthspin.nutation.circles import phases, term_names
-    from earthspin.nutation.neighbours import amplitude_error, neighbours_of
-    from earthspin.sky import iau
+    from earthspin.nutation.circles import phases
 
+    order, terms = largest_terms(pole_analysis, LARGEST)
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
-    order = np.argsort(-np.abs(ours.amplitude))[:LARGEST]
-    frequency = ours.frequency[order]
     rigid, real = ours.amplitude[order], theirs.amplitude[order]
-    transfer = core_response.transfer(frequency)
-    at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
-    near = neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
-    neighbour_in, neighbour_out = phases(near.amplitude[order])
-    error, ratio = amplitude_error(frequency), real / rigid
+    transfer, ratio = core_response.transfer(ours.frequency[order]), real / rigid
     return Nutation(
-        period=2 * np.pi / frequency,
+        **terms,
         rigid=phases(rigid),
-        iau=phases(real),
-        amplitude_error=error,
-        neighbour=[near.names[row] for row in order],
-        neighbour_in_phase=neighbour_in,
-        neighbour_out_of_phase=neighbour_out,
         ratio=(ratio.real, ratio.imag),
-        ratio_error=np.hypot(1, np.abs(ratio)) * error / np.abs(rigid),
+        ratio_error=np.hypot(1, np.abs(ratio)) * terms["amplitude_error"] / np.abs(rigid),
         transfer=(transfer.real, transfer.imag),
         left=phases(real - transfer * rigid),
-        term=term_names(ours.multiples[order]),
     )
 
 

@@ -42,6 +42,7 @@ from earthspin.questions.path import (
     PoleComparison,
     iau_nutation,
     iau_pole,
+    largest_terms,
     path_over,
     pole_analysis,
     residual_error,
@@ -305,33 +306,20 @@ class Terms(Variables, along=("term",)):
 @part
 def terms(pole_analysis: PoleComparison, models: Prediction, interior_spread: Spread) -> Terms:
     """Compute the largest circular nutation terms of each model, in phase and out of phase."""
-    from earthspin.nutation.circles import phases, term_names
-    from earthspin.nutation.neighbours import amplitude_error, neighbours_of
-    from earthspin.sky import iau
+    from earthspin.nutation.circles import phases
 
-    ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
-    order = np.argsort(-np.abs(ours.amplitude))[:LARGEST]
-    frequency, own = ours.frequency[order], ours.amplitude[order]
-    names = models.ladder
+    order, columns = largest_terms(pole_analysis, LARGEST)
+    circles, names = pole_analysis.our_circles, models.ladder
+    frequency, own = circles.frequency[order], circles.amplitude[order]
     predicted = np.array([models.transfer(name, frequency) * own for name in names])
     spread = np.array(
         [interior_spread.transfer_half_width(name, frequency) * np.abs(own) for name in names]
     )
-    error = amplitude_error(frequency)
-    at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
-    near = neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
-    neighbour_in, neighbour_out = phases(near.amplitude[order])
     return Terms(
-        period=2 * np.pi / frequency,
+        **columns,
         predicted=phases(predicted),
-        predicted_error=np.hypot(spread, error),
-        iau=phases(theirs.amplitude[order]),
-        amplitude_error=error,
-        neighbour=[near.names[row] for row in order],
-        neighbour_in_phase=neighbour_in,
-        neighbour_out_of_phase=neighbour_out,
+        predicted_error=np.hypot(spread, columns["amplitude_error"]),
         rung=names,
-        term=term_names(ours.multiples[order]),
     ).with_attributes(predicted_in_phase={"references": SOURCES})
 
 

@@ -62,7 +62,7 @@ class OfTable(Question):
 
 
 class Daily(Variables, along=("time",)):
-    """Base class of results given at the days of a table of the observed pole."""
+    """Base class of results given at days of a table of the observed pole, or after them."""
 
     time: Labels = labels("time", standard_name="time", comment="0h UTC in daily tables")
 

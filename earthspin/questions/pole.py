@@ -48,7 +48,7 @@ from earthspin.questions.pulls import (
 from earthspin.questions.reasons import no_iau_model, north_note, not_the_iaus_earth
 from earthspin.questions.satellites import no_satellites
 from earthspin.questions.sky import Sky
-from earthspin.questions.times import SPAN_DOC, Dated, by_region, days_of
+from earthspin.questions.times import SPAN_DOC, Dated, days_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -205,7 +205,7 @@ def axes(
     block: Block | None = None,
 ) -> Directions:
     """Compute unit vectors of the angular momentum, rotation and figure axes at every time."""
-    now = days_of(epochs, block, by_region("pole.zarr"))
+    now = days_of(epochs, block, "pole.zarr")
     directions = axis_path.at(now * DAY)
     figure = directions["figure"]
     errors = direction_errors(axis_path, figure, now, epochs, body, pulls, interior_shift)
@@ -253,7 +253,7 @@ def response_error(
     block: Block | None = None,
 ) -> ResponseError:
     """Compute the error of the axis directions that is due to the response of the interior."""
-    half_width = interior_shift.half_width(days_of(epochs, block, by_region("pole.zarr")))
+    half_width = interior_shift.half_width(days_of(epochs, block, "pole.zarr"))
     share = ResponseError(time=axes.time, direction_error_response=half_width)
     if response == "predicted":
         share.with_attributes(direction_error_response={"references": SOURCES})
@@ -276,7 +276,7 @@ def satellite_error(
 ) -> SatelliteError:
     """Compute the error of the axis directions that is due to the nodes of satellites."""
     _, epoch = start_of(body, pulls)
-    days = days_of(epochs, block, by_region("pole.zarr"))
+    days = days_of(epochs, block, "pole.zarr")
     return SatelliteError(
         time=axes.time, direction_error_satellites=drift_of_nodes(body, pulls, days * DAY - epoch)
     )
@@ -319,7 +319,7 @@ def pole_angles(
     vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     angles = on_fixed_ecliptic(vectors.reshape(-1, 3), ecliptic).reshape(*vectors.shape[:2], 2)
-    psi = turns.unwrapped(angles[..., 0], days_of(epochs, block, by_region("pole.zarr")) * DAY)
+    psi = turns.unwrapped(angles[..., 0], days_of(epochs, block, "pole.zarr") * DAY)
     return Angles(time=axes.time, axis=axes.axis, psi=psi, eps=angles[..., 1]).with_attributes(
         eps=north_note(body)
     )

@@ -52,7 +52,7 @@ from earthspin.questions.pulls import (
 )
 from earthspin.questions.satellites import largest_drifts, no_satellites, obliquity_of, swings
 from earthspin.questions.sky import Sky
-from earthspin.questions.times import SPAN_DOC, Dated, by_region, days_of
+from earthspin.questions.times import SPAN_DOC, Dated, days_of
 from earthspin.sky.elements import ByElements, Elements
 from earthspin.units import Number, Numbers
 
@@ -421,7 +421,7 @@ def turning(
     block: Block | None = None,
 ) -> Attitudes:
     """Compute attitude, spin and angular momentum with errors at every requested time."""
-    now = days_of(epochs, block, by_region("series.zarr"))
+    now = days_of(epochs, block, "series.zarr")
     order = np.argsort(now, kind="stable")
     seconds = rotor.since(now[order])
     begin = 0.0 if block is None or block.first == 0 else float(seconds[0])

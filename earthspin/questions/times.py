@@ -70,15 +70,10 @@ def instants(duration: float, points: int, times: FloatArray | None) -> FloatArr
 BYTES_PER_TIME = 128
 
 
-def by_region(store: str) -> str:
-    """Advice, for error messages, on how to write a series that is too long for memory."""
-    return f"write them by region with write_series(scene, '{store}') or run --out"
-
-
 def days_of(
     epochs: Epochs,
     block: Block | None = None,
-    remedy: str = "choose a longer step or a shorter span",
+    store: str = "",
     bodies: Iterable[Body] = (),
 ) -> FloatArray:
     """Days from J2000.0 TDB of one block of a time series, or of the whole series.
@@ -87,8 +82,8 @@ def days_of(
     ----------
     epochs : TimeGrid or TimeList
     block : Block, optional
-    remedy : str
-        Advice if the times do not fit into memory.
+    store : str
+        Name of a store, for the advice to write a series by region that does not fit into memory.
     bodies : iterable of Body
         Bodies whose labelled arrays multiply the size of the series.
 
@@ -102,6 +97,9 @@ def days_of(
     count = members(bodies)
     size = epochs.size * count
     if size > LONGEST_IN_MEMORY:
+        remedy = "choose a longer step or a shorter span"
+        if store:
+            remedy = f"write them by region with write_series(scene, '{store}') or run --out"
         times = f"{epochs.size} times" + (f" of {count} members" if count > 1 else "")
         raise SceneError(
             "step",

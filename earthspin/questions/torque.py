@@ -19,7 +19,7 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.reasons import no_iau_model
 from earthspin.questions.satellites import largest_torques_of_satellites
 from earthspin.questions.sky import Sky, places, sky
-from earthspin.questions.times import SPAN_DOC, Dated, Series, by_region, days_of, epochs
+from earthspin.questions.times import SPAN_DOC, Dated, Series, days_of, epochs
 from earthspin.sky.sources import OF_DATE, SourceName
 from earthspin.torque.gravity import largest_torque_on_figure, torque_error, torque_from_declination
 
@@ -129,7 +129,7 @@ def torques(
     """Compute declination, distance and torque of each perturber at every time."""
     import xarray as xr
 
-    now = days_of(epochs, block, by_region("series.zarr"), (body, *perturbers))
+    now = days_of(epochs, block, "series.zarr", (body, *perturbers))
     names = list(sky.targets)
     seen = sky.radec(body, now, true=equator == "true", nutation=nutation)
     kernel_error = {name: sky.error(sky.targets[name], epochs.span()) for name in names}
