@@ -13,7 +13,7 @@ from earthspin._version import __version__ as __version__
 from earthspin.engine import registry as _registry
 from earthspin.questions import MODULES as _QUESTIONS
 
-#: The other public names, by their modules.
+#: Public names besides the questions, by their modules.
 _HOME = {
     "earthspin.bodies": ("BODIES", "EARTH", "MARS", "MOON", "SUN", "Body", "Orbit"),
     "earthspin.sky.orbit_files": ("read_orbit",),
@@ -52,6 +52,7 @@ _HOME = {
 }
 _MODULE_OF = _QUESTIONS | {name: module for module, names in _HOME.items() for name in names}
 
+# What answers call in packages above the engine, which knows none of these.
 _registry.FUNCTIONS |= {"load_scene": "earthspin.scenes", "plan": "earthspin.scenes"}
 _registry.METHODS |= {
     "plot": "earthspin.views.answers",

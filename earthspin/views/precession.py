@@ -387,18 +387,13 @@ def _plot_circle_on_page(tree: Result, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def _precesses(tree: Result) -> bool:
-    """Return True if the body's axis precesses, which a sphere's axis does not."""
-    return bool(np.isfinite(answer_of(tree).precession_period[-1]))
-
-
 FIGURES = [
     PageFigure(
         "The circle of the pole among the stars",
         _caption_of_circle,
         _plot_circle_on_page,
         section="seasons",
-        applies=_precesses,
+        applies=lambda tree: bool(np.isfinite(answer_of(tree).precession_period[-1])),
         square=True,
         phone=drawing.NARROW,
     ),

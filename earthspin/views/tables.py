@@ -49,8 +49,6 @@ class Table:
         The columns that hold text; the others are set to the right.
     cost : str
         Run time, in small print below the table on a page.
-    figure : str
-        A picture below the table on a page, as SVG.
     """
 
     title: str
@@ -59,7 +57,6 @@ class Table:
     note: str = ""
     words: Collection[int] = (0,)
     cost: str = ""
-    figure: str = ""
 
 
 @dataclass(frozen=True)
@@ -113,7 +110,6 @@ def table_along(
     note: str = "",
     *,
     first: str | None = None,
-    words: Collection[int] = (0,),
     more: Sequence[tuple[str, ...]] = (),
 ) -> Table:
     """Build a table with one row for each label along a dimension of the data.
@@ -125,8 +121,8 @@ def table_along(
     title : str
     columns : sequence of Column or str
         The columns after the labels; text is the name of a variable and, after a colon, the format.
-    note, words
-        As of `Table`.
+    note : str
+        A sentence or two below it.
     first : str, optional
         Header of the column of labels; the name of the dimension by default; without a column if
         it is empty.
@@ -139,7 +135,7 @@ def table_along(
         shown = [Column(dim, lambda row: str(row[dim].values), first), *shown]
     headers = tuple(column.header(data) for column in shown)
     rows = [tuple(column.text(row) for column in shown) for _, row in along(data, dim)]
-    return Table(title, headers, [*rows, *more], note, words)
+    return Table(title, headers, [*rows, *more], note)
 
 
 def least_width(head: str, cells: Sequence[str]) -> int:
@@ -202,11 +198,6 @@ def short_exponents(text: str) -> str:
 def two_digits(value: SupportsFloat) -> str:
     """Format a number to two digits; exponents are used below 0.0001 and above 999999."""
     return short_exponents(f"{float(f'{float(value):.2g}'):g}")
-
-
-def quality(row: xr.Dataset, name: str = "quality_factor", shown: str = ".0f") -> str:
-    """Format a quality factor as text; the text is empty if the factor is infinite."""
-    return f"{float(row[name]):{shown}}" if math.isfinite(row[name]) else ""
 
 
 def beside_observed(
@@ -274,7 +265,7 @@ NOTED = "long_name", "comment", "frame"
 
 
 @dataclass(frozen=True, eq=False)
-class _Column:
+class _DataColumn:
     """Values of one column of a table, with half-widths if they have any of their own.
 
     Attributes
@@ -341,14 +332,14 @@ def tables_of(data: xr.Dataset, title: str) -> Iterator[Table]:
 
     The first table that shows a variable says what it means.
     """
-    columns: dict[str, list[_Column]] = {}
-    wide: list[_Column] = []
+    columns: dict[str, list[_DataColumn]] = {}
+    wide: list[_DataColumn] = []
     for name in _names(data):
         if parts := [*_columns(data, name)]:
             for dim, column in parts:
                 columns.setdefault(dim, []).append(column)
         else:
-            wide.append(_Column(name, label(data[name]), data[name]))
+            wide.append(_DataColumn(name, label(data[name]), data[name]))
     said: set[str] = set()
     single = columns.pop("", [])
     if single or wide:
@@ -390,7 +381,7 @@ def _half_width(data: xr.Dataset, name: str) -> str:
     return error if fits else ""
 
 
-def _columns(data: xr.Dataset, name: str) -> Iterator[tuple[str, _Column]]:
+def _columns(data: xr.Dataset, name: str) -> Iterator[tuple[str, _DataColumn]]:
     """Columns of one variable, each with the dimension of its rows.
 
     The rows are along the longest dimension; each label of the others has a column.
@@ -400,7 +391,7 @@ def _columns(data: xr.Dataset, name: str) -> Iterator[tuple[str, _Column]]:
     if errors is not None and errors.attrs.get("units") in ANGLES:
         errors = errors * (from_si(values.attrs["units"]) / from_si(errors.attrs["units"]))
     if values.ndim == 0:
-        yield "", _Column(name, label(values), values, errors)
+        yield "", _DataColumn(name, label(values), values, errors)
         return
     rows = str(max(values.dims, key=lambda dim: values.sizes[dim]))
     others = [dim for dim in values.dims if dim != rows]
@@ -412,14 +403,14 @@ def _columns(data: xr.Dataset, name: str) -> Iterator[tuple[str, _Column]]:
             quantity, comma, unit = label(values).rpartition(", ")
             head = " ".join([quantity if comma else unit, *words]) + (f", {unit}" if comma else "")
             half = None if errors is None else errors.isel(at)
-            yield rows, _Column(name, head, values.isel(at), half)
+            yield rows, _DataColumn(name, head, values.isel(at), half)
 
 
 def _tables_along(
-    data: xr.Dataset, dim: str, columns: list[_Column], title: str, said: set[str]
+    data: xr.Dataset, dim: str, columns: list[_DataColumn], title: str, said: set[str]
 ) -> Iterator[Table]:
     """Tables with a row for each label of a dimension; several if the columns are many."""
-    labels, count = _Column(dim, label(data[dim]), data[dim]), data.sizes[dim]
+    labels, count = _DataColumn(dim, label(data[dim]), data[dim]), data.sizes[dim]
     rows, part = np.arange(count), ""
     if count > MOST_ROWS and data[dim].dtype.kind in "UO":
         rows, part = rows[:MOST_ROWS], f"The first {MOST_ROWS} of {count} rows."
@@ -437,7 +428,9 @@ def _tables_along(
         )
 
 
-def _side_by_side(texts: Mapping[_Column, list[str]], labels: _Column) -> Iterator[list[_Column]]:
+def _side_by_side(
+    texts: Mapping[_DataColumn, list[str]], labels: _DataColumn
+) -> Iterator[list[_DataColumn]]:
     """Groups of columns that fit beside the labels; columns without any text are left out."""
     widths = {column: SPACE + least_width(column.head, cells) for column, cells in texts.items()}
     group, room = [labels], WIDTH - widths[labels]
@@ -453,7 +446,7 @@ def _side_by_side(texts: Mapping[_Column, list[str]], labels: _Column) -> Iterat
         yield group
 
 
-def _notes(data: xr.Dataset, columns: Iterable[_Column], said: set[str]) -> str:
+def _notes(data: xr.Dataset, columns: Iterable[_DataColumn], said: set[str]) -> str:
     """Lines with meaning, comment, frame and sources of variables that are not in `said` yet."""
     lines: list[str] = []
     left_out: dict[str, None] = {}

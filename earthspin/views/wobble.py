@@ -35,6 +35,9 @@ def ladder(tree: Result) -> Table:
         left_out = section(tree, "neglected")
         return tables.beside_observed(row.period_solar, row.period_solar_error, left_out)
 
+    def quality(row: xr.Dataset) -> str:
+        return f"{float(row.quality_factor):.0f}" if np.isfinite(row.quality_factor) else ""
+
     notes = [
         "Each rung is a model that adds one effect to the model before; the factor is the ratio of "
         "their periods. The factors depend on the order of the rungs."
@@ -59,7 +62,7 @@ def ladder(tree: Result) -> Table:
     columns = (
         Column("period_solar", period, "days of 86400 s"),
         *("period_sidereal:.3f", "factor:.6f"),
-        Column("quality_factor", tables.quality),
+        Column("quality_factor", quality),
     )
     title = "Free wobble, rung by rung"
     return table_along(answer, "rung", title, columns, " ".join(notes), more=more)
