@@ -10,7 +10,6 @@ import time
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
-from importlib import import_module
 from typing import TYPE_CHECKING, Any, Self
 
 from earthspin._version import __version__, version
@@ -275,7 +274,8 @@ def _load_xarray() -> None:
     """Import xarray, and the array libraries for which it looks when it makes its first Dataset."""
     import xarray as xr
 
-    import_module("earthspin.engine.accessor")  # registers ds.earthspin
+    import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
+
     xr.Dataset(coords={"part": [0]})
 
 
