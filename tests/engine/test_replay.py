@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import tomli_w
 import xarray as xr
-from hypothesis import given, reject, settings
+from hypothesis import given, reject
 from hypothesis import strategies as st
 
 import earthspin
@@ -21,7 +21,6 @@ from earthspin.engine.question import Question, keys_of
 from earthspin.questions.free_rotor import FreeRotor
 from earthspin.questions.pole import Pole
 from earthspin.questions.precession import Precession
-from earthspin.questions.spheroid import Spheroid
 from earthspin.questions.top import Top
 from earthspin.questions.torque import Torque
 from earthspin.questions.wobble import Wobble
@@ -34,7 +33,6 @@ DATES = [str(np.datetime64("1990-01-01T00:00") + np.timedelta64(k * k, "h")) for
 MANY = np.random.default_rng(5).uniform(0.0, 100.0, 50)
 CALLS: dict[str, Callable[[], xr.Dataset]] = {
     "mars": lambda: earthspin.precession(body="mars", perturbers=["sun"]),
-    "a fast earth": lambda: earthspin.precession(body=EARTH.replace(spin_period=43200.0)),
     "labelled": lambda: earthspin.precession(body=EARTH.replace(dynamical_flattening=H)),
     "labelled by floats": lambda: earthspin.wobble_ladder(
         body=EARTH.replace(j2=YEARS, dynamical_flattening=3 * YEARS)
@@ -50,7 +48,6 @@ CALLS: dict[str, Callable[[], xr.Dataset]] = {
     "true equator": lambda: earthspin.torque_series(
         "2000-01-01", "2001-01-01", "30 d", equator="true"
     ),
-    "tolerance": lambda: earthspin.rotation("2000-01-01", "2000-01-03", "6 h", tolerance=1e-8),
     "a top": lambda: earthspin.heavy_top(
         MANY,
         transverse_moment=1 / 3,
@@ -59,7 +56,6 @@ CALLS: dict[str, Callable[[], xr.Dataset]] = {
         theta="40 deg",
         spin="200 deg/s",
     ),
-    "many points": lambda: earthspin.spheroid_field(np.full((40, 3), 1e7) / 3, point_mass="1 g"),
     "a perturber by its numbers": lambda: earthspin.torque_series(
         "2000-01-01", "2000-01-02", "6 h", perturbers=["sun", BODIES["moon"].replace(gm=5e12)]
     ),
@@ -147,21 +143,13 @@ def test_a_slice_still_says_which_run_it_came_from() -> None:
 def test_other_versions_are_named(attribute: str, tmp_path: Path) -> None:
     answer = earthspin.run("torque")
     older = answer.assign_attrs({attribute: "0.0.1"})
-    words = f"{attribute} 0.0.1, now {answer.attrs[attribute]}"
-    with pytest.warns(VersionWarning) as caught:
+    with pytest.warns(VersionWarning, match=f"{attribute} 0.0.1, now {answer.attrs[attribute]}"):
         xr.testing.assert_identical(earthspin.run(older), answer)
-    assert [str(one.message) for one in caught] == [f"made with {words}"]
     older.to_netcdf(tmp_path / "older.nc")
     with pytest.warns(VersionWarning, match=attribute):
         earthspin.run(tmp_path / "older.nc")
     with pytest.warns(VersionWarning, match=attribute):
         earthspin.run_tree(older, ())
-
-
-def test_all_that_differs_is_named() -> None:
-    older = earthspin.run("wobble").assign_attrs(earthspin_version="0", numpy_version="1")
-    with pytest.warns(VersionWarning, match=r"earthspin_version 0, now .*; numpy_version 1, now"):
-        earthspin.run(older)
 
 
 def test_a_dataset_of_another_origin_is_refused(tmp_path: Path) -> None:
@@ -332,9 +320,3 @@ def test_tops_are_written_exactly(
             **dict(zip(("phi", "psi"), angles, strict=True)),
         )
     )
-
-
-@given(points=st.lists(st.lists(FINITE, min_size=3, max_size=3), min_size=1, max_size=30))
-@settings(max_examples=30)
-def test_points_are_written_exactly(points: list[list[float]]) -> None:
-    assert_same_bits(Spheroid(position=points, point_mass=math.pi))
