@@ -27,32 +27,6 @@ def test_imports_go_one_way() -> None:
     assert lint_imports(config_filename=str(ROOT / "pyproject.toml"), cache_dir=None) == 0
 
 
-def test_nothing_but_bodies_and_scenes_knows_the_earth() -> None:
-    """Comments and docstrings may; code may not, save the defaults of questions."""
-    word = re.compile(r"[\"'](the )?earth[\"']|\bEARTH\b|\bEarth\b|\b399\b")
-    allowed = {
-        *("bodies/body.py", "bodies/earth.py", "bodies/planets.py", "bodies/__init__.py"),
-        "bodies/mean_orbits.py",  # about what Sun and Moon go
-        "bodies/beyond_rigid.py",  # sizes of neglected effects by body
-        *("__init__.py", "__init__.pyi"),
-        *("parts/sky.py", "parts/pole_table.py"),
-        "views/play.py",  # pages to play with start from the Earth
-        "views/of_question.py",  # by the titles of pages of the documentation
-        "sky/kernel_differences.py",  # what was measured, by the codes of the bodies
-        "sky/orbit_files.py",  # whose orbit a file holds if none is named, and the check of it
-        "sky/orbit_table.py",  # what was measured of the orbits that are shipped
-    }
-    paths = {str(path.relative_to(PACKAGE)): path for path in PACKAGE.rglob("*.py*")}
-    assert allowed <= set(paths)
-    for name, path in paths.items():
-        if name in allowed or path.suffix not in {".py", ".pyi"}:
-            continue
-        code = re.sub(r'""".*?"""|#[^\n]*', "", path.read_text(), flags=re.DOTALL)
-        if name.startswith("questions/"):  # whose bodies have a default
-            code = re.sub(r"from earthspin\.bodies import .*|\bkey\(EARTH\b", "", code)
-        assert not word.search(code), path
-
-
 def test_the_project_speaks_of_itself_alone() -> None:
     files = subprocess.run(
         ["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=False
