@@ -141,20 +141,6 @@ def _drawn(n: int, **settings: Any) -> dict[str, FloatArray]:
     return Ensemble(question.replace(members=members)).values
 
 
-@holds(bound=0.0)
-def test_last() -> Distances:
-    """random inputs of the last of ten million ensemble members, drawn alone
-
-    Hard because: each member has its own generator, so the members before it must not be drawn
-    Compared with: numbers of a separate generator, Philox with seed and member
-    """
-    number = 10**7 - 1
-    sequence = np.random.SeedSequence(5, spawn_key=(number,))
-    own = np.random.Generator(np.random.Philox(sequence)).standard_normal(2)
-    result = _drawn(10**7, seed=5, only=[number])
-    yield [result[f"omega.{axis}"][0] - own[axis] for axis in range(2)]
-
-
 @holds(bound=2e-13)
 def test_correlated() -> Distances:
     """random inputs of an ensemble with a correlation of 0.999999
@@ -194,15 +180,6 @@ def test_one() -> Distances:
     alone = precession(body=BODY.replace(dynamical_flattening=h)).precession_period
     ends = quantiles(ensemble("precession", {H_OF_BODY: {"grid": [h]}}), (0.0, 0.3, 1.0))
     yield ends.precession_period.values != alone.values
-
-
-@refused("need at least 3 members")
-def test_one_slope() -> None:
-    """refusal of a sensitivity to an input from an ensemble of one member
-
-    Hard because: any line passes through one point
-    """
-    sensitivity(ensemble("precession", {H_OF_BODY: {"grid": [H]}}))
 
 
 @holds(bound=0.0)

@@ -77,29 +77,6 @@ def test_tiny_steps() -> Distances:
     yield from _round_trip(100.0, step=1 / 86400, size=5000)
 
 
-@refused("a gap of 21.0 d")
-def test_gap() -> None:
-    """refusal of observed polar motion with a gap of twenty days
-
-    Hard because: interpolated values in the gap would be mistaken for data
-    """
-    lines = c04_path().read_text(encoding="ascii", errors="replace").splitlines(keepends=True)
-    rows = [n for n, line in enumerate(lines) if line[:1].isdigit() or line[:5].strip().isdigit()]
-    cut = set(rows[5000:5020])
-    with temporary("gap") as file:
-        file.write_text("".join(line for n, line in enumerate(lines) if n not in cut))
-        read_polar_motion(file)
-
-
-@refused("even")
-def test_uneven() -> None:
-    """refusal of excitation from polar motion at unevenly spaced times
-
-    Hard because: each step has its own response; a common one would be wrong by per cents
-    """
-    excitation(polar_motion().isel(time=[0, 1, 2, 4, 5]))
-
-
 @holds(bound=0.0)
 def test_sphere() -> Distances:
     """free wobble period of a sphere
