@@ -205,7 +205,8 @@ PREM_RADIUS = Constant(6371000.0, "m", 0.0, "PREM, Dziewonski & Anderson 1981", 
 # --- conversions -----------------------------------------------------------------------------
 AU = 149597870700.0  # m, exact: IAU 2012 resolution B2
 DAY = 86400.0
-JULIAN_YEAR = 365.25 * DAY
+DAYS_PER_YEAR = 365.25  # Julian year
+JULIAN_YEAR = DAYS_PER_YEAR * DAY
 DAYS_PER_CENTURY = 36525.0
 ARCSEC = math.pi / 648000.0
 MAS = ARCSEC / 1000.0

@@ -11,10 +11,10 @@ MUTANTS = load()
 #: Packages of which every module is a kernel, except those that only hold names. A question calls
 #: formulas of these packages, so it needs no entry of its own.
 PACKAGES = (
-    *("numerics", "mass", "rotor", "top", "torque", "motion", "motion/effects", "interior"),
+    *("numerics", "mass", "rotor", "top", "torque", "motion", "interior"),
     *("wobble", "nutation", "sky", "parts"),
 )
-NO_KERNEL = {"__init__", "_checks", "arrays", "effect"}
+NO_KERNEL = {"__init__"}
 #: Modules between what is given and the kernels, and between the kernels and the answer.
 BORDER = (
     *("units", "dates", "bodies/figure", "bodies/earth", "constants", "scenes"),

@@ -18,7 +18,7 @@ from earthspin.cli import main
 from earthspin.constants import ARCSEC
 from earthspin.sky.iau import ecliptic_pole
 from earthspin.sky.poles import FixedPole
-from earthspin.torque.locking import locked_turns
+from earthspin.torque.cassini import locked_turns
 
 #: Of 1960 to 2040, every hundred days.
 DAYS = np.arange(-14600.0, 14600.0, 100.0)

@@ -9,7 +9,7 @@ from astropy import units
 import earthspin
 from data_tools.coverage import Row
 from earthspin.bodies import EARTH, MARS, MOON, SUN, Body
-from earthspin.constants import ARCSEC, J2000_JD, JULIAN_YEAR, NORMAL_95
+from earthspin.constants import ARCSEC, DAYS_PER_YEAR, J2000_JD, JULIAN_YEAR, NORMAL_95
 from earthspin.numerics.arrays import FloatArray
 from earthspin.parts import averages, orbits
 from earthspin.parts import sky as skies
@@ -45,7 +45,7 @@ def beside_iau() -> list[Row]:
     """Angles and poles beside ERFA's p06e, pmat06 and ecm06, every ten years."""
     years = np.arange(-1000.0, 1001.0, 10.0)
     claimed = earthspin.long_term(times=years * units.yr)
-    days = 365.25 * years
+    days = DAYS_PER_YEAR * years
     angles = erfa.p06e(J2000_JD, days)
     apart = {
         name: np.abs(claimed[name].values - np.degrees(angles[place]))

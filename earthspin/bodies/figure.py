@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from earthspin.bodies.labelled import Numeric, all_of
 from earthspin.constants import Constant
 from earthspin.errors import BodyError
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from earthspin.numerics.arrays import FloatArray
 
 
 def flattening_of(j2: Constant, moment: Constant) -> Constant:
@@ -28,7 +25,7 @@ def flattening_of(j2: Constant, moment: Constant) -> Constant:
     )
 
 
-def moments_of(j2: float, h: float, triaxiality: float) -> NDArray[np.float64]:
+def moments_of(j2: float, h: float, triaxiality: float) -> FloatArray:
     """Principal moments of inertia from J2, H and triaxiality, divided by M a2, shape (3,).
 
     The order is A <= B <= C, with C about the spin axis.

@@ -22,7 +22,7 @@ from earthspin.constants import (
     Constant,
     Tabulated,
 )
-from earthspin.mass.inertia import homogeneous_ellipsoid
+from earthspin.mass.figure import homogeneous_ellipsoid
 from earthspin.sky.moving_pole import MovingPole
 
 _IESS = "Iess et al. 2012, Science 337, 457 (Cassini)"

@@ -55,7 +55,7 @@ class Answer:
 
     def __init__(self, answer: xr.Dataset | xr.DataTree) -> None:
         self._dataset = answer.to_dataset() if isinstance(answer, xr.DataTree) else answer
-        self._plan: Plan | None = None
+        self.ran: Plan | None = None  # set on an answer as it is returned
 
     @property
     def scene(self) -> Question:
@@ -66,11 +66,7 @@ class Answer:
     @property
     def plan(self) -> Plan:
         """Plan of the run: functions that ran, and functions left out, with the reasons."""
-        return self._plan or Run(self.scene).plan()
-
-    @plan.setter
-    def plan(self, plan: Plan) -> None:
-        self._plan = plan
+        return self.ran or Run(self.scene).plan()
 
     def to_frame(self) -> pd.DataFrame:
         """Return the result as a pandas table: a row for each label, a column for each number.

@@ -23,7 +23,7 @@ from earthspin.interior.equations import (
 )
 from earthspin.interior.layers import LayeredBody
 from earthspin.numerics.arrays import Array
-from earthspin.numerics.collocation import carry as by_collocation
+from earthspin.numerics.polynomials import carry as by_collocation
 
 
 class Carry(Protocol):

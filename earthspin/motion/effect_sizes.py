@@ -29,14 +29,12 @@ import numpy as np
 from earthspin.errors import EarthspinError
 from earthspin.motion.axes import AxisPath
 from earthspin.motion.equations import Rigid
-from earthspin.motion.figure import tilt_of_figure
-from earthspin.motion.forces import Forces
+from earthspin.motion.forces import Forces, semidiurnal_amplitudes, tilt_of_figure
 from earthspin.motion.solution import State
-from earthspin.motion.triaxial import semidiurnal_amplitudes
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.gauss_windows import Windows
-from earthspin.torque.quadrupole import apply, dot
+from earthspin.numerics.polynomials import Windows
+from earthspin.torque.gravity import apply, dot
 
 #: Nodes in a window, 8 d of a path or a quarter of a turn. With eight, sizes differ by up to 0.5 %.
 NODES = 4

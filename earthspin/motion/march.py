@@ -18,7 +18,7 @@ from earthspin.errors import UndefinedError
 from earthspin.motion.equations import Equations, Pull, Rigid, SkyLaw
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.gauss_windows import Windows, integrated, rule
+from earthspin.numerics.polynomials import Windows, integrated, rule
 
 #: Number of nodes in a window, and of windows for which positions are evaluated in one call.
 ORDER, BATCH = 16, 32

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import NORMAL_95
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import BoolArray, FloatArray
 
 #: Standard errors by which the correlation of two inputs must differ from zero to be used.
 SIGNIFICANT = 4.0
@@ -140,7 +140,7 @@ def shares_of_variance(
     return Shares(slope, share, error, rest.reshape(shape))
 
 
-def _related(covariance: FloatArray, owner: NDArray[Any], n: int) -> NDArray[np.bool_]:
+def _related(covariance: FloatArray, owner: NDArray[Any], n: int) -> BoolArray:
     """Select pairs of columns whose correlation is no chance: those of a class, and large ones."""
     correlation = np.clip(np.abs(covariance), 0.0, 1 - 1e-15)
     # Fisher's transformation of a correlation has the standard error 1/sqrt(n - 3)
@@ -154,7 +154,7 @@ def _shares(
     b: FloatArray,
     covariance: FloatArray,
     known: FloatArray,
-    members: NDArray[np.bool_],
+    members: BoolArray,
 ) -> tuple[FloatArray, FloatArray, float]:
     """Shares of the inputs in the variance of one output, their errors, and the unexplained part.
 

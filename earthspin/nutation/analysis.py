@@ -9,10 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import ARCSEC, DAYS_PER_CENTURY, EPSILON_0, JULIAN_YEAR
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation.angles import on_fixed_ecliptic, pole_from
 from earthspin.nutation.circles import Circles, FrequencyAnalysis
 
@@ -78,7 +77,7 @@ class PoleAnalysis:
         slow = self._least_squares(psi * self._sine + 1j * omega).slow
         return Secular(slow.real / self._sine, slow.imag.copy())
 
-    def circles(self, eta: NDArray[np.complex128]) -> Circles:
+    def circles(self, eta: ComplexArray) -> Circles:
         """Fit circular terms to the nutation eta = dpsi sin(eps0) + i deps, and return them."""
         return self._least_squares(eta)
 

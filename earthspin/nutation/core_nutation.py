@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.constants import DAYS_PER_YEAR
 from earthspin.errors import UndefinedError
 from earthspin.interior.published import OBSERVED_CORE_NUTATION
 from earthspin.numerics.arrays import ComplexArray, FloatArray
@@ -19,7 +20,7 @@ from earthspin.numerics.arrays import ComplexArray, FloatArray
 #: Period in space, d.
 PERIOD = OBSERVED_CORE_NUTATION.value
 #: Length of a window and time between two, d.
-WINDOW, STEP = 3 * 365.25, 30.0
+WINDOW, STEP = 3 * DAYS_PER_YEAR, 30.0
 #: Days that are averaged before the fit.
 BLOCK = 10.0
 #: Shortest window, in periods: the neighbours below are then separate from constant and line.

@@ -10,7 +10,8 @@ import math
 from typing import NamedTuple
 
 from earthspin.constants import PREM_MEAN_MOMENT, PREM_RADIUS
-from earthspin.mass.inertia import Numeric, polar_moment_factor
+from earthspin.mass.figure import polar_moment_factor
+from earthspin.numerics.arrays import Numeric
 from earthspin.nutation.budget import Budget
 
 #: Effects whose published sizes measure the error of the computed ones.

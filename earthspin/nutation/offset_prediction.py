@@ -12,13 +12,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from earthspin.constants import NORMAL_95
+from earthspin.constants import DAYS_PER_YEAR, NORMAL_95
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation.core_nutation import circle
 
 #: Time in which weights halve, d.
-HALF_LIFE = 0.5 * 365.25
+HALF_LIFE = 0.5 * DAYS_PER_YEAR
 #: Days over which the residuals of the last days are averaged, by weights that fall by e.
 RECENT = 10.0
 #: Times in which the mean residual and the last departure from it fall by e, d.
@@ -28,7 +28,7 @@ FLOOR = (0.2e-3 / 3600 * np.pi / 180) ** 2
 #: Longest prediction, d: two years after the last observed pole, weeks after the last offset.
 LONGEST = 800
 #: Days before the origin whose predictions measure the half-widths, and the fewest of them.
-JUDGED, FEWEST = round(8 * 365.25), 2 * 365
+JUDGED, FEWEST = round(8 * DAYS_PER_YEAR), 2 * 365
 #: Days in which the fit comes to rest, before its predictions count.
 STARTING = 2 * 365
 

@@ -14,9 +14,8 @@ from earthspin.bodies.limits import OF_AVERAGE, largest, refuse_fast_axis
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
-from earthspin.mass.inertia import moment_difference
-from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.estimate import Estimate
+from earthspin.mass.figure import moment_difference
+from earthspin.numerics.arrays import Estimate, FloatArray
 from earthspin.parts.elements import ellipse_chains, exact_means, no_exact_means
 from earthspin.parts.satellites import Carried, carried, without_swings
 from earthspin.parts.sky import Sky, Stretch
@@ -24,7 +23,7 @@ from earthspin.sky.elements import Elements
 from earthspin.sky.equator import angle, rotate
 from earthspin.sky.moving_pole import MovingPole
 from earthspin.sky.poles import FixedPole, IAU2006Pole
-from earthspin.torque import average, locking, mean_orbit, rates
+from earthspin.torque import average, cassini, rates
 from earthspin.torque.average import Window, best_window, precessing_torque, window_mean_and_error
 from earthspin.torque.gravity import torque_from_declination
 
@@ -152,14 +151,14 @@ def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: FloatArray) -> None
     """Refuse a spin that is locked to an orbit, because averages over orbits do not apply."""
     first, last = (DAY * day for day in sky.coverage())
     for spin_period in np.ravel(body.needed("spin_period")):
-        if abs(spin_period) < locking.SLOW:
+        if abs(spin_period) < cassini.SLOW:
             continue
         # Enough time for the slowest resonance, as far as the kernel covers it.
-        half = locking.ORBITS * locking.MOST_HALF_TURNS / 4 * abs(spin_period)
+        half = cassini.ORBITS * cassini.MOST_HALF_TURNS / 4 * abs(spin_period)
         times = np.linspace(max(epoch - half, first), min(epoch + half, last), 4001)
         spin_axis, spin_rate = np.sign(spin_period) * axis, 2 * np.pi / abs(spin_period)
         for name, position in sky.positions(times / DAY).items():
-            turns = locking.locked_ratio(times, position, spin_axis, spin_rate)
+            turns = cassini.locked_ratio(times, position, spin_axis, spin_rate)
             if turns is not None:
                 raise _locked_error(body, name, turns)
 
@@ -280,18 +279,18 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
         ((ellipse, _),) = by_name[p.name].ellipses
         forward = ellipse.sidereal_motion * float(np.sign(ellipse.normal @ axis))
         for spin_rate in np.ravel(body.spin_rate):
-            turns = locking.locked_turns(float(spin_rate), forward)
+            turns = cassini.locked_turns(float(spin_rate), forward)
             if turns is not None:
                 raise _locked_error(body, p.name, turns)
         square = (
-            mean_orbit.mean_square_of_normal(ellipse.plane.matrix[2], ellipse.i)
+            average.mean_square_of_normal(ellipse.plane.matrix[2], ellipse.i)
             if ellipse.node_rate
-            else mean_orbit.square_of_normal(ellipse.normal)
+            else average.square_of_normal(ellipse.normal)
         )
         gm = float(p.gm_on(body)) if strength is None else 1.0
-        tide = mean_orbit.mean_tide(gm, ellipse.a, ellipse.e, square)
-        torques.append(mean_orbit.mean_torque(tide, axis))
-        errors.append(mean_orbit.rounding(tide))
+        tide = average.mean_tide(gm, ellipse.a, ellipse.e, square)
+        torques.append(average.mean_torque(tide, axis))
+        errors.append(average.rounding(tide))
         nearness.append((ellipse.a**2 * (1 - ellipse.e**2)) ** -1.5)
     vectors, error = np.stack(torques), np.array(errors)
     if strength is not None:
@@ -304,7 +303,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     return MeanTorques(
         labels=_labels(perturbers),
         precessing=average.precessing_torque(vectors, axis, normal),
-        precessing_error=mean_orbit.rounding_of_precessing(error, obliquity),
+        precessing_error=average.rounding_of_precessing(error, obliquity),
         torque=np.moveaxis(vectors @ equator.T, -1, 1),
         torque_error=np.repeat(error[:, np.newaxis], 3, axis=1),
         epoch=0.0,

@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from earthspin.bodies import Body, in_a_sentence
 from earthspin.engine.part import part
 from earthspin.interior.diurnal_ocean import FES2004_SOURCE
 from earthspin.interior.named import ANELASTIC_EXPONENT, Interior
 from earthspin.interior.published import CORE_NUTATION, K_CMB_OUT_OF_PHASE
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import ladder
 from earthspin.parts.layered import interior_of, of_another_body
 from earthspin.parts.reasons import no_iau_model
@@ -49,7 +47,7 @@ class Prediction:
         """Names of the models in order of detail (rungs), except those used only for comparison."""
         return [name for name in self.rungs if name not in ladder.BESIDE]
 
-    def transfer(self, name: str, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
+    def transfer(self, name: str, frequency: FloatArray) -> ComplexArray:
         """Transfer function (non-rigid over rigid nutation) of one model, at frequencies in rad/s.
 
         The frequencies are in space.

@@ -15,18 +15,18 @@ from earthspin.constants import ARCSEC, DAY, NORMAL_95
 from earthspin.engine.part import part
 from earthspin.engine.question import key
 from earthspin.errors import KernelError, Where
-from earthspin.mass.inertia import inverse_polar_moment
+from earthspin.mass.figure import inverse_polar_moment
 from earthspin.motion.effects import EFFECTS, PLANETS, RIGID
 from earthspin.motion.forces import Figure, Forces, Places, RateLaw, Torque
 from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.gauss_windows import Windows
+from earthspin.numerics.polynomials import Windows
 from earthspin.parts.elements import all_by_elements
 from earthspin.parts.satellites import common_turn
 from earthspin.parts.sky import KernelName, Sky, places, sky
 from earthspin.parts.times import Series, epochs
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.protocol import Place
-from earthspin.torque.quadrupole import cross
+from earthspin.torque.gravity import cross
 from earthspin.units import Several, Word
 
 #: Samples of an orbit for its mean pull; the mean over an ellipse converges exponentially.

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95
@@ -29,6 +28,7 @@ from earthspin.engine.variables import (
 )
 from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import flattening as flat
 from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
 from earthspin.nutation.budget import Budget, budget_of
@@ -247,13 +247,13 @@ class Differences:
         The same without a fit, at each time: the precession depends on H, too.
     """
 
-    days: NDArray[np.float64]
+    days: FloatArray
     models: tuple[str, ...]
-    plain: NDArray[np.float64]
-    fitted: NDArray[np.float64]
+    plain: FloatArray
+    fitted: FloatArray
     chosen: int
     error: float
-    unfitted_error: NDArray[np.float64]
+    unfitted_error: FloatArray
 
 
 @part
@@ -274,10 +274,10 @@ def differences(
     days, ends, iau_eta = iau_nutation(pulls, epochs)
     own_start, _ = start_of(body, pulls)
 
-    def axes_of(on: list[str], start: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+    def axes_of(on: list[str], start: FloatArray) -> dict[str, FloatArray]:
         return path_over(body, pulls, on, start, ends).at(days * DAY, semidiurnal=False)
 
-    def eta_of(pole: NDArray[np.float64]) -> NDArray[np.complex128]:
+    def eta_of(pole: FloatArray) -> ComplexArray:
         return complex_nutation(iau.nutation_of(pole, days))
 
     # Each model as `pole` returns it, start included.

@@ -30,7 +30,7 @@ from earthspin.secular.orbit import moons_height
 from earthspin.secular.strength import Strength, Tides, geodesic_precession
 from earthspin.sky.orbit_table import OrbitTable, shipped
 from earthspin.torque import rates
-from earthspin.torque.quadrupole import dot
+from earthspin.torque.gravity import dot
 from earthspin.units import Number
 from earthspin.years import YearList, YearSpan, YearStep, grid
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.bodies.limits import refuse_break_up
@@ -20,7 +19,8 @@ from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import Yielding, elastic, yielding
 from earthspin.interior.modes import free_modes, mode_period, numbers_of, parts_of
 from earthspin.interior.named import ANELASTIC_EXPONENT
-from earthspin.mass.inertia import ellipticity_from_h
+from earthspin.mass.figure import ellipticity_from_h
+from earthspin.numerics.arrays import ComplexArray
 from earthspin.parts.layered import FROM_LAYERS, LayeredInterior, layers, require_layers
 from earthspin.units import Number
 
@@ -83,7 +83,7 @@ _FIELDS = {
 }  # fmt: skip
 
 
-def _numbers(response: Yielding) -> NDArray[np.complex128]:
+def _numbers(response: Yielding) -> ComplexArray:
     """Array of the complex Love numbers of a body: its response to a tide and to a surface load."""
     return np.array([getattr(response, field) for field in _FIELDS.values()], dtype=complex)
 

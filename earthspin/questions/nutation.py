@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import Body
 from earthspin.constants import DAYS_PER_CENTURY
@@ -29,6 +28,7 @@ from earthspin.engine.variables import (
 )
 from earthspin.interior.modes import mode_period
 from earthspin.interior.named import ANELASTIC_EXPONENT
+from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import ladder
 from earthspin.nutation.interior_draws import Spread, spread_of
 from earthspin.parts.path import (
@@ -135,7 +135,7 @@ class RungResiduals:
         95 % half-width of either angle, rad, from the inputs of the interior, H and integration.
     """
 
-    rms: dict[str, NDArray[np.float64]]
+    rms: dict[str, FloatArray]
     error: dict[str, float]
 
 
@@ -166,7 +166,7 @@ def left(
     circles = done.our_circles
     factors = {name: models.transfer(name, circles.frequency) - 1 for name in models.rungs}
 
-    def shifts(at: NDArray[np.float64]) -> NDArray[np.float64]:
+    def shifts(at: FloatArray) -> FloatArray:
         added = np.array([*responses(circles, iau.delaunay_arguments(at), factors).values()])
         return np.stack([added.real, added.imag], axis=-1).swapaxes(0, 1)
 

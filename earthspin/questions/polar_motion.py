@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from earthspin.bodies import Body
-from earthspin.constants import DAY, MAS, NORMAL_95
+from earthspin.constants import DAY, DAYS_PER_YEAR, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
@@ -44,7 +44,7 @@ Method = Literal["burg", "likelihood"]
 #: Days that are closer than this are the same, d.
 SAME_DAY = 1e-6
 #: Cycles per day up to which a spectrum is given: three in a year.
-FASTEST = 3 / 365.25
+FASTEST = 3 / DAYS_PER_YEAR
 #: Sum of the amplitudes of the tidal terms of x, mas: Q1, O1, P1, K1, N2, M2, S2, K2.
 OCEAN_TIDES = 0.027 + 0.142 + 0.056 + 0.171 + 0.058 + 0.331 + 0.158 + 0.040
 

@@ -16,8 +16,7 @@ from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Value, labels, number
 from earthspin.motion.axes import AXES, AxisPath
 from earthspin.motion.effect_sizes import axis_displacements
-from earthspin.motion.effects import NONRIGID
-from earthspin.motion.effects.nonrigid import LARGEST_CORE_NUTATION, RESPONSE
+from earthspin.motion.effects import LARGEST_CORE_NUTATION, NONRIGID, RESPONSE
 from earthspin.nutation.angles import on_fixed_ecliptic
 from earthspin.parts.left_out import drift_by_planets, each_added, switched_off
 from earthspin.parts.path import (

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from earthspin.constants import DAY, NORMAL_95
+from earthspin.constants import DAY, DAYS_PER_YEAR, NORMAL_95
 from earthspin.dates import Span, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
@@ -124,7 +124,8 @@ def too_short_for_a_period(span: Span | None) -> str | None:
     needed = 2 * shortest_span()
     if span is None or _length(span) >= needed:
         return None
-    return f"the span is shorter than {needed / 365.25:.0f} years, which the fit of a period needs"
+    years = needed / DAYS_PER_YEAR
+    return f"the span is shorter than {years:.0f} years, which the fit of a period needs"
 
 
 def _length(span: Span) -> float:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import Body, all_of, in_a_sentence
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
@@ -25,7 +24,8 @@ from earthspin.engine.variables import (
     number,
     words,
 )
-from earthspin.mass import inertia
+from earthspin.mass import figure
+from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import seasons as calendar
 from earthspin.nutation.budget import closure, published_effects
 from earthspin.parts import reasons
@@ -220,22 +220,22 @@ def figure_models(mean_torques: MeanTorques, mean_rates: MeanRates, body: Body) 
     import xarray as xr
 
     j2, measured_h = body.needed("j2"), body.needed("dynamical_flattening")
-    by_mccullough = inertia.h_mccullough(body.needed("flattening"))
-    models = (by_mccullough, inertia.h_homogeneous(j2), measured_h)
+    by_mccullough = figure.h_mccullough(body.needed("flattening"))
+    models = (by_mccullough, figure.h_homogeneous(j2), measured_h)
     h = xr.concat(map(xr.DataArray, models), dim=xr.Variable("earth_model", list(MODELS)))
     precessing, radius = mean_torques.precessing[-1], body.needed("radius")
-    difference = inertia.moment_difference(j2, body.mass, radius)
+    difference = figure.moment_difference(j2, body.mass, radius)
     return FigureModels(
         h_by_model=h,
         period_by_model=rates.period(
             rates.precession_rate(precessing, h * mean_rates.carried.rate, body.spin_rate)
         ),
         wobble_by_model=free_wobble_period(
-            inertia.ellipticity_from_h(h), body.needed("spin_period")
+            figure.ellipticity_from_h(h), body.needed("spin_period")
         ),
         moment_difference=difference,
-        polar_moment_factor=inertia.polar_moment_factor(j2, measured_h),
-        j2_from_moment_difference=inertia.j2_from_moment_difference(difference, body.mass, radius),
+        polar_moment_factor=figure.polar_moment_factor(j2, measured_h),
+        j2_from_moment_difference=figure.j2_from_moment_difference(difference, body.mass, radius),
     )
 
 
@@ -258,11 +258,11 @@ class FreeWobble(Variables, no_error="its relative error is that of free_wobble_
 def free_wobble(body: Body) -> FreeWobble:
     """Compute the period of the free wobble of the body, as if it is rigid."""
     h = body.needed("dynamical_flattening")
-    period = free_wobble_period(inertia.ellipticity_from_h(h), body.needed("spin_period"))
+    period = free_wobble_period(figure.ellipticity_from_h(h), body.needed("spin_period"))
     u = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     return FreeWobble(
         free_wobble_period=(period, free_wobble_error(period, h, u)),
-        free_wobble_period_sidereal=free_wobble_period(inertia.ellipticity_from_h(h), 1.0),
+        free_wobble_period_sidereal=free_wobble_period(figure.ellipticity_from_h(h), 1.0),
     )
 
 
@@ -384,7 +384,7 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
 
     moon = {"moon": sky.targets["moon"]}
 
-    def declination(days: NDArray[np.float64]) -> NDArray[np.float64]:
+    def declination(days: FloatArray) -> FloatArray:
         return sky.radec(body, days, moon)["moon"][1]
 
     extremes = find_standstills(declination, stretch.first, stretch.last)

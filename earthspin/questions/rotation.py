@@ -19,7 +19,7 @@ from earthspin.engine.part import Block, part
 from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Value, labels, number, words
 from earthspin.errors import SceneError
-from earthspin.mass.inertia import polar_moment
+from earthspin.mass.figure import polar_moment
 from earthspin.motion.effect_sizes import attitude_displacements
 from earthspin.motion.effects import NONRIGID, SECOND_ORDER
 from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY, Rigid
@@ -205,7 +205,7 @@ def pulling(
     start_omega: FloatArray | None,
 ) -> Pulling:
     """Build the torques of all perturbers on the body, and estimate the torque error."""
-    from earthspin.motion.neighbours import relative_tide_error
+    from earthspin.motion.solution import relative_tide_error
 
     days = epochs.span()
     pulls.sky.check_times(days, pulls.targets)
@@ -297,7 +297,7 @@ def rotor(
 
     It includes copies of the body in which one uncertain input is changed.
     """
-    from earthspin.motion import neighbours
+    from earthspin.motion import solution
 
     begin, end = epochs.span()
     epoch = begin * DAY
@@ -315,11 +315,11 @@ def rotor(
         PULL: pulling.doubt,
         ROUNDING: pulling.rounding,
     }
-    rigid, changed = neighbours.rigid_bodies(
+    rigid, changed = solution.rigid_bodies(
         pulling.forces, spin_rate, doubts, epoch, None if torque is None else torque.over(moment)
     )
     attitude = (
-        neighbours.upright(body.needed("pole").true(begin), figure.meridian + spin_rate * epoch)
+        solution.upright(body.needed("pole").true(begin), figure.meridian + spin_rate * epoch)
         if start_attitude is None
         else start_attitude
     )
@@ -327,7 +327,7 @@ def rotor(
     return Rotor(
         rigid,
         changed,
-        neighbours.masses(pulling.forces, epoch),
+        solution.masses(pulling.forces, epoch),
         start_of(rigid, attitude, omega),
         begin,
         end,

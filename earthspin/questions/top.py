@@ -168,7 +168,7 @@ def euler_angles(
     motion: HeavyTopMotion, heavy_top_start: HeavyTop, numbers: SideBySide, instants: FloatArray
 ) -> Motion:
     """Return the motion of the top in time: Euler angles, attitude and angular velocity."""
-    from earthspin.top.rounding import error_bound
+    from earthspin.top.motion import error_bound
 
     lay = numbers.lay
     # the error grows with time: the last instants and some before show it
@@ -220,7 +220,7 @@ class Potential(
 @part
 def potential(heavy_top_start: HeavyTop) -> Potential:
     """Compute the effective potential of a heavy top as a function of inclination."""
-    from earthspin.top.turning import effective_potential
+    from earthspin.top.height import effective_potential
 
     inclination = np.linspace(0.0, np.pi, POTENTIAL_POINTS)[1:-1]
     return Potential(

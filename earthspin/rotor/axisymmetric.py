@@ -13,16 +13,13 @@ body, to avoid cancellation.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import NORMAL_95
 from earthspin.errors import BodyError, UndefinedError
-from earthspin.numerics.arrays import FloatArray
-
-Numeric = Any
+from earthspin.numerics.arrays import FloatArray, Numeric
 
 #: Tolerance for a negative 2T I3 - L2 due to rounding, relative to L2.
 _ROUNDING = 8 * np.finfo(float).eps

@@ -19,7 +19,7 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.secular.orbit import ModifiedOrbit, Orbit, Shape, reference_axes
 from earthspin.secular.strength import Numeric, Strength, Tides
 from earthspin.secular.trajectory import Trajectory, solve
-from earthspin.torque.quadrupole import cross, dot
+from earthspin.torque.gravity import cross, dot
 
 #: Half-widths of an orbit's normal (rad) and eccentricity vector at times in s, shape (2, n).
 HalfWidths: TypeAlias = "Callable[[FloatArray], FloatArray]"

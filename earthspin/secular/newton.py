@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.numerics.gauss_windows import Windows, rule
+from earthspin.numerics.polynomials import Windows, rule
 from earthspin.secular.orbit import Pull
-from earthspin.torque.quadrupole import dot
+from earthspin.torque.gravity import dot
 
 #: Largest number of sweeps for the linear equations of windows, and the size that counts as
 #: divergence.

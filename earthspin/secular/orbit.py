@@ -10,7 +10,7 @@ import numpy as np
 
 from earthspin.numerics.arrays import FloatArray
 from earthspin.secular.strength import Strength
-from earthspin.torque.quadrupole import cross, dot
+from earthspin.torque.gravity import cross, dot
 
 #: Orbit at some times: unit normal in the sense of the motion, eccentricity vector (towards the
 #: pericentre), and rate of the normal (s-1); each of shape (3, n), in the GCRS.

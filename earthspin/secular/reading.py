@@ -22,7 +22,7 @@ from earthspin.secular.budget import Setting, Solved, changed
 from earthspin.secular.orbit import Orbit, moons_height
 from earthspin.secular.sample import Quantiles, draws
 from earthspin.secular.trajectory import Trajectory, solve
-from earthspin.torque.quadrupole import dot
+from earthspin.torque.gravity import dot
 
 #: Sampling interval of the perihelion, s: it moves fast for a nearly circular orbit, by 1.2 rad in
 #: 200 years at the Earth's eccentricity of 1.6e-4.

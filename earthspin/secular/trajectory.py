@@ -17,12 +17,12 @@ import numpy as np
 
 from earthspin.errors import ApartError, UndefinedError
 from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.gauss_windows import Windows, integrated
+from earthspin.numerics.polynomials import Windows, integrated
 from earthspin.secular.angles import broadcast_over_members
 from earthspin.secular.newton import TINY, Turn, moved, slope, step
 from earthspin.secular.orbit import Orbit, Pull, pull, reference_axes
 from earthspin.secular.strength import Strength
-from earthspin.torque.quadrupole import dot
+from earthspin.torque.gravity import dot
 
 #: Number of nodes per window of the orbit.
 ORDER = 16

@@ -13,10 +13,8 @@ from __future__ import annotations
 import weakref
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 from skyfield.framelib import mean_equator_and_equinox_of_date
 from skyfield.jpllib import SpiceKernel
 from skyfield.timelib import Time
@@ -24,11 +22,10 @@ from skyfield.vectorlib import VectorFunction
 
 from earthspin._version import version
 from earthspin.constants import J2000_JD
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.ephemeris import Ephemeris
 from earthspin.sky.protocol import Place, checked
 from earthspin.sky.vector_functions import at, blocks_of_times, function_of
-
-FloatArray: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

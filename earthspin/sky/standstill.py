@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from earthspin.constants import DAYS_PER_YEAR
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.iau import mean_longitude_of_node
 
@@ -20,7 +21,7 @@ from earthspin.sky.iau import mean_longitude_of_node
 _SAMPLING = 2.0
 #: Spacings of three samples about each extreme, by which its time is refined to 0.5 s, d.
 _CLOSER = (2.0, 0.2, 0.02)
-_REACH = 2.0 * 365.25  # days searched before and after the passage of the node
+_REACH = 2.0 * DAYS_PER_YEAR  # days searched before and after the passage of the node
 
 
 @dataclass(frozen=True)

@@ -13,10 +13,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import pairwise
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from skyfield.api import load
 from skyfield.constants import AU_M
 from skyfield.jpllib import SpiceKernel, SPICESegment, Stack
@@ -26,10 +25,9 @@ from skyfield.vectorlib import ReversedVector, VectorFunction, VectorSum
 
 from earthspin.constants import J2000_JD
 from earthspin.errors import EarthspinError, KernelError, UndefinedError, Where, nearest
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.protocol import Trajectory, words
-
-FloatArray: TypeAlias = NDArray[np.float64]
 
 _BLOCK = 1 << 12  # times per block: 1365 nutation terms for each take 45 MB
 

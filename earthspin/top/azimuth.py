@@ -31,14 +31,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import ellipkm1, elliprj
 
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.numerics.elliptic import complete_third_kind
-from earthspin.top.height import Nutation, Place
-
-BoolArray = NDArray[np.bool_]
+from earthspin.top.height import Nutation, Place, nutation_of
+from earthspin.top.start import HeavyTop
 
 # cosine of a whole number of quarter turns
 _COSINE = np.array([1.0, 0.0, -1.0, 0.0])
@@ -100,6 +98,20 @@ def mean_precession(nutation: Nutation) -> FloatArray:
     delta = np.where(nutation.crosses_upper_pole, 0.0, _upper_winding(nutation))
     turning = (np.pi / 2 * (sigma + delta) + full.phi) / nutation.half_period
     return turning + shared_rate(nutation)
+
+
+def mean_precession_rate(top: HeavyTop) -> FloatArray:
+    """Mean precession rate phi' of a top over one nutation period, rad/s.
+
+    For a top that passes exactly over a pole it is the mean of the limits from both sides, for a
+    sleeping top its initial phi', and for a top that approaches the upright position asymptotically
+    the limit b/2.
+    """
+    nutation = nutation_of(top)
+    start = nutation.start
+    mean = np.where(nutation.complement > 0, mean_precession(nutation), start.b / 2)
+    still = start.asleep | (nutation.stiffness == 0)
+    return np.where(still, top.phi_rate, mean * start.rate_unit)
 
 
 def _windings(nutation: Nutation, halves: FloatArray) -> Turned:

@@ -18,7 +18,7 @@ import math
 import numpy as np
 
 from earthspin.constants import NORMAL_95
-from earthspin.numerics.estimate import Estimate, Numeric
+from earthspin.numerics.arrays import Estimate, Numeric
 
 
 def precession_estimate(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from earthspin.constants import DAYS_PER_YEAR
 from earthspin.views import drawing, table
 from earthspin.views.drawing import Axes, PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed
@@ -173,11 +174,11 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
     """
     terms, period = needed(result, "nutation"), float(needed(result, "core").core_nutation_period)
-    terms = terms.assign(frequency=365.25 / terms.period).sortby("frequency")
+    terms = terms.assign(frequency=DAYS_PER_YEAR / terms.period).sortby("frequency")
     ax = axes(ax, 7.2, 4.2)
-    ax.axvline(365.25 / period, color="0.6", lw=0.8, ls="--", zorder=0)
+    ax.axvline(DAYS_PER_YEAR / period, color="0.6", lw=0.8, ls="--", zorder=0)
     words = f"free core nutation\n{period:.1f} d"
-    note(ax, words, (365.25 / period, 1.25), (8, 0), ha="left", color="0.4")
+    note(ax, words, (DAYS_PER_YEAR / period, 1.25), (8, 0), ha="left", color="0.4")
     ax.axhline(1, color="0.8", lw=0.8, zorder=0)
     size = 10 + 25 * np.log10(1 + abs(terms.rigid_in_phase.values))
     words = "IAU 2000A / rigid"

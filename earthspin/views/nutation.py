@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from earthspin.constants import DAYS_PER_YEAR
 from earthspin.interior.published import CORE_NUTATION
 from earthspin.views import drawing
 from earthspin.views.drawing import Axes, PageFigure, axes, note
@@ -54,7 +55,7 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
     """
     data, main = needed(result, "transfer"), needed(result, "terms")
-    per_year = 365.25 * 1.00273781191135448
+    per_year = DAYS_PER_YEAR * 1.00273781191135448
     frequency = data.frequency.values * per_year
     ax = axes(ax, 7.5, 4.2)
     ax.axhline(1, color="0.8", lw=0.8, zorder=0)
@@ -68,10 +69,10 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
             words = str(rung) if number == 0 else None
             ax.plot(frequency[piece], transfer[piece], color=colour, lw=width, label=words)
     ratio = (main.iau_in_phase / main.predicted_in_phase.sel(rung="rigid")).values
-    at = 365.25 / main.period.values
+    at = DAYS_PER_YEAR / main.period.values
     inside = np.abs(at) < SHOWN
     ax.plot(at[inside], ratio[inside], "o", color=drawing.ORANGE, ms=5, label="IAU 2000A / rigid")
-    note(ax, "free core nutation", (365.25 / CORE_NUTATION.value, 0.9), (-8, 0), ha="right")
+    note(ax, "free core nutation", (DAYS_PER_YEAR / CORE_NUTATION.value, 0.9), (-8, 0), ha="right")
     ax.set(
         ylim=(0.85, 1.45),
         xlabel="frequency in space, negative if retrograde (cycles per year)",

@@ -8,16 +8,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from earthspin.constants import MAS
+from earthspin.constants import DAYS_PER_YEAR, MAS
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing
 from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
 from earthspin.views.reading import Result, answer_of, needed
 from earthspin.views.table import date
 from earthspin.wobble.record import NEAR, YEAR
-
-JULIAN = 365.25  # d, the year of the axes
-
 
 # --- tables --------------------------------------------------------------------------------------
 
@@ -72,7 +69,7 @@ def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None =
     ax = axes(ax, 6.6, 7.4)
     answer = answer_of(result)
     if years is not None:
-        first = answer.time.values[-1] - np.timedelta64(round(years * 365.25), "D")
+        first = answer.time.values[-1] - np.timedelta64(round(years * DAYS_PER_YEAR), "D")
         answer = answer.sel(time=slice(first, None))
     scale = 1e3 if answer.x.attrs.get("units") == "arcsec" else 1.0
     x, y = answer.x.values * scale, answer.y.values * scale
@@ -104,13 +101,13 @@ def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     ax = axes(ax, 7.5, 3.8)
     spectrum = needed(result, "spectrum").spectral_amplitude
-    frequency, amplitude = spectrum.frequency.values * JULIAN, spectrum.values
+    frequency, amplitude = spectrum.frequency.values * DAYS_PER_YEAR, spectrum.values
     for sign, colour, words in ((1, drawing.BLUE, "prograde"), (-1, drawing.RED, "retrograde")):
         inside = (sign * frequency > 0.2) & (sign * frequency < 2.6)
         ax.semilogy(sign * frequency[inside], amplitude[inside], color=colour, lw=1, label=words)
     marks = (NEAR, "free wobble", "right", -4), (YEAR, "year", "left", 4)
     for period, words, side, by in (*marks, (YEAR / 2, "half a year", "left", 4)):
-        at = JULIAN / period
+        at = DAYS_PER_YEAR / period
         ax.axvline(at, color="0.7", lw=0.7, zorder=0)
         where = {"xycoords": ("data", "axes fraction"), "ha": side, "va": "top"}
         note(ax, words, (at, 0.97), (by, 0), color=drawing.GREY, **where)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from earthspin.bodies import MOON
-from earthspin.constants import DAY
+from earthspin.constants import DAY, DAYS_PER_YEAR
 from earthspin.views.drawing import Axes, PageFigure, axes
 from earthspin.views.reading import Result, answer_of
 
@@ -33,7 +33,7 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
     x, y = (angles - design[:, :2] @ line[:2]).T
     points = np.stack([x, y], axis=1)
     steps = list(np.stack([points[:-1], points[1:]], axis=1))
-    path = LineCollection(steps, array=days[:-1] / 365.25, cmap="viridis", lw=0.7)
+    path = LineCollection(steps, array=days[:-1] / DAYS_PER_YEAR, cmap="viridis", lw=0.7)
     ax.add_collection(path)
     ax.autoscale_view()
     words = "time from the start (years)"

@@ -6,7 +6,8 @@ import numpy as np
 
 from earthspin.constants import NORMAL_95
 from earthspin.errors import UndefinedError
-from earthspin.wobble.record import BAND, Array, Complex, WobbleFit, in_blocks, without_known_terms
+from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.wobble.record import BAND, WobbleFit, in_blocks, without_known_terms
 
 BLOCK = 30.0  # d
 ORDER = 12
@@ -17,7 +18,7 @@ PERIOD_EXCESS = 1.2
 DECAY_EXCESS = (2.1, 0.65)
 
 
-def burg(x: Complex, order: int) -> Complex:
+def burg(x: ComplexArray, order: int) -> ComplexArray:
     """Compute the prediction-error filter 1, a1, ... of a complex series, by Burg's method.
 
     Forward and backward errors are shortened by reflection coefficients of least mean
@@ -43,7 +44,7 @@ def burg(x: Complex, order: int) -> Complex:
     return filter_
 
 
-def fit_burg(time: Array, p: Complex) -> WobbleFit:
+def fit_burg(time: FloatArray, p: ComplexArray) -> WobbleFit:
     """Fit the free wobble to monthly means of polar motion, by Burg's autoregressive method.
 
     Drift and seasonal terms are removed first.

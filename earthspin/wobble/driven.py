@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from earthspin.wobble.record import Array, Complex, known_terms, least_squares
+from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.wobble.record import known_terms, least_squares
 from earthspin.wobble.resonance import polar_motion_from
 
 
-def fitted_start(time: Array, p: Complex, chi: Complex, s: complex) -> complex:
+def fitted_start(time: FloatArray, p: ComplexArray, chi: ComplexArray, s: complex) -> complex:
     """Fit the initial pole position of driven polar motion to observations, by least squares.
 
     Drift and seasonal terms, which are the least accurate part of excitation models, are fitted at

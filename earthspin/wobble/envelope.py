@@ -8,7 +8,8 @@ import numpy as np
 
 from earthspin.constants import NORMAL_95
 from earthspin.errors import UndefinedError
-from earthspin.wobble.record import YEAR, Array, Complex, in_blocks, shortest_span, turning
+from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.wobble.record import YEAR, in_blocks, shortest_span, turning
 
 BLOCK = 30.0  # d
 #: How far amplitudes scatter beyond the noise that is left in a window, from simulations: the
@@ -32,16 +33,20 @@ class Envelope:
         Mean position in the window.
     """
 
-    time: Array
-    chandler: Complex
-    annual: Complex
-    annual_retrograde: Complex
-    drift: Complex
-    error: Array
+    time: FloatArray
+    chandler: ComplexArray
+    annual: ComplexArray
+    annual_retrograde: ComplexArray
+    drift: ComplexArray
+    error: FloatArray
 
 
 def envelope(
-    time: Array, p: Complex, period: float, window: float | None = None, step: float = 30.0
+    time: FloatArray,
+    p: ComplexArray,
+    period: float,
+    window: float | None = None,
+    step: float = 30.0,
 ) -> Envelope:
     """Fit free wobble, annual wobble and linear drift of the pole in sliding time windows.
 
@@ -98,7 +103,7 @@ def envelope(
     )
 
 
-def _amplitude_error(left: Complex, spacing: float, rate: float) -> Array:
+def _amplitude_error(left: ComplexArray, spacing: float, rate: float) -> FloatArray:
     """95 % half-width of wobble amplitudes in time windows, from residuals with correlated noise.
 
     Neighbouring months err alike: the noise is taken for an autoregressive one of first

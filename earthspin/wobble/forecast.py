@@ -24,10 +24,11 @@ from typing import Any
 import numpy as np
 
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.wobble.innovations import EXTRAPOLATED, Autoregression, forecast_covariance
 from earthspin.wobble.record import YEAR
 from earthspin.wobble.resonance import chandler_frequency, polar_motion_from
-from earthspin.wobble.state_space import Array, Complex, Filter, StateSpace
+from earthspin.wobble.state_space import Filter, StateSpace
 
 #: Measured skill; `python -m data_tools forecast` writes it.
 SKILL = Path(__file__).with_name("forecast_skill.json")
@@ -102,13 +103,13 @@ class FastExcitation:
     white: float = 0.0
 
     @property
-    def density(self) -> Array:
+    def density(self) -> FloatArray:
         """Covariance of the x and y noise that enters the fast excitation, mas2/d, shape (2, 2)."""
         across = -self.correlation * self.x * self.y
         return np.array([[self.x**2, across], [across, self.y**2]])
 
     @property
-    def free(self) -> Array:
+    def free(self) -> FloatArray:
         """Parameters of the fast excitation, transformed to unbounded values for an optimiser.
 
         The white part must be greater than zero.
@@ -118,7 +119,7 @@ class FastExcitation:
         return np.array([*logs, *turns, np.log(self.white)])
 
     @classmethod
-    def from_free(cls, free: Array) -> FastExcitation:
+    def from_free(cls, free: FloatArray) -> FastExcitation:
         """Build the fast excitation from unbounded parameters, the inverse of `free`."""
         first, second, x, y, white = map(float, np.exp(free[[0, 1, 2, 3, 7]]))
         first_turn, second_turn = map(float, free[4:6])
@@ -186,16 +187,16 @@ class Forecast:
         Parameters that were used.
     """
 
-    pole: Complex
-    covariance: Array
-    model_covariance: Array
-    components: Mapping[str, Complex]
-    component_variance: Mapping[str, Array]
+    pole: ComplexArray
+    covariance: FloatArray
+    model_covariance: FloatArray
+    components: Mapping[str, ComplexArray]
+    component_variance: Mapping[str, FloatArray]
     fast: FastExcitation
 
 
 def forecast(
-    p: Complex,
+    p: ComplexArray,
     days: int,
     fast: FastExcitation = SHIPPED,
     used: int = RECORD,
@@ -262,7 +263,7 @@ def forecast(
     return Forecast(pole @ np.array([1, 1j]), combined, spread, complex_parts, variances, fast)
 
 
-def last_of(p: Complex, used: int = RECORD) -> Complex:
+def last_of(p: ComplexArray, used: int = RECORD) -> ComplexArray:
     """Return the last days of a record of polar motion, as many as a forecast uses.
 
     Raises
@@ -278,14 +279,14 @@ def last_of(p: Complex, used: int = RECORD) -> Complex:
     return p[-used:]
 
 
-def _rows(states: list[int]) -> Array:
+def _rows(states: list[int]) -> FloatArray:
     """Matrix that sums the chosen states of the model into one x and one y coordinate."""
     row = np.zeros(len(BEFORE))
     row[states] = 1
     return np.asarray(np.kron(np.eye(2), row), dtype=float)
 
 
-def fit(p: Complex, used: int = RECORD) -> FastExcitation:
+def fit(p: ComplexArray, used: int = RECORD) -> FastExcitation:
     """Fit the fast excitation by maximum likelihood, from every tenth day of a record.
 
     Parameters
@@ -300,7 +301,7 @@ def fit(p: Complex, used: int = RECORD) -> FastExcitation:
     record = last_of(p, used)[::-1][::THINNED][::-1]
     data = np.column_stack([record.real, record.imag])
 
-    def height(free: Array) -> float:
+    def height(free: FloatArray) -> float:
         system = model(FastExcitation.from_free(free)).every(THINNED)
         kalman = Filter.of(system, len(data))
         return kalman.minus_twice_log(kalman.run(data)[1])
@@ -312,7 +313,9 @@ def fit(p: Complex, used: int = RECORD) -> FastExcitation:
     return FastExcitation.from_free(best.x)
 
 
-def forecast_with_excitation(p: Complex, chi: Complex, days: int, newest: bool = False) -> Forecast:
+def forecast_with_excitation(
+    p: ComplexArray, chi: ComplexArray, days: int, newest: bool = False
+) -> Forecast:
     """Forecast polar motion from a record and from a known excitation that extends beyond it.
 
     The pole that the known excitation drives is computed exactly up to a day before its end. The

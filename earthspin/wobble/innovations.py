@@ -18,8 +18,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.wobble.burg import burg
-from earthspin.wobble.state_space import Array, Complex, Filter, side_by_side
+from earthspin.wobble.state_space import Filter, side_by_side
 
 #: Order of the autoregression, days from which it is estimated (the noise of the tables changes
 #: within years), and days that it extrapolates.
@@ -40,12 +41,12 @@ class Autoregression:
         Of the real and imaginary part of e, mas squared.
     """
 
-    coefficients: Complex
+    coefficients: ComplexArray
     residual: complex
-    covariance: Array
+    covariance: FloatArray
 
     @classmethod
-    def fitted(cls, innovations: Complex) -> Autoregression:
+    def fitted(cls, innovations: ComplexArray) -> Autoregression:
         """Fit the autoregression to the last days of a series of innovations."""
         last = innovations[-FITTED_OVER:]
         filter_ = burg(last, ORDER)
@@ -55,14 +56,14 @@ class Autoregression:
         covariance = parts @ parts.T / residuals.size * (1 + ORDER / residuals.size)
         return cls(filter_[1:], complex(residuals[-1]), covariance)
 
-    def extended(self, series: Complex, days: int) -> Complex:
+    def extended(self, series: ComplexArray, days: int) -> ComplexArray:
         """Extend a series of innovations by some days, with e = 0."""
         values = list(series[-ORDER:])
         for _ in range(days):
             values.append(-np.dot(self.coefficients, values[: -ORDER - 1 : -1]))
         return np.array(values[ORDER:], dtype=complex)
 
-    def without_error(self, variance: float) -> tuple[complex, Array]:
+    def without_error(self, variance: float) -> tuple[complex, FloatArray]:
         """Most probable last e, if the last observation has an error, and its covariance.
 
         Parameters
@@ -76,8 +77,8 @@ class Autoregression:
 
 
 def forecast_covariance(
-    kalman: Filter, autoregression: Autoregression, last: Array, days: int
-) -> Array:
+    kalman: Filter, autoregression: Autoregression, last: FloatArray, days: int
+) -> FloatArray:
     """Covariance of the forecast, shape (days, 2, 2), real and imaginary part of the pole.
 
     Parameters

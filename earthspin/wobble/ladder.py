@@ -21,7 +21,7 @@ from earthspin.interior.equilibrium import hydrostatic_core
 from earthspin.interior.love import elastic, softening
 from earthspin.interior.named import ANELASTIC_EXPONENT, Interior
 from earthspin.interior.ocean import global_ocean
-from earthspin.mass.inertia import ellipticity_from_h, polar_moment_factor
+from earthspin.mass.figure import ellipticity_from_h, polar_moment_factor
 from earthspin.numerics.arrays import Array
 from earthspin.wobble.mantle_and_core import Core, Mantle, Roots, over, solve
 

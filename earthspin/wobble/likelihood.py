@@ -16,13 +16,12 @@ from scipy.optimize import brentq, minimize
 
 from earthspin.constants import NORMAL_95
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.wobble.oscillator import DrivenOscillator
 from earthspin.wobble.record import (
     BAND,
     NEAR,
     YEAR,
-    Array,
-    Complex,
     WobbleFit,
     block_means,
     in_blocks,
@@ -69,7 +68,7 @@ class Likelihood:
     p : complex array, shape (n,)
     """
 
-    def __init__(self, time: Array, p: Complex) -> None:
+    def __init__(self, time: FloatArray, p: ComplexArray) -> None:
         self.terms = self._averaged(time, known_terms(time))
         self.record = self._averaged(time, p[:, None])
         self.span = float(time[-1] - time[0])
@@ -78,14 +77,14 @@ class Likelihood:
         self.size = sample * max(1, round(BLOCK / (sample * step))) * step
 
     @staticmethod
-    def _averaged(time: Array, columns: Complex) -> Complex:
+    def _averaged(time: FloatArray, columns: ComplexArray) -> ComplexArray:
         """Block means of series after removal of the rotation at the expected wobble frequency."""
         t, means, step = in_blocks(time, columns, SAMPLE)
         return np.asarray(
             block_means(means * turning(t, -NEAR)[:, None], max(1, round(BLOCK / step)))
         )
 
-    def data(self, s: complex) -> Complex:
+    def data(self, s: complex) -> ComplexArray:
         """Matrix with a column for each term to fit, with the polar motion record as the last."""
         return np.column_stack([self.terms, self.record])
 
@@ -131,12 +130,12 @@ class LikelihoodWithExcitation(Likelihood):
         Mean excitation of each step, in the unit of p.
     """
 
-    def __init__(self, time: Array, p: Complex, chi: Complex) -> None:
+    def __init__(self, time: FloatArray, p: ComplexArray, chi: ComplexArray) -> None:
         super().__init__(time, p)
         self.time, self.chi = time, chi
         self.step = float((time[-1] - time[0]) / (time.size - 1))
 
-    def data(self, s: complex) -> Complex:
+    def data(self, s: complex) -> ComplexArray:
         """Matrix with a column for each term to fit, with record minus driven pole as the last."""
         start = np.exp(1j * s * (self.time - self.time[0]))
         driven = polar_motion_from(self.chi, self.step, s)
@@ -144,7 +143,7 @@ class LikelihoodWithExcitation(Likelihood):
         return np.column_stack([self.terms, moving[:, :1], self.record - moving[:, 1:]])
 
 
-def _minus_twice_log(data: Complex, factors: Complex, lags: Complex) -> float:
+def _minus_twice_log(data: ComplexArray, factors: ComplexArray, lags: ComplexArray) -> float:
     """Minus twice the logarithm of the restricted likelihood of the record, the last column.
 
     A complex number counts as two real ones: the density is that of circular complex noise.
@@ -186,14 +185,14 @@ def _minus_twice_log(data: Complex, factors: Complex, lags: Complex) -> float:
     )
 
 
-def fit_likelihood(time: Array, p: Complex) -> WobbleFit:
+def fit_likelihood(time: FloatArray, p: ComplexArray) -> WobbleFit:
     """Fit the free wobble by maximum likelihood, with 95 % intervals from the profile."""
     return largest(Likelihood(time, p), "likelihood")
 
 
 def lowest(
-    likelihood: Likelihood, start: Array = START, fixed: int | None = None
-) -> tuple[Array, float]:
+    likelihood: Likelihood, start: FloatArray = START, fixed: int | None = None
+) -> tuple[FloatArray, float]:
     """Find the parameters of maximum likelihood, and minus twice the logarithm of that maximum.
 
     Parameters

@@ -17,11 +17,12 @@ from collections.abc import Callable
 import numpy as np
 
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.wobble import likelihood
 from earthspin.wobble.burg import fit_burg
 from earthspin.wobble.likelihood import fit_likelihood
 from earthspin.wobble.presence import need_wobble
-from earthspin.wobble.record import Array, Complex, WobbleFit, check
+from earthspin.wobble.record import WobbleFit, check
 
 #: Factor by which intervals of a fit with excitation are widened: without it 89 % of them held the
 #: truth in 300 simulated records of 30 years: poles with a period of 433 d and Q of 50, 100 and
@@ -29,13 +30,13 @@ from earthspin.wobble.record import Array, Complex, WobbleFit, check
 #: memory of 365 d.
 WIDENING = 1.2
 
-METHODS: dict[str, Callable[[Array, Complex], WobbleFit]] = {
+METHODS: dict[str, Callable[[FloatArray, ComplexArray], WobbleFit]] = {
     "burg": fit_burg,
     "likelihood": fit_likelihood,
 }
 
 
-def fit(time: Array, p: Complex, method: str = "burg") -> WobbleFit:
+def fit(time: FloatArray, p: ComplexArray, method: str = "burg") -> WobbleFit:
     """Fit period and quality factor of the free wobble in polar motion by the named method.
 
     Parameters
@@ -60,7 +61,7 @@ def fit(time: Array, p: Complex, method: str = "burg") -> WobbleFit:
     return METHODS[method](time, p)
 
 
-def fit_with_excitation(time: Array, p: Complex, chi: Complex) -> WobbleFit:
+def fit_with_excitation(time: FloatArray, p: ComplexArray, chi: ComplexArray) -> WobbleFit:
     """Fit the free wobble in polar motion with a known excitation.
 
     Parameters

@@ -13,10 +13,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.signal import lfilter
 
-Complex = NDArray[np.complex128]
+from earthspin.numerics.arrays import ComplexArray
 
 
 @dataclass(frozen=True)
@@ -44,12 +43,12 @@ class DrivenOscillator:
     background: float = 0.0
 
     @property
-    def rates(self) -> Complex:
+    def rates(self) -> ComplexArray:
         """Complex rates (1/d) of the wobble and of the slowly varying part of polar motion."""
         return np.array([1j * self.s, -1 / self.memory])
 
     @property
-    def covariance(self) -> Complex:
+    def covariance(self) -> ComplexArray:
         """Stationary covariance of wobble and slowly varying part of polar motion, shape (2, 2)."""
         rates = self.rates
         # chi' = -chi/tau + n puts c chi into the slow mode and leaves p - c chi to the free one.
@@ -59,7 +58,7 @@ class DrivenOscillator:
         noise += np.diag([self.white, 2 / self.memory * self.background])
         return np.asarray(-noise / (rates[:, None] + rates.conj()))
 
-    def of_means(self, length: float, reference: float) -> tuple[Complex, Complex]:
+    def of_means(self, length: float, reference: float) -> tuple[ComplexArray, ComplexArray]:
         """Covariance of block means of polar motion in this model, for lags of 0, 1 and 2 blocks.
 
         The rotation at the reference frequency is removed first.
@@ -84,7 +83,7 @@ class DrivenOscillator:
         same = 2 * np.sum(size * (np.expm1(x) - x) / x**2).real
         return factors, np.array([same, apart @ factors, apart @ factors**2])
 
-    def sampled(self, count: int, step: float, generator: np.random.Generator) -> Complex:
+    def sampled(self, count: int, step: float, generator: np.random.Generator) -> ComplexArray:
         """Simulate polar motion at evenly spaced times, shape (count,), with random noise.
 
         The simulation starts from the stationary distribution.
@@ -97,7 +96,7 @@ class DrivenOscillator:
         return np.asarray(sum(lfilter([1], [1, -keep[i]], pushed[:, i]) for i in (0, 1)))
 
 
-def _root(covariance: Complex) -> Complex:
+def _root(covariance: ComplexArray) -> ComplexArray:
     """Square root R of a covariance matrix, such that R R^H is the matrix; it may be singular."""
     values, vectors = np.linalg.eigh(covariance)
     return np.asarray(vectors * np.sqrt(np.maximum(values, 0)))

@@ -13,7 +13,8 @@ import numpy as np
 from scipy.special import fdtri
 
 from earthspin.errors import UndefinedError
-from earthspin.wobble.record import BAND, YEAR, Array, Complex, in_blocks, without_known_terms
+from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.wobble.record import BAND, YEAR, in_blocks, without_known_terms
 
 BLOCK = 30.0  # d
 #: Periods of the neighbours, slower and faster, d; what the seasons leave is not among them.
@@ -24,7 +25,7 @@ FALSE_ALARM = 1e-2
 ROUNDING = 1e-9
 
 
-def need_wobble(time: Array, p: Complex) -> None:
+def need_wobble(time: FloatArray, p: ComplexArray) -> None:
     """Refuse a record of polar motion without a significant peak of the free wobble.
 
     Parameters
@@ -67,11 +68,11 @@ class Periodogram:
         Cycles per day; power in any unit.
     """
 
-    frequency: Array
-    power: Array
+    frequency: FloatArray
+    power: FloatArray
 
     @classmethod
-    def of(cls, time: Array, rest: Complex) -> Periodogram:
+    def of(cls, time: FloatArray, rest: ComplexArray) -> Periodogram:
         """Compute the power spectrum of polar motion from which drift and seasons were removed."""
         length = (time[-1] - time[0]) * time.size / (time.size - 1)
         frequency = np.arange(1, int(length / FASTER[1]) + 1) / length

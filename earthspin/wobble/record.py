@@ -9,12 +9,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from earthspin.constants import DAYS_PER_YEAR
 from earthspin.errors import UndefinedError
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 
 YEAR = 365.2422  # d, the tropical year of the seasons
 #: Seasonal terms that are fitted and removed, d; negative ones turn backwards.
@@ -34,7 +32,7 @@ def shortest_span(period: float = NEAR) -> float:
     return 1 / (1 / YEAR - 1 / period)
 
 
-def check(time: Array, p: Complex) -> None:
+def check(time: FloatArray, p: ComplexArray) -> None:
     """Refuse a record of polar motion that no fitting method can use.
 
     Parameters
@@ -63,24 +61,25 @@ def check(time: Array, p: Complex) -> None:
     span, needed = time[-1] - time[0], 2 * shortest_span()
     if span < needed:
         raise UndefinedError(
-            f"a span of {span / 365.25:.1f} years is too short to separate {YEAR:.0f} from "
-            f"{NEAR:.0f} days; it takes {needed / 365.25:.0f} years, two beats of the two wobbles"
+            f"a span of {span / DAYS_PER_YEAR:.1f} years is too short to separate {YEAR:.0f} from "
+            f"{NEAR:.0f} days; it takes {needed / DAYS_PER_YEAR:.0f} years, "
+            "two beats of the two wobbles"
         )
 
 
-def turning(time: Any, period: float) -> Complex:
+def turning(time: Any, period: float) -> ComplexArray:
     """Values of exp(2 pi i time/period), a prograde circular motion of unit amplitude."""
     return np.asarray(np.exp(2j * np.pi * time / period))
 
 
-def drift_terms(time: Array, degree: int = DRIFT) -> Complex:
+def drift_terms(time: FloatArray, degree: int = DRIFT) -> ComplexArray:
     """Powers of time scaled to -1 to 1, for a drift polynomial, shape (n, degree + 1)."""
     centre, half = (time[-1] + time[0]) / 2, (time[-1] - time[0]) / 2
     scaled = (time - centre) / half
     return np.column_stack([scaled**k for k in range(degree + 1)]).astype(complex)
 
 
-def known_terms(time: Array, drift: int = DRIFT) -> Complex:
+def known_terms(time: FloatArray, drift: int = DRIFT) -> ComplexArray:
     """Values of the drift and seasonal terms at given times, shape (n, drift + 5)."""
     seasons = [turning(time, period) for period in SEASONS]
     return np.column_stack([drift_terms(time, drift), *seasons])
@@ -92,7 +91,9 @@ def block_means(values: Any, size: int) -> Any:
     return values[: count * size].reshape(count, size, *values.shape[1:]).mean(axis=1)
 
 
-def in_blocks(time: Array, p: Complex, length: float) -> tuple[Array, Complex, float]:
+def in_blocks(
+    time: FloatArray, p: ComplexArray, length: float
+) -> tuple[FloatArray, ComplexArray, float]:
     """Mean times and mean polar motion of consecutive blocks, and the block length, d.
 
     Blocks have about the given length in days.
@@ -104,12 +105,12 @@ def in_blocks(time: Array, p: Complex, length: float) -> tuple[Array, Complex, f
     return block_means(time, size), block_means(p, size), size * float(step)
 
 
-def least_squares(columns: Complex, values: Complex) -> Complex:
+def least_squares(columns: ComplexArray, values: ComplexArray) -> ComplexArray:
     """Fit a linear combination of given columns to a series; return its coefficients."""
     return np.asarray(np.linalg.lstsq(columns, values, rcond=None)[0])
 
 
-def without_known_terms(time: Array, p: Complex, period: float = NEAR) -> Complex:
+def without_known_terms(time: FloatArray, p: ComplexArray, period: float = NEAR) -> ComplexArray:
     """Subtract drift and seasonal terms from polar motion; the fit includes the free wobble."""
     columns = known_terms(time)
     found = least_squares(np.column_stack([columns, turning(time, period)]), p)

@@ -14,38 +14,35 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 
 #: Share of a steady excitation's effect that must be left at the end of a step.
 _LEAST_TRACE = 1e-10
 
 
-def pole_of(x: Array | float, y: Array | float) -> Complex:
+def pole_of(x: FloatArray | float, y: FloatArray | float) -> ComplexArray:
     """Complex polar motion p = x - i y from the coordinates x and y."""
     return np.asarray(x - 1j * y)
 
 
-def coordinates_of(p: Complex) -> tuple[Array, Array]:
+def coordinates_of(p: ComplexArray) -> tuple[FloatArray, FloatArray]:
     """Coordinates x and y from the complex polar motion p = x - i y."""
     return p.real, -p.imag
 
 
-def excitation_of(chi1: Array, chi2: Array) -> Complex:
+def excitation_of(chi1: FloatArray, chi2: FloatArray) -> ComplexArray:
     """Complex excitation chi1 + i chi2 from its two components."""
     return np.asarray(chi1 + 1j * chi2)
 
 
-def middles_of_steps(ends: Array) -> Array:
+def middles_of_steps(ends: FloatArray) -> FloatArray:
     """Middles of the steps between consecutive times, shape (n - 1,)."""
     return np.asarray((ends[:-1] + ends[1:]) / 2)
 
 
-def ends_of_steps(middles: Array, step: float) -> Array:
+def ends_of_steps(middles: FloatArray, step: float) -> FloatArray:
     """Start and end times of equal steps, from the middles of the steps, shape (n + 1,)."""
     return np.asarray(middles[0] - step / 2 + step * np.arange(middles.size + 1))
 
@@ -72,7 +69,7 @@ def chandler_frequency(period: float, quality_factor: float) -> complex:
     return complex(2 * np.pi / period * (1 + 0.5j / quality_factor))
 
 
-def excitation(p: Complex, step: float, s: complex) -> Complex:
+def excitation(p: ComplexArray, step: float, s: complex) -> ComplexArray:
     """Mean excitation in each time step of a polar motion series, by an exact formula.
 
     Parameters
@@ -104,7 +101,9 @@ def excitation(p: Complex, step: float, s: complex) -> Complex:
     return np.asarray((p[1:] - decay * p[:-1]) / rise)
 
 
-def polar_motion_from(chi: Complex, step: float, s: complex, start: complex = 0j) -> Complex:
+def polar_motion_from(
+    chi: ComplexArray, step: float, s: complex, start: complex = 0j
+) -> ComplexArray:
     """Polar motion driven by a series of mean excitations, by an exact formula.
 
     Parameters
@@ -141,12 +140,12 @@ def _response(step: float, s: complex) -> tuple[complex, complex]:
 # --- schemes that are only near ----------------------------------------------------------------
 
 
-def central_difference(p: Complex, step: float, s: complex) -> Complex:
+def central_difference(p: ComplexArray, step: float, s: complex) -> ComplexArray:
     """Excitation at inner samples of polar motion, by central differences, shape (n - 2,)."""
     return np.asarray(p[1:-1] + 1j / s * (p[2:] - p[:-2]) / (2 * step))
 
 
-def wilson_filter(p: Complex, step: float, s: complex) -> Complex:
+def wilson_filter(p: ComplexArray, step: float, s: complex) -> ComplexArray:
     """Excitation midway between samples of polar motion, by Wilson's filter, shape (n - 1,).
 
     chi = i e^(-i pi F D)/(s D) (p1 - e^(i s D) p0) (Wilson 1985, Geophys. J. R. astr. Soc.
@@ -156,7 +155,7 @@ def wilson_filter(p: Complex, step: float, s: complex) -> Complex:
     return np.asarray(1j * shift / (s * step) * (p[1:] - np.exp(1j * s * step) * p[:-1]))
 
 
-def euler_forward(chi: Complex, step: float, s: complex, start: complex = 0j) -> Complex:
+def euler_forward(chi: ComplexArray, step: float, s: complex, start: complex = 0j) -> ComplexArray:
     """Polar motion driven by an excitation, in explicit Euler steps, shape (n + 1,).
 
     The method is unstable; it serves for comparison.
@@ -169,12 +168,12 @@ def euler_forward(chi: Complex, step: float, s: complex, start: complex = 0j) ->
 
 
 #: Ways from polar motion to excitation, and from excitation to polar motion, by name.
-TO_EXCITATION: dict[str, Callable[[Complex, float, complex], Complex]] = {
+TO_EXCITATION: dict[str, Callable[[ComplexArray, float, complex], ComplexArray]] = {
     "exact": excitation,
     "central difference": central_difference,
     "wilson": wilson_filter,
 }
-FROM_EXCITATION: dict[str, Callable[..., Complex]] = {
+FROM_EXCITATION: dict[str, Callable[..., ComplexArray]] = {
     "exact": polar_motion_from,
     "explicit euler": euler_forward,
 }

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from earthspin.wobble.record import Array, Complex, drift_terms, least_squares
+from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.wobble.record import drift_terms, least_squares
 
 #: Points of the spectrum for each one that is independent.
 PADDING = 4
 
 
-def spectrum(time: Array, p: Complex) -> tuple[Array, Array]:
+def spectrum(time: FloatArray, p: ComplexArray) -> tuple[FloatArray, FloatArray]:
     """Compute the prograde and retrograde amplitude spectra of polar motion.
 
     Parameters

@@ -15,13 +15,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 
 
-def side_by_side(matrix: Complex) -> Array:
+def side_by_side(matrix: ComplexArray) -> FloatArray:
     """Real matrix for a complex one, acting on real parts followed by imaginary parts."""
     return np.block([[matrix.real, -matrix.imag], [matrix.imag, matrix.real]])
 
@@ -44,15 +42,20 @@ class StateSpace:
         Covariance of the state before the first observation; its mean is zero.
     """
 
-    transition: Array
-    noise: Array
-    observed: Array
-    error: Array
-    start: Array
+    transition: FloatArray
+    noise: FloatArray
+    observed: FloatArray
+    error: FloatArray
+    start: FloatArray
 
     @classmethod
     def sampled(
-        cls, rates: Complex, density: Array, observed: Complex, error: Array, start: Array
+        cls,
+        rates: ComplexArray,
+        density: FloatArray,
+        observed: ComplexArray,
+        error: FloatArray,
+        start: FloatArray,
     ) -> StateSpace:
         """Convert a linear model in continuous time to one with steps of a day.
 
@@ -84,11 +87,11 @@ class StateSpace:
             noise = self.transition @ noise @ self.transition.T + self.noise
         return StateSpace(transition, noise, self.observed, self.error, self.start)
 
-    def propagated(self, covariance: Array) -> Array:
+    def propagated(self, covariance: FloatArray) -> FloatArray:
         """Covariance of the state one step later."""
         return np.asarray(self.transition @ covariance @ self.transition.T + self.noise)
 
-    def of_observation(self, covariance: Array) -> Array:
+    def of_observation(self, covariance: FloatArray) -> FloatArray:
         """Covariance of the predicted observation, from the covariance of the state."""
         return np.asarray(self.observed @ covariance @ self.observed.T + self.error)
 
@@ -108,9 +111,9 @@ class Filter:
     """
 
     model: StateSpace
-    gains: Array
-    innovation: Array
-    covariance: Array
+    gains: FloatArray
+    innovation: FloatArray
+    covariance: FloatArray
 
     @classmethod
     def of(cls, model: StateSpace, count: int) -> Filter:
@@ -127,7 +130,7 @@ class Filter:
             predicted = model.propagated(after)
         return cls(model, gains, innovation, after)
 
-    def run(self, data: Array) -> tuple[Array, Array]:
+    def run(self, data: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Filter observations: return the final state and the prediction errors (innovations).
 
         Parameters
@@ -148,7 +151,7 @@ class Filter:
             state = self.model.transition @ after
         return after, innovations
 
-    def minus_twice_log(self, innovations: Array) -> float:
+    def minus_twice_log(self, innovations: FloatArray) -> float:
         """Minus twice the logarithm of the likelihood of the observations, from `run`."""
         weighted = np.linalg.solve(self.innovation, innovations[..., None])[..., 0]
         size = innovations.size * np.log(2 * np.pi)

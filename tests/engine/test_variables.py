@@ -8,7 +8,7 @@ from earthspin.engine.variables import (
     Variables,
     measured,
 )
-from earthspin.numerics.estimate import Estimate
+from earthspin.numerics.arrays import Estimate
 
 
 class Turns(Variables, along=("body",)):

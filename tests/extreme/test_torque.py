@@ -16,8 +16,11 @@ from earthspin.questions.torque import torque_series
 from earthspin.sky.equator import spherical
 from earthspin.sky.iau import ecliptic_pole
 from earthspin.torque.average import TAPERS, Window, best_window, precessing_torque
-from earthspin.torque.gravity import torque_from_declination, torque_from_position
-from earthspin.torque.harmonics import zonal_torque
+from earthspin.torque.gravity import (
+    torque_from_declination,
+    torque_from_position,
+    zonal_torque,
+)
 from earthspin.torque.rates import circular_orbit_torque
 from tests.extreme import Distances, holds, refused, relative_error
 from tests.reference.sky import BODY, J2, H

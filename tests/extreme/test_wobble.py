@@ -8,12 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import UAS
-from earthspin.questions.polar_motion import excitation, polar_motion
 from earthspin.rotor.axisymmetric import free_wobble_period
-from earthspin.sky.eop import c04_path, read_polar_motion
 from earthspin.wobble import resonance
 from earthspin.wobble.ladder import turns_rigid
-from tests.extreme import Distances, holds, refused, relative_error, temporary
+from tests.extreme import Distances, holds, relative_error
 
 PERIOD = 433.0
 DAYS = 64 * 365 + 16

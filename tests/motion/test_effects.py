@@ -14,12 +14,15 @@ from earthspin import MARS, SUN
 from earthspin.bodies import EARTH
 from earthspin.constants import DAY
 from earthspin.motion.axes import axis_path
-from earthspin.motion.effects.geodesic import geodesic_rate, geodesic_torque
-from earthspin.numerics.gauss_windows import Windows
+from earthspin.motion.effects import geodesic_rate, geodesic_torque
+from earthspin.numerics.polynomials import Windows
 from earthspin.sky.ephemeris import Ephemeris
-from earthspin.torque.gravity import torque_from_position
-from earthspin.torque.harmonics import zonal_torque
-from earthspin.torque.quadrupole import quadrupole_torque, tidal_tensor
+from earthspin.torque.gravity import (
+    quadrupole_torque,
+    tidal_tensor,
+    torque_from_position,
+    zonal_torque,
+)
 from tests.motion.sky import CODES, GM, NORTH, UAS, figure, forces
 
 directions = st.tuples(st.floats(-1, 1), st.floats(0, 2 * math.pi)).map(

@@ -13,8 +13,7 @@ from jplephem.spk import SPK
 import earthspin
 from earthspin.bodies import BODIES, MARS
 from earthspin.constants import ARCSEC, DAY, MAS, PUBLISHED_EFFECTS
-from earthspin.motion.effects import EFFECTS, RIGID
-from earthspin.motion.effects.nonrigid import RESPONSE
+from earthspin.motion.effects import EFFECTS, RESPONSE, RIGID
 from earthspin.numerics.rotations import angle_between
 from earthspin.parts.left_out import drift_by_planets
 from tests.questions.test_rotation import moonlet

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from earthspin.torque.locking import locked_ratio
+from earthspin.torque.cassini import locked_ratio
 
 UP = np.array([0.0, 0.0, 1.0])
 
