@@ -7,7 +7,6 @@ rotation. They are compared over spans that two of them cover.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -91,37 +90,6 @@ def _samples(cycles: float | None = None) -> Samples:
 
 def _psi(vectors: FloatArray) -> FloatArray:
     return np.unwrap(on_fixed_ecliptic(vectors, fixed_ecliptic())[:, 0])
-
-
-def _exponent(count: Callable[[float], int], spans: Sequence[float]) -> float:
-    """Fit the number of evaluations by a power of the time span; return the exponent minus 1."""
-    counts = [count(span) for span in spans]
-    return float(np.polyfit(np.log(spans), np.log(counts), 1)[0]) - 1
-
-
-@holds(bound=3e-4)
-def test_cost_of_average() -> Distances:
-    """growth with the span of the cost of the averaged precession rate
-
-    Hard because: a cost that grows faster than the span would prevent long spans
-    Compared with: exponent 1 of the number of epochs, over 3 to 5 periods of the node
-    """
-    yield _exponent(lambda cycles: _samples(cycles).times.size, (3.0, 4.0, 5.0))
-
-
-@holds(bound=0.02)
-def test_cost_of_pole() -> Distances:
-    """growth with the span of the cost of the axis solver
-
-    Hard because: each iteration covers all windows, and more iterations would increase the exponent
-    Compared with: exponent 1 of windows times iterations, over 2 to 48 years
-    """
-
-    def count(years: float) -> int:
-        path = _path(years * 365.25)
-        return path.rounds * path.windows.times.size
-
-    yield _exponent(count, (2.0, 6.0, 16.0, 48.0))
 
 
 @holds(bound=0.01, unit="uas")
