@@ -1,6 +1,5 @@
 """An answer can be run again, from memory and from a file, and gives the same bits."""
 
-import math
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
@@ -17,14 +16,8 @@ import earthspin
 from earthspin import EARTH, MARS, SceneError, VersionWarning, load_scene
 from earthspin.bodies import BODIES
 from earthspin.bodies.limits import refuse_break_up
-from earthspin.engine.question import Question, keys_of
-from earthspin.questions.free_rotor import FreeRotor
-from earthspin.questions.pole import Pole
-from earthspin.questions.precession import Precession
-from earthspin.questions.top import Top
-from earthspin.questions.torque import Torque
 from earthspin.questions.wobble import Wobble
-from earthspin.scenes import QUESTIONS, shipped_scenes
+from earthspin.scenes import shipped_scenes
 from tests import shipped
 
 H = xr.DataArray([0.003, 0.0032, 0.0033], {"draw": ["low", "middle", "high"]}, ("draw",))
@@ -188,23 +181,7 @@ def bits(value: Any) -> Any:
     return value
 
 
-def assert_same_bits(question: Question) -> None:
-    table = tomllib.loads(tomli_w.dumps(question.to_table()))
-    word = table.pop("compute")
-    back = QUESTIONS[word].from_table(table)
-    assert type(back) is type(question)
-    for name in keys_of(type(question)):
-        if name not in question._superseded_keys():
-            assert bits(getattr(back, name)) == bits(getattr(question, name)), name
-    assert back.to_table() == question.to_table()
-
-
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
-SMALL = st.floats(-1e8, 1e8)
-POSITIVE = st.floats(1e-8, 1e8)
-COUNTS = st.integers(-(10**15), 10**15)
-
-
 #: Words of one line, without what a terminal would take for an order.
 ONE_LINE = st.characters(codec="utf-8", exclude_categories=["Cs", "Cc", "Cf", "Zl", "Zp"])
 
@@ -250,73 +227,9 @@ def bodies(draw: st.DrawFn) -> earthspin.Body:
 
 @given(body=bodies(), title=st.text(ONE_LINE, max_size=20))
 def test_bodies_are_written_exactly(body: earthspin.Body, title: str) -> None:
-    assert_same_bits(Wobble(body=body, title=title))
-
-
-@given(
-    first=COUNTS,
-    length=st.integers(0, 10**15),
-    step=st.floats(1e-6, 1e11),
-)
-def test_series_are_written_exactly(first: int, length: int, step: float) -> None:
-    span = [np.datetime64("2000-01-01T12", "us") + np.timedelta64(n, "us") for n in (first, first)]
-    span[1] += np.timedelta64(length, "us")
-    keys = {"perturbers": ["sun", "jupiter"], "span": span, "step": step}
-    assert_same_bits(Torque(**keys))
-    assert_same_bits(Pole(**keys, effects=["j3", "planets"]))
-    assert_same_bits(Precession(perturbers="sun", span=span))
-
-
-@given(counts=st.lists(COUNTS, min_size=1, max_size=60))
-def test_dates_are_written_exactly(counts: list[int]) -> None:
-    dates = np.datetime64("2000-01-01T12", "us") + np.array(counts, dtype="timedelta64[us]")
-    assert_same_bits(Torque(times=dates))
-
-
-@given(
-    moments=st.lists(POSITIVE, min_size=3, max_size=3),
-    differences=st.booleans(),
-    omega=st.lists(st.lists(SMALL, min_size=3, max_size=3), min_size=1, max_size=20),
-    times=st.none() | st.lists(FINITE, min_size=1, max_size=60),
-    duration=POSITIVE,
-    points=st.integers(1, 4_000_000),
-)
-def test_rotors_are_written_exactly(
-    moments: list[float],
-    differences: bool,
-    omega: list[list[float]],
-    times: list[float] | None,
-    duration: float,
-    points: int,
-) -> None:
-    named = dict(zip(("A", "B-A", "C-A"), moments, strict=True))
-    when = {"duration": duration, "points": points} if times is None else {"times": times}
-    assert_same_bits(FreeRotor(moments=named if differences else moments, omega=omega, **when))
-
-
-@given(
-    transverse=st.floats(1e-150, 1e150),
-    axial_share=st.floats(1e-9, 2.0),
-    weight=st.floats(-1e40, 1e40),
-    theta=st.floats(0.0, math.pi),
-    rates=st.lists(st.floats(-1e100, 1e100), min_size=3, max_size=3),
-    angles=st.lists(FINITE, min_size=2, max_size=2),
-)
-def test_tops_are_written_exactly(
-    transverse: float,
-    axial_share: float,
-    weight: float,
-    theta: float,
-    rates: list[float],
-    angles: list[float],
-) -> None:
-    assert_same_bits(
-        Top(
-            transverse_moment=transverse,
-            axial_moment=axial_share * transverse,
-            weight_moment=weight,
-            theta=theta,
-            **dict(zip(("spin", "phi_rate", "theta_rate"), rates, strict=True)),
-            **dict(zip(("phi", "psi"), angles, strict=True)),
-        )
-    )
+    question = Wobble(body=body, title=title)
+    table = tomllib.loads(tomli_w.dumps(question.to_table()))
+    assert table.pop("compute") == "wobble"
+    back = Wobble.from_table(table)
+    assert (bits(back.body), back.title) == (bits(question.body), question.title)
+    assert back.to_table() == question.to_table()
