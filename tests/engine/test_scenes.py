@@ -138,27 +138,15 @@ def test_numbers_that_are_typed_carry_units(
     scene: str, key: str, bare: Any, unit: str, tmp_path: Path
 ) -> None:
     """In files and with --set; in Python plain numbers are in SI units."""
-    path = tmp_path / "scene.toml"
-    several = isinstance(bare, list)
-    with_unit = [f"{one} {unit}" for one in bare] if several else f"{bare} {unit}"
-    table = load_scene(scene).word
-    own = "top." if table == "top" else ""
-    in_python = load_scene(scene, {own + key: bare})
-    for value, fits in ((bare, False), (with_unit, True)):
-        written = f'compute = "{table}"\n{own}{key} = {value!r}\n'
-        if not own:
-            path.write_text(written)
-            if fits:
-                load_scene(path)
-            else:
-                with pytest.raises(SceneError, match="give it with its unit, like"):
-                    load_scene(path)
-        if fits:
-            typed = typed_scene(scene, {own + key: value})
-            assert typed.to_table() == in_python.to_table()
-        else:
-            with pytest.raises(SceneError, match="give it with its unit, like"):
-                typed_scene(scene, {own + key: value})
+    path, word = tmp_path / "scene.toml", load_scene(scene).word
+    name = f"top.{key}" if word == "top" else key
+    in_python = load_scene(scene, {name: bare}).to_table()
+    with_unit = [f"{one} {unit}" for one in bare] if isinstance(bare, list) else f"{bare} {unit}"
+    assert typed_scene(scene, {name: with_unit}).to_table() == in_python
+    path.write_text(f'compute = "{word}"\n{name} = {bare!r}\n')
+    for typed in (lambda: typed_scene(scene, {name: bare}), lambda: load_scene(path)):
+        with pytest.raises(SceneError, match="give it with its unit, like"):
+            typed()
 
 
 @pytest.mark.parametrize("scene", shipped_scenes())
