@@ -73,14 +73,15 @@ def test_the_words_of_a_plan() -> None:
     assert set(frame.columns) == {"part", "status", "reason", "seconds"}
 
 
-def closed(part: Part) -> Part:
-    return Part(part.function, (lambda: "no kernel today",))
-
-
-def test_what_is_used_if_it_is_there_may_be_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    graph = QUESTIONS["wobble"].graph
-    parts = graph.parts | {"inside": closed(graph.parts["inside"])}
-    monkeypatch.setattr(QUESTIONS["wobble"], "graph", replace(graph, parts=parts))
+def test_a_part_is_left_out_with_what_it_needs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And runs without what it uses if that is there."""
+    for word, name in (("torque", "sky"), ("wobble", "inside")):
+        graph = QUESTIONS[word].graph
+        closed = Part(graph.parts[name].function, (lambda: "no kernel today",))
+        changed = replace(graph, parts=graph.parts | {name: closed})
+        monkeypatch.setattr(QUESTIONS[word], "graph", changed)
+    with pytest.raises(SceneError, match=r"nothing to do: .*no kernel today"):
+        earthspin.plan("torque")
     plan = earthspin.plan("wobble", "all")
     assert "wobble_rungs" in [part.name for part in plan.parts]
     reason = "it needs inside, which is left out: no kernel today"
