@@ -1,8 +1,8 @@
 """Motion of the Earth's axes in time.
 
 The spin is 10^7 times faster than the precession. The averaged rate does not depend on the phase of
-the spin, the axis solver uses windows of several days, and the two other solvers resolve every
-rotation. They are compared over spans that two of them cover.
+the spin, the axis solver uses windows of several days, and the solver of (L, F) resolves every
+rotation.
 """
 
 from __future__ import annotations
