@@ -1,4 +1,4 @@
-"""Each effect against something that does not know its formula; off means not evaluated."""
+"""Each effect against something that does not know its formula."""
 
 import math
 from typing import Any

@@ -1,4 +1,4 @@
-"""Which number stands under which label: times, axes in space, upper and lower, days of a table."""
+"""Which number stands under which label: times, upper and lower, days of a table."""
 
 import numpy as np
 import pytest
