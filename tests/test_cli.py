@@ -90,12 +90,6 @@ def test_a_page_is_opened_when_asked(
     assert (status, opened[1:]) == (0, [(tmp_path / "index.html").as_uri()])
 
 
-def test_report_without_figures(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    status, _out, _ = run(capsys, "report", "--no-figures", "--out", str(tmp_path))
-    assert status == 0
-    assert "<svg" not in (tmp_path / "index.html").read_text()
-
-
 @pytest.mark.parametrize("command", [["scenes"], ["run", "wobble"]])
 def test_a_reader_who_leaves_is_no_error(command: list[str]) -> None:
     writer = subprocess.Popen(
@@ -257,17 +251,6 @@ def test_completion_for_shells(capsys: pytest.CaptureFixture[str], shell: str) -
     assert status == 0
     assert "earthspin" in out
     assert "_ARGCOMPLETE" in out
-
-
-def test_as_a_module() -> None:
-    out = subprocess.run(
-        [sys.executable, "-m", "earthspin", "run", "wobble"],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert "303.62" in out.stdout
-    assert out.stderr == ""
 
 
 def wrong_commands(folder: Path) -> list[tuple[list[str], str]]:
