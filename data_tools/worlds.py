@@ -20,7 +20,7 @@ from earthspin.constants import NORMAL_95, PSI_A_RATE
 from earthspin.errors import EarthspinError
 from earthspin.questions.cassini_states import CassiniStates
 from earthspin.questions.precession import Precession
-from earthspin.views.table import NUMBERS_ONLY, some_unknown, systematic_size
+from earthspin.views.tables import NUMBERS_ONLY, some_unknown, systematic_size
 
 #: Signs of units, and their size in degrees; obliquities below `SMALL` (deg) are in minutes of arc.
 UNITS, SMALL = {"arcmin": "′", "deg": "°"}, 0.1

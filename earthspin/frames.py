@@ -35,7 +35,7 @@ from earthspin.engine.labels import si
 from earthspin.engine.question import Question, scene_of
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.parts.times import epochs
+from earthspin.questions.times import epochs
 from earthspin.scenes import VERSIONS, load_scene, members_of, run, run_tree, warn_of_versions
 from earthspin.secular.reading import NO_EQUINOX, equator_and_equinox, equinox_error
 

@@ -15,7 +15,7 @@ PACKAGES = (
     *("numerics", "mass", "rotor", "top", "torque", "motion", "interior"),
     *("wobble", "nutation", "sky", "parts"),
 )
-NO_KERNEL = {"__init__", "arrays"}
+NO_KERNEL = {"__init__"}
 #: Modules between what is given and the kernels, and between the kernels and the answer.
 BORDER = (
     *("units", "dates", "bodies/shapes", "bodies/earth_moon_sun", "constants", "scenes"),

@@ -13,7 +13,7 @@ from earthspin.errors import UndefinedError
 from earthspin.interior.layers import LayeredBody, tidal_inertia
 from earthspin.interior.love import FOUR_PI_G, START, Profile, liquid, liquid_centre
 from earthspin.numerics.arrays import Array
-from earthspin.numerics.collocation import carry
+from earthspin.numerics.polynomials import carry
 
 Numeric = Any
 

@@ -14,7 +14,7 @@ from earthspin.constants import G
 from earthspin.errors import UndefinedError
 from earthspin.interior.layers import Layer, LayeredBody
 from earthspin.numerics.arrays import Array
-from earthspin.numerics.collocation import carry as by_collocation
+from earthspin.numerics.polynomials import carry as by_collocation
 
 # --- equations of static deformation --------------------------------------------------------------
 # In the notation of Takeuchi & Saito (1972, Methods in Computational Physics 11, eq. 82):

@@ -6,7 +6,7 @@ I.9.52), the relations between J2, H and e, and MacCullagh's potential and torqu
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from earthspin.constants import G
 from earthspin.errors import BodyError, UndefinedError
 from earthspin.mass.tensor import first_wrong, positive, tensor_about_point, vectors
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import FloatArray, Numeric
 
 # --- homogeneous and layered spheroids ------------------------------------------------------------
 # The spheroid has the equatorial radius a, the polar one c = a (1 - f), and
@@ -196,7 +196,7 @@ def spheroid_tensor(
     Parameters
     ----------
     mass, radius, flattening
-        As for `earthspin.mass.figure.spheroid_moments`.
+        As for `spheroid_moments`.
     about : array_like, shape (..., 3)
         Reference point, from the centre of the spheroid, m.
 
@@ -328,8 +328,6 @@ def _check_nested(radii: FloatArray, flattenings: FloatArray) -> None:
 # with C the polar moment, A the (mean) equatorial one, a the equatorial radius. This J2 is
 # geodesy's; the source text's (I.9.30) is G (C - A). All functions accept arrays, including
 # labelled ones.
-
-Numeric = Any
 
 
 def moment_difference(j2: Numeric, mass: Numeric, radius: Numeric) -> Numeric:

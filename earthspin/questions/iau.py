@@ -32,8 +32,9 @@ from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import budget as flat
 from earthspin.nutation.analysis import ANGLES, polynomials, precession_angles
 from earthspin.nutation.budget import Budget, budget_of
-from earthspin.parts.observed_sky import ObservedSizes, ObservedSky, observed_sky
-from earthspin.parts.path import (
+from earthspin.progress import progress
+from earthspin.questions.observed_pole import ObservedSizes, ObservedSky, observed_sky
+from earthspin.questions.path import (
     INTERIOR,
     MERGED,
     NEIGHBOUR,
@@ -45,16 +46,16 @@ from earthspin.parts.path import (
     Shift,
     core_response,
     iau_nutation,
+    largest_terms,
     path_over,
     residual_error,
     rigid,
     steady_figure,
 )
-from earthspin.parts.pulls import PULLS, Pulls, start_of
-from earthspin.parts.reasons import neglected_rates
-from earthspin.parts.sky import unmeasured
-from earthspin.parts.times import Dated
-from earthspin.progress import progress
+from earthspin.questions.pulls import PULLS, Pulls, start_of
+from earthspin.questions.reasons import neglected_rates
+from earthspin.questions.sky import unmeasured
+from earthspin.questions.times import Dated
 
 if TYPE_CHECKING:
     from earthspin.nutation.response import Response
@@ -93,7 +94,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     computed pole minus the IAU's in obliquity, nothing removed
     """
 
-    views, page, headline = "iau", "pole", "closure"
+    page, headline = "pole", "closure"
 
     def check(self) -> None:
         """Refuse bodies whose position errors are unknown, as the comparison needs them."""
@@ -211,15 +212,15 @@ def budget(rates_by_effect: Budget) -> EffectRates:
         closure=rates.closure,
         omega_closure=rates.omega_closure,
         omega_closure_with_tides=rates.omega_closure_with_tides,
-        closure_over_flattening=_over(rates.closure, rates.psi_from_h),
-        closure_over_uncertainty=_over(rates.closure, both),
+        closure_over_flattening=_ratio(rates.closure, rates.psi_from_h),
+        closure_over_uncertainty=_ratio(rates.closure, both),
         psi_rate_analysis_error=rates.psi_analysis_error,
         omega_rate_analysis_error=rates.omega_analysis_error,
         effect=list(rates.psi),
     )
 
 
-def _over(closure: float, uncertainty: float) -> float:
+def _ratio(closure: float, uncertainty: float) -> float:
     """Ratio of an unexplained rate to its uncertainty; infinite if that uncertainty is zero."""
     return closure / uncertainty if uncertainty else math.copysign(math.inf, closure)
 
@@ -437,31 +438,19 @@ class Nutation(Variables, along=("term",)):
 @part
 def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation:
     """Compare the thirty largest circular nutation terms of the computed pole and the IAU pole."""
-    from earthspin.nutation.analysis import amplitude_error, neighbours_of, phases, term_names
-    from earthspin.sky import iau
+    from earthspin.nutation.analysis import phases
 
+    order, terms = largest_terms(pole_analysis, LARGEST)
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
-    order = np.argsort(-np.abs(ours.amplitude))[:LARGEST]
-    frequency = ours.frequency[order]
     rigid, real = ours.amplitude[order], theirs.amplitude[order]
-    transfer = core_response.transfer(frequency)
-    at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
-    near = neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
-    neighbour_in, neighbour_out = phases(near.amplitude[order])
-    error, ratio = amplitude_error(frequency), real / rigid
+    transfer, ratio = core_response.transfer(ours.frequency[order]), real / rigid
     return Nutation(
-        period=2 * np.pi / frequency,
+        **terms,
         rigid=phases(rigid),
-        iau=phases(real),
-        amplitude_error=error,
-        neighbour=[near.names[row] for row in order],
-        neighbour_in_phase=neighbour_in,
-        neighbour_out_of_phase=neighbour_out,
         ratio=(ratio.real, ratio.imag),
-        ratio_error=np.hypot(1, np.abs(ratio)) * error / np.abs(rigid),
+        ratio_error=np.hypot(1, np.abs(ratio)) * terms["amplitude_error"] / np.abs(rigid),
         transfer=(transfer.real, transfer.imag),
         left=phases(real - transfer * rigid),
-        term=term_names(ours.multiples[order]),
     )
 
 

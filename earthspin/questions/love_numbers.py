@@ -21,7 +21,7 @@ from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.interior.ocean_and_anelasticity import anelastic_strain
 from earthspin.mass.figure import ellipticity_from_h
 from earthspin.numerics.arrays import ComplexArray
-from earthspin.parts.layered import FROM_LAYERS, LayeredInterior, layers, require_layers
+from earthspin.questions.interiors import FROM_LAYERS, LayeredInterior, layers, require_layers
 from earthspin.units import Number
 
 
@@ -60,7 +60,7 @@ class LoveNumbers(
     [ 393.6 -455.6  475.5 2411. ]
     """
 
-    views, page, headline = "love_numbers", "wobble", "love_number"
+    page, headline = "wobble", "love_number"
 
     interior: LayeredInterior | None = key(None, doc="layers; those of the body if not given")
     body: Body = key(EARTH, doc="body with the layers, the spin and the dynamical flattening")

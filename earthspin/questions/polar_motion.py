@@ -19,7 +19,7 @@ from earthspin.engine.run import in_range
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.parts.pole_table import (
+from earthspin.questions.observed_pole import (
     MJD,
     Daily,
     OfTable,
@@ -71,7 +71,7 @@ class PolarMotion(OfTable, word="polar-motion", call="polar_motion", table="pola
     IERS c04
     """
 
-    views, page, headline = "polar_motion", "wobble", "x"
+    page, headline = "wobble", "x"
 
     method: Method = setting("burg", doc="method that fits the free wobble")
     window: Days | None = setting(

@@ -16,7 +16,7 @@ from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, m
 from earthspin.errors import UndefinedError
 from earthspin.interior.named import OBSERVED_CORE_NUTATION
 from earthspin.nutation import core_nutation as core
-from earthspin.parts.pole_table import MJD, Daily, OfTable, not_observed, within
+from earthspin.questions.observed_pole import MJD, Daily, OfTable, not_observed, within
 from earthspin.sky.eop import PoleSeries, read_pole_offsets
 from earthspin.units import Days
 from earthspin.wobble.record import shortest_span
@@ -52,7 +52,7 @@ class PoleOffsets(OfTable, word="pole-offsets", call="pole_offsets", table="pole
     mas 7306
     """
 
-    views, page, headline = "pole_offsets", "pole_offsets", "dX"
+    page, headline = "pole_offsets", "dX"
 
     window: Days | None = setting(
         None, doc="length of the sliding windows; three years if not given"

@@ -28,12 +28,11 @@ from earthspin.mass import figure
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import budget as calendar
 from earthspin.nutation.budget import closure, published_effects
-from earthspin.parts import reasons
-from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples
-from earthspin.parts.observed_wobble import observed_wobble
-from earthspin.parts.reasons import north_note
-from earthspin.parts.satellites import describe_pole, swings
-from earthspin.parts.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
+from earthspin.questions import reasons
+from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, Samples
+from earthspin.questions.reasons import north_note, observed_wobble
+from earthspin.questions.satellites import describe_pole, swings
+from earthspin.questions.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
 from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
 from earthspin.sky.sources import SourceName
 from earthspin.torque import rates
@@ -72,7 +71,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     [81259. 37614. 25712.]
     """
 
-    views, page, headline = "precession", "theory", "precession_rate"
+    page, headline = "theory", "precession_rate"
     with_satellites = True
 
     source: SourceName = key("skyfield", doc=SOURCE_DOC)
@@ -399,18 +398,13 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
     ).with_attributes(no_error=sky.no_error)
 
 
-def neglected_nodes(body: Body, mean_rates: MeanRates) -> dict[str, float]:
-    """Largest additions to the mean rate by the nodes of satellites, rad/s, with their periods."""
-    nutations = swings(body, mean_rates.pull, mean_rates.means.obliquity)
-    return {f"{name}, period {swing.years}": swing.rate for name, swing in nutations.items()}
-
-
 @part
 def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -> Neglected:
     """Published contributions to the precession rate of effects that are not modelled."""
     unknown = reasons.not_the_iaus_earth(body, perturbers)
     published = LEFT_OUT_OF_RATES.get(body.name, {}) if body.is_as_named else {}
-    nodes = neglected_nodes(body, mean_rates)
+    nutations = swings(body, mean_rates.pull, mean_rates.means.obliquity)
+    nodes = {f"{name}, period {swing.years}": swing.rate for name, swing in nutations.items()}
     if published:
         what = "contribution to the rate that the model leaves out; others were not measured"
         cited = Neglected.cited(published, what)

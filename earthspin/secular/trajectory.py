@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from earthspin.errors import ApartError, UndefinedError
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.numerics.gauss_windows import Windows, integrated, rule
+from earthspin.numerics.polynomials import Windows, integrated, rule
 from earthspin.secular.orbit import (
     Orbit,
     Pull,

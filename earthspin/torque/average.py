@@ -19,7 +19,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -29,7 +28,6 @@ from earthspin.numerics.arrays import FloatArray
 
 # --- windows --------------------------------------------------------------------------------------
 
-Numeric = Any
 #: Blackman-Harris: minimum four-term window, Harris 1978, Proc. IEEE 66, 51, table 1.
 _BLACKMAN_HARRIS = (0.35875, 0.48829, 0.14128, 0.01168)
 

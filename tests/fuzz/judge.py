@@ -23,7 +23,7 @@ import earthspin
 from earthspin import EarthspinError, UndefinedError, process
 from earthspin.cli import main
 from earthspin.engine import answering, asking, run
-from earthspin.views.of_question import scene_page, tables_for
+from earthspin.views.answers import scene_page, tables_for
 from tests.fuzz import inputs, requests
 
 #: Longest message: `LONGEST_MESSAGE` and what a command puts around it.

@@ -16,7 +16,7 @@ from earthspin.constants import DAY
 from earthspin.motion import forces as forces_module
 from earthspin.motion.axes import axis_path
 from earthspin.motion.effects import geodesic_rate, geodesic_torque
-from earthspin.numerics.gauss_windows import Windows
+from earthspin.numerics.polynomials import Windows
 from earthspin.sky.ephemeris import Ephemeris
 from earthspin.torque.gravity import (
     quadrupole_torque,

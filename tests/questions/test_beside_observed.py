@@ -12,8 +12,8 @@ from earthspin.bodies.moons import TITAN_OBLIQUITY
 from earthspin.engine.neglected import Neglected
 from earthspin.questions.cassini_states import CassiniStates
 from earthspin.questions.precession import Precession
-from earthspin.views.of_question import tables_for
-from earthspin.views.table import NUMBERS_ONLY, beside_observed, some_unknown, systematic_size
+from earthspin.views.answers import tables_for
+from earthspin.views.tables import NUMBERS_ONLY, beside_observed, some_unknown, systematic_size
 from tests.reference import lunar_state
 
 

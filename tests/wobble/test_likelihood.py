@@ -9,7 +9,7 @@ from scipy.linalg import expm, solve_continuous_lyapunov, toeplitz
 
 import earthspin
 from earthspin import SceneError
-from earthspin.views.polar_motion import plot_modelled
+from earthspin.views.observed_pole import plot_modelled
 from earthspin.wobble import excitation, observed, record
 from earthspin.wobble.observed import fit, fit_with_excitation
 from earthspin.wobble.state_space import DrivenOscillator, side_by_side

@@ -15,7 +15,7 @@ from earthspin.constants import PSI_A_RATE
 from earthspin.sky.poles import FixedPole
 from earthspin.torque.cassini import strengths
 from earthspin.views.drawing import note
-from earthspin.views.table import measured
+from earthspin.views.tables import measured
 
 # %%
 # Earth, Earth without Moon, and Mars

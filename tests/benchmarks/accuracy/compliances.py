@@ -16,7 +16,7 @@ from scipy.linalg import expm
 from earthspin.constants import G
 from earthspin.interior.layers import PREM
 from earthspin.interior.love import yielding
-from earthspin.numerics.collocation import carry as collocation
+from earthspin.numerics.polynomials import carry as collocation
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.stepping import integrate
 from tests.reference.stored import load

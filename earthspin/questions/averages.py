@@ -15,11 +15,10 @@ from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
 from earthspin.mass.figure import moment_difference
-from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.estimate import Estimate
-from earthspin.parts.elements import ellipse_chains, exact_means, no_exact_means
-from earthspin.parts.satellites import Carried, carried, without_swings
-from earthspin.parts.sky import Sky, Stretch
+from earthspin.numerics.arrays import Estimate, FloatArray
+from earthspin.questions.elements import ellipse_chains, exact_means, no_exact_means
+from earthspin.questions.satellites import Carried, carried, without_swings
+from earthspin.questions.sky import Sky, Stretch
 from earthspin.sky.elements import Elements
 from earthspin.sky.poles import FixedPole, IAU2006Pole, MovingPole, angle, rotate
 from earthspin.torque import average, cassini, rates
@@ -362,19 +361,14 @@ class MeanRates:
 
     def total(self) -> tuple[Numeric, Numeric]:
         """Total rate of all perturbers and its error, rad/s."""
-        return total_of(self.rate.value), total_of(self.rate.error)
+        return of_perturber(self.rate.value), of_perturber(self.rate.error)
 
 
-def total_of(by_perturber: Numeric) -> Numeric:
-    """Total of all perturbers: the last value along the dimension `perturber`."""
-    return item_of(by_perturber, -1)
-
-
-def item_of(by_perturber: Numeric, index: int) -> Numeric:
-    """Value for one perturber, selected by its index along the dimension `perturber`."""
-    if hasattr(by_perturber, "dims"):
-        return by_perturber.isel(perturber=index, drop=True)
-    return by_perturber[index]
+def of_perturber(values: Numeric, index: int = -1) -> Numeric:
+    """Value of one perturber by its index along the dimension `perturber`; the total by default."""
+    if hasattr(values, "dims"):
+        return values.isel(perturber=index, drop=True)
+    return values[index]
 
 
 @part
@@ -398,7 +392,12 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         body.relative_uncertainty.get("dynamical_flattening", 0.0) / moons.moment,
         np.hypot(u_gm, moons.uncertainty),
     )
-    by_orbit, by_spin = _rates_over_motions(rate.value, means, body, perturbers)
+    by_orbit = sum(
+        abs(of_perturber(rate.value, index)) / ((body.gm_on(p) + p.gm_on(body)) * near) ** 0.5
+        for index, (p, near) in enumerate(zip(perturbers, means.nearness, strict=True))
+    )
+    total = abs(of_perturber(rate.value))
+    by_spin = abs(total / body.spin_rate)
     refuse_fast_axis(by_orbit, by_spin)
     torque = rates.torque_estimate(
         along(np.linalg.norm(means.torque, axis=1)),
@@ -412,21 +411,10 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         rate=rate,
         torque=torque,
         ratio=along(rates.rate_ratio(means.precessing)),
-        second_order=largest(OF_AVERAGE * (by_orbit + by_spin) * abs(total_of(rate.value))),
+        second_order=largest(OF_AVERAGE * (by_orbit + by_spin) * total),
         pull=pull,
         carried=moons,
     )
-
-
-def _rates_over_motions(
-    rate: Numeric, means: MeanTorques, body: Body, perturbers: tuple[Body, ...]
-) -> tuple[Numeric, Numeric]:
-    """Precession rate divided by the perturbers' mean motion (summed), and by the spin rate."""
-    by_orbit = sum(
-        abs(item_of(rate, index)) / ((body.gm_on(p) + p.gm_on(body)) * near) ** 0.5
-        for index, (p, near) in enumerate(zip(perturbers, means.nearness, strict=True))
-    )
-    return by_orbit, abs(total_of(rate) / body.spin_rate)
 
 
 def _labeller(means: MeanTorques) -> Callable[[FloatArray], xr.DataArray]:

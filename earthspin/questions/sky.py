@@ -19,7 +19,7 @@ from earthspin.engine.part import part
 from earthspin.engine.question import Question, key
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.parts.elements import EllipseChain, all_by_elements, ellipse_chains
+from earthspin.questions.elements import EllipseChain, all_by_elements, ellipse_chains
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
 from earthspin.sky.ephemeris import NAMED_KERNELS
 from earthspin.sky.poles import Pole, rotate, spherical

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,12 +31,12 @@ from earthspin.motion.forces import fastest_sweep
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation.analysis import followed, on_fixed_ecliptic
 from earthspin.nutation.budget import published_effects
-from earthspin.parts.predicted import CHOSEN, Prediction, no_layers, prediction
-from earthspin.parts.pulls import AxisMotion, Pulls, forces_of, start_of
-from earthspin.parts.reasons import no_iau_model
-from earthspin.parts.satellites import drifts, obliquity_of, swings
-from earthspin.parts.times import days_of
 from earthspin.progress import progress
+from earthspin.questions.interiors import CHOSEN, Prediction, no_layers, prediction
+from earthspin.questions.pulls import AxisMotion, Pulls, forces_of, start_of
+from earthspin.questions.reasons import no_iau_model
+from earthspin.questions.satellites import drifts, obliquity_of, swings
+from earthspin.questions.times import days_of
 from earthspin.sky.kernel import DRIFT_FROM, growth
 
 if TYPE_CHECKING:
@@ -431,6 +431,36 @@ def pole_analysis(
         their_circles=iau_pole.circles,
         difference=eta - iau_pole.nutation,
     )
+
+
+def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp], dict[str, Any]]:
+    """Largest circular nutations of the computed pole, beside the same ones of IAU 2000A.
+
+    Returns
+    -------
+    order : ndarray, shape (count,)
+        Their places among the circles.
+    columns : dict of str
+        Variables of a table of terms: periods, amplitudes of IAU 2000A with their half-widths, and
+        the neighbours that this span does not separate from them.
+    """
+    from earthspin.nutation.analysis import amplitude_error, neighbours_of, phases, term_names
+    from earthspin.sky import iau
+
+    ours = analysed.our_circles
+    order = np.argsort(-np.abs(ours.amplitude))[:count]
+    at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
+    near = neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
+    neighbour_in, neighbour_out = phases(near.amplitude[order])
+    return order, {
+        "period": 2 * np.pi / ours.frequency[order],
+        "iau": phases(analysed.their_circles.amplitude[order]),
+        "amplitude_error": amplitude_error(ours.frequency[order]),
+        "neighbour": [near.names[row] for row in order],
+        "neighbour_in_phase": neighbour_in,
+        "neighbour_out_of_phase": neighbour_out,
+        "term": term_names(ours.multiples[order]),
+    }
 
 
 @part

@@ -1,25 +1,50 @@
-"""Make the tables, figures and pages of a result, as the view module of its question says."""
+"""Tables, figures, pages and JSON text of a result, with what its question adds to the usual."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+import json
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from types import ModuleType
-from typing import TypeVar
+from datetime import datetime
+from typing import TYPE_CHECKING, Any, TextIO
 
+import numpy as np
 import xarray as xr
 
 from earthspin.engine.plan import NOT_REQUESTED, REUSED
 from earthspin.engine.spread import is_ensemble
 from earthspin.errors import SceneError
 from earthspin.scenes import plan, run_tree
-from earthspin.views import ensemble, tables
-from earthspin.views.drawing import Drawing, Figure, PageFigure, style
-from earthspin.views.reading import Result, answer_of, changes_of, question_of, section, views_of
+from earthspin.views import (
+    ensemble,
+    long_term,
+    observed_pole,
+    pole,
+    precession,
+    rotors,
+    tables,
+    torque,
+    wobble,
+)
+from earthspin.views.drawing import Drawing, Figure, T, Views, style
+from earthspin.views.reading import Result, answer_of, changes_of, question_of, section
 from earthspin.views.solids import Solid
-from earthspin.views.table import BRACKETS, Table, along
+from earthspin.views.tables import BRACKETS, Table, along
 
-T = TypeVar("T")
+if TYPE_CHECKING:
+    from earthspin.engine.accessor import Answer
+
+#: Figures, pictures and special tables of the answers to each question.
+VIEWS = {
+    **precession.VIEWS,
+    **torque.VIEWS,
+    **pole.VIEWS,
+    **rotors.VIEWS,
+    **long_term.VIEWS,
+    **observed_pole.VIEWS,
+    **wobble.VIEWS,
+}
 
 #: Titles of the pages of the documentation that explain the method of a question, by their files.
 PAGES = {
@@ -48,7 +73,7 @@ def tables_for(tree: Result) -> list[Table]:
     Returns
     -------
     list of Table
-        Those of the question's own view module, then one or more for the answer and for each
+        Those of the question's own views, then one or more for the answer and for each
         section that these do not show. What the model leaves out stands below the errors that do
         not hold it, or else below the first table.
     """
@@ -61,27 +86,21 @@ def tables_for(tree: Result) -> list[Table]:
 
 
 def _tables(tree: Result) -> list[Table]:
-    """Tables of the view module, and those of the sections that these do not show."""
-    makers: Sequence[tuple[str, Callable[[Result], Table]]] = getattr(_view(tree), "TABLES", ())
-    shown = {name for sections, _ in makers for name in sections.split() or [""]}
-    special = [table for table in _made(tree, makers) if table.rows]
-    return [*special, *tables.tables(tree, without=shown)]
+    """Special tables of the question, and those of the sections that these do not show."""
+    special = _views(tree).tables
+    shown = {name for sections, _ in special for name in sections.split() or [""]}
+    made = [table for table in _made(tree, special) if table.rows]
+    return [*made, *tables.tables(tree, without=shown)]
 
 
 def drawings_for(tree: Result) -> list[Drawing]:
     """Draw all figures of a result and of its sections, with captions."""
-    return [figure.drawn(tree) for figure in _figures(tree) if figure.is_there(tree)]
-
-
-def _figures(tree: Result) -> Sequence[PageFigure]:
-    """Descriptions of the figures for a result, from the view module of its question."""
-    figures: Sequence[PageFigure] = getattr(_view(tree), "FIGURES", ())
-    return figures
+    return [figure.drawn(tree) for figure in _views(tree).figures if figure.is_there(tree)]
 
 
 def solids_for(tree: Result) -> list[Solid]:
     """Three-dimensional pictures of a result, some of which are animated."""
-    return _made(tree, getattr(_view(tree), "SOLIDS", ()))
+    return _made(tree, _views(tree).solids)
 
 
 def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> list[T]:
@@ -91,6 +110,11 @@ def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> 
         for sections, make in makers
         if all(section(tree, name) is not None for name in sections.split())
     ]
+
+
+def _views(tree: Result) -> Views:
+    """Figures, pictures and special tables of a result, or of an ensemble."""
+    return ensemble.VIEWS if is_ensemble(tree) else VIEWS.get(tree.attrs["compute"], Views())
 
 
 def figures_of(answer: xr.Dataset) -> list[Figure]:
@@ -110,7 +134,7 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
         problem = "a section or an edited dataset has no scene; plot the whole answer or its tree"
         raise SceneError("plot", answer.attrs.get("title", "a dataset"), problem)
     there = plan(answer, "all").sections
-    needed = {name for figure in _figures(answer) for name in (figure.section, *figure.uses)}
+    needed = {name for figure in _views(answer).figures for name in (figure.section, *figure.uses)}
     nodes = {"/": answer}
     if names := [name for name in there if name in needed]:
         sections = run_tree(answer, names)
@@ -121,14 +145,40 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
     return [drawing.figure for drawing in drawings_for(xr.DataTree.from_dict(nodes))]
 
 
-def figures_of_fit(fit: xr.Dataset) -> list[Figure]:
-    """Draw the result of `fit_chandler`; for any other Dataset, return an empty list."""
-    if "scene" in fit.attrs or not {"time", "chandler_amplitude"} <= set(fit.variables):
-        return []
-    from earthspin.views.polar_motion import plot_amplitude_and_phase
+def plot(answer: Answer) -> list[Figure]:
+    """Draw the standard figures of a result.
 
-    with style():
-        return [plot_amplitude_and_phase(fit)]
+    Parameters
+    ----------
+    answer : Answer
+        Accessor of the result, of which this is a method.
+
+    Returns
+    -------
+    list of Figure
+
+    Raises
+    ------
+    SceneError
+        If this is a selection of an answer that cannot be drawn.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> year = earthspin.torque_series("2026-01-01", "2027-01-01", "6 h")
+    >>> year.earthspin.plot()[0].savefig("torque.png")
+    """
+    data = answer.dataset
+    if "scene" not in data.attrs and {"time", "chandler_amplitude"} <= set(data.variables):
+        with style():  # a result of `fit_chandler`
+            return [observed_pole.plot_amplitude_and_phase(data)]
+    question = answer.scene
+    try:
+        return figures_of(data)
+    except (AttributeError, KeyError, ValueError):
+        selection = f"a selection of the answer to '{question.word}'"
+        remedy = "plot the full result, which earthspin.run(ds) computes again"
+        raise SceneError("plot", selection, remedy) from None
 
 
 def print_tables(tree: Result, *, with_plan: bool = False) -> None:
@@ -181,7 +231,7 @@ def page_of(
     from earthspin.views.page import page
 
     if lead is None:
-        says = getattr(_view(trees[0]), "lead", None)
+        says = _views(trees[0]).lead
         lead = says(trees[0]) if says else " ".join(changes_of(answer_of(trees[0])))
     return page(
         title,
@@ -222,14 +272,6 @@ def what_ran(*trees: Result) -> list[Table]:
     return [Table(title, headers, rows, words=(0, 1), cost=cost)] if plans else []
 
 
-def _view(tree: Result) -> ModuleType:
-    """Return the module of `earthspin.views` with the figures and further tables of a result.
-
-    It is that for ensembles, that of the question, or `tables`.
-    """
-    return ensemble if is_ensemble(tree) else views_of(tree)
-
-
 def _explained(tree: Result) -> str:
     """Sentence that names the documentation pages on the method and the errors of a result."""
     page = question.page if (question := question_of(tree)) else ""
@@ -246,3 +288,78 @@ def _footer(answer: xr.Dataset) -> str:
     if attrs["references"]:
         words += f" Sources of the bodies' numbers: {attrs['references']}."
     return words
+
+
+# --- result as JSON ------------------------------------------------------------------------------
+
+
+#: Numbers that become text at once.
+AT_ONCE = 1 << 16
+
+
+def write_json(tree: xr.DataTree, stream: TextIO) -> None:
+    """Write a result and its sections as JSON, in the layout of `Dataset.to_dict`.
+
+    Dates are text in ISO 8601, and so are infinity and what is no number, for which JSON has none.
+
+    Parameters
+    ----------
+    tree : DataTree
+    stream : text file
+    """
+    _write_node(tree, stream)
+    sections = {name: node for name, node in tree.children.items() if name != "plan"}
+    if sections:
+        _write_members("sections", sections, _write_node, stream)
+    stream.write("}\n")
+
+
+def _write_members(
+    title: str, members: Mapping[Any, T], write: Callable[[T, TextIO], None], stream: TextIO
+) -> None:
+    """Write several named items as one JSON object; `write` writes each of the items."""
+    stream.write(f',\n"{title}": {{')
+    for number, (name, member) in enumerate(members.items()):
+        stream.write(f"{',' if number else ''}\n{json.dumps(str(name))}: ")
+        write(member, stream)
+        stream.write("}")
+    stream.write("\n}")
+
+
+def _write_node(node: xr.DataTree, stream: TextIO) -> None:
+    data = node.to_dataset()
+    stream.write(f'{{"attrs": {_text(data.attrs)},\n"dims": {_text(data.sizes)}')
+    _write_members("coords", data.coords, _write_array, stream)
+    _write_members("data_vars", data.data_vars, _write_array, stream)
+
+
+def _write_array(array: xr.DataArray, stream: TextIO) -> None:
+    values = array.values
+    stream.write(f'{_text({"dims": array.dims, "attrs": array.attrs})[:-1]}, "data": ')
+    if values.ndim == 0:
+        stream.write(_text(values))
+        return
+    rows = max(1, AT_ONCE * values.shape[0] // max(1, values.size))
+    stream.write("[")
+    for first in range(0, values.shape[0], rows):
+        stream.write(("," if first else "") + _text(values[first : first + rows])[1:-1])
+    stream.write("]")
+
+
+def _text(value: Any) -> str:
+    return json.dumps(_plain(value), default=str)
+
+
+def _plain(value: Any) -> Any:
+    """Convert arrays, dates and infinite numbers to types that JSON can represent."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(inner) for key, inner in value.items()}
+    if isinstance(value, (np.ndarray, np.generic)):
+        if value.dtype.kind == "f" and np.isfinite(value).all():
+            return value.tolist()
+        value = value.astype("M8[us]").tolist() if value.dtype.kind == "M" else value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [_plain(inner) for inner in value]
+    if isinstance(value, datetime):
+        return value.isoformat()
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else value

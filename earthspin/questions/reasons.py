@@ -1,4 +1,4 @@
-"""Conditions under which results are left out, and published rates of neglected effects."""
+"""Conditions under which results are left out, and published numbers beside results."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from collections.abc import Collection
 import numpy as np
 
 from earthspin.bodies import Body, in_a_sentence, proper
-from earthspin.constants import PUBLISHED_EFFECTS
+from earthspin.constants import DAY, NORMAL_95, PUBLISHED_EFFECTS
 from earthspin.engine.neglected import Neglected
+from earthspin.engine.part import part
+from earthspin.engine.variables import Pair, Variables, measured
 from earthspin.nutation.budget import published_effects
 
 
@@ -27,8 +29,8 @@ def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
     These need a body with an IAU precession model and only the Sun and the Moon as perturbers.
     """
-    if no_iau_model(body):
-        return no_iau_model(body)
+    if reason := no_iau_model(body):
+        return reason
     names = {p.name for p in perturbers}
     missing = [name for name in ("sun", "moon") if name not in names]
     if missing:
@@ -41,8 +43,8 @@ def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
     These need the unmodified Earth, with only the Sun and the Moon as perturbers.
     """
-    if not_sun_and_moon(body, perturbers):
-        return not_sun_and_moon(body, perturbers)
+    if reason := not_sun_and_moon(body, perturbers):
+        return reason
     if body.is_as_named:
         return None
     return f"the IAU's numbers do not apply to a modified {proper(body.name)}: {body.changes}"
@@ -50,8 +52,8 @@ def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """Return the reason (text) to omit lunar results if the Moon is no perturber, else None."""
-    if no_iau_model(body):
-        return no_iau_model(body)
+    if reason := no_iau_model(body):
+        return reason
     has_moon = "moon" in {p.name for p in perturbers}
     return None if has_moon else "the moon is not among the perturbers"
 
@@ -93,4 +95,32 @@ def neglected_rates(modelled: Collection[str] = ()) -> Neglected:
         "arcsec/yr",
         "published contribution to the rate of an effect that is not modelled",
         next(iter(PUBLISHED_EFFECTS.values())).source,
+    )
+
+
+# --- observed wobble -----------------------------------------------------------------------------
+
+
+class ObservedWobble(Variables):
+    """Observed period of the free wobble, as a variable of a result (Dataset)."""
+
+    observed_period: Pair = measured("d", "observed period of the free wobble")
+
+
+def not_observed(body: Body) -> str | None:
+    """Return the reason (text) to omit the observed period if no wobble was observed, else None."""
+    if body.observed_wobble:
+        return None
+    return f"no observed wobble of this {proper(body.name)} is known"
+
+
+@part(unless=not_observed)
+def observed_wobble(body: Body) -> ObservedWobble:
+    """Observed period of the free wobble from the literature."""
+    observed = body.observed_wobble
+    assert observed is not None
+    period = observed.value * DAY
+    half_width = NORMAL_95 * period * observed.relative_uncertainty
+    return ObservedWobble(observed_period=(period, half_width)).with_attributes(
+        observed_period={"references": observed.source}
     )

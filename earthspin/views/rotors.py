@@ -1,18 +1,29 @@
-"""Figures and three-dimensional pictures of a rotor without torque."""
+"""Figures and three-dimensional pictures of free rotors, heavy tops and rotation under torques."""
 
 from __future__ import annotations
 
 import numpy as np
+import xarray as xr
 
+from earthspin.constants import DAY
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.quaternion import multiply, rotate
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.views import drawing, solids
-from earthspin.views.drawing import BLUE, GREEN, RED, Axes, PageFigure, axes
+from earthspin.views.drawing import (
+    BLUE,
+    CYCLE,
+    GREEN,
+    RED,
+    Axes,
+    Figure,
+    PageFigure,
+    Views,
+    axes,
+    empty,
+)
 from earthspin.views.reading import Result, answer_of, needed
 from earthspin.views.solids import BLACK, GREY, Solid
-
-# --- figures -------------------------------------------------------------------------------------
 
 
 def _caption_of_herpolhode(tree: Result) -> str:
@@ -67,7 +78,7 @@ def plot_herpolhode(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
-FIGURES = [
+ROTOR_FIGURES = [
     PageFigure(
         "Angular velocity in the body",
         "Components of the angular velocity along the principal axes.",
@@ -77,9 +88,6 @@ FIGURES = [
         "Herpolhode", _caption_of_herpolhode, plot_herpolhode, section="poinsot", square=True
     ),
 ]
-
-
-# --- solids --------------------------------------------------------------------------------------
 
 
 def ellipsoids_with_polhodes(tree: Result) -> Solid:
@@ -212,6 +220,224 @@ def _turn_to_z(vector: FloatArray) -> FloatArray:
     return np.asarray(half / np.linalg.norm(half))
 
 
-SOLIDS = [
+ROTOR_SOLIDS = [
     ("poinsot", make) for make in (ellipsoids_with_polhodes, polhode_with_sphere, rolling_ellipsoid)
 ]
+
+
+# --- heavy tops ----------------------------------------------------------------------------------
+
+
+def _plot_potential_and_nutation(tree: Result) -> Figure:
+    answer, figure = answer_of(tree), empty(8, 3.4)
+    left, right = figure.subplots(1, 2)
+    plot_effective_potential(tree, ax=left)
+    right.plot(answer.time, np.degrees(answer.theta), color=BLUE, lw=1.2)
+    right.set(xlabel="time (s)", ylabel="inclination (deg)")
+    return figure
+
+
+def plot_effective_potential(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Draw a top's effective potential over the inclination of its axis, and its energy level.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``top``; without the sections ``potential`` and ``turning`` it is run
+        again.
+    ax : Axes, optional
+        Drawn on a figure of its own by default.
+    """
+    potential = needed(result, "potential").effective_potential
+    ax = axes(ax, 4, 3.4)
+    turning = np.degrees(needed(result, "turning").turning_angle.values)
+    level = float(np.interp(turning, potential.inclination, potential).max())
+    lowest = float(potential.min())
+    reach = max(level - lowest, 0.05 * abs(lowest), 1e-9)
+    ax.plot(potential.inclination, potential, color=BLUE, lw=1.2)
+    ax.axhline(level, color="0.4", lw=0.9, ls="--")
+    ax.set_ylim(lowest - 0.2 * reach, level + 2 * reach)
+    ax.set(xlabel="inclination (deg)", ylabel="effective potential (rad²/s²)")
+    return ax
+
+
+TOP_FIGURES = [
+    PageFigure(
+        "Effective potential and nutation",
+        "Left: the effective potential as a function of the inclination, and the energy of the top "
+        "(dashed); the inclination varies where the energy lies above the potential. Right: the "
+        "inclination in time.",
+        _plot_potential_and_nutation,
+        section="potential",
+        uses=["turning"],
+    )
+]
+
+
+def path_of_top(tree: Result) -> solids.Solid:
+    """Three-dimensional picture of the path of the top's axis on a sphere.
+
+    The path lies between two turning angles (source text, I.7.19).
+    """
+    answer = answer_of(tree)
+    theta, phi = answer.theta.values, answer.phi.values
+    tip = np.stack(
+        [np.sin(theta) * np.sin(phi), -np.sin(theta) * np.cos(phi), np.cos(theta)], axis=-1
+    )
+    bounds = needed(tree, "turning").turning_angle.values
+    return solids.Solid(
+        title=f"{answer.attrs['title']}: {answer.pattern.item()}",
+        caption="The tip of the axis (red) moves between two circles (grey), the turning angles.",
+        items=[
+            solids.mesh(solids.ellipsoid((1.0, 1.0, 1.0), 19, 37), BLUE, opacity=0.06),
+            *(solids.line(solids.circle(float(b)), solids.GREY, width=1.2) for b in bounds),
+            solids.line(tip, RED, width=2.5, grows=True),
+            solids.moving_arrow(tip, solids.BLACK, "axis"),
+        ],
+        radius=1.15,
+        times=answer.time.values,
+        attitude=answer.attitude.values,
+    )
+
+
+TOP_SOLIDS = [("turning", path_of_top)]
+
+
+# --- rotation under torques ----------------------------------------------------------------------
+
+
+#: An attitude is lost where its error is a quarter of a turn, deg.
+LOST = 90.0
+#: Poses that a picture which plays shows at most.
+POSES = 481
+
+
+def _days(answer: xr.Dataset) -> FloatArray:
+    time = answer.time.values
+    return np.asarray((time - time[0]) / np.timedelta64(1, "D"))
+
+
+def _label(ax: Axes, words: str) -> Axes:
+    ax.set(xlabel="time from the start (d)", ylabel=words)
+    drawing.legend_above(ax)
+    return ax
+
+
+def plot_spin(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Draw the components of angular velocity along the principal axes over time.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``rotation``.
+    ax : Axes, optional
+        Drawn on a figure of its own by default.
+    """
+    ax = axes(ax, 8, 3.4)
+    answer = answer_of(result)
+    drawing.lines(ax, _days(answer), np.degrees(answer.omega) * DAY, lw=1.1)
+    return _label(ax, "angular velocity (deg/d)")
+
+
+def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Draw the error of the attitude in time, by cause.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``rotation``.
+    ax : Axes, optional
+    """
+    ax = axes(ax, 8, 3.4)
+    answer = answer_of(result)
+    for colour, share in zip(CYCLE, ("method", "input", "kernel"), strict=False):
+        error = answer[f"attitude_error_{share}"].values
+        shown = np.isfinite(error) & (error > 0)
+        if shown.any():
+            ax.semilogy(_days(answer)[shown], error[shown], color=colour, lw=1.2, label=share)
+    ax.axhline(LOST, color="0.4", lw=0.8, ls="--")
+    return _label(ax, "error of the attitude (deg)")
+
+
+def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Draw the logarithm of a small, growing change of the rotation, and its mean growth rate.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``rotation``; without the section ``divergence`` it is run again.
+    ax : Axes, optional
+    """
+    ax = axes(ax, 8, 3.4)
+    neighbour = needed(result, "divergence")
+    days = _days(neighbour)
+    ax.plot(days, neighbour.growth, color=RED, lw=1.2, label="neighbour")
+    if "lyapunov_time" in neighbour:
+        time, error = float(neighbour.lyapunov_time), float(neighbour.lyapunov_time_error)
+        words = f"e-fold in {time:.3g} ± {error:.2g} d"
+        ax.plot(days, days / time, "k--", lw=0.9, label=words)
+    return _label(ax, "logarithm of the distance (1)")
+
+
+ROTATION_FIGURES = [
+    PageFigure(
+        "Spin in the body",
+        "Components of the angular velocity along the principal axes, C last.",
+        plot_spin,
+    ),
+    PageFigure(
+        "How well the attitude is known",
+        "What the attitude may be off by at each time: what two ways of following it differ by, "
+        "and what the uncertainty of given numbers and positions does.",
+        plot_attitude_error,
+    ),
+    PageFigure(
+        "How neighbours part",
+        "Logarithm of the distance of a neighbour; a straight line is chaos.",
+        plot_growth,
+        section="divergence",
+    ),
+]
+
+
+#: Semi-axes of what is drawn: the shape of no body in particular.
+SHAPE = (1.0, 0.8, 0.6)
+
+
+def turning_body(tree: Result) -> Solid:
+    """Animated three-dimensional ellipsoid with the principal moments of the body."""
+    few = answer_of(tree).isel(time=slice(0, POSES))
+    attitude, momentum = few.attitude.values, few.angular_momentum.values
+    omega = rotate(attitude, few.omega.values)
+    return Solid(
+        title="The body turns",
+        caption="An ellipsoid fixed to the principal axes, its longest axis that of least "
+        "moment (A, red) and its shortest that of most (C, black); the angular velocity "
+        "(green) and the angular momentum (blue) in space, each over its largest length.",
+        items=[
+            solids.mesh(solids.ellipsoid(SHAPE), BLUE, frame="body", opacity=0.2),
+            solids.arrow(np.array([1.25, 0.0, 0.0]), RED, "A", frame="body"),
+            solids.arrow(np.array([0.0, 0.0, 1.0]), BLACK, "C", frame="body"),
+            solids.moving_arrow(1.3 * omega / _largest(few.omega.values), GREEN, "ω"),
+            solids.moving_arrow(1.3 * momentum / _largest(momentum), BLUE, "L"),
+        ],
+        radius=1.5,
+        times=_days(few),
+        unit="d",
+        attitude=attitude,
+    )
+
+
+def _largest(vectors: FloatArray) -> float:
+    """Length of the longest of several vectors; 1 if all vectors are zero."""
+    return float(np.max(np.linalg.norm(vectors, axis=1))) or 1.0
+
+
+ROTATION_SOLIDS = [("", turning_body)]
+
+
+VIEWS = {
+    "free-rotor": Views(ROTOR_FIGURES, ROTOR_SOLIDS),
+    "top": Views(TOP_FIGURES, TOP_SOLIDS),
+    "rotation": Views(ROTATION_FIGURES, ROTATION_SOLIDS),
+}
