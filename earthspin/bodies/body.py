@@ -582,8 +582,6 @@ class Body(FromMass):
         """Return True if the changes are so large that the observed wobble no longer applies.
 
         This is so if a field that affects the wobble differs by more than 1 % from this body.
-
-        The observed wobble then does not apply to the body.
         """
         changed = _OF_THE_WOBBLE & set(changes)
         return not all(is_close(changes[name], getattr(self, name)) for name in changed)
