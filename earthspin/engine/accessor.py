@@ -58,7 +58,7 @@ class Answer:
 
     def __init__(self, answer: xr.Dataset | xr.DataTree) -> None:
         self.dataset = answer.to_dataset() if isinstance(answer, xr.DataTree) else answer
-        self._plan: Plan | None = None
+        self.ran: Plan | None = None  # set on an answer as it is returned
 
     def __getattr__(self, name: str) -> Any:
         """Return a registered method by its name."""
@@ -79,13 +79,8 @@ class Answer:
     @property
     def plan(self) -> Plan:
         """Plan of the run: functions that ran, and functions left out, with the reasons."""
-        if self._plan is None:
-            self._plan = registered("plan")(self.scene)
-        return self._plan
-
-    @plan.setter
-    def plan(self, plan: Plan) -> None:
-        self._plan = plan
+        plan: Plan = self.ran or registered("plan")(self.scene)
+        return plan
 
     def to_frame(self) -> pd.DataFrame:
         """Return the result as a pandas table: a row for each label, a column for each number.

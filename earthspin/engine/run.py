@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from earthspin._version import __version__, version
 from earthspin.engine.labels import CONVENTIONS
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.neglected import Neglected, error_of
 from earthspin.engine.plan import IMPORTS, NOT_REQUESTED, Plan
 from earthspin.engine.question import NEGLECTED, SCENE, Question, scene_text
 from earthspin.engine.variables import Variables
@@ -76,22 +76,20 @@ class Run:
 
     def why_not(self, name: str) -> str:
         """Return the reason why a part is left out; empty if it can run."""
-        if name not in self._reasons:
-            self._reasons[name] = self._reason(name)
-        return self._reasons[name]
-
-    def _reason(self, name: str) -> str:
+        if name in self._reasons:
+            return self._reasons[name]
         part, parts = self.graph.parts[name], self.graph.parts
-        if why := part.reason(self.keys):
-            return why
-        for other in part.needs:
-            if other in parts and (why := self.why_not(other)):
-                return f"it needs {parts[other].title}, which is left out: {why}"
+        lacking = [other for other in part.needs if other in parts and self.why_not(other)]
         offered = [other for other in part.uses if other in parts]
-        if not offered or part.needs or not all(map(self.why_not, offered)):
-            return ""
-        # without required inputs, it needs one of the optional ones
-        return "; ".join(f"no {parts[other].title}: {self.why_not(other)}" for other in offered)
+        why = part.reason(self.keys) or ""
+        if not why and lacking:
+            reason = self.why_not(lacking[0])
+            why = f"it needs {parts[lacking[0]].title}, which is left out: {reason}"
+        if not why and offered and not part.needs and all(map(self.why_not, offered)):
+            # without required inputs, it needs one of the optional ones
+            why = "; ".join(f"no {parts[other].title}: {self.why_not(other)}" for other in offered)
+        self._reasons[name] = why
+        return why
 
     def inputs(self, name: str) -> list[str]:
         """Names of the inputs and results that a part takes in this run; empty for an input."""
@@ -193,11 +191,13 @@ class Run:
         """Return the answer as a Dataset, with title, references and other attributes."""
         ends = [*self.graph.answer, NEGLECTED]
         self._load_modules(ends)
-        result = self.numbers()
+        result, neglected = self.numbers(), self.neglected
         result.attrs = _described(self.question) | self.provenance(ends)
-        result.attrs |= {NEGLECTED: self.neglected.largest, SCENE: scene_text(self.question)}
-        self.neglected.mark(result, self.question.headline)
-        result.earthspin.plan = self.plan()
+        result.attrs |= {NEGLECTED: neglected.largest, SCENE: scene_text(self.question)}
+        error = error_of(result, self.question.headline)
+        if neglected.sizes and error in result:  # errors do not contain what the model leaves out
+            result[error].attrs["not_modelled"] = neglected.largest
+        result.earthspin.ran = self.plan()
         return result
 
     def tree(self, sections: str | Iterable[str]) -> xr.DataTree:
