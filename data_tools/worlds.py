@@ -12,10 +12,9 @@ import xarray as xr
 
 import earthspin
 from earthspin.bodies import BODIES, PLANETS, proper
+from earthspin.bodies.earth_moon_sun import MOON_OBLIQUITY
 from earthspin.bodies.giants import JUPITER_CONSTANT, SATURN_CONSTANT
-from earthspin.bodies.inner import MERCURY_OBLIQUITY, VENUS_PRECESSION
-from earthspin.bodies.mars import PRECESSION as MARS_PRECESSION
-from earthspin.bodies.moon import OBLIQUITY as MOON_OBLIQUITY
+from earthspin.bodies.inner import MARS_PRECESSION, MERCURY_OBLIQUITY, VENUS_PRECESSION
 from earthspin.bodies.moons import TITAN_OBLIQUITY, TITAN_OBLIQUITY_IF_SOLID
 from earthspin.constants import NORMAL_95, PSI_A_RATE
 from earthspin.errors import EarthspinError

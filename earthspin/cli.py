@@ -341,7 +341,7 @@ def _info(options: Namespace) -> None:
     from importlib.metadata import PackageNotFoundError, version
 
     if options.what:
-        from earthspin.bodies.listing import all_in_words, in_words
+        from earthspin.bodies.planets import all_in_words, in_words
 
         print(all_in_words() if options.name is None else in_words(options.name))
         return

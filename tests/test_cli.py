@@ -15,7 +15,7 @@ import xarray as xr
 import earthspin
 from earthspin.cli import PAGES, _parser, main
 from earthspin.engine import store
-from earthspin.engine.run import scene_text
+from earthspin.engine.question import scene_text
 from earthspin.scenes import QUESTIONS, shipped_scenes
 from earthspin.sky.ephemeris import find_kernel
 from earthspin.views.play import PLAYS

@@ -8,7 +8,7 @@ import pytest
 import earthspin
 from earthspin.bodies import BODIES, JUPITER, NEPTUNE, SATURN, SUN, TITAN, URANUS, Body
 from earthspin.bodies.giants import SATELLITES, SATURN_MOMENT
-from earthspin.bodies.satellites import Satellite
+from earthspin.bodies.orbit import Satellite
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, AU, JULIAN_YEAR
 from earthspin.errors import BodyError, SceneError
 from earthspin.questions.precession import Precession

@@ -61,7 +61,6 @@ USED = {
     "iau": KERNEL | LEAST_SQUARES,
     "nutation": {*KERNEL, *LEAST_SQUARES, "scipy.special"},
     "rotation": {*KERNEL, *LEAST_SQUARES, "scipy.spatial", "scipy.special"},
-    "polar-motion": {"scipy.special"},
     "forecast": {"scipy.linalg"},
     "free-rotor": {"scipy.special"},
     "top": {"scipy.special"},

@@ -79,8 +79,9 @@ class Answer:
     @property
     def plan(self) -> Plan:
         """Plan of the run: functions that ran, and functions left out, with the reasons."""
-        plan: Plan = self.ran or registered("plan")(self.scene)
-        return plan
+        if self.ran is None:
+            self.ran = registered("plan")(self.scene)
+        return self.ran
 
     def to_frame(self) -> pd.DataFrame:
         """Return the result as a pandas table: a row for each label, a column for each number.

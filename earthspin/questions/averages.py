@@ -10,7 +10,7 @@ import numpy as np
 
 from earthspin._version import version
 from earthspin.bodies import Body, Numeric, in_a_sentence
-from earthspin.bodies.limits import OF_AVERAGE, largest, refuse_fast_axis
+from earthspin.bodies.checks import OF_AVERAGE, largest, refuse_fast_axis
 from earthspin.constants import DAY
 from earthspin.engine.part import part
 from earthspin.errors import UndefinedError
@@ -20,9 +20,7 @@ from earthspin.questions.elements import ellipse_chains, exact_means, no_exact_m
 from earthspin.questions.satellites import Carried, carried, without_swings
 from earthspin.questions.sky import Sky, Stretch
 from earthspin.sky.elements import Elements
-from earthspin.sky.equator import angle, rotate
-from earthspin.sky.moving_pole import MovingPole
-from earthspin.sky.poles import FixedPole, IAU2006Pole
+from earthspin.sky.poles import FixedPole, IAU2006Pole, MovingPole, angle, rotate
 from earthspin.torque import average, cassini, rates
 from earthspin.torque.average import Window, best_window, precessing_torque, window_mean_and_error
 from earthspin.torque.gravity import torque_from_declination

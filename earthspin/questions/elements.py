@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from earthspin.bodies import Body
-from earthspin.bodies.limits import extent, overlap
+from earthspin.bodies.checks import extent, overlap
 from earthspin.errors import SceneError, nearest
 from earthspin.sky.elements import Ellipse, Plane
 

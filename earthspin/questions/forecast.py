@@ -13,13 +13,13 @@ from earthspin.bodies import EARTH, Body
 from earthspin.bodies.orbit import Epoch
 from earthspin.constants import DAY, MAS, NORMAL_95
 from earthspin.dates import Spacing, datetime64
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key
 from earthspin.engine.run import Run
 from earthspin.engine.variables import (
     Labels,
+    Neglected,
     Pair,
     Value,
     Variables,
@@ -467,15 +467,15 @@ def offsets_until(file: str | Path, last: float | None) -> PoleSeries:
 
 def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Predict celestial pole offsets and their half-widths at given dates, shape (n, 2) each."""
-    from earthspin.nutation.offset_prediction import predict
+    from earthspin.nutation.core_nutation import predict
 
     return predict(table.mjd, table.x, table.y, table.x_error, table.y_error, mjd)
 
 
 def no_offsets(file: str | Path | GivenSeries, origin: float | None, days: float) -> str | None:
     """Return the reason (text) to omit celestial pole offsets without a forecast, else None."""
-    from earthspin.nutation.offset_prediction import LONGEST as FARTHEST
-    from earthspin.nutation.offset_prediction import too_short
+    from earthspin.nutation.core_nutation import LONGEST as FARTHEST
+    from earthspin.nutation.core_nutation import too_short
 
     if isinstance(file, GivenSeries):
         return "polar motion has no celestial pole offsets; name a table"

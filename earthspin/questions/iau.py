@@ -11,12 +11,12 @@ import numpy as np
 from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95
 from earthspin.dates import Epochs, datetime64
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import define_parts
 from earthspin.engine.variables import (
     Labels,
+    Neglected,
     Pair,
     Value,
     Variables,
@@ -29,8 +29,8 @@ from earthspin.engine.variables import (
 from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.nutation import flattening as flat
-from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
+from earthspin.nutation import budget as flat
+from earthspin.nutation.analysis import ANGLES, polynomials, precession_angles
 from earthspin.nutation.budget import Budget, budget_of
 from earthspin.progress import progress
 from earthspin.questions.observed_pole import ObservedSizes, ObservedSky, observed_sky
@@ -268,7 +268,7 @@ def differences(
     predicted_shift: Shift | None = None,
 ) -> Differences:
     """Compute time series of computed pole minus IAU pole, for different sets of effects."""
-    from earthspin.nutation.circles import complex_nutation, without_line
+    from earthspin.nutation.analysis import complex_nutation, without_line
     from earthspin.sky import iau
 
     done = pole_analysis
@@ -438,7 +438,7 @@ class Nutation(Variables, along=("term",)):
 @part
 def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation:
     """Compare the thirty largest circular nutation terms of the computed pole and the IAU pole."""
-    from earthspin.nutation.circles import phases
+    from earthspin.nutation.analysis import phases
 
     order, terms = largest_terms(pole_analysis, LARGEST)
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
@@ -515,7 +515,7 @@ def core(
     pole_analysis: PoleComparison, core_response: Response, response_apart: ResponseFit
 ) -> Core:
     """Return the parameters of the free core nutation fitted to IAU 2000A, and fit residuals."""
-    from earthspin.nutation.circles import phases, term_names
+    from earthspin.nutation.analysis import phases, term_names
     from earthspin.nutation.response import added_half_width
 
     apart, alone = response_apart, response_apart.response
@@ -563,7 +563,7 @@ class Angles(Variables, along=("angle", "degree")):
 @part
 def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
     """Fit polynomials to the precession angles of the computed pole and the IAU pole."""
-    from earthspin.nutation.circles import SLOW_DEGREE
+    from earthspin.nutation.analysis import SLOW_DEGREE
     from earthspin.sky import iau
 
     t = pole_analysis.days / DAYS_PER_CENTURY

@@ -7,14 +7,20 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from earthspin.bodies import BODIES, Body, all_of, in_a_sentence
-from earthspin.bodies.layered import Layers
+from earthspin.bodies.kinds import Layers
 from earthspin.engine.part import part
 from earthspin.engine.question import Question
 from earthspin.errors import nearest
-from earthspin.interior.diurnal_ocean import FES2004_SOURCE
 from earthspin.interior.layers import LayeredBody
-from earthspin.interior.named import ANELASTIC_EXPONENT, INTERIORS, Interior, with_layers
-from earthspin.interior.published import CORE_NUTATION, K_CMB_OUT_OF_PHASE
+from earthspin.interior.named import (
+    ANELASTIC_EXPONENT,
+    CORE_NUTATION,
+    INTERIORS,
+    K_CMB_OUT_OF_PHASE,
+    Interior,
+    with_layers,
+)
+from earthspin.interior.ocean_and_anelasticity import FES2004_SOURCE
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import ladder
 from earthspin.questions.reasons import no_iau_model

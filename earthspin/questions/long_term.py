@@ -10,11 +10,19 @@ import numpy as np
 
 from earthspin.bodies import MOON, SUN, Body, in_a_sentence
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, key
-from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
+from earthspin.engine.variables import (
+    Labels,
+    Neglected,
+    Pair,
+    Value,
+    Variables,
+    labels,
+    measured,
+    number,
+)
 from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, of_perturber
@@ -25,9 +33,8 @@ from earthspin.questions.sky import PerturbedBody, Sky, Stretch, places, sky
 from earthspin.questions.times import SideBySide
 from earthspin.secular import budget as solutions
 from earthspin.secular import reading
-from earthspin.secular.angles import equator_and_equinox, equinox_error, inclined_axis
-from earthspin.secular.orbit import moons_height
-from earthspin.secular.strength import Strength, Tides, geodesic_precession
+from earthspin.secular.orbit import Strength, Tides, geodesic_precession, moons_height
+from earthspin.secular.reading import equator_and_equinox, equinox_error, inclined_axis
 from earthspin.sky.columns import is_table
 from earthspin.sky.orbit_files import read_orbit
 from earthspin.sky.orbit_table import OrbitTable, shipped

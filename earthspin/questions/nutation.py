@@ -11,12 +11,12 @@ import numpy as np
 from earthspin.bodies import Body
 from earthspin.constants import DAYS_PER_CENTURY
 from earthspin.dates import Epochs
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, setting
 from earthspin.engine.variables import (
     Labels,
+    Neglected,
     Pair,
     Value,
     Variables,
@@ -30,7 +30,7 @@ from earthspin.interior.modes import mode_period
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import ladder
-from earthspin.nutation.interior_draws import Spread, spread_of
+from earthspin.nutation.ladder import Spread, spread_of
 from earthspin.progress import progress
 from earthspin.questions.interiors import SOURCES, Prediction, no_layers, predict
 from earthspin.questions.path import (
@@ -157,7 +157,7 @@ def left(
     effects: tuple[str, ...],
 ) -> RungResiduals:
     """Compute the residuals of predicted pole minus IAU pole for each model."""
-    from earthspin.nutation.circles import complex_nutation, responses, without_line
+    from earthspin.nutation.analysis import complex_nutation, responses, without_line
     from earthspin.sky import iau
 
     done = pole_analysis
@@ -306,7 +306,7 @@ class Terms(Variables, along=("term",)):
 @part
 def terms(pole_analysis: PoleComparison, models: Prediction, interior_spread: Spread) -> Terms:
     """Compute the largest circular nutation terms of each model, in phase and out of phase."""
-    from earthspin.nutation.circles import phases
+    from earthspin.nutation.analysis import phases
 
     order, columns = largest_terms(pole_analysis, LARGEST)
     circles, names = pole_analysis.our_circles, models.ladder

@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, J2000_JD, MAS
 from earthspin.dates import Epochs, Span, days
-from earthspin.engine.labels import si
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, setting
-from earthspin.engine.variables import Labels, Value, Variables, labels, number
+from earthspin.engine.variables import Labels, Value, Variables, labels, number, si
 from earthspin.errors import SceneError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.questions.reasons import no_iau_model
@@ -94,7 +93,7 @@ def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     SceneError
         If there are no x and y with units along time, or the days are not ascending.
     """
-    from earthspin.wobble.resonance import pole_of
+    from earthspin.wobble.excitation import pole_of
 
     time, x, y = labelled_series(pole, ("x", "y"), ("arcsec", "mas"))
     for name, values in (("x", x), ("y", y)):
@@ -216,7 +215,7 @@ class ObservedSky:
         error : float
             95 % half-width of a residual of the models.
         """
-        from earthspin.nutation.circles import without_line
+        from earthspin.nutation.analysis import without_line
 
         series = {IAU: np.zeros((self.rows.size, 2)), **models}
         residual = np.stack([model[self.rows] - self.offsets for model in series.values()], axis=1)

@@ -29,7 +29,7 @@ from earthspin.motion.axes import AxisPath
 from earthspin.motion.effects import GEODESIC, NONRIGID
 from earthspin.motion.forces import fastest_sweep
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.nutation.angles import followed, on_fixed_ecliptic
+from earthspin.nutation.analysis import followed, on_fixed_ecliptic
 from earthspin.nutation.budget import published_effects
 from earthspin.progress import progress
 from earthspin.questions.interiors import CHOSEN, Prediction, no_layers, prediction
@@ -37,11 +37,10 @@ from earthspin.questions.pulls import AxisMotion, Pulls, forces_of, start_of
 from earthspin.questions.reasons import no_iau_model
 from earthspin.questions.satellites import drifts, obliquity_of, swings
 from earthspin.questions.times import days_of
-from earthspin.sky.kernel_differences import DRIFT_FROM, growth
+from earthspin.sky.kernel import DRIFT_FROM, growth
 
 if TYPE_CHECKING:
-    from earthspin.nutation.analysis import PoleAnalysis, Secular
-    from earthspin.nutation.circles import Circles
+    from earthspin.nutation.analysis import Circles, PoleAnalysis, Secular
     from earthspin.nutation.response import Response
 
 
@@ -299,7 +298,7 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
     EarthspinError
         If the series does not fit into memory, or lies outside the source of positions.
     """
-    from earthspin.nutation.circles import complex_nutation
+    from earthspin.nutation.analysis import complex_nutation
     from earthspin.sky import iau
 
     days = days_of(epochs)
@@ -370,8 +369,7 @@ def analysed_days(limits: tuple[float, float]) -> tuple[FloatArray, float]:
 @part(unless=no_iau_model, same_for=lambda pulls: pulls.limits)
 def iau_pole(pulls: Pulls) -> IAUPole:
     """Analyse pole and nutation of the IAU over 150 years, as far as positions are known."""
-    from earthspin.nutation.analysis import PoleAnalysis
-    from earthspin.nutation.circles import complex_nutation
+    from earthspin.nutation.analysis import PoleAnalysis, complex_nutation
     from earthspin.sky import iau
 
     days, covered = analysed_days((pulls.limits[0] / DAY, pulls.limits[1] / DAY))
@@ -402,8 +400,7 @@ def pole_analysis(
 
     The initial axis is corrected so that the mean poles agree at the start.
     """
-    from earthspin.nutation.analysis import CENTURY, shifted_start
-    from earthspin.nutation.circles import complex_nutation
+    from earthspin.nutation.analysis import CENTURY, complex_nutation, shifted_start
     from earthspin.sky import iau
 
     days, analysis = iau_pole.days, iau_pole.analysis
@@ -447,8 +444,7 @@ def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp
         Variables of a table of terms: periods, amplitudes of IAU 2000A with their half-widths, and
         the neighbours that this span does not separate from them.
     """
-    from earthspin.nutation.circles import phases, term_names
-    from earthspin.nutation.neighbours import amplitude_error, neighbours_of
+    from earthspin.nutation.analysis import amplitude_error, neighbours_of, phases, term_names
     from earthspin.sky import iau
 
     ours = analysed.our_circles
@@ -531,8 +527,8 @@ def response_apart(
     pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
 ) -> ResponseFit:
     """Fit the resonance formula to IAU 2000A without its geodesic nutation and added terms."""
-    from earthspin.nutation.additions import added_to
-    from earthspin.nutation.circles import complex_nutation
+    from earthspin.nutation.analysis import complex_nutation
+    from earthspin.nutation.response import added_to
     from earthspin.sky import iau
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles.amplitude

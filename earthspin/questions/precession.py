@@ -10,12 +10,12 @@ from earthspin.bodies import Body, all_of, in_a_sentence
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.dates import Span, datetime64
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import (
     Labels,
+    Neglected,
     Pair,
     Value,
     Variables,
@@ -26,7 +26,7 @@ from earthspin.engine.variables import (
 )
 from earthspin.mass import figure
 from earthspin.numerics.arrays import FloatArray
-from earthspin.nutation import seasons as calendar
+from earthspin.nutation import budget as calendar
 from earthspin.nutation.budget import closure, published_effects
 from earthspin.questions import reasons
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, Samples
@@ -350,7 +350,7 @@ def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> Be
 
     The observed H contains the observed precession; H = J2 M a2/C with C of PREM does not.
     """
-    from earthspin.nutation.flattening import prem_polar_moment
+    from earthspin.nutation.budget import prem_polar_moment
     from earthspin.sky.iau import precession_rates
 
     rate, error = mean_rates.total()
@@ -379,7 +379,7 @@ class Standstills(Variables, along=("standstill",)):
 @part(unless=reasons.no_moon)
 def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
     """Find major and minor lunar standstills, with dates and extreme declinations."""
-    from earthspin.sky.standstill import find_standstills
+    from earthspin.sky.iau import find_standstills
 
     moon = {"moon": sky.targets["moon"]}
 

@@ -13,7 +13,7 @@ from earthspin.bodies import Body, Numeric, all_of, in_a_sentence
 from earthspin.constants import JULIAN_YEAR, NORMAL_95
 from earthspin.errors import BodyError
 from earthspin.numerics.arrays import FloatArray
-from earthspin.sky.equator import angle
+from earthspin.sky.poles import angle
 from earthspin.torque.laplace import Node, Planet, Satellites, laplace_tilts, nodes, shares
 
 #: Relative half-width of the contribution of satellites, 95 %: eccentricities, and differences from

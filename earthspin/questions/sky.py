@@ -12,7 +12,7 @@ import numpy as np
 
 from earthspin._version import version
 from earthspin.bodies import EARTH, MOON, SUN, Body, all_of
-from earthspin.bodies.limits import extent, overlap, refuse_break_up
+from earthspin.bodies.checks import extent, overlap, refuse_break_up
 from earthspin.bodies.planets import on_its_orbit, pulled_by
 from earthspin.dates import Span
 from earthspin.engine.part import part
@@ -22,8 +22,7 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.elements import EllipseChain, all_by_elements, ellipse_chains
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
 from earthspin.sky.ephemeris import NAMED_KERNELS
-from earthspin.sky.equator import rotate, spherical
-from earthspin.sky.poles import Pole
+from earthspin.sky.poles import Pole, rotate, spherical
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
 from earthspin.sky.sources import (
     SourceName,

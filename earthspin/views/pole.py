@@ -7,7 +7,7 @@ import xarray as xr
 
 from earthspin.bodies import MOON
 from earthspin.constants import DAY, DAYS_PER_YEAR
-from earthspin.interior.published import CORE_NUTATION
+from earthspin.interior.named import CORE_NUTATION
 from earthspin.views import drawing, tables
 from earthspin.views.drawing import Axes, PageFigure, Views, axes, note
 from earthspin.views.reading import Result, answer_of, needed

@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
-from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import BLOCK, Part, part
 from earthspin.engine.question import Question, define_parts, key, keys_of
+from earthspin.engine.variables import Neglected
 from earthspin.scenes import QUESTIONS
 
 ROOT = Path(__file__).parents[2]

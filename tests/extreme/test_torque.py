@@ -14,8 +14,8 @@ from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, G
 from earthspin.questions.pole import pole
 from earthspin.questions.precession import precession
 from earthspin.questions.torque import torque_series
-from earthspin.sky.equator import direction, spherical
 from earthspin.sky.iau import ecliptic_pole
+from earthspin.sky.poles import direction, spherical
 from earthspin.torque.average import TAPERS, Window, best_window, precessing_torque
 from earthspin.torque.gravity import (
     quadrupole_torque,

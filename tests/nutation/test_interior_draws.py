@@ -10,8 +10,7 @@ import earthspin
 from earthspin.engine.run import Run
 from earthspin.interior.modes import mode_period
 from earthspin.interior.named import EXPONENT_RANGE
-from earthspin.nutation.interior_draws import changed, inputs_of, spread_of
-from earthspin.nutation.ladder import climb
+from earthspin.nutation.ladder import changed, climb, inputs_of, spread_of
 from earthspin.questions.interiors import Prediction
 from earthspin.questions.nutation import left
 
