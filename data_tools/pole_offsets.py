@@ -14,7 +14,7 @@ from earthspin.constants import DAYS_PER_YEAR, UAS
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import core_nutation
-from earthspin.nutation.offset_prediction import predict
+from earthspin.nutation.core_nutation import predict
 from earthspin.sky.eop import PoleSeries, read_pole_offsets
 from earthspin.wobble.observed import fit
 from tests.nutation.simulated_offsets import NOISES, excited, noise

@@ -198,7 +198,7 @@ PREM_MEAN_MOMENT = Constant(
     "",
     5e-7,
     "I/(M R2) of PREM, Dziewonski & Anderson 1981, PEPI 25, 297, as published; half its last digit",
-    "follows from the layers of `interior.prem`, which were read",
+    "follows from the layers of `interior.layers`, which were read",
 )
 PREM_RADIUS = Constant(6371000.0, "m", 0.0, "PREM, Dziewonski & Anderson 1981", PREM_READ)
 

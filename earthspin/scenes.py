@@ -7,16 +7,15 @@ import re
 import tomllib
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
-from importlib import resources
+from importlib import import_module, resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import earthspin
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
-from earthspin.engine import answering, blocks
+from earthspin.engine import answers, blocks
 from earthspin.engine.blocks import Series
 from earthspin.engine.members import TWICE
 from earthspin.engine.part import BLOCK as BY_BLOCK
@@ -25,7 +24,8 @@ from earthspin.engine.question import Question, keys_of, scene_of
 from earthspin.engine.run import Run
 from earthspin.engine.store import open as open_file
 from earthspin.errors import SceneError, nearest, no_plain_file
-from earthspin.parts.times import epochs
+from earthspin.questions import MODULES
+from earthspin.questions.times import epochs
 from earthspin.units import FileName
 
 if TYPE_CHECKING:
@@ -41,11 +41,12 @@ class _Questions(Mapping[str, type[Question]]):
     @property
     def calls(self) -> dict[str, str]:
         """Names of the public functions, by the name of the question in scene files."""
-        modules = vars(earthspin)["_QUESTIONS"].items()
+        modules = MODULES.items()
         return {path.rpartition(".")[2].replace("_", "-"): call for call, path in modules}
 
     def __getitem__(self, word: str) -> type[Question]:
-        return getattr(earthspin, self.calls[word]).question  # type: ignore[no-any-return]
+        call = self.calls[word]
+        return getattr(import_module(MODULES[call]), call).question  # type: ignore[no-any-return]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.calls)
@@ -313,7 +314,7 @@ def run(scene: Any) -> xr.Dataset:
     >>> print(earthspin.run(answer).identical(answer))
     True
     """
-    answer = answering.answer(load_scene(scene))
+    answer = answers.answer(load_scene(scene))
     warn_of_versions(_attributes(scene), answer)
     return answer
 
@@ -347,7 +348,7 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
     >>> print(tree["seasons"].time_per_degree.round(2).values)
     71.59
     """
-    tree = answering.answer_tree(load_scene(scene), sections)
+    tree = answers.answer_tree(load_scene(scene), sections)
     warn_of_versions(_attributes(scene), tree)
     return tree
 

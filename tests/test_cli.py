@@ -15,7 +15,7 @@ import xarray as xr
 import earthspin
 from earthspin.cli import PAGES, _parser, main
 from earthspin.engine import store
-from earthspin.engine.run import scene_text
+from earthspin.engine.question import scene_text
 from earthspin.scenes import QUESTIONS, shipped_scenes
 from earthspin.sky.ephemeris import find_kernel
 from earthspin.views.play import PLAYS
@@ -137,7 +137,7 @@ def test_run_as_json(capsys: pytest.CaptureFixture[str]) -> None:
 def test_a_series_too_long_for_memory_goes_to_zarr(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from earthspin.parts import times
+    from earthspin.questions import times
 
     monkeypatch.setattr(times, "LONGEST_IN_MEMORY", 100)
     status, _out, _ = run(capsys, "run", "torque", "--out", str(tmp_path))

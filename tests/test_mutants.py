@@ -17,8 +17,8 @@ PACKAGES = (
 NO_KERNEL = {"__init__"}
 #: Modules between what is given and the kernels, and between the kernels and the answer.
 BORDER = (
-    *("units", "dates", "bodies/figure", "bodies/earth", "constants", "scenes"),
-    *("engine/question", "engine/run", "engine/labels", "engine/neglected", "engine/store"),
+    *("units", "dates", "bodies/shapes", "bodies/earth_moon_sun", "constants", "scenes"),
+    *("engine/question", "engine/run", "engine/variables", "engine/store"),
     *("engine/drafts", "engine/zarr_folder", "engine/blocks", "errors", "process"),
 )
 

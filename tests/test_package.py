@@ -1,5 +1,6 @@
 """The package: its import rules, its words, and that all of it is delivered."""
 
+import ast
 import re
 import subprocess
 import sys
@@ -25,6 +26,40 @@ def test_imports_go_one_way() -> None:
     from importlinter.cli import lint_imports
 
     assert lint_imports(config_filename=str(ROOT / "pyproject.toml"), cache_dir=None) == 0
+
+
+def imported(module: str) -> set[str]:
+    """Modules of the package that a module imports, anywhere in it, or names as text to import."""
+    path = PACKAGE.parent.joinpath(*module.split("."))
+    source = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+    nodes: list[ast.AST] = [ast.parse(source.read_text("utf-8"))]
+    names, folders = set(), set()
+    for node in nodes:  # which grows
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+            continue
+        nodes += ast.iter_child_nodes(node)
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            full = {f"{node.module}.{alias.name}" for alias in node.names}
+            names |= full if full <= set(MODULES) else {*full, str(node.module)}
+        elif isinstance(node, ast.Constant) and "." in str(node.value):
+            names.add(str(node.value))
+        elif isinstance(node, ast.JoinedStr) and isinstance(node.values[0], ast.Constant):
+            folders.add(str(node.values[0].value))  # as in f"earthspin.views.{name}"
+    folders = {folder for folder in folders if re.fullmatch(r"earthspin\.(\w+\.)*", folder)}
+    names |= {name for name in MODULES if name.startswith(tuple(folders))}
+    return names & set(MODULES) - {module}
+
+
+def test_no_modules_import_one_another_in_a_circle_late_imports_included() -> None:
+    """Also where a function imports, or text names the module for `import_module`."""
+    before = {module: imported(module) for module in MODULES}
+    assert "earthspin.views.page" in before["earthspin.views.answers"]  # a late import
+    assert "earthspin.questions.precession" in before["earthspin.questions"]  # text
+    while free := {module for module, others in before.items() if not others}:
+        before = {module: others - free for module, others in before.items() if others}
+    assert before == {}
 
 
 def test_the_project_speaks_of_itself_alone() -> None:

@@ -9,11 +9,10 @@ import earthspin
 from data_tools.worlds import PAGE, locked, table, table_of_locked, worlds
 from earthspin import BODIES, MARS, MOON, BodyError, SceneError, UndefinedError
 from earthspin.bodies import TRITON
+from earthspin.bodies.earth_moon_sun import MOON_OBLIQUITY
 from earthspin.bodies.inner import MERCURY_OBLIQUITY
-from earthspin.bodies.mean_orbits import PRECESSING_ORBITS
-from earthspin.bodies.moon import OBLIQUITY as MOON_OBLIQUITY
 from earthspin.bodies.moons import TITAN_OBLIQUITY, TITAN_OBLIQUITY_IF_SOLID
-from earthspin.bodies.planets import PLANETS, on_its_orbit, pulled_by
+from earthspin.bodies.planets import PLANETS, PRECESSING_ORBITS, on_its_orbit, pulled_by
 from earthspin.cli import main
 from earthspin.constants import ARCSEC
 from earthspin.sky.iau import ecliptic_pole

@@ -116,8 +116,6 @@ class Question:
         Name of the public function.
     table : str
         Name of the question's own table of settings in a scene; empty if it has none.
-    views : str
-        Module of `views` that makes the figures, and tables other than those of every answer.
     page : str
         Page of the documentation that explains the method; empty if there is none.
     headline : str
@@ -134,7 +132,6 @@ class Question:
     word: ClassVar[str]
     call: ClassVar[str]
     table: ClassVar[str]
-    views: ClassVar[str] = "tables"
     page: ClassVar[str] = ""
     headline: ClassVar[str] = ""
     positional: ClassVar[tuple[str, ...]]

@@ -10,15 +10,12 @@ import time
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
-from importlib import import_module
 from typing import TYPE_CHECKING, Any, Self
 
 from earthspin._version import __version__, version
-from earthspin.engine.labels import CONVENTIONS
-from earthspin.engine.neglected import Neglected, error_of
 from earthspin.engine.plan import IMPORTS, NOT_REQUESTED, Plan
 from earthspin.engine.question import NEGLECTED, SCENE, Question, scene_text
-from earthspin.engine.variables import Variables
+from earthspin.engine.variables import CONVENTIONS, Neglected, Variables, error_of
 from earthspin.errors import SceneError, UndefinedError, nearest
 
 if TYPE_CHECKING:
@@ -275,7 +272,8 @@ def _load_xarray() -> None:
     """Import xarray, and the array libraries for which it looks when it makes its first Dataset."""
     import xarray as xr
 
-    import_module("earthspin.engine.accessor")  # registers ds.earthspin
+    import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
+
     xr.Dataset(coords={"part": [0]})
 
 

@@ -196,7 +196,7 @@ def spheroid_tensor(
     Parameters
     ----------
     mass, radius, flattening
-        As for `earthspin.mass.figure.spheroid_moments`.
+        As for `spheroid_moments`.
     about : array_like, shape (..., 3)
         Reference point, from the centre of the spheroid, m.
 

@@ -180,8 +180,8 @@ def completeness_kernel(n_max: int, z: ArrayLike, other: ArrayLike, m: int = 0) 
         Integrated with a polynomial of degree up to n_max, times (1 - z2)^(m/2), the kernel
         reproduces that function.
     """
-    first, second = np.broadcast_arrays(_argument(z), _argument(other))
-    products = orthonormal_functions(n_max, first, m) * orthonormal_functions(n_max, second, m)
+    x, x_other = np.broadcast_arrays(_argument(z), _argument(other))
+    products = orthonormal_functions(n_max, x, m) * orthonormal_functions(n_max, x_other, m)
     return np.asarray(np.sum(products, axis=0))
 
 
@@ -323,7 +323,7 @@ class Multipoles:
     def zonal(self) -> FloatArray:
         """Zonal moments Z_n (multipole moments of order 0) for n = 0 to n_max, kg.
 
-        They are defined as in `earthspin.mass.multipoles`.
+        They are defined as in `zonal_integrals`.
         """
         return np.real(self.moments[:, 0])
 
@@ -466,21 +466,21 @@ def _sources(masses: ArrayLike, positions: ArrayLike) -> tuple[FloatArray, Float
 def _near_and_far(
     position: ArrayLike, source: ArrayLike
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Sort two points by distance from the origin; return also the larger distance and the gap.
+    """Sort two points by distance from the origin.
 
     Return also the larger distance and the difference of the distances.
     """
     point, other = np.broadcast_arrays(vectors("position", position), vectors("source", source))
-    r_one, r_other = (np.sqrt(np.sum(p * p, axis=-1)) for p in (point, other))
-    if np.any(r_one == r_other):
-        r = float(np.asarray(r_one)[r_one == r_other].flat[0])
+    r_point, r_other = (np.sqrt(np.sum(p * p, axis=-1)) for p in (point, other))
+    if np.any(r_point == r_other):
+        r = float(np.asarray(r_point)[r_point == r_other].flat[0])
         raise UndefinedError(
             f"both points are {r:.6g} m from the origin, where the series of 1/R does not "
             f"converge; move one, or compute 1/R directly"
         )
-    first = (r_one < r_other)[..., np.newaxis]
-    near, far = np.where(first, point, other), np.where(first, other, point)
-    return near, far, np.maximum(r_one, r_other), np.abs(r_one - r_other)
+    point_is_nearer = (r_point < r_other)[..., np.newaxis]
+    near, far = np.where(point_is_nearer, point, other), np.where(point_is_nearer, other, point)
+    return near, far, np.maximum(r_point, r_other), np.abs(r_point - r_other)
 
 
 def _neumann(m: int) -> int:

@@ -102,8 +102,8 @@ def _refuse_coincident(places: FloatArray, faces: NDArray[np.integer]) -> None:
     """Raise an error if two equally oriented triangles coincide and would count twice."""
     _, same = np.unique(places, axis=0, return_inverse=True)
     corners = same.reshape(-1)[faces]
-    first = np.argmin(corners, axis=1)[:, np.newaxis]
-    turned = np.take_along_axis(corners, (first + np.arange(3)) % 3, axis=1)
+    least = np.argmin(corners, axis=1)[:, np.newaxis]
+    turned = np.take_along_axis(corners, (least + np.arange(3)) % 3, axis=1)
     twice = len(turned) - len(np.unique(turned, axis=0))
     if twice:
         raise BodyError(
@@ -141,11 +141,11 @@ def solid_points(
         Degree of the polynomials to integrate exactly.
     """
     factors, weights = _cone(degree)
-    for first in range(0, len(faces), AT_ONCE):
-        corners = vertices[faces[first : first + AT_ONCE]]
+    for begin in range(0, len(faces), AT_ONCE):
+        corners = vertices[faces[begin : begin + AT_ONCE]]
         places = factors @ corners  # (n, k, 3)
-        first_corner, second, third = np.moveaxis(corners, 1, 0)
-        six_volumes = np.sum(first_corner * np.cross(second, third), axis=-1)
+        p, q, s = np.moveaxis(corners, 1, 0)
+        six_volumes = np.sum(p * np.cross(q, s), axis=-1)
         yield (six_volumes[:, np.newaxis] * weights).ravel(), places.reshape(-1, 3)
 
 
@@ -274,7 +274,7 @@ class Shape:
         Parameters
         ----------
         vertices, faces
-            As for `earthspin.mass.shape.closed_mesh`.
+            As for `closed_mesh`.
         density, mass : float
             Exactly one of the two, kg m-3 or kg.
         radius : float, optional

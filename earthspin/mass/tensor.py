@@ -485,8 +485,8 @@ def _choose(
         pole = _signed(axes[0])
         across = _across(pole)
         return np.stack([pole, across, np.cross(pole, across)]), "prolate", (False, True, True)
-    first, second = _signed(axes[0]), _signed(axes[1])
-    return np.stack([first, second, np.cross(first, second)]), "triaxial", (False, False, False)
+    axis_a, axis_b = _signed(axes[0]), _signed(axes[1])
+    return np.stack([axis_a, axis_b, np.cross(axis_a, axis_b)]), "triaxial", (False, False, False)
 
 
 def _signed(axis: FloatArray) -> FloatArray:

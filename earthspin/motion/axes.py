@@ -41,32 +41,6 @@ _ROUGH, _FEW, _ALL = 2, 2, 9
 
 
 @dataclass(frozen=True)
-class Start:
-    """Figure axis or angular momentum where a series of time windows starts, and its rate.
-
-    `axis` is a figure axis if `is_figure`, else the angular momentum in units of C Omega. `rate` is
-    its estimated rate of change, s-1. The mean rate of the last segment gives a first estimate that
-    is ten times better than without.
-    """
-
-    axis: FloatArray
-    rate: FloatArray
-    is_figure: bool
-
-    def momentum_with(self, tilt: FloatArray) -> FloatArray:
-        """Angular momentum at the start; `tilt` is added if the initial axis is a figure axis.
-
-        `tilt` is added to the start axis if that axis is a figure axis.
-        """
-        return self.axis + tilt if self.is_figure else self.axis
-
-    def guess(self, windows: Windows, forward: bool) -> FloatArray:
-        """First estimate of the axis at all nodes: initial axis plus rate times time, (3, w, n)."""
-        since = windows.times - windows.edges[0 if forward else -1]
-        return np.asarray(self.axis[:, None, None] + np.multiply.outer(self.rate, since))
-
-
-@dataclass(frozen=True)
 class Segment:
     """Computed angular momentum and figure axis of a body over consecutive time windows.
 
@@ -115,7 +89,15 @@ def signs(terms: int) -> FloatArray:
     return np.asarray((-1.0) ** np.arange(terms))
 
 
-def solve(forces: Forces, windows: Windows, start: Start, forward: bool) -> Segment:
+def solve(
+    forces: Forces,
+    windows: Windows,
+    start: FloatArray,
+    mean_rate: FloatArray,
+    *,
+    is_figure: bool,
+    forward: bool,
+) -> Segment:
     """Integrate angular momentum and figure axis through the windows of one segment.
 
     Parameters
@@ -123,7 +105,13 @@ def solve(forces: Forces, windows: Windows, start: Start, forward: bool) -> Segm
     forces : Forces
     windows : Windows
         Windows in s from J2000.0 TDB.
-    start : Start
+    start : ndarray, shape (3,)
+        Figure axis, or angular momentum in units of C Omega.
+    mean_rate : ndarray, shape (3,)
+        Estimated rate of change of `start`, s-1. The mean rate of the last segment gives a first
+        estimate that is ten times better than without.
+    is_figure : bool
+        True if `start` is the figure axis, False if it is the angular momentum.
     forward : bool
         True if `start` is at the first edge, False if it is at the last edge.
 
@@ -135,14 +123,15 @@ def solve(forces: Forces, windows: Windows, start: Start, forward: bool) -> Segm
     """
     law, tensor = forces.over(windows)
     tau = forces.figure.tau
-    axis = momentum = start.guess(windows, forward)
+    since = windows.times - windows.edges[0 if forward else -1]
+    axis = momentum = start[:, None, None] + np.multiply.outer(mean_rate, since)
     tilt = np.zeros_like(axis)
     change = left = np.inf
     rounds = 0
     while left > _ROUND_OFF or rounds <= _ROUGH:
         rounds += 1
         rate = law(axis, momentum)
-        begin = start.momentum_with(_at_edge(windows, tilt, forward))
+        begin = start + _at_edge(windows, tilt, forward) if is_figure else start
         starts, momentum = _chain(windows, rate, begin, forward)
         tilt, terms = tilt_of_figure(windows, axis, rate, tau, _FEW if rounds <= _ROUGH else _ALL)
         new_axis = momentum - tilt
@@ -157,7 +146,12 @@ def solve(forces: Forces, windows: Windows, start: Start, forward: bool) -> Segm
         )
     _refuse_slow_spin(terms[-1], forces.figure.spin_rate)
     series = windows.coefficients(rate)
-    fast = _fast(forces, windows, tensor, axis, tilt)
+    figure, fast = forces.figure, None
+    if figure.triaxiality:
+        amplitudes = semidiurnal_amplitudes(
+            windows, tensor, axis, tilt, figure.triaxiality, figure.spin_rate, tau
+        )
+        fast = np.asarray(windows.coefficients(amplitudes))
     return Segment(
         windows=windows,
         momentum=integrated(series, windows.half, starts),
@@ -208,18 +202,6 @@ def _refuse_slow_spin(last_term: float, spin_rate: float) -> None:
             f"{LARGEST_MANIFOLD_ERROR / ARCSEC * 1e3:.2g}); integrate the full attitude with "
             f"earthspin.rotation, or compute = 'rotation'"
         )
-
-
-def _fast(
-    forces: Forces, windows: Windows, tensor: FloatArray, axis: FloatArray, tilt: FloatArray
-) -> ComplexArray | None:
-    figure = forces.figure
-    if figure.triaxiality == 0:
-        return None
-    amplitudes = semidiurnal_amplitudes(
-        windows, tensor, axis, tilt, figure.triaxiality, figure.spin_rate, figure.tau
-    )
-    return np.asarray(windows.coefficients(amplitudes))
 
 
 def _fast_tail(fast: ComplexArray | None) -> float:
@@ -349,8 +331,10 @@ class AxisPath:
         assert self.fast is not None
         phase = np.exp(2j * (self.spin_rate * times + self.meridian))
         move = self.windows.evaluate(self.fast, times) * phase
-        first, second = equatorial_basis(figure / np.sqrt(np.sum(figure * figure, axis=0)))
-        return np.asarray(move.real[:, np.newaxis] * first + move.imag[:, np.newaxis] * second)
+        towards_x, across_x = equatorial_basis(figure / np.sqrt(np.sum(figure * figure, axis=0)))
+        return np.asarray(
+            move.real[:, np.newaxis] * towards_x + move.imag[:, np.newaxis] * across_x
+        )
 
 
 def axis_path(
@@ -396,30 +380,33 @@ def axis_path(
     figure = forces.figure
     segments: list[Segment] = []
     for edges, forward in _directions(epoch, span, limits, window):
-        start = Start(start_axis, np.zeros(3), is_figure=True)
-        first = 0
-        while first < len(edges) - 1:
-            count = _segment_length(segments, len(edges) - 1 - first, window)
-            part = edges[first : first + count + 1]
-            segment = solve(forces, Windows(np.sort(part), order), start, forward)
+        start, mean_rate, solved = start_axis, np.zeros(3), 0
+        while solved < len(edges) - 1:
+            count = _segment_length(segments, len(edges) - 1 - solved, window)
+            windows = Windows(np.sort(edges[solved : solved + count + 1]), order)
+            segment = solve(
+                forces, windows, start, mean_rate, is_figure=solved == 0, forward=forward
+            )
             segments.append(segment)
-            start = Start(segment.momentum_at_end(forward), segment.mean_rate(), is_figure=False)
-            first += count
+            start, mean_rate = segment.momentum_at_end(forward), segment.mean_rate()
+            solved += count
             if advance is not None:
                 advance(count)
     segments.sort(key=lambda segment: segment.windows.edges[0])
     pieces = [segment.windows.edges[1:] for segment in segments]
     edges = np.concatenate([segments[0].windows.edges[:1], *pieces])
+    fast = [s.fast for s in segments if s.fast is not None]
+    rounding = np.finfo(float).eps * np.sqrt(len(edges) - 1)
     return AxisPath(
         windows=Windows(edges, order),
         momentum=np.concatenate([s.momentum for s in segments], axis=1),
         tilt=np.concatenate([s.tilt for s in segments], axis=1),
-        fast=_concatenated([s.fast for s in segments if s.fast is not None]),
+        fast=np.concatenate(fast, axis=1) if fast else None,
         spin_rate=figure.spin_rate,
         a_over_c=1 - figure.h,
         meridian=figure.meridian,
         interpolation_error=max(s.tail for s in segments),
-        floor=max(s.floor for s in segments) + sum(s.left for s in segments) + _rounding(segments),
+        floor=max(s.floor for s in segments) + sum(s.left for s in segments) + float(rounding),
         rounds=max(s.rounds for s in segments),
     )
 
@@ -495,16 +482,11 @@ def _directions(
                 # At the end of the positions, two equal windows replace a very short one.
                 edges[-2] = (edges[-3] + edges[-1]) / 2
             directions.append((edges, sign > 0))
-    # A span that contains only the epoch still needs a window.
-    return directions or [_one_window(epoch, limits, window)]
-
-
-def _one_window(
-    epoch: float, limits: tuple[float, float], window: float
-) -> tuple[FloatArray, bool]:
-    if epoch + window <= limits[1]:
-        return np.array([epoch, epoch + window]), True
-    return np.array([epoch, max(epoch - window, limits[0])]), False
+    if not directions:  # a span that contains only the epoch still needs a window
+        forward = epoch + window <= limits[1]
+        end = epoch + window if forward else max(epoch - window, limits[0])
+        directions.append((np.array([epoch, end]), forward))
+    return directions
 
 
 def _segment_length(segments: list[Segment], left: int, window: float) -> int:
@@ -515,12 +497,3 @@ def _segment_length(segments: list[Segment], left: int, window: float) -> int:
     per_window = last.turn / len(last.windows.half)
     allowed = SEGMENT_WINDOWS if per_window == 0 else int(SEGMENT_TURN / per_window)
     return max(1, min(left, allowed, SEGMENT_WINDOWS))
-
-
-def _concatenated(pieces: list[ComplexArray]) -> ComplexArray | None:
-    return np.concatenate(pieces, axis=1) if pieces else None
-
-
-def _rounding(segments: list[Segment]) -> float:
-    """Rounding error of the integrated axes, rad, from the number of time windows."""
-    return float(np.finfo(float).eps * np.sqrt(sum(len(s.windows.half) for s in segments)))

@@ -1,6 +1,6 @@
 """Effects on the axes besides the torque on the equatorial bulge, one section for each effect.
 
-An effect has a name, and a function that switches it on.
+An effect is a function that switches it on, registered with its name.
 """
 
 from __future__ import annotations
@@ -47,6 +47,28 @@ class Effect:
     coefficient: str = ""
 
 
+#: All effects by name.
+EFFECTS: dict[str, Effect] = {}
+
+
+def add(effect: Effect) -> Effect:
+    """Register an effect on the axes; it is switched off by default.
+
+    Returns
+    -------
+    Effect
+        The same effect.
+
+    Raises
+    ------
+    ValueError
+        If another effect has this name.
+    """
+    if EFFECTS.setdefault(effect.name, effect) is not effect:
+        raise ValueError(f"another effect has the name '{effect.name}'; choose a different one")
+    return effect
+
+
 # --- torques of the planets -----------------------------------------------------------------------
 # Torques of the planets on the equatorial bulge of a body.
 
@@ -55,7 +77,7 @@ def _add_planets(forces: Forces, body: Numbers) -> Forces:
     return replace(forces, gm={**forces.gm, **forces.far})
 
 
-PLANETS = Effect("planets", _add_planets)
+PLANETS = add(Effect("planets", _add_planets))
 
 
 # --- J3 and J4 ------------------------------------------------------------------------------------
@@ -70,7 +92,7 @@ def _zonal_harmonic(degree: int) -> Effect:
         zonal = {**forces.figure.zonal, degree: coefficient}
         return replace(forces, figure=replace(forces.figure, zonal=zonal))
 
-    return Effect(f"j{degree}", switch_on, coefficient=f"j{degree}")
+    return add(Effect(f"j{degree}", switch_on, coefficient=f"j{degree}"))
 
 
 J3 = _zonal_harmonic(3)
@@ -87,7 +109,7 @@ def _set_triaxiality(forces: Forces, body: Numbers) -> Forces:
     return replace(forces, figure=replace(figure, triaxiality=over_c))
 
 
-TRIAXIALITY = Effect("triaxiality", _set_triaxiality, coefficient="triaxiality")
+TRIAXIALITY = add(Effect("triaxiality", _set_triaxiality, coefficient="triaxiality"))
 
 
 # --- geodesic precession and nutation -------------------------------------------------------------
@@ -161,7 +183,7 @@ def _add_geodesic(forces: Forces, body: Numbers) -> Forces:
     return replace(forces, torques=(*forces.torques, geodesic_torque("sun")))
 
 
-GEODESIC = Effect("geodesic", _add_geodesic)
+GEODESIC = add(Effect("geodesic", _add_geodesic))
 
 
 # --- change of J2 ---------------------------------------------------------------------------------
@@ -176,7 +198,7 @@ def _set_j2_trend(forces: Forces, body: Numbers) -> Forces:
     return replace(forces, figure=replace(forces.figure, j2_trend=trend))
 
 
-J2_RATE = Effect("j2-rate", _set_j2_trend, coefficient="j2_rate")
+J2_RATE = add(Effect("j2-rate", _set_j2_trend, coefficient="j2_rate"))
 
 
 # --- second-order effects -------------------------------------------------------------------------
@@ -187,7 +209,7 @@ def _follow_axis(forces: Forces, body: Numbers) -> Forces:
     return replace(forces, mean_pole=None)
 
 
-SECOND_ORDER = Effect("second-order", _follow_axis)
+SECOND_ORDER = add(Effect("second-order", _follow_axis))
 
 
 # --- response of the interior ---------------------------------------------------------------------
@@ -208,11 +230,7 @@ class Growth(NamedTuple):
         return MAS * (self.swing + self.rate * abs(day) / DAYS_PER_YEAR)
 
 
-def _keep_rigid(forces: Forces, body: Numbers) -> Forces:
-    return forces
-
-
-NONRIGID = Effect("nonrigid", _keep_rigid)
+NONRIGID = add(Effect("nonrigid", lambda forces, body: forces))
 
 #: Bound on the displacement of the figure axis of the Earth by the response of its interior,
 #: measured on DE421 from 1950 to 2050 with `python -m data_tools neglected`.
@@ -221,34 +239,5 @@ RESPONSE = Growth(84.4, 0.116)
 #: the section `core_nutation` of `earthspin.pole_offsets`; no model predicts it.
 LARGEST_CORE_NUTATION = 290 * UAS
 
-
-# --- all effects ----------------------------------------------------------------------------------
-
-__all__ = [
-    "EFFECTS", "GEODESIC", "MEASURED_WITH", "NONRIGID", "PLANETS", "RIGID", "SECOND_ORDER",
-    "Effect", "Numbers", "add",
-]  # fmt: skip
-
-#: All effects by name.
-EFFECTS: dict[str, Effect] = {
-    effect.name: effect
-    for effect in (PLANETS, J3, J4, TRIAXIALITY, GEODESIC, J2_RATE, SECOND_ORDER, NONRIGID)
-}
-
-#: Names of the effects with which the errors of the solver were measured.
-MEASURED_WITH = tuple(EFFECTS)
-
 #: Names of the effects on a rigid body.
 RIGID = tuple(name for name in EFFECTS if name != NONRIGID.name)
-
-
-def add(effect: Effect) -> None:
-    """Register a new effect on the axes; it is switched off by default.
-
-    Raises
-    ------
-    ValueError
-        If another effect has this name.
-    """
-    if EFFECTS.setdefault(effect.name, effect) is not effect:
-        raise ValueError(f"another effect has the name '{effect.name}'; choose a different one")

@@ -99,8 +99,6 @@ class Forces:
     def over(self, windows: Windows) -> tuple[RateLaw, FloatArray]:
         """Return a function for the angular momentum's rate in time windows, and the tidal tensor.
 
-        Return also the tidal tensor at these nodes.
-
         Positions of the perturbers are evaluated at the nodes of the windows.
 
         Returns
@@ -120,17 +118,24 @@ class Forces:
         tensor = tidal_tensor((gm, place[name]) for name, gm in self.gm.items())
         scale = figure.h / figure.spin_rate * (1 + figure.j2_trend * windows.times)
         scaled = tensor * scale
-        mean = self._mean_pole_at(windows.times)
-        zonals = self._zonal_laws(place) if figure.zonal else []
+        size = figure.inverse_polar_moment / figure.spin_rate
+        zonal = {degree: size * coefficient for degree, coefficient in figure.zonal.items()}
+        on_harmonics = [
+            zonal_law(zonal, figure.radius, self.gm[name], place[name])
+            for name in (self.near if zonal else ())
+        ]
         further = [torque(self, windows, place) for torque in self.torques]
 
         def on_figure(axis: FloatArray) -> FloatArray:
             total = quadrupole_torque(scaled, axis)
-            for zonal in zonals:
-                total += zonal(axis)
+            for law in on_harmonics:
+                total += law(axis)
             return total
 
-        constant = None if mean is None else on_figure(mean)
+        constant: FloatArray | None = None
+        if self.mean_pole is not None:
+            pole = self.mean_pole(windows.times.ravel()).T
+            constant = on_figure(np.ascontiguousarray(pole).reshape(3, *shape))
 
         def rate(axis: FloatArray, momentum: FloatArray) -> FloatArray:
             total = on_figure(axis) if constant is None else constant.copy()
@@ -139,17 +144,6 @@ class Forces:
             return total
 
         return rate, tensor
-
-    def _zonal_laws(self, place: Places) -> list[Callable[[FloatArray], FloatArray]]:
-        figure = self.figure
-        scale = figure.inverse_polar_moment / figure.spin_rate
-        scaled = {degree: scale * coefficient for degree, coefficient in figure.zonal.items()}
-        return [zonal_law(scaled, figure.radius, self.gm[name], place[name]) for name in self.near]
-
-    def _mean_pole_at(self, times: FloatArray) -> FloatArray | None:
-        if self.mean_pole is None:
-            return None
-        return np.ascontiguousarray(self.mean_pole(times.ravel()).T).reshape(3, *times.shape)
 
 
 # --- motion of the figure axis --------------------------------------------------------------------
@@ -259,9 +253,9 @@ def equatorial_basis(figure: FloatArray) -> tuple[FloatArray, FloatArray]:
     """
     x, y, z = figure
     from_x = np.sqrt(y * y + z * z)
-    first = np.stack([1 - x * x, -x * y, -x * z]) / from_x
-    second = np.stack([np.zeros_like(x), z, -y]) / from_x
-    return first, second
+    towards_x = np.stack([1 - x * x, -x * y, -x * z]) / from_x
+    across_x = np.stack([np.zeros_like(x), z, -y]) / from_x
+    return towards_x, across_x
 
 
 def semidiurnal_amplitudes(
@@ -302,8 +296,8 @@ def semidiurnal_amplitudes(
     UndefinedError
         If the body is so flat that the period of its free nutation is close to half a day.
     """
-    first, second = equatorial_basis(figure)
-    q = _on_equator(apply(tensor, figure), first, second)
+    towards_x, across_x = equatorial_basis(figure)
+    q = _on_equator(apply(tensor, figure), towards_x, across_x)
     torque = -1.5j * triaxiality / spin_rate * np.conj(q)
     half_turn = 2j * spin_rate
     momentum = _series(windows, torque / half_turn, -1 / half_turn)
@@ -316,18 +310,18 @@ def semidiurnal_amplitudes(
             f"(|1 - 2 A/C| under {NEAREST_RESONANCE}); remove the effect 'triaxiality' or set "
             f"the body's triaxiality to 0"
         )
-    uneven = triaxiality / (2 * turn) * np.conj(_on_equator(tilt, first, second))
+    uneven = triaxiality / (2 * turn) * np.conj(_on_equator(tilt, towards_x, across_x))
     axis = _series(windows, (momentum + uneven) / away, -1j * tau / away)
     rotation = -axis + 1j * windows.derivative(axis) / spin_rate
     return np.stack([momentum, rotation, axis])
 
 
-def _series(windows: Windows, first: ComplexArray, factor: complex) -> ComplexArray:
-    """Solve x = first + factor dx/dt for x, by repeated differentiation of `first`.
+def _series(windows: Windows, start: ComplexArray, factor: complex) -> ComplexArray:
+    """Solve x = start + factor dx/dt for x, by repeated differentiation of `start`.
 
     Each term is `factor` times the derivative of the previous term.
     """
-    total = term = first
+    total = term = start
     for _ in range(_ROUNDS):
         term = factor * windows.derivative(term)
         total = total + term
@@ -336,6 +330,6 @@ def _series(windows: Windows, first: ComplexArray, factor: complex) -> ComplexAr
     return total
 
 
-def _on_equator(vector: FloatArray, first: FloatArray, second: FloatArray) -> ComplexArray:
+def _on_equator(vector: FloatArray, towards_x: FloatArray, across_x: FloatArray) -> ComplexArray:
     """Projections of vectors on the equator plane, as complex numbers in a given basis."""
-    return np.asarray(np.sum(vector * first, axis=0) + 1j * np.sum(vector * second, axis=0))
+    return np.asarray(np.sum(vector * towards_x, axis=0) + 1j * np.sum(vector * across_x, axis=0))

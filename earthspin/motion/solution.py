@@ -25,7 +25,7 @@ from earthspin.motion.equations import (
     SkyLaw,
 )
 from earthspin.motion.forces import Forces, equatorial_basis
-from earthspin.motion.march import CONVERGED, FINEST, ORDER, Masses, Piece, Solver, half_windows
+from earthspin.motion.march import CONVERGED, FINEST, ORDER, Masses, Piece, Solver
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.polynomials import Windows
@@ -136,8 +136,8 @@ def upright(axis: FloatArray, angle: float) -> FloatArray:
     """
     from scipy.spatial.transform import Rotation
 
-    first, second = equatorial_basis(axis)
-    x = math.cos(angle) * first + math.sin(angle) * second
+    towards_x, across_x = equatorial_basis(axis)
+    x = math.cos(angle) * towards_x + math.sin(angle) * across_x
     frame = Rotation.from_matrix(np.stack([x, np.cross(axis, x), axis], axis=1))
     return np.asarray(frame.as_quat(scalar_first=True))
 
@@ -266,8 +266,8 @@ class Motion:
             np.concatenate([rotations.rotated(start.attitude, start.momentum), start.attitude]),
             np.concatenate([start.momentum, start.attitude])[:, :1],
         )
-        self._now: tuple[Piece, Piece] | None = None
-        self._asked = 0.0
+        self._current: tuple[Piece, Piece] | None = None
+        self._last_time = 0.0
         self._worst = np.zeros((body.lanes, len(KINDS), 1))
 
     @property
@@ -287,7 +287,9 @@ class Motion:
             rough = self._coarse.through(self._coarse.next_edges(reached, self._end), coarse)
             if len(rough.edges) < 2:
                 continue
-            exact = self._fine.through(half_windows(rough.edges), fine, rough)
+            middles = (rough.edges[1:] + rough.edges[:-1]) / 2
+            halves = np.sort(np.concatenate([rough.edges, middles]))
+            exact = self._fine.through(halves, fine, rough)
             if exact.edges[-1] < rough.edges[-1]:
                 self._coarse.window /= 2
                 continue
@@ -311,21 +313,24 @@ class Motion:
         -------
         RotationSeries
         """
-        if times[0] < self._asked:
+        if times[0] < self._last_time:
             self._restart()
-        self._asked = float(times[-1])
+        self._last_time = float(times[-1])
         states, errors, done = [], [], 0
         while done < times.size:
-            if self._now is None or times[done] > self._now[1].edges[-1]:
-                if self._now is not None:
-                    self._worst = self._errors_until(self._now[0].edges)[..., -1:]
-                self._now = next(self._pieces)
+            if self._current is None or times[done] > self._current[1].edges[-1]:
+                if self._current is not None:
+                    self._worst = self._errors_until(self._current[0].edges)[..., -1:]
+                self._current = next(self._pieces)
                 if tell is not None:
-                    tell(float(self._now[1].edges[-1]))
-            upto = int(np.searchsorted(times, self._now[1].edges[-1], side="right"))
+                    tell(float(self._current[1].edges[-1]))
+            upto = int(np.searchsorted(times, self._current[1].edges[-1], side="right"))
             part = times[done:upto]
-            states.append(self._now[1].at(part)[:, 0])
-            errors.append(self._errors_at(part))
+            states.append(self._current[1].at(part)[:, 0])
+            edges = self._current[0].edges
+            last_edge = np.clip(np.searchsorted(edges, part) - 1, 0, None)
+            before = self._errors_until(edges)[..., last_edge]
+            errors.append(np.maximum(before, self._errors(part)))
             done = upto
         state = np.concatenate(states, axis=1)
         return RotationSeries(
@@ -334,13 +339,6 @@ class Motion:
             omega=self._body.first().spin(state).T,
             error=np.concatenate(errors, axis=2),
         )
-
-    def _errors_at(self, times: FloatArray) -> FloatArray:
-        """Largest error of the rotation from the initial time up to each given time."""
-        assert self._now is not None
-        edges = self._now[0].edges
-        before = self._errors_until(edges)[..., np.clip(np.searchsorted(edges, times) - 1, 0, None)]
-        return np.maximum(before, self._errors(times))
 
     def _errors_until(self, edges: FloatArray) -> FloatArray:
         """Largest error of the rotation from the initial time up to each edge of the windows."""
@@ -352,8 +350,8 @@ class Motion:
         The shape is (lanes, kinds, t): the first lane has the error of the method, each other lane
         that of one uncertain input.
         """
-        assert self._now is not None
-        rough, exact = self._now
+        assert self._current is not None
+        rough, exact = self._current
         states = exact.at(times)
         other = rough.along_sky(times)
         method = TWICE * differences(self._body.first(), states[:, 0], other)
@@ -387,23 +385,23 @@ def shares_of(
     nothing = np.zeros_like(series.error[0])
     by_name = dict(zip(changed, series.error[1:], strict=True))
     kernel = np.full_like(nothing, np.nan) if np.isnan(doubt) else by_name.get(PULL, nothing)
-    given = np.hypot(by_name.get(FLATTENING, nothing), by_name.get(TRIAXIALITY, nothing))
+    inputs = np.hypot(by_name.get(FLATTENING, nothing), by_name.get(TRIAXIALITY, nothing))
     method = series.error[0] + by_name.get(ROUNDING, nothing)
-    shares = {"method": method, "input": given, "kernel": kernel}
-    shares[""] = np.sqrt(shares["method"] ** 2 + given**2 + kernel**2)
+    shares = {"method": method, "input": inputs, "kernel": kernel}
+    shares[""] = np.sqrt(shares["method"] ** 2 + inputs**2 + kernel**2)
     for share in shares.values():
         share[0] = np.minimum(share[0], np.pi)
     return shares
 
 
-def differences(body: Rigid, one: FloatArray, other: FloatArray) -> FloatArray:
+def differences(body: Rigid, state: FloatArray, other: FloatArray) -> FloatArray:
     """Differences of two rotations in attitude (angle), spin and angular momentum (norms).
 
     Parameters
     ----------
     body : Rigid
         Body of the first lane.
-    one, other : ndarray, shape (7, t)
+    state, other : ndarray, shape (7, t)
         Angular momentum along the sky's axes, in units of C u, and attitude.
 
     Returns
@@ -411,11 +409,11 @@ def differences(body: Rigid, one: FloatArray, other: FloatArray) -> FloatArray:
     ndarray, shape (3, t)
         Differences by `KINDS`: rad, rad/s, C u.
     """
-    spin = body.first().spin(one) - body.first().spin(other)
-    momentum = one[:3] - other[:3]
+    spin = body.first().spin(state) - body.first().spin(other)
+    momentum = state[:3] - other[:3]
     return np.stack(
         [
-            rotations.angle_between(one[3:], other[3:]),
+            rotations.angle_between(state[3:], other[3:]),
             np.sqrt(np.sum(spin * spin, axis=0)),
             np.sqrt(np.sum(momentum * momentum, axis=0)),
         ]

@@ -282,14 +282,14 @@ def complete_third_kind(complement: FloatArray, shape: FloatArray) -> FloatArray
     root, product = np.sqrt(complement), np.sqrt(complement)
     mean, p = np.ones_like(root), np.sqrt(shape)
     a, b = np.zeros_like(root), 1 / p
-    integral, found = np.zeros_like(root), np.zeros(root.shape, dtype=bool)
-    while not np.all(found):
+    integral, computed = np.zeros_like(root), np.zeros(root.shape, dtype=bool)
+    while not np.all(computed):
         a, b = b / p + a, 2 * (a * product / p + b)
         p = product / p + p
         last, mean = mean, root + mean
-        settled = ~found & (last - root <= 1e-8 * last)
+        settled = ~computed & (last - root <= 1e-8 * last)
         integral = np.where(settled, np.pi / 2 * (b + a * mean) / (mean * (mean + p)), integral)
-        found |= settled
+        computed |= settled
         root = 2 * np.sqrt(product)
         product = root * mean
     return integral

@@ -62,19 +62,6 @@ class Shares(NamedTuple):
     unexplained: FloatArray
 
 
-def columns_of(labels: NDArray[Any]) -> FloatArray:
-    """Indicator columns (0 or 1) for the label of each sample; the last label has none.
-
-    The shape is (n, labels - 1).
-
-    Parameters
-    ----------
-    labels : ndarray, shape (n,)
-        Label of each sample.
-    """
-    return np.asarray(labels[:, np.newaxis] == np.unique(labels)[:-1], dtype=float)
-
-
 def shares_of_variance(
     inputs: FloatArray, outputs: FloatArray, classes: Sequence[NDArray[Any]] = ()
 ) -> Shares:
@@ -102,7 +89,11 @@ def shares_of_variance(
     Shares
     """
     numbers = inputs.shape[1]
-    coded = [columns_of(labels) for labels in classes]
+    # Indicator columns (0 or 1) for the labels of each class; the last label has none.
+    coded = [
+        np.asarray(labels[:, np.newaxis] == np.unique(labels)[:-1], dtype=float)
+        for labels in classes
+    ]
     owner = np.repeat(
         np.arange(numbers + len(coded)), [1] * numbers + [columns.shape[1] for columns in coded]
     )

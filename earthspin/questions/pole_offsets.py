@@ -8,15 +8,23 @@ import numpy as np
 
 from earthspin.constants import DAY, DAYS_PER_YEAR, NORMAL_95
 from earthspin.dates import Span, datetime64
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, setting
-from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
+from earthspin.engine.variables import (
+    Labels,
+    Neglected,
+    Pair,
+    Value,
+    Variables,
+    labels,
+    measured,
+    number,
+)
 from earthspin.errors import UndefinedError
-from earthspin.interior.published import OBSERVED_CORE_NUTATION
+from earthspin.interior.named import OBSERVED_CORE_NUTATION
 from earthspin.nutation import core_nutation as core
-from earthspin.parts.pole_table import MJD, Daily, OfTable, not_observed, within
+from earthspin.questions.observed_pole import MJD, Daily, OfTable, not_observed, within
 from earthspin.sky.eop import PoleSeries, read_pole_offsets
 from earthspin.units import Days
 from earthspin.wobble.record import shortest_span
@@ -52,7 +60,7 @@ class PoleOffsets(OfTable, word="pole-offsets", call="pole_offsets", table="pole
     mas 7306
     """
 
-    views, page, headline = "pole_offsets", "pole_offsets", "dX"
+    page, headline = "pole_offsets", "dX"
 
     window: Days | None = setting(
         None, doc="length of the sliding windows; three years if not given"

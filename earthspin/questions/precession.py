@@ -10,12 +10,12 @@ from earthspin.bodies import Body, all_of, in_a_sentence
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.dates import Span, datetime64
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import (
     Labels,
+    Neglected,
     Pair,
     Value,
     Variables,
@@ -26,14 +26,13 @@ from earthspin.engine.variables import (
 )
 from earthspin.mass import figure
 from earthspin.numerics.arrays import FloatArray
-from earthspin.nutation import seasons as calendar
+from earthspin.nutation import budget as calendar
 from earthspin.nutation.budget import closure, published_effects
-from earthspin.parts import reasons
-from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples
-from earthspin.parts.observed_wobble import observed_wobble
-from earthspin.parts.reasons import north_note
-from earthspin.parts.satellites import describe_pole, swings
-from earthspin.parts.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
+from earthspin.questions import reasons
+from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, Samples
+from earthspin.questions.reasons import north_note, observed_wobble
+from earthspin.questions.satellites import describe_pole, swings
+from earthspin.questions.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
 from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
 from earthspin.sky.sources import SourceName
 from earthspin.torque import rates
@@ -72,7 +71,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     [81259. 37614. 25712.]
     """
 
-    views, page, headline = "precession", "theory", "precession_rate"
+    page, headline = "theory", "precession_rate"
     with_satellites = True
 
     source: SourceName = key("skyfield", doc=SOURCE_DOC)
@@ -351,7 +350,7 @@ def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> Be
 
     The observed H contains the observed precession; H = J2 M a2/C with C of PREM does not.
     """
-    from earthspin.nutation.flattening import prem_polar_moment
+    from earthspin.nutation.budget import prem_polar_moment
     from earthspin.sky.iau import precession_rates
 
     rate, error = mean_rates.total()
@@ -380,7 +379,7 @@ class Standstills(Variables, along=("standstill",)):
 @part(unless=reasons.no_moon)
 def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
     """Find major and minor lunar standstills, with dates and extreme declinations."""
-    from earthspin.sky.standstill import find_standstills
+    from earthspin.sky.iau import find_standstills
 
     moon = {"moon": sky.targets["moon"]}
 
@@ -399,18 +398,13 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
     ).with_attributes(no_error=sky.no_error)
 
 
-def neglected_nodes(body: Body, mean_rates: MeanRates) -> dict[str, float]:
-    """Largest additions to the mean rate by the nodes of satellites, rad/s, with their periods."""
-    nutations = swings(body, mean_rates.pull, mean_rates.means.obliquity)
-    return {f"{name}, period {swing.years}": swing.rate for name, swing in nutations.items()}
-
-
 @part
 def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -> Neglected:
     """Published contributions to the precession rate of effects that are not modelled."""
     unknown = reasons.not_the_iaus_earth(body, perturbers)
     published = LEFT_OUT_OF_RATES.get(body.name, {}) if body.is_as_named else {}
-    nodes = neglected_nodes(body, mean_rates)
+    nutations = swings(body, mean_rates.pull, mean_rates.means.obliquity)
+    nodes = {f"{name}, period {swing.years}": swing.rate for name, swing in nutations.items()}
     if published:
         what = "contribution to the rate that the model leaves out; others were not measured"
         cited = Neglected.cited(published, what)

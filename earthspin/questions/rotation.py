@@ -8,16 +8,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 
 from earthspin.bodies import Body
-from earthspin.bodies.beyond_rigid import BEYOND_RIGID
-from earthspin.bodies.limits import refuse_break_up
-from earthspin.bodies.planets import pulled_by
+from earthspin.bodies.checks import refuse_break_up
+from earthspin.bodies.planets import BEYOND_RIGID, pulled_by
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import define_parts, key
-from earthspin.engine.variables import Labels, Value, labels, number, words
+from earthspin.engine.variables import Labels, Neglected, Value, labels, number, words
 from earthspin.errors import SceneError
 from earthspin.mass.figure import polar_moment
 from earthspin.motion.effect_sizes import attitude_displacements
@@ -35,22 +33,24 @@ from earthspin.motion.solution import (
     start_of,
 )
 from earthspin.numerics.arrays import FloatArray
-from earthspin.parts.custom_torque import CustomTorque
-from earthspin.parts.left_out import drift_by_planets, each_added, switched_off
-from earthspin.parts.pulls import (
+from earthspin.progress import progress
+from earthspin.questions.pulls import (
     PULLS,
     AxisMotion,
+    CustomTorque,
     Pulls,
+    drift_by_planets,
+    each_added,
     figure_of,
     forces_of,
     idle_note,
     start_note,
+    switched_off,
     switched_on,
 )
-from earthspin.parts.satellites import largest_drifts, no_satellites, obliquity_of, swings
-from earthspin.parts.sky import Sky
-from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
-from earthspin.progress import progress
+from earthspin.questions.satellites import largest_drifts, no_satellites, obliquity_of, swings
+from earthspin.questions.sky import Sky
+from earthspin.questions.times import SPAN_DOC, Dated, days_of
 from earthspin.sky.elements import ByElements, Elements
 from earthspin.units import Number, Numbers
 
@@ -94,7 +94,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
     [7.2722e-06 7.2722e-06 7.2722e-06]
     """
 
-    views, page, headline = "rotation", "rotation", "attitude"
+    page, headline = "rotation", "attitude"
 
     span: Span = key(("2000-01-01T12:00:00", "2000-02-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("6 h", doc="interval between dates")
@@ -419,7 +419,7 @@ def turning(
     block: Block | None = None,
 ) -> Attitudes:
     """Compute attitude, spin and angular momentum with errors at every requested time."""
-    now = days_of(epochs, block, by_region("series.zarr"))
+    now = days_of(epochs, block, "series.zarr")
     order = np.argsort(now, kind="stable")
     seconds = rotor.since(now[order])
     begin = 0.0 if block is None or block.first == 0 else float(seconds[0])

@@ -6,14 +6,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, setting
-from earthspin.engine.variables import Labels, Value, Variables, labels, number, words
+from earthspin.engine.variables import Labels, Neglected, Value, Variables, labels, number, words
 from earthspin.numerics.arrays import FloatArray
-from earthspin.parts.side_by_side import SideBySide
-from earthspin.parts.times import FromStart, Seconds, instants
+from earthspin.questions.times import FromStart, Seconds, SideBySide, instants
 from earthspin.top.start import HeavyTop
 from earthspin.units import Duration, Number, Whole
 
@@ -64,7 +62,7 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     cusp
     """
 
-    views, page, headline = "top", "rotors", "theta"
+    page, headline = "rotors", "theta"
 
     exclusive = (("times",), ("duration", "points"))
 

@@ -238,12 +238,7 @@ class SymmetricRotor:
         )
 
     def _in_node_plane(self, length: Numeric, angle: Numeric, times: Numeric) -> FloatArray:
-        """Vector at an angle from the angular momentum towards the figure axis, in inertial axes.
-
-        Its components are along inertial axes.
-
-        The angle is counted from the angular momentum towards the figure axis.
-        """
+        """Vector at an angle from the angular momentum towards the figure axis, inertial axes."""
         phi = np.multiply.outer(self.precession_rate, times)
         across, along = (np.asarray(length * f(angle))[..., np.newaxis] for f in (np.sin, np.cos))
         return np.stack(

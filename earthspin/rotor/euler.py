@@ -85,12 +85,12 @@ class PrincipalMoments:
         return np.asarray(self.difference.hi[..., 0])
 
 
-def principal_moments(given: Moments) -> PrincipalMoments:
+def principal_moments(moments: Moments) -> PrincipalMoments:
     """Read principal moments of inertia; raise an error if no body can have them.
 
     Parameters
     ----------
-    given : sequence of three numbers, mapping, or PrincipalMoments
+    moments : sequence of three numbers, mapping, or PrincipalMoments
         A, B, C, as array of shape (..., 3) for many bodies; or ``{"A", "B-A", "C-A"}``,
         whose values broadcast against each other; kg m2.
 
@@ -103,19 +103,20 @@ def principal_moments(given: Moments) -> PrincipalMoments:
     BodyError
         If a moment is not positive, or exceeds the sum of the other two.
     """
-    if isinstance(given, PrincipalMoments):
-        return given
-    moments = _from_differences(given) if isinstance(given, Mapping) else _from_three(given)
-    _check(moments)
-    return moments
+    if isinstance(moments, PrincipalMoments):
+        return moments
+    read = _from_differences if isinstance(moments, Mapping) else _from_three
+    body = read(moments)
+    _check(body)
+    return body
 
 
-def _from_differences(given: Mapping[str, Any]) -> PrincipalMoments:
-    if set(given) != set(KEYS):
+def _from_differences(moments: Mapping[str, Any]) -> PrincipalMoments:
+    if set(moments) != set(KEYS):
         raise BodyError(
-            "rotor", "moments", sorted(map(str, given)), f"the keys are {', '.join(KEYS)}"
+            "rotor", "moments", sorted(map(str, moments)), f"the keys are {', '.join(KEYS)}"
         )
-    parts = [finite(given[key], key, "kg m2") for key in KEYS]
+    parts = [finite(moments[key], key, "kg m2") for key in KEYS]
     try:
         a, b_a, c_a = np.broadcast_arrays(*parts)
     except ValueError:
@@ -123,15 +124,15 @@ def _from_differences(given: Mapping[str, Any]) -> PrincipalMoments:
         rule = "A, B-A and C-A must have shapes that broadcast together"
         raise BodyError("rotor", "shape of moments", shapes, rule) from None
     zero = np.zeros_like(a)
-    first, towards_b, towards_c = (DoubleDouble(x, zero) for x in (a, b_a, c_a))
+    exact_a, towards_b, towards_c = (DoubleDouble(x, zero) for x in (a, b_a, c_a))
     return PrincipalMoments(
-        stack(first, first + towards_b, first + towards_c),
+        stack(exact_a, exact_a + towards_b, exact_a + towards_c),
         stack(towards_c - towards_b, -towards_c, towards_b),
     )
 
 
-def _from_three(given: Any) -> PrincipalMoments:
-    abc = finite(given, "moments", "kg m2")
+def _from_three(moments: Any) -> PrincipalMoments:
+    abc = finite(moments, "moments", "kg m2")
     if abc.ndim == 0 or abc.shape[-1] != 3:
         raise BodyError("rotor", "shape of moments", abc.shape, "give three numbers, A, B, C")
     a, b, c = np.moveaxis(abc, -1, 0)
@@ -160,19 +161,19 @@ def _check(moments: PrincipalMoments) -> None:
             raise BodyError("rotor", name, float(moment[at]), rule)
 
 
-def finite(given: Any, name: str, unit: str) -> FloatArray:
+def finite(values: Any, name: str, unit: str) -> FloatArray:
     """Convert an input to an array of floats; raise an error for infinite or missing values.
 
     Parameters
     ----------
-    given : array_like
+    values : array_like
     name, unit : str
         Name and unit of the input, for messages.
     """
     try:
-        numbers = np.asarray(given, dtype=np.float64)
+        numbers = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):
-        raise BodyError("rotor", name, given, f"give numbers, in {unit}") from None
+        raise BodyError("rotor", name, values, f"give numbers, in {unit}") from None
     bad = numbers[~np.isfinite(numbers)]
     if bad.size:
         raise BodyError("rotor", name, float(bad.flat[0]), f"give finite numbers, in {unit}")
@@ -340,15 +341,15 @@ def integrate_rotation(
         return np.concatenate([euler_rates(body, w, push), spin])
 
     floor = atol * np.array([float(np.linalg.norm(start))] * 3 + [1.0] * 4)
-    first = np.concatenate([start, [1.0, 0.0, 0.0, 0.0]])
-    states = np.tile(first, (t.size, 1))
+    initial = np.concatenate([start, [1.0, 0.0, 0.0, 0.0]])
+    states = np.tile(initial, (t.size, 1))
     evaluations = 0
     for side in (t > 0, t < 0):
         if not np.any(side):
             continue
         stops, place = np.unique(np.abs(t[side]), return_inverse=True)
         stops = stops * np.sign(t[side][0])
-        run = solve_ivp(rates, (0.0, stops[-1]), first, method, stops, rtol=rtol, atol=floor)
+        run = solve_ivp(rates, (0.0, stops[-1]), initial, method, stops, rtol=rtol, atol=floor)
         if not run.success:
             raise EarthspinError(f"the integration stopped: {run.message}")
         states[side] = run.y.T[place]

@@ -183,7 +183,7 @@ def jacobi_motion(moments: Moments, omega: Any) -> JacobiMotion:
     UndefinedError
         If the angular momentum is zero, or the energy is out of a float's range.
     """
-    body, spin = _broadcast(principal_moments(moments), _read_omega(omega))
+    body, spin = _read_start(moments, omega)
     # Division by powers of two is exact and scales all numbers to order one.
     size, speed = _power_of_two(body.values), _power_of_two(spin)
     _refuse_range(size, speed)
@@ -211,7 +211,11 @@ def _constants(
     towards = np.where(sense < 0, -1.0, 1.0)  # sign of sn for positive lambda
     rate = start.span.scaled(towards) * (r * d1 / (i1 * i2 * i3)).sqrt()
     amplitudes = stack((d3 / i1).sqrt(), (d3 / (r * i2)).sqrt() * towards, (d1 / i3).sqrt())
-    sine, cosine = _start_angle(amplitudes.hi, start.spin)
+    # Sine and cosine of the initial amplitude: 0 and 1 for a rotation about axis 3.
+    upright = amplitudes.hi[..., 0] == 0
+    divisor = np.where(upright[..., np.newaxis], 1.0, amplitudes.hi)
+    sine = start.spin[..., 1] / divisor[..., 1]
+    cosine = np.where(upright, 1.0, start.spin[..., 0] / divisor[..., 0])
     return JacobiMotion(
         moments=body,
         axes=start.axes,
@@ -274,15 +278,17 @@ def _numbered(unit: PrincipalMoments, spin: FloatArray) -> _Start:
         axis=-1,
     )
     ascending = np.argsort(rank, axis=-1)
-    start = _along(unit, spin, ascending)
+    start = _start_along(unit, spin, ascending)
     # On the separatrix either extreme axis is valid, unless two moments are equal: then the third.
     smallest = (start.side.hi < 0) | ((start.side.hi == 0) & (start.r.hi < start.s.hi))
     if not np.any(smallest):
         return start
-    return _along(unit, spin, np.where(smallest[..., np.newaxis], ascending[..., ::-1], ascending))
+    return _start_along(
+        unit, spin, np.where(smallest[..., np.newaxis], ascending[..., ::-1], ascending)
+    )
 
 
-def _along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _Start:
+def _start_along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _Start:
     """Initial state of a free rotation with its principal axes in the given order.
 
     The argument `axes` lists the axes of the body in the new order.
@@ -318,18 +324,9 @@ def _along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _Start:
     )
 
 
-def _start_angle(amplitudes: FloatArray, spin: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Sine and cosine of the initial amplitude (angle) of the elliptic functions.
-
-    They are 0 and 1 for a rotation about axis 3.
-    """
-    upright = amplitudes[..., 0] == 0
-    divisor = np.where(upright[..., np.newaxis], 1.0, amplitudes)
-    sine, cosine = spin[..., 1] / divisor[..., 1], spin[..., 0] / divisor[..., 0]
-    return sine, np.where(upright, 1.0, cosine)
-
-
-def _read_omega(omega: Any) -> FloatArray:
+def _read_start(moments: Moments, omega: Any) -> tuple[PrincipalMoments, FloatArray]:
+    """Read moments and angular velocity, and broadcast them against each other."""
+    body = principal_moments(moments)
     spin = finite(omega, "omega", "rad/s")
     if spin.ndim == 0 or spin.shape[-1] != 3:
         raise BodyError("rotor", "shape of omega", spin.shape, "give three components, in rad/s")
@@ -338,7 +335,16 @@ def _read_omega(omega: Any) -> FloatArray:
             "omega = [0, 0, 0] rad/s gives no angular momentum, so there is no rotation to "
             "follow; give a start with at least one component other than zero"
         )
-    return spin
+    moment, difference = body.moment, body.difference
+    try:
+        a, b, c, d, spin = np.broadcast_arrays(
+            moment.hi, moment.lo, difference.hi, difference.lo, spin
+        )
+    except ValueError:
+        raise BodyError(
+            "rotor", "shape of omega", spin.shape, f"it must broadcast with {moment.hi.shape}"
+        ) from None
+    return PrincipalMoments(DoubleDouble(a, b), DoubleDouble(c, d)), spin
 
 
 def _refuse_range(size: FloatArray, speed: FloatArray) -> None:
@@ -350,19 +356,6 @@ def _refuse_range(size: FloatArray, speed: FloatArray) -> None:
             f"a float cannot hold the energy of a body with moments of {moment:.1g} kg m2 at "
             f"{rate:.1g} rad/s; choose other units"
         )
-
-
-def _broadcast(body: PrincipalMoments, spin: FloatArray) -> tuple[PrincipalMoments, FloatArray]:
-    moment, difference = body.moment, body.difference
-    try:
-        a, b, c, d, spin = np.broadcast_arrays(
-            moment.hi, moment.lo, difference.hi, difference.lo, spin
-        )
-    except ValueError:
-        raise BodyError(
-            "rotor", "shape of omega", spin.shape, f"it must broadcast with {moment.hi.shape}"
-        ) from None
-    return PrincipalMoments(DoubleDouble(a, b), DoubleDouble(c, d)), spin
 
 
 def _power_of_two(numbers: FloatArray) -> FloatArray:
@@ -538,9 +531,12 @@ def momentum_frame(motion: JacobiMotion, phase: Phase) -> FloatArray:
     phase : Phase
         Phases; psi is measured from the first time.
     """
+    x, y, z = np.moveaxis(phase.along(motion.cosines), -1, 0)
+    # the smallest rotation from the angular momentum to the third axis
+    turn = np.stack([1 + z, y, -x, np.zeros_like(z)], axis=-1)
     return quaternion.multiply(
         quaternion.rotation_about_z(_half_psi(motion, phase)),
-        _shortest_turn(phase.along(motion.cosines)),
+        turn / np.sqrt(np.sum(turn * turn, axis=-1, keepdims=True)),
     )
 
 
@@ -549,13 +545,6 @@ def _attitude(motion: JacobiMotion, phase: Phase) -> FloatArray:
     frame = momentum_frame(motion, phase)
     turn = quaternion.multiply(quaternion.conjugate(frame[..., :1, :]), frame)
     return np.concatenate([turn[..., :1], to_body(motion, turn[..., 1:])], axis=-1)
-
-
-def _shortest_turn(cosines: FloatArray) -> FloatArray:
-    """Quaternion of the smallest rotation from a unit vector to the third axis."""
-    x, y, z = np.moveaxis(cosines, -1, 0)
-    turn = np.stack([1 + z, y, -x, np.zeros_like(z)], axis=-1)
-    return np.asarray(turn / np.sqrt(np.sum(turn * turn, axis=-1, keepdims=True)))
 
 
 def _half_psi(motion: JacobiMotion, phase: Phase) -> FloatArray:

@@ -223,9 +223,8 @@ def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
 def height_at(nutation: Nutation, place: Place) -> AxisHeight:
     """Compute the height u = cos(theta) of a top's axis at given times, and its rate.
 
-    It is given as distances from the poles and the start.
-
-    The distances from the poles are sums of positive terms.
+    The height is given as distances from the poles and the start. Those from the poles are sums of
+    positive terms.
     """
     gaps, swing, complement = nutation.gaps, nutation.swing, nutation.complement
     upper, sn, cn, dn = place.upper, place.sn, place.cn, place.dn

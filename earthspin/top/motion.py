@@ -125,11 +125,13 @@ def heavy_top_motion(top: HeavyTop, times: ArrayLike) -> HeavyTopMotion:
     if not np.all(usable):
         bad = float(times[~usable].flat[0])
         raise BodyError("heavy top", "times", bad, f"give seconds up to {_LONGEST:g}")
-    spread = _with_axes(top, times.ndim)
+    shape = top.shape + (1,) * times.ndim
+    spread = HeavyTop(**{f.name: np.reshape(getattr(top, f.name), shape) for f in fields(top)})
     nutation = nutation_of(spread)
     place = place_at(nutation, times * nutation.start.rate_unit)
     height = height_at(nutation, place)
-    theta = _inclination(nutation, height.below, height.above)
+    up, down, turned = np.sqrt(height.below), np.sqrt(height.above), nutation.start.turned
+    theta = 2 * np.arctan2(np.where(turned, down, up), np.where(turned, up, down))
     phi, psi = _phi_and_psi(spread, nutation, times, place)
     return HeavyTopMotion(
         theta=theta,
@@ -142,20 +144,6 @@ def heavy_top_motion(top: HeavyTop, times: ArrayLike) -> HeavyTopMotion:
         nutation_period=nutation_period(top),
         precession_rate=mean_precession_rate(top),
     )
-
-
-def _with_axes(top: HeavyTop, count: int) -> HeavyTop:
-    """Append `count` axes of length 1 to all arrays of a `HeavyTop`, to broadcast with times."""
-    shape = top.shape + (1,) * count
-    return HeavyTop(**{f.name: np.reshape(getattr(top, f.name), shape) for f in fields(top)})
-
-
-def _inclination(nutation: Nutation, below: FloatArray, above: FloatArray) -> FloatArray:
-    """Inclination theta of the axis from 1 - cos(theta) and 1 + cos(theta), rad."""
-    up, down = np.sqrt(below), np.sqrt(above)
-    turned = nutation.start.turned
-    theta: FloatArray = 2 * np.arctan2(np.where(turned, down, up), np.where(turned, up, down))
-    return theta
 
 
 def _phi_and_psi(
@@ -217,10 +205,10 @@ def _vertical_excess(start: AxisStart, height: AxisHeight) -> FloatArray:
 
     The form that loses fewer digits is used.
     """
-    first, second = start.phi_rate * start.sine2, start.a * height.climb
+    by_rate, by_spin = start.phi_rate * start.sine2, start.a * height.climb
     upper, lower = start.b_plus_a * height.below, start.b_minus_a * height.above
-    from_start = np.abs(first) + np.abs(second) < (np.abs(upper) + np.abs(lower)) / 2
-    return np.where(from_start, first - second, (upper + lower) / 2)
+    from_start = np.abs(by_rate) + np.abs(by_spin) < (np.abs(upper) + np.abs(lower)) / 2
+    return np.where(from_start, by_rate - by_spin, (upper + lower) / 2)
 
 
 # --- effect of rounding ---------------------------------------------------------------------------
@@ -283,19 +271,21 @@ def effect_of_rounding(top: HeavyTop, times: ArrayLike) -> FloatArray:
     return total
 
 
-def _difference(one: HeavyTopMotion, other: HeavyTopMotion) -> FloatArray:
+def _difference(motion: HeavyTopMotion, reference: HeavyTopMotion) -> FloatArray:
     """Largest relative difference between two motions of each top, over times and quantities."""
-    across, reference = (m.omega_body[..., 0] + 1j * m.omega_body[..., 1] for m in (one, other))
+    across, across_reference = (
+        m.omega_body[..., 0] + 1j * m.omega_body[..., 1] for m in (motion, reference)
+    )
     # a quaternion and its negative are the same attitude
-    sign = np.copysign(1.0, np.sum(one.attitude * other.attitude, axis=-1, keepdims=True))
-    turned = 2 * np.abs(one.attitude - sign * other.attitude)
+    sign = np.copysign(1.0, np.sum(motion.attitude * reference.attitude, axis=-1, keepdims=True))
+    turned = 2 * np.abs(motion.attitude - sign * reference.attitude)
     # a vertical axis has no azimuth: the division of the rotation between phi and psi is arbitrary
-    tilted = (other.theta > UPRIGHT) & (other.theta != np.pi)
+    tilted = (reference.theta > UPRIGHT) & (reference.theta != np.pi)
     ratios = (
-        _relative(one.theta - other.theta, np.where(tilted, np.abs(other.theta), 0.0)),
-        _relative(tilted * (one.phi - other.phi), _largest(other.phi)),
-        _relative(tilted * (one.psi - other.psi), _largest(other.psi)),
-        _relative(across - reference, _largest(reference)),
+        _relative(motion.theta - reference.theta, np.where(tilted, np.abs(reference.theta), 0.0)),
+        _relative(tilted * (motion.phi - reference.phi), _largest(reference.phi)),
+        _relative(tilted * (motion.psi - reference.psi), _largest(reference.psi)),
+        _relative(across - across_reference, _largest(across_reference)),
         turned.max(axis=(-2, -1)),
     )
     return np.asarray(np.max(ratios, axis=0))

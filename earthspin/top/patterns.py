@@ -40,7 +40,9 @@ def nutation_pattern(top: HeavyTop) -> NDArray[np.str_]:
     """
     start = axis_start(top)
     turning = start.b_minus_a * start.b_plus_a < 0  # |b| < |a|
-    drive, size = _loop_drive(start)
+    # a alpha and b beta (I.7.7), whose difference separates waves from loops
+    inertia, weight = start.a * start.rate2, start.beta * start.phi_rate * start.sine2
+    drive, size = inertia - weight, np.abs(inertia) + np.abs(weight)
     conditions = [
         start.asleep,
         _is_steady(start),
@@ -115,15 +117,6 @@ def _is_steady(start: AxisStart) -> BoolArray:
     size = np.abs(gyroscopic) + np.abs(centrifugal) + start.beta
     balanced = np.abs(gyroscopic - centrifugal - start.beta) <= _ROUNDING * size
     return np.asarray((start.theta_rate == 0) & (start.sine2 > 0) & balanced)
-
-
-def _loop_drive(start: AxisStart) -> tuple[FloatArray, FloatArray]:
-    """Difference whose sign separates waves from loops, and the size of its two terms.
-
-    The terms are a alpha and b beta (I.7.7) at the start of the top's motion.
-    """
-    inertia, weight = start.a * start.rate2, start.beta * start.phi_rate * start.sine2
-    return inertia - weight, np.abs(inertia) + np.abs(weight)
 
 
 # --- steady precession and sleeping tops ----------------------------------------------------------

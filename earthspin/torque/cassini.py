@@ -27,6 +27,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.numerics.kepler import true_anomaly
@@ -135,12 +136,12 @@ def hansen(multiple: int, eccentricity: float) -> float:
     return float(np.mean(nearness**3 * np.cos(2 * true - multiple * mean)))
 
 
-def cassini_states(of: Precessing) -> States:
+def cassini_states(body: Precessing) -> States:
     """Compute obliquity and stability of all Cassini states of a body.
 
     Parameters
     ----------
-    of : Precessing
+    body : Precessing
         Body and orbit.
 
     Raises
@@ -148,22 +149,22 @@ def cassini_states(of: Precessing) -> States:
     UndefinedError
         If the orbit does not precess, or is perpendicular to the plane of precession.
     """
-    i, nu = of.inclination, of.node_rate
+    i, nu = body.inclination, body.node_rate
     if nu == 0 or np.sin(i) == 0:
         raise UndefinedError(
             "an orbit whose plane does not move has no Cassini states; give it an inclination and "
             "a period of its node"
         )
     # with z = exp(i eps), the slope is a quartic polynomial in z
-    single = nu * np.cos(i) - 1.5 * of.locked
-    double = -0.75 * (of.axial + of.locked)
+    single = nu * np.cos(i) - 1.5 * body.locked
+    double = -0.75 * (body.axial + body.locked)
     roots = np.roots(
         [double, single - 1j * nu * np.sin(i), 0, -single - 1j * nu * np.sin(i), -double]
     )
     angles = np.angle(roots[np.abs(np.abs(roots) - 1) < ON_CIRCLE])
     for _ in range(3):  # Newton steps to full precision
-        angles = angles - of.slope(angles) / of.curvature(angles)
-    stable = of.curvature(angles) * nu * np.sin(i) / np.sin(angles) > 0
+        angles = angles - body.slope(angles) / body.curvature(angles)
+    stable = body.curvature(angles) * nu * np.sin(i) / np.sin(angles) > 0
     number = _numbers(angles * np.sign(nu), stable)
     order = np.argsort(number)
     return States(number[order], angles[order], stable[order])
@@ -187,15 +188,13 @@ def _numbers(angles: FloatArray, stable: BoolArray) -> NDArray[np.int64]:
 #: tolerance.
 MOST_HALF_TURNS, CLOSENESS, ORBITS = 6, 0.01, 20
 #: Rotation period, s, below which a body is far from resonance with orbits of days or longer.
-SLOW = 5 * 86400.0
+SLOW = 5 * DAY
 
 
 def locked_ratio(
     times: FloatArray, position: FloatArray, axis: FloatArray, spin_rate: float
 ) -> float | None:
     """Rotations per orbit of a body in spin-orbit resonance, from positions; otherwise None.
-
-    Return None if there is no resonance.
 
     Parameters
     ----------
@@ -209,8 +208,8 @@ def locked_ratio(
         rad/s, not negative, about that axis.
     """
     across = np.cross(axis, position[0])
-    first, second = np.cross(across, axis), across
-    angle = np.unwrap(np.arctan2(position @ second, position @ first))
+    x_axis, y_axis = np.cross(across, axis), across
+    angle = np.unwrap(np.arctan2(position @ y_axis, position @ x_axis))
     mean_motion = (angle[-1] - angle[0]) / (times[-1] - times[0])
     if mean_motion <= 0:
         return None

@@ -86,7 +86,9 @@ def torque_from_position(
     UndefinedError
         For a mass in the centre of the body.
     """
-    direction, distance = _direction(position)
+    distance = np.sqrt(np.sum(position * position, axis=-1))
+    _refuse_centre(distance)
+    direction = position / distance[..., np.newaxis]
     size = 3 * gm * moment_difference / distance**3 * np.sum(direction * axis, axis=-1)
     return np.asarray(size[..., np.newaxis] * np.cross(direction, axis))
 
@@ -123,13 +125,6 @@ def torque_error(
     return np.asarray(
         np.sqrt((NORMAL_95 * size * u_product) ** 2 + from_direction**2 + from_distance**2)
     )
-
-
-def _direction(position: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Unit vectors and lengths of position vectors, without overflow of powers."""
-    distance = np.sqrt(np.sum(position * position, axis=-1))
-    _refuse_centre(distance)
-    return position / distance[..., np.newaxis], distance
 
 
 def _refuse_centre(distance: FloatArray) -> None:
@@ -188,12 +183,11 @@ def apply(tensor: FloatArray, vector: FloatArray) -> FloatArray:
     xx, yy, zz, xy, xz, yz = tensor
     x, y, z = vector
     result = np.empty(np.broadcast_shapes((3, *np.shape(xx)), np.shape(vector)))
-    for row, first, second, third in zip(
-        result, (xx, xy, xz), (xy, yy, yz), (xz, yz, zz), strict=True
-    ):
-        np.multiply(first, x, out=row)  # in place, because allocation is slower
-        row += second * y
-        row += third * z
+    rows = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
+    for component, (from_x, from_y, from_z) in zip(result, rows, strict=True):
+        np.multiply(from_x, x, out=component)  # in place, because allocation is slower
+        component += from_y * y
+        component += from_z * z
     return result
 
 

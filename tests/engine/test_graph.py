@@ -2,9 +2,9 @@
 
 import pytest
 
-from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key
+from earthspin.engine.variables import Neglected
 
 
 class Asked(Question, word="asked", call="asked"):

@@ -9,8 +9,7 @@ import xarray as xr
 
 import earthspin
 from earthspin import UndefinedError
-from earthspin.engine.labels import FROM_SI, si
-from earthspin.engine.variables import Value, Variables, number
+from earthspin.engine.variables import FROM_SI, Value, Variables, number, si
 from tests import shipped
 
 

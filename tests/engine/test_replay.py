@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 import earthspin
 from earthspin import EARTH, MARS, SceneError, VersionWarning, load_scene
 from earthspin.bodies import BODIES
-from earthspin.bodies.limits import refuse_break_up
+from earthspin.bodies.checks import refuse_break_up
 from earthspin.questions.wobble import Wobble
 from earthspin.scenes import shipped_scenes
 from tests import shipped

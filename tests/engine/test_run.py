@@ -13,7 +13,7 @@ import xarray as xr
 import earthspin
 from earthspin import CoverageError, Scene, SceneError, load_scene, scenes
 from earthspin.engine.run import Run
-from earthspin.parts import averages
+from earthspin.questions import averages
 from earthspin.scenes import run, run_blocks
 from earthspin.sky import ephemeris
 from earthspin.sky.poles import FixedPole

@@ -19,7 +19,7 @@ import zarr
 import earthspin
 from earthspin import OutputError
 from earthspin.engine import store
-from earthspin.engine.labels import IN_FILES
+from earthspin.engine.variables import IN_FILES
 from tests import shipped
 from tests.processes import printed
 

@@ -8,8 +8,8 @@ import numpy as np
 from earthspin.bodies import MARS, MOON
 from earthspin.constants import DAY, J2000_JD
 from earthspin.questions.torque import torque_series
-from earthspin.sky.equator import spherical
 from earthspin.sky.iau import Nutation
+from earthspin.sky.poles import spherical
 from tests.extreme import Distances, holds, relative_error
 from tests.reference.sky import BODY, CENTRE, CODES, kernel, positions
 

@@ -12,7 +12,7 @@ from jplephem.spk import SPK
 import earthspin
 from earthspin import EARTH, MARS, MOON
 from earthspin.constants import ARCSEC
-from earthspin.engine.neglected import largest_of
+from earthspin.engine.variables import largest_of
 from earthspin.sky import iau
 from earthspin.sky.ephemeris import find_kernel
 

@@ -13,9 +13,14 @@ from earthspin import EARTH
 from earthspin.constants import UAS
 from earthspin.engine.run import Run
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.nutation.additions import ADDITIONS, added_to
-from earthspin.nutation.circles import MULTIPLES, phases
-from earthspin.nutation.response import CORE_NUTATION_START, Response, fit_response
+from earthspin.nutation.analysis import MULTIPLES, phases
+from earthspin.nutation.response import (
+    ADDITIONS,
+    CORE_NUTATION_START,
+    Response,
+    added_to,
+    fit_response,
+)
 
 #: The mode that is built into IAU 2000A, as IERS Conventions (2010), table 6.4, have it.
 BUILT_IN = complex(*CORE_NUTATION_START)

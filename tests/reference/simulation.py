@@ -6,9 +6,9 @@ import numpy as np
 from scipy.signal import lfilter
 
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.wobble.oscillator import DrivenOscillator
+from earthspin.wobble.excitation import chandler_frequency
 from earthspin.wobble.record import NEAR, YEAR, turning
-from earthspin.wobble.resonance import chandler_frequency
+from earthspin.wobble.state_space import DrivenOscillator
 
 #: Default correlation time of the red excitation, d.
 RED_MEMORY = 500.0

@@ -8,9 +8,8 @@ from jplephem.spk import SPK
 from numpy.polynomial.chebyshev import chebval
 
 from earthspin.constants import J2000_JD
-from earthspin.sky.chebyshev import Table
 from earthspin.sky.ephemeris import find_kernel
-from earthspin.sky.kernel_checks import Records
+from earthspin.sky.kernel import Records, Table
 
 RECORDS, DAYS_EACH = 40, 4.0
 

@@ -12,9 +12,9 @@ import pytest
 from earthspin import EARTH
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.errors import UndefinedError
-from earthspin.interior.anelastic import anelastic_strain
+from earthspin.interior.layers import PREM
 from earthspin.interior.love import softening
-from earthspin.interior.prem import PREM
+from earthspin.interior.ocean_and_anelasticity import anelastic_strain
 from earthspin.numerics.quaternion import rotate
 from earthspin.rotor.triaxial import free_rotation
 from earthspin.scenes import run

@@ -7,10 +7,18 @@ import xarray as xr
 import earthspin
 from earthspin import EARTH
 from earthspin.scenes import QUESTIONS
-from earthspin.views.of_question import drawings_for, scene_page, tables_for, what_ran
+from earthspin.views.answers import drawings_for, scene_page, tables_for, what_ran
 from earthspin.views.reading import answer_of, needed
-from earthspin.views.table import label, quantities, table_along, with_error
-from earthspin.views.tables import MOST_ROWS, SAMPLE, tables, tables_of
+from earthspin.views.tables import (
+    MOST_ROWS,
+    SAMPLE,
+    label,
+    quantities,
+    table_along,
+    tables,
+    tables_of,
+    with_error,
+)
 from tests import shipped
 
 

@@ -11,10 +11,10 @@ from scipy.optimize import brentq
 import earthspin
 from earthspin import EARTH
 from earthspin.interior.equilibrium import figure
+from earthspin.interior.layers import PREM
 from earthspin.interior.love import elastic
 from earthspin.interior.modes import all_fluid, free_modes, parts_of
 from earthspin.interior.named import INTERIORS
-from earthspin.interior.prem import PREM
 from earthspin.mass.figure import ellipticity_from_h
 from tests import shipped
 

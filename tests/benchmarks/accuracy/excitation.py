@@ -12,7 +12,7 @@ every series, so that they are constant within each interval.
 import numpy as np
 
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.wobble.resonance import FROM_EXCITATION, TO_EXCITATION, chandler_frequency
+from earthspin.wobble.excitation import FROM_EXCITATION, TO_EXCITATION, chandler_frequency
 from tests.benchmarks.accuracy.ladder import Ladder, Run
 
 #: Period (d) and quality factor of the free wobble, and length of the series (d).

@@ -8,9 +8,9 @@ import numpy as np
 from earthspin.constants import MAS
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.sky.eop import read_polar_motion
-from earthspin.wobble.burg import burg
 from earthspin.wobble.forecast import OBSERVATION, PERIOD, SHIPPED, FastExcitation, fit, forecast
 from earthspin.wobble.record import YEAR
+from earthspin.wobble.state_space import burg
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 
 #: Function that returns a forecast, of a record (x - i y, mas), the days ahead and the years used.

@@ -1,0 +1,263 @@
+"""Answer a question, once or for each ensemble member, by its public function or as a tree."""
+
+from __future__ import annotations
+
+import inspect
+import re
+import textwrap
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from earthspin.engine.ensemble import Ensemble
+from earthspin.engine.member_values import MEMBER
+from earthspin.engine.members import Members
+from earthspin.engine.question import NEGLECTED, Key, Question, keys_of
+from earthspin.engine.run import ALL, Run
+from earthspin.errors import SceneError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+# --- answers --------------------------------------------------------------------------------------
+
+#: Default number of members of a sample.
+MEMBERS = 1000
+#: Quantiles at the ends of the central 95 % interval.
+_ENDS = (0.025, 0.975)
+_NO_ERROR = "no number of this answer has an error that can be sampled; leave it out"
+
+
+def answer(question: Question) -> xr.Dataset:
+    """Compute the answer to a question, as a Dataset.
+
+    Parameters
+    ----------
+    question : Question
+
+    Returns
+    -------
+    Dataset
+        With dimension `member` if the question has members; with sampled errors if
+        ``uncertainty = "sample"``.
+
+    Raises
+    ------
+    EarthspinError
+        If the question cannot be answered; the message is one line.
+    """
+    if question.members is not None:
+        return Ensemble(question).hold()
+    result = Run(question).answer()
+    return _with_sample(question, result) if question.uncertainty == "sample" else result
+
+
+def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.DataTree:
+    """Compute the answer to a question, and return it with the requested sections as a DataTree.
+
+    An ensemble has only the sections `plan` and `neglected`.
+
+    Parameters
+    ----------
+    question : Question
+    sections : str or iterable of str
+        Names, or ``"all"``.
+
+    Raises
+    ------
+    EarthspinError
+        If the question cannot be answered, or another section of an ensemble is requested.
+    """
+    import xarray as xr
+
+    if question.members is not None:
+        named = [sections] if isinstance(sections, str) else [*sections]
+        if not {*named} <= {ALL, NEGLECTED}:
+            problem = f"an ensemble has only the section '{NEGLECTED}'; request that or none"
+            raise SceneError("sections", sections, problem)
+        work = Ensemble(question)
+        nodes = {"/": work.hold(), "plan": work.plan_data()}
+        if named:
+            single = work.variants.question(work.names(0))
+            nodes[NEGLECTED] = answer_tree(single, NEGLECTED)[NEGLECTED].to_dataset()
+        return xr.DataTree.from_dict(nodes)
+    tree = Run(question).tree(sections)
+    if question.uncertainty == "sample":
+        tree.dataset = _with_sample(question, tree.to_dataset())
+    return tree
+
+
+def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
+    """Add to a result the errors that follow from a random sample of its inputs.
+
+    Parameters
+    ----------
+    question : Question
+        With ``uncertainty = "sample"``.
+    answer : Dataset
+
+    Returns
+    -------
+    Dataset
+        The answer with a variable ``<name>_error_sampled`` for each number with an error, its own
+        or one that it shares with other numbers: half the width of the central 95 % interval of
+        the members. Its attributes hold the largest difference from the linear error if that has
+        the same unit, and the largest difference between the median of the sample and the value.
+
+    Raises
+    ------
+    EarthspinError
+        If the members cannot be computed, or no number of the answer has an error.
+    """
+    linear_errors = {
+        str(name): error
+        for name, array in answer.data_vars.items()
+        if array.dtype.kind == "f"
+        and (error := _linear_error(answer, str(name))) is not None
+        # the error of a vector is an angle or a length, not that of a component
+        and not {*array.dims}.difference(error.dims) & {"component", "quaternion"}
+    }
+    if not linear_errors:
+        raise question.error("uncertainty", "sample", _NO_ERROR)
+    plain = question.replace(uncertainty=None, n=None)
+    count = MEMBERS if question.n is None else question.n
+    sample = Ensemble(plain.replace(members=Members(n=count, published=True))).hold()
+    sampled: dict[str, Any] = {}
+    for name, linear in linear_errors.items():
+        values = sample[name]
+        if MEMBER not in values.dims:
+            width, shift = np.zeros(answer[name].shape), 0.0
+        else:
+            low, middle, high = np.quantile(values.values, (_ENDS[0], 0.5, _ENDS[1]), axis=0)
+            width = (high - low) / 2
+            shift = float(np.max(np.abs(middle - answer[name].values)))
+        units = answer[name].attrs.get("units", "1")
+        attrs = {
+            "long_name": f"95 % half-width of the {answer[name].attrs['long_name']} from "
+            f"{count} members",
+            "units": units,
+            "members": count,
+            "middle_of_the_sample": f"{shift:.3g} {units} at most from {name}",
+        }
+        if linear.attrs.get("units") == units and linear.dims == answer[name].dims:
+            difference = float(np.max(np.abs(linear.values - width), initial=0.0))
+            words = f"{difference:.3g} {units} at most from {linear.name}"
+            attrs["difference_from_linear"] = words
+        sampled[f"{name}_error_sampled"] = (answer[name].dims, width, attrs)
+    inputs = ", ".join(str(c.attrs["input"]) for c in sample.coords.values() if "input" in c.attrs)
+    summary = {"sampled": f"{count} members in {inputs}"}
+    return answer.assign(sampled).assign_attrs(summary)
+
+
+def _linear_error(answer: xr.Dataset, name: str) -> xr.DataArray | None:
+    """Linear error of a number: from its inputs, its own, or one shared with other numbers."""
+    shared = str(answer[name].attrs.get("ancillary_variables", "")).split()
+    names = (f"{name}_error_input", f"{name}_error", *shared)
+    return next((answer[error] for error in names if error in answer), None)
+
+
+# --- the public function of a question ------------------------------------------------------------
+
+#: Arguments of a call that give the two ends of a span.
+ENDS = ("start", "stop")
+
+
+def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
+    """Make the public Python function that answers a question of the given class.
+
+    Parameters
+    ----------
+    question : type
+    """
+    signature = signature_of(question)
+
+    def call(*args: Any, **kwargs: Any) -> xr.Dataset:
+        try:
+            values = dict(signature.bind(*args, **kwargs).arguments)
+        except TypeError as error:
+            raise TypeError(f"{question.call}() {error}") from None
+        return answer(question(**_with_span(question, values)))
+
+    call.__name__ = call.__qualname__ = question.call
+    call.__doc__ = docstring_of(question)
+    call.__module__ = question.__module__
+    call.__signature__ = signature  # type: ignore[attr-defined]
+    call.question = question  # type: ignore[attr-defined]
+    return call
+
+
+def _with_span(question: type[Question], values: dict[str, Any]) -> dict[str, Any]:
+    """Replace the arguments `start` and `stop` by `span`; raise an error if one is missing."""
+    if "start" not in question.positional:
+        return values
+    ends = {end: values.pop(end, None) for end in ENDS}
+    missing = [end for end, value in ends.items() if value is None]
+    if len(missing) == len(ENDS):
+        return values
+    if missing:
+        raise SceneError(missing[0], None, "give both start and stop, or times")
+    return values | {"span": tuple(ends.values())}
+
+
+def arguments_of(question: type[Question]) -> dict[str, Key | None]:
+    """Argument names of the public function of a question, each with its `Key` or None.
+
+    The arguments `start` and `stop` are not keys; they map to None.
+    """
+    keys = {name: entry for name, entry in keys_of(question).items() if name != "title"}
+    ends = "start" in question.positional
+    rest = [n for n in keys if n not in question.positional and not (ends and n == "span")]
+    return {name: keys.get(name) for name in (*question.positional, *rest)}
+
+
+def signature_of(question: type[Question]) -> inspect.Signature:
+    """Signature (argument names, types and defaults) of the public function of a question."""
+    parameters = []
+    for name, entry in arguments_of(question).items():
+        free = name in question.positional
+        place = inspect.Parameter.POSITIONAL_OR_KEYWORD if free else inspect.Parameter.KEYWORD_ONLY
+        default: Any = None
+        if entry is not None:
+            default = inspect.Parameter.empty if entry.required else _as_written(entry.shown)
+        parameters.append(inspect.Parameter(name, place, default=default))
+    return inspect.Signature(parameters)
+
+
+def _as_written(value: Any) -> Any:
+    """Convert a default value to the form that a user would type, with bodies by name."""
+    if isinstance(value, tuple):
+        return tuple(_as_written(item) for item in value)
+    return getattr(value, "name", value)
+
+
+def docstring_of(question: type[Question]) -> str:
+    """Make the docstring of a question's public function from its class and its arguments."""
+    head, _, rest = inspect.cleandoc(question.__doc__ or "").partition("\n")
+    lines = [head, "", "Parameters", "----------"]
+    for name, entry in arguments_of(question).items():
+        if entry is None:
+            lines += [f"{name} : date", f"    {_END[name]}"]
+            continue
+        optional = "" if entry.required else ", optional"
+        default = f" Default: {entry.default_words}." if entry.default_words else ""
+        lines.append(f"{name} : {entry.kind.words}{optional}")
+        sentence = f"{entry.doc[:1].upper()}{entry.doc[1:]}.{default}"
+        lines += textwrap.wrap(sentence, 88, initial_indent="    ", subsequent_indent="    ")
+    notes = ["", "Notes", "-----", *SOURCE_TEXT] if _NUMBERED.search(head + rest) else []
+    before, heading, after = rest.rstrip().partition("\nExamples\n")
+    return "\n".join([*lines, before.rstrip(), *notes, f"{heading}{after}", ""])
+
+
+#: Note of docstrings that cite an equation of the source text by its number.
+SOURCE_TEXT = (
+    "Numbers such as I.8.7 are equations and sections of the source text, Appendix I,",
+    '"Rigid Body Dynamics", sections I.1 to I.9; docs/equations.md maps each to its function.',
+)
+_NUMBERED = re.compile(r"\bI\.\d")
+
+
+_END = {
+    "start": "First time; plain dates mean TDB, others are converted.",
+    "stop": "Last time, which is included if the step meets it.",
+}
