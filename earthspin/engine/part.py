@@ -7,7 +7,6 @@ optional parameters needs at least one of them.
 
 from __future__ import annotations
 
-import dis
 import inspect
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Mapping
@@ -64,6 +63,8 @@ class Part(Generic[P, R]):
         Takes keys of the question by name and returns a description of the part.
     same_for : callable or None
         Takes the inputs of the part and returns a value; a result is reused if the value is equal.
+    loads : tuple of str
+        Modules that the function, or what it calls, imports when it runs, if this takes long.
     """
 
     def __init__(
@@ -72,8 +73,9 @@ class Part(Generic[P, R]):
         unless: tuple[Reason, ...],
         describe: Describer | None = None,
         same_for: SameFor | None = None,
+        loads: tuple[str, ...] = (),
     ) -> None:
-        self.function, self.unless = function, unless
+        self.function, self.unless, self.loads = function, unless, loads
         self.describe, self.same_for = describe, same_for
         self._stored: OrderedDict[Hashable, R] = OrderedDict()
         self._lock = Lock()
@@ -123,26 +125,6 @@ class Part(Generic[P, R]):
         """Names of the optional inputs of this part (function): parameters with default None."""
         return _parameters(self.function, None)
 
-    @cached_property
-    def imports(self) -> tuple[tuple[str, str], ...]:
-        """Modules, each with a name, that the function or its helpers import when they run.
-
-        Helpers are the functions of the same module that it calls.
-        """
-        late, functions = list[tuple[str, str]](), list[Any]([self.function])
-        for function in functions:  # the list grows by the helpers
-            module = ""
-            for step in dis.get_instructions(function):
-                if step.opname == "IMPORT_NAME":
-                    module = step.argval
-                elif step.opname == "IMPORT_FROM":
-                    late.append((module, step.argval))
-                elif step.opname == "LOAD_GLOBAL":
-                    helper = function.__globals__.get(step.argval)
-                    is_helper = inspect.isfunction(helper) and helper.__module__ == self.__module__
-                    functions += [helper] * (is_helper and helper not in functions)
-        return tuple(dict.fromkeys(late))
-
     def reason(self, keys: dict[str, Any]) -> str | None:
         """Return the reason (text) to omit this part for given inputs, else None."""
         for condition in self.unless:
@@ -166,6 +148,7 @@ def part(
     unless: Reason | tuple[Reason, ...] = ...,
     describe: Describer | None = ...,
     same_for: SameFor | None = ...,
+    loads: tuple[str, ...] = ...,
 ) -> Callable[[Callable[P, R]], Part[P, R]]: ...
 def part(
     function: Callable[P, R] | None = None,
@@ -174,6 +157,7 @@ def part(
     unless: Reason | tuple[Reason, ...] = (),
     describe: Describer | None = None,
     same_for: SameFor | None = None,
+    loads: tuple[str, ...] = (),
 ) -> Part[P, R] | Callable[[Callable[P, R]], Part[P, R]]:
     """Make a `Part` from a typed function; a decorator.
 
@@ -189,12 +173,15 @@ def part(
     same_for : callable, optional
         Function of the inputs of the part. The result is stored, and reused in later runs for which
         the function returns an equal value; None means that the result is not stored.
+    loads : tuple of str
+        Modules that the function, or what it calls, imports when it runs, if this takes long. A run
+        imports them before its first part, so that the run time of the part is that of its work.
     """
     reasons = unless if isinstance(unless, tuple) else (unless,)
 
     if function is None:
-        return lambda function: Part(function, reasons, describe, same_for)
-    return Part(function, reasons, describe, same_for)
+        return lambda function: Part(function, reasons, describe, same_for, loads)
+    return Part(function, reasons, describe, same_for, loads)
 
 
 def _arguments(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any]:

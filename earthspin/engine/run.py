@@ -10,6 +10,7 @@ import time
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, Self
 
 from earthspin._version import __version__, version
@@ -253,8 +254,8 @@ class Run:
         _load_xarray()
         for name in self.behind(names):
             if name in self.graph.parts:
-                for module, item in self.graph.parts[name].imports:
-                    __import__(module, fromlist=(item,))
+                for module in self.graph.parts[name].loads:
+                    import_module(module)
         self._seconds[IMPORTS] = self._seconds.get(IMPORTS, 0.0) + time.perf_counter() - begun
 
     def _refuse_taken_dimensions(self) -> None:

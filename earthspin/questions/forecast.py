@@ -250,7 +250,7 @@ def _day(time: float) -> str:
     return str(datetime64(np.array([time]))[0])[:10]
 
 
-@part
+@part(loads=("scipy.linalg",))
 def predicted(
     record: Record, days: float, parameters: str | None, excitation: GivenSeries | None
 ) -> Predicted:
@@ -492,7 +492,7 @@ def no_offsets(file: str | Path | GivenSeries, origin: float | None, days: float
     return too_short(table.mjd.size, longest)
 
 
-@part(unless=no_offsets)
+@part(unless=no_offsets, loads=("scipy.signal",))
 def pole_offsets(
     file: str | Path | GivenSeries, record: Record, days: float, step: float
 ) -> AheadOffsets:

@@ -148,7 +148,7 @@ class Rotation(FromStart, along=_SERIES, error="relative_error"):
     quaternion: Labels = labels(default=["w", "x", "y", "z"])
 
 
-@part
+@part(loads=("scipy.special",))
 def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> Rotation:
     """Compute angular velocity, angular momentum, attitude and energy of a free rotor in time."""
     import xarray as xr

@@ -140,7 +140,7 @@ class RungResiduals:
     error: dict[str, float]
 
 
-@part
+@part(loads=("scipy.special",))
 def interior_spread(models: Prediction) -> Spread:
     """Vary the uncertain inputs of the interior, and draw them at random."""
     return spread_of(models.setting, models.rungs, models.uncertainty)

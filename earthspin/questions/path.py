@@ -366,7 +366,11 @@ def analysed_days(limits: tuple[float, float]) -> tuple[FloatArray, float]:
     return days, days.size * SAMPLING
 
 
-@part(unless=no_iau_model, same_for=lambda pulls: pulls.limits)
+@part(
+    unless=no_iau_model,
+    same_for=lambda pulls: pulls.limits,
+    loads=("earthspin.sky.iau", "scipy.sparse.linalg"),
+)
 def iau_pole(pulls: Pulls) -> IAUPole:
     """Analyse pole and nutation of the IAU over 150 years, as far as positions are known."""
     from earthspin.nutation.analysis import PoleAnalysis, complex_nutation
@@ -522,7 +526,7 @@ class ResponseFit:
     added: ComplexArray
 
 
-@part
+@part(loads=("earthspin.nutation.response",))
 def response_apart(
     pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
 ) -> ResponseFit:

@@ -159,7 +159,7 @@ class FreeWobble(
     axis: Labels = labels(default=["x", "y"])
 
 
-@part
+@part(loads=("earthspin.wobble.observed",))
 def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> FreeWobble:
     """Period, quality factor and amplitude of the free wobble in the observed pole."""
     from earthspin.wobble import observed

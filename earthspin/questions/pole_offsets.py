@@ -177,7 +177,7 @@ class CorePeriod(Variables):
     )
 
 
-@part(unless=too_short_for_a_period)
+@part(unless=too_short_for_a_period, loads=("earthspin.wobble.observed",))
 def period(offset_table: PoleSeries) -> CorePeriod:
     """Fit the free core nutation period to offsets since 1984, as a noise-driven oscillator."""
     from earthspin.wobble.observed import fit

@@ -283,7 +283,7 @@ class Rotor:
         return np.asarray(np.round((days - self.begin) * DAY, 6))
 
 
-@part
+@part(loads=("scipy.spatial.transform", "scipy.special"))
 def rotor(
     body: Body,
     epochs: Epochs,
@@ -489,7 +489,7 @@ def one_date(span: Span, times: TimeList | None) -> str | None:
     return None if last > first else "neighbours part in time, and one date is asked for"
 
 
-@part(unless=one_date)
+@part(unless=one_date, loads=("earthspin.motion.divergence",))
 def parting(rotor: Rotor) -> Divergence:
     """Integrate the distance between two rotations that start almost equal.
 

@@ -88,7 +88,7 @@ class Field(Variables, along=_VECTOR, error="relative_error"):
     component: Labels = labels(default=["x", "y", "z"])
 
 
-@part
+@part(loads=("scipy.special",))
 def field(body: Body, position: FloatArray, point_mass: float) -> Field:
     """Compute potential, attraction and torque of a homogeneous spheroid at given points."""
     from earthspin.mass import spheroid

@@ -120,7 +120,7 @@ def heavy_top_start(numbers: SideBySide) -> HeavyTop:
     return HeavyTop(**numbers.numbers)
 
 
-@part
+@part(loads=("scipy.special",))
 def motion(heavy_top_start: HeavyTop, instants: FloatArray) -> HeavyTopMotion:
     """Compute the Euler angles of the top, the shape of its path, and its turning angles."""
     from earthspin.top.motion import heavy_top_motion
