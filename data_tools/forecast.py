@@ -20,14 +20,13 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import MAS, NORMAL_95
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.eop import PoleSeries, read_bulletin_a, read_polar_motion
 from earthspin.wobble.forecast import SKILL, forecast
 from tests.benchmarks.accuracy.forecast import usual
 
-Array = NDArray[np.float64]
 HORIZONS = (1, 2, 3, 5, 10, 30, 90, 180, 365, 730)
 #: Horizon up to which coverage is also counted over all horizons together, d.
 SHORT = 30
@@ -53,7 +52,7 @@ def pole(table: PoleSeries) -> Any:
     return (table.x - 1j * table.y) / MAS
 
 
-def at_horizons(values: Any) -> Array:
+def at_horizons(values: Any) -> FloatArray:
     """Coordinates x and y at the horizons, NaN beyond the last day."""
     rows = np.full((len(HORIZONS), 2), np.nan)
     for row, day in zip(rows, HORIZONS, strict=True):
@@ -62,7 +61,7 @@ def at_horizons(values: Any) -> Array:
     return rows
 
 
-def hindcasts() -> tuple[Array, Array, Array, Array]:
+def hindcasts() -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Origins, errors, covariances, and errors of least squares + AR, from C04."""
     table = read_polar_motion("c04")
     p = pole(table)
@@ -140,7 +139,7 @@ def releases(folder: Path) -> Iterator[Release]:
         yield Release(origin, p, pole(bulletin), truth[after - p.size : after], truth[after:])
 
 
-def of_releases(every: list[Release]) -> tuple[Array, Array, Array]:
+def of_releases(every: list[Release]) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Errors and covariances on the releases, and errors of Bulletin A."""
     errors, spread, others = [], [], []
     for release in every:
@@ -166,12 +165,14 @@ def newest_rows(sets: dict[str, list[Release]]) -> str:
     return "\n".join([*lines, ""])
 
 
-def inside_ellipse(errors: Array, spread: Array) -> Any:
+def inside_ellipse(errors: FloatArray, spread: FloatArray) -> Any:
     """Return True for each error inside the 95 % ellipse of its covariance."""
     return np.einsum("ni,nij,nj->n", errors, np.linalg.inv(spread), errors) <= ELLIPSE
 
 
-def numbers(name: str, errors: Array, spread: Array, others: Array) -> list[dict[str, Any]]:
+def numbers(
+    name: str, errors: FloatArray, spread: FloatArray, others: FloatArray
+) -> list[dict[str, Any]]:
     """Skill by horizon, a row for each at which both forecasts can be compared."""
     rows, widths = [], NORMAL_95 * np.sqrt(np.diagonal(spread, axis1=-2, axis2=-1))
     for k, day in enumerate(HORIZONS):
@@ -211,7 +212,7 @@ def table(name: str, rows: list[dict[str, Any]]) -> str:
     return "\n".join([*lines, ""])
 
 
-def correlations(scores: dict[str, tuple[Array, Array]]) -> str:
+def correlations(scores: dict[str, tuple[FloatArray, FloatArray]]) -> str:
     """Table of the correlation of the errors of x and y, claimed and measured."""
     lines = [
         "| days ahead | "
@@ -236,7 +237,7 @@ def correlations(scores: dict[str, tuple[Array, Array]]) -> str:
     return "\n".join([*lines, ""])
 
 
-def pooled(name: str, errors: Array, spread: Array) -> str:
+def pooled(name: str, errors: FloatArray, spread: FloatArray) -> str:
     """Sentence on the coverage of all horizons up to 30 d together."""
     short = [k for k, day in enumerate(HORIZONS) if day <= SHORT]
     error, covariance = errors[:, short].reshape(-1, 2), spread[:, short].reshape(-1, 2, 2)

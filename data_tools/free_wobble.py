@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import FloatArray
 from earthspin.wobble.observed import fit
 from earthspin.wobble.record import NEAR
 from tests.reference.simulation import RED_MEMORY, red_size, simulate
@@ -70,7 +71,7 @@ class Cell:
         )
         return f"| {' | '.join(columns)} |"
 
-    def fits(self, seeds: Iterable[int]) -> NDArray[np.float64]:
+    def fits(self, seeds: Iterable[int]) -> FloatArray:
         """Return period, its error, Q and its bounds, a row for each record with a wobble."""
         red = red_size(NEAR, self.quality, self.share, self.memory)
         rows = []

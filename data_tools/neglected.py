@@ -1,6 +1,6 @@
 """How far the response of the interior moves the axis of the Earth.
 
-This is `RESPONSE` of `earthspin.motion.effects.nonrigid`. The figure axis is followed under Sun and
+This is `RESPONSE` of `earthspin.motion.effects`. The figure axis is followed under Sun and
 Moon from 1950 to 2050 with every effect of a rigid Earth, and again with the response; what lies
 between the two paths is bounded at every epoch by
 
@@ -20,8 +20,7 @@ from scipy.optimize import linprog
 from earthspin.constants import DAY, JULIAN_YEAR, MAS
 from earthspin.dates import days
 from earthspin.errors import Where
-from earthspin.motion.effects import NONRIGID, RIGID
-from earthspin.motion.effects.nonrigid import RESPONSE, Growth
+from earthspin.motion.effects import NONRIGID, RESPONSE, RIGID, Growth
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.pole import pole
 

@@ -9,12 +9,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-from earthspin.constants import UAS
+from earthspin.constants import DAYS_PER_YEAR, UAS
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import core_nutation
-from earthspin.nutation.offset_prediction import predict
+from earthspin.nutation.core_nutation import predict
 from earthspin.sky.eop import PoleSeries, read_pole_offsets
 from earthspin.wobble.observed import fit
 from tests.nutation.simulated_offsets import NOISES, excited, noise
@@ -33,12 +33,10 @@ WINDOWS, SERIES = 2000, 100
 
 def mjd_of(year: float) -> float:
     """Modified Julian date of the start of a year."""
-    return 51544.0 + (year - 2000) * 365.25
+    return 51544.0 + (year - 2000) * DAYS_PER_YEAR
 
 
-def scores(
-    table: PoleSeries, years: tuple[int, int]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def scores(table: PoleSeries, years: tuple[int, int]) -> tuple[FloatArray, FloatArray]:
     """Return mean absolute errors of three predictions, half-width and coverage by horizon.
 
     Parameters

@@ -2,7 +2,7 @@
 
 from earthspin.errors import MissingExtraError
 from earthspin.sky.ephemeris import open_ephemeris
-from earthspin.sky.kernel_checks import PUBLISHED
+from earthspin.sky.kernel import PUBLISHED
 
 
 def main() -> int:

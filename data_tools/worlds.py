@@ -12,16 +12,15 @@ import xarray as xr
 
 import earthspin
 from earthspin.bodies import BODIES, PLANETS, proper
+from earthspin.bodies.earth_moon_sun import MOON_OBLIQUITY
 from earthspin.bodies.giants import JUPITER_CONSTANT, SATURN_CONSTANT
-from earthspin.bodies.inner import MERCURY_OBLIQUITY, VENUS_PRECESSION
-from earthspin.bodies.mars import PRECESSION as MARS_PRECESSION
-from earthspin.bodies.moon import OBLIQUITY as MOON_OBLIQUITY
+from earthspin.bodies.inner import MARS_PRECESSION, MERCURY_OBLIQUITY, VENUS_PRECESSION
 from earthspin.bodies.moons import TITAN_OBLIQUITY, TITAN_OBLIQUITY_IF_SOLID
 from earthspin.constants import NORMAL_95, PSI_A_RATE
 from earthspin.errors import EarthspinError
 from earthspin.questions.cassini_states import CassiniStates
 from earthspin.questions.precession import Precession
-from earthspin.views.table import NUMBERS_ONLY, some_unknown, systematic_size
+from earthspin.views.tables import NUMBERS_ONLY, some_unknown, systematic_size
 
 #: Signs of units, and their size in degrees; obliquities below `SMALL` (deg) are in minutes of arc.
 UNITS, SMALL = {"arcmin": "′", "deg": "°"}, 0.1

@@ -10,32 +10,14 @@ from importlib import import_module as _import_module
 
 from earthspin._lazy import submodule as _submodule
 from earthspin._version import __version__ as __version__
+from earthspin.engine import registry as _registry
+from earthspin.questions import MODULES as _QUESTIONS
 
-#: Every question by its public call, in the order in which they are listed, and the module of each.
-_QUESTIONS = {
-    "precession": "earthspin.questions.precession",
-    "torque_series": "earthspin.questions.torque",
-    "pole": "earthspin.questions.pole",
-    "compare_iau": "earthspin.questions.iau",
-    "nutation_ladder": "earthspin.questions.nutation",
-    "long_term": "earthspin.questions.long_term",
-    "rotation": "earthspin.questions.rotation",
-    "wobble_ladder": "earthspin.questions.wobble",
-    "polar_motion": "earthspin.questions.polar_motion",
-    "pole_offsets": "earthspin.questions.pole_offsets",
-    "forecast": "earthspin.questions.forecast",
-    "free_rotor": "earthspin.questions.free_rotor",
-    "heavy_top": "earthspin.questions.top",
-    "spheroid_field": "earthspin.questions.spheroid",
-    "cassini_states": "earthspin.questions.cassini_states",
-    "love_numbers": "earthspin.questions.love_numbers",
-}
-#: The other public names, by their modules.
+#: Public names besides the questions, by their modules.
 _HOME = {
     "earthspin.bodies": ("BODIES", "EARTH", "MARS", "MOON", "SUN", "Body", "Orbit"),
     "earthspin.sky.orbit_files": ("read_orbit",),
-    "earthspin.parts.insolation": ("daily_insolation",),
-    "earthspin.parts.pole_stars": ("pole_stars",),
+    "earthspin.insolation_and_stars": ("daily_insolation", "pole_stars"),
     "earthspin.questions.polar_motion": (
         "excitation",
         "fit_chandler",
@@ -69,6 +51,13 @@ _HOME = {
     "earthspin.engine.store": ("open", "read", "verify", "write"),
 }
 _MODULE_OF = _QUESTIONS | {name: module for module, names in _HOME.items() for name in names}
+
+# What answers call in packages above the engine, which knows none of these.
+_registry.FUNCTIONS |= {"load_scene": "earthspin.scenes", "plan": "earthspin.scenes"}
+_registry.METHODS |= {
+    "plot": "earthspin.views.answers",
+    "to_iers_table": "earthspin.questions.forecast",
+}
 
 __all__ = ["__version__", *sorted(_MODULE_OF)]
 

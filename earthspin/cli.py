@@ -196,8 +196,8 @@ def _welcome(_: Namespace) -> None:
 def _report(options: Namespace) -> None:
     """Command `report`: write the report on precession or on the wobble, and print its tables."""
     from earthspin.views import report
-    from earthspin.views.closing import closing_line
-    from earthspin.views.of_question import print_tables
+    from earthspin.views.answers import print_tables
+    from earthspin.views.reading import closing_line
 
     kernel, figures = options.ephemeris, not options.no_figures
     if options.topic == "wobble":
@@ -230,9 +230,9 @@ def _play(options: Namespace) -> None:
 def _run(options: Namespace) -> None:
     """Command `run`: run a scene, print its tables, and write its results."""
     from earthspin.engine import drafts, store
-    from earthspin.parts import times
+    from earthspin.questions import times
     from earthspin.scenes import members_of, run_tree, series_length, write_series
-    from earthspin.views.closing import closing_line
+    from earthspin.views.reading import closing_line
 
     question, sections = _question(options), _sections(options)
     data = page = None
@@ -262,17 +262,15 @@ def _run(options: Namespace) -> None:
     elif data is not None:
         store.write(tree, data)
     with _note_of_results(data):
-        from earthspin.views import of_question
+        from earthspin.views import answers
 
         if page is not None:
             with drafts.replacing(page) as draft:
-                draft.write_text(of_question.scene_page(tree), encoding="utf-8")
+                draft.write_text(answers.scene_page(tree), encoding="utf-8")
         if options.json:
-            from earthspin.views.as_json import write_json
-
-            write_json(tree, sys.stdout)
+            answers.write_json(tree, sys.stdout)
         else:
-            of_question.print_tables(tree, with_plan=options.plan)
+            answers.print_tables(tree, with_plan=options.plan)
             others = [name for name in question.graph.sections if name not in tree.children]
             if others and not tree.children.keys() - {"plan"}:
                 print(f"More: --sections {','.join(others)}, or all")
@@ -306,7 +304,7 @@ def _ensemble(options: Namespace) -> None:
         print(json.dumps({"wrote": options.out, "members": answer.sizes["member"]}))
         return
     with _note_of_results(options.out):
-        from earthspin.views.of_question import print_tables
+        from earthspin.views.answers import print_tables
 
         print_tables(answer)
     _print_written(options.out)
@@ -343,7 +341,7 @@ def _info(options: Namespace) -> None:
     from importlib.metadata import PackageNotFoundError, version
 
     if options.what:
-        from earthspin.bodies.listing import all_in_words, in_words
+        from earthspin.bodies.planets import all_in_words, in_words
 
         print(all_in_words() if options.name is None else in_words(options.name))
         return

@@ -198,14 +198,15 @@ PREM_MEAN_MOMENT = Constant(
     "",
     5e-7,
     "I/(M R2) of PREM, Dziewonski & Anderson 1981, PEPI 25, 297, as published; half its last digit",
-    "follows from the layers of `interior.prem`, which were read",
+    "follows from the layers of `interior.layers`, which were read",
 )
 PREM_RADIUS = Constant(6371000.0, "m", 0.0, "PREM, Dziewonski & Anderson 1981", PREM_READ)
 
 # --- conversions -----------------------------------------------------------------------------
 AU = 149597870700.0  # m, exact: IAU 2012 resolution B2
 DAY = 86400.0
-JULIAN_YEAR = 365.25 * DAY
+DAYS_PER_YEAR = 365.25  # Julian year
+JULIAN_YEAR = DAYS_PER_YEAR * DAY
 DAYS_PER_CENTURY = 36525.0
 ARCSEC = math.pi / 648000.0
 MAS = ARCSEC / 1000.0

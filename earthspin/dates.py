@@ -20,7 +20,7 @@ from typing import Annotated, Any, Self, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.constants import J2000_JD
+from earthspin.constants import J2000_JD, JULIAN_YEAR
 from earthspin.errors import SceneError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.units import Number, Plain, is_masked, pack, unpack
@@ -30,7 +30,7 @@ MICROSECONDS_PER_DAY = 86_400_000_000
 FIRST_UTC = 2436934.5  # Julian date of 1960-01-01
 LAST_UTC = 2488069.5  # Julian date of 2100-01-01; later times need more than newer tables
 TABLES = "astropy-iers-data"  # the package that brings leap seconds and UT1
-LONGEST_STEP = 10_000 * 365.25 * 86_400.0  # s
+LONGEST_STEP = 10_000 * JULIAN_YEAR  # s
 _Time = TypeVar("_Time", int, float)
 _ISO_DATE = re.compile(r"\d{4}-\d\d-\d\d([T ]\d\d(:\d\d(:\d\d(\.\d{1,6})?)?)?)?(Z|[-+]\d\d:?\d\d)?")
 

@@ -313,7 +313,7 @@ class AccuracyError(EarthspinError, ValueError):
     Examples
     --------
     >>> import earthspin
-    >>> from earthspin.mass.legendre import legendre_coefficients
+    >>> from earthspin.mass.multipoles import legendre_coefficients
     >>> try:
     ...     legendre_coefficients(lambda x: abs(x) ** 0.1, 2, accuracy=1e-16)
     ... except earthspin.AccuracyError as error:

@@ -32,14 +32,12 @@ from earthspin.bodies import in_a_sentence
 from earthspin.constants import DAY, J2000_JD
 from earthspin.dates import datetime64, days
 from earthspin.engine.labels import si
-from earthspin.engine.plan import scene_of
-from earthspin.engine.question import Question
+from earthspin.engine.question import Question, scene_of
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.parts.times import epochs
+from earthspin.questions.times import epochs
 from earthspin.scenes import VERSIONS, load_scene, members_of, run, run_tree, warn_of_versions
-from earthspin.secular.angles import equator_and_equinox, equinox_error
-from earthspin.secular.reading import NO_EQUINOX
+from earthspin.secular.reading import NO_EQUINOX, equator_and_equinox, equinox_error
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation

@@ -7,24 +7,25 @@ import re
 import tomllib
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
-from importlib import resources
+from importlib import import_module, resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import earthspin
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
-from earthspin.engine import answering, loop
-from earthspin.engine import plan as planning
+from earthspin.engine import answering, blocks
+from earthspin.engine.blocks import Series
 from earthspin.engine.members import TWICE
 from earthspin.engine.part import BLOCK as BY_BLOCK
-from earthspin.engine.question import Question, keys_of
-from earthspin.engine.series import Series
+from earthspin.engine.plan import Plan
+from earthspin.engine.question import Question, keys_of, scene_of
+from earthspin.engine.run import Run
 from earthspin.engine.store import open as open_file
 from earthspin.errors import SceneError, nearest, no_plain_file
-from earthspin.parts.times import epochs
+from earthspin.questions import MODULES
+from earthspin.questions.times import epochs
 from earthspin.units import FileName
 
 if TYPE_CHECKING:
@@ -40,11 +41,12 @@ class _Questions(Mapping[str, type[Question]]):
     @property
     def calls(self) -> dict[str, str]:
         """Names of the public functions, by the name of the question in scene files."""
-        modules = vars(earthspin)["_QUESTIONS"].items()
+        modules = MODULES.items()
         return {path.rpartition(".")[2].replace("_", "-"): call for call, path in modules}
 
     def __getitem__(self, word: str) -> type[Question]:
-        return getattr(earthspin, self.calls[word]).question  # type: ignore[no-any-return]
+        call = self.calls[word]
+        return getattr(import_module(MODULES[call]), call).question  # type: ignore[no-any-return]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.calls)
@@ -256,7 +258,7 @@ def shipped_scenes() -> dict[str, str]:
     return titles
 
 
-def plan(scene: Any, sections: str | Iterable[str] = ()) -> planning.Plan:
+def plan(scene: Any, sections: str | Iterable[str] = ()) -> Plan:
     """Plan the run of a scene: which computations will run and which are left out, with reasons.
 
     Parameters
@@ -280,7 +282,7 @@ def plan(scene: Any, sections: str | Iterable[str] = ()) -> planning.Plan:
     >>> print(chosen.left_out["seasons"])
     the moon is not among the perturbers
     """
-    return planning.plan_parts(load_scene(scene), sections)
+    return Run(load_scene(scene)).plan(sections)
 
 
 def run(scene: Any) -> xr.Dataset:
@@ -416,7 +418,7 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
     >>> print(earthspin.open(path).sizes["time"])
     87673
     """
-    return loop.write(_series(load_scene(scene)), path, client=client, replace=True)
+    return blocks.write(_series(load_scene(scene)), path, client=client, replace=True)
 
 
 def _series(question: Question) -> Series:
@@ -472,7 +474,7 @@ def run_blocks(scene: Any) -> Iterator[xr.Dataset]:
 
 def _scene_of(answer: Any) -> str:
     """Text of the scene from which a stored result was computed; refuse a result without one."""
-    text = planning.scene_of(answer)
+    text = scene_of(answer)
     if not text:
         problem = "it has no scene; give a whole answer of this package, with its attributes"
         raise SceneError("scene", type(answer).__name__, problem)

@@ -21,8 +21,7 @@ from astropy.utils import iers
 import earthspin
 from earthspin import EARTH
 from earthspin.constants import ARCSEC, EPSILON_0, J2000_JD, MAS, G
-from earthspin.motion.effects import EFFECTS, RIGID
-from earthspin.motion.effects.nonrigid import RESPONSE
+from earthspin.motion.effects import EFFECTS, RESPONSE, RIGID
 
 CENTURY = ("1950-01-02", "2049-12-30", "11.3 d")
 DE421 = Path(skyfield_data.__file__).parent / "data" / "de421.bsp"

@@ -137,7 +137,7 @@ def test_fields_may_be_labelled_arrays() -> None:
 
 def test_obliquity_of_mars() -> None:
     # 25.19 degrees: Folkner et al. 1997, Science 278, 1749
-    from earthspin.sky.equator import angle
+    from earthspin.sky.poles import angle
 
     obliquity = math.degrees(angle(MARS.pole.true(0.0), MARS.orbit_pole.vector()))
     assert abs(obliquity - 25.19) < 0.005

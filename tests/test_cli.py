@@ -143,7 +143,7 @@ def test_run_as_json(capsys: pytest.CaptureFixture[str]) -> None:
 def test_a_series_too_long_for_memory_goes_to_zarr(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from earthspin.parts import times
+    from earthspin.questions import times
 
     monkeypatch.setattr(times, "LONGEST_IN_MEMORY", 100)
     status, _out, _ = run(capsys, "run", "torque", "--out", str(tmp_path))

@@ -9,7 +9,7 @@ import pytest
 
 import earthspin
 from earthspin import cli, process
-from earthspin.views import of_question
+from earthspin.views import answers
 
 
 def test_a_store_and_a_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -96,7 +96,7 @@ def test_results_are_stored_before_they_are_shown(
     def failing(*_: object) -> None:
         raise StopIteration
 
-    monkeypatch.setattr(of_question, fails, failing)
+    monkeypatch.setattr(answers, fails, failing)
     assert cli.main(["run", scene, "--out", str(tmp_path)]) == process.DEFECT
     complaint = capsys.readouterr().err
     data = tmp_path / f"{scene}.nc"

@@ -14,13 +14,13 @@ from data_tools import constants as constants_page
 from earthspin import EARTH, MOON, SUN
 from earthspin import constants as c
 from earthspin.bodies import BODIES
-from earthspin.bodies.mean_orbits import PRECESSING_ORBITS
 from earthspin.bodies.moons import TITAN_MOMENT
+from earthspin.bodies.planets import PRECESSING_ORBITS
 from earthspin.engine.labels import FROM_SI
 from earthspin.interior import mars
-from earthspin.interior.diurnal_ocean import WAVES
 from earthspin.interior.love import elastic
 from earthspin.interior.named import MARS_K2
+from earthspin.interior.ocean_and_anelasticity import WAVES
 
 
 def test_each_constant_has_a_source_and_says_where_it_was_read() -> None:
@@ -89,7 +89,7 @@ def test_the_perigee_turns_from_the_node_as_the_arguments_of_erfa() -> None:
     """Rate of the argument of the perigee, F - l, arcsec a century; measured: 3e-6 of them."""
     import erfa
 
-    from earthspin.bodies.mean_orbits import NODE_RATE, PERIGEE_RATE
+    from earthspin.bodies.planets import NODE_RATE, PERIGEE_RATE
 
     expected = PERIGEE_RATE.value - NODE_RATE.value
     t = 0.01

@@ -8,11 +8,11 @@ import pytest
 import earthspin
 from earthspin.bodies import BODIES, JUPITER, NEPTUNE, SATURN, SUN, TITAN, URANUS, Body
 from earthspin.bodies.giants import SATELLITES, SATURN_MOMENT
-from earthspin.bodies.satellites import Satellite
+from earthspin.bodies.orbit import Satellite
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, AU, JULIAN_YEAR
 from earthspin.errors import BodyError, SceneError
-from earthspin.parts.satellites import carried, largest_drifts, mean_pole_error, swings
 from earthspin.questions.precession import Precession
+from earthspin.questions.satellites import carried, largest_drifts, mean_pole_error, swings
 from earthspin.torque.laplace import Planet, Satellites, laplace_tilts
 from tests.reference import gyroscopes
 

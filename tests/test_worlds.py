@@ -9,16 +9,15 @@ import earthspin
 from data_tools.worlds import PAGE, locked, table, table_of_locked, worlds
 from earthspin import BODIES, MARS, MOON, BodyError, SceneError, UndefinedError
 from earthspin.bodies import TRITON
+from earthspin.bodies.earth_moon_sun import MOON_OBLIQUITY
 from earthspin.bodies.inner import MERCURY_OBLIQUITY
-from earthspin.bodies.mean_orbits import PRECESSING_ORBITS
-from earthspin.bodies.moon import OBLIQUITY as MOON_OBLIQUITY
 from earthspin.bodies.moons import TITAN_OBLIQUITY, TITAN_OBLIQUITY_IF_SOLID
-from earthspin.bodies.planets import PLANETS, on_its_orbit, pulled_by
+from earthspin.bodies.planets import PLANETS, PRECESSING_ORBITS, on_its_orbit, pulled_by
 from earthspin.cli import main
 from earthspin.constants import ARCSEC
 from earthspin.sky.iau import ecliptic_pole
 from earthspin.sky.poles import FixedPole
-from earthspin.torque.locking import locked_turns
+from earthspin.torque.cassini import locked_turns
 
 #: Of 1960 to 2040, every hundred days.
 DAYS = np.arange(-14600.0, 14600.0, 100.0)

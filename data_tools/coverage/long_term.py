@@ -9,11 +9,11 @@ from astropy import units
 import earthspin
 from data_tools.coverage import Row
 from earthspin.bodies import EARTH, MARS, MOON, SUN, Body
-from earthspin.constants import ARCSEC, J2000_JD, JULIAN_YEAR, NORMAL_95
+from earthspin.constants import ARCSEC, DAYS_PER_YEAR, J2000_JD, JULIAN_YEAR, NORMAL_95
 from earthspin.numerics.arrays import FloatArray
-from earthspin.parts import averages, orbits
-from earthspin.parts import sky as skies
+from earthspin.questions import averages, long_term
 from earthspin.questions import long_term as question
+from earthspin.questions import sky as skies
 from earthspin.scenes import load_scene
 from earthspin.secular.budget import Solved, changed
 from earthspin.secular.reading import angle, followed_perihelion, moved_by, read
@@ -45,7 +45,7 @@ def beside_iau() -> list[Row]:
     """Angles and poles beside ERFA's p06e, pmat06 and ecm06, every ten years."""
     years = np.arange(-1000.0, 1001.0, 10.0)
     claimed = earthspin.long_term(times=years * units.yr)
-    days = 365.25 * years
+    days = DAYS_PER_YEAR * years
     angles = erfa.p06e(J2000_JD, days)
     apart = {
         name: np.abs(claimed[name].values - np.degrees(angles[place]))
@@ -80,7 +80,7 @@ def solution(body: Body, times: FloatArray) -> Solved:
     samples = averages.torque_samples(sky, question.stretch(sky), body, pulling)
     means = averages.mean_torques(averages.window_means(samples, pulling))
     rates = averages.mean_rates(means, body, pulling)
-    table = orbits.orbit_table("own", body)
+    table = long_term.orbit_table("own", body)
     numbers = question.numbers(rates, body, pulling, 1.0, 1.0, None, 0.0, 0.0)
     strength = question.strength(numbers, means, body, table)
     return question.solved(strength, numbers, table, times, body, rates)

@@ -13,7 +13,7 @@ import earthspin
 from data_tools.coverage import Row
 from data_tools.worlds import PUBLISHED, locked, worlds
 from earthspin.bodies import BODIES, MARS
-from earthspin.bodies.moon import OBLIQUITY as MOON_OBLIQUITY
+from earthspin.bodies.earth_moon_sun import MOON_OBLIQUITY
 from earthspin.bodies.moons import TITAN_OBLIQUITY
 from earthspin.constants import NORMAL_95
 from earthspin.numerics.arrays import FloatArray

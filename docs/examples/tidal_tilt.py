@@ -9,8 +9,8 @@ import numpy as np
 from earthspin.constants import MAS
 from earthspin.motion.effects import Effect, Numbers, add
 from earthspin.motion.forces import Forces, Places, RateLaw
-from earthspin.numerics.gauss_windows import Windows
-from earthspin.torque.quadrupole import FloatArray, cross
+from earthspin.numerics.polynomials import Windows
+from earthspin.torque.gravity import FloatArray, cross
 
 #: Obliquity grows by 2.4 mas a century (Williams 1994, AJ 108, 711, as quoted by Capitaine, Wallace
 #: & Chapront 2003, A&A 412, 567), rad/s.

@@ -1,8 +1,8 @@
 """The class `Body`: an immutable record of a body's name and of its cited numbers in SI units.
 
 A body that spins needs its figure (`j2`, `dynamical_flattening`, `radius`), its `spin_period`
-and its `pole`; a body that only exerts a torque needs `gm` and `naif`. Each built-in body has a
-file in this package, with the source and uncertainty of every number.
+and its `pole`; a body that only exerts a torque needs `gm` and `naif`. The built-in bodies
+are in other files of this package, with the source and uncertainty of every number.
 """
 
 from __future__ import annotations
@@ -18,20 +18,24 @@ from typing import Annotated, Any, ClassVar, get_origin, get_type_hints
 import numpy as np
 
 from earthspin import constants as c
-from earthspin.bodies import sense
-from earthspin.bodies.figure import figure_of, moments_of
-from earthspin.bodies.from_mass import FromMass
-from earthspin.bodies.kinds import CitedPeriod, Codes, Magnitude, Moments, OwnPlace, Uncertainties
-from earthspin.bodies.labelled import Numeric, all_of, are_close, is_close, is_same
-from earthspin.bodies.layered import UnderTheSurface
-from earthspin.bodies.orbit import Orbit
-from earthspin.bodies.satellites import Satellite, SatelliteList
+from earthspin.bodies import checks
+from earthspin.bodies.checks import Numeric, all_of, are_close, is_close, is_same
+from earthspin.bodies.kinds import (
+    CitedPeriod,
+    Codes,
+    Magnitude,
+    Moments,
+    OwnPlace,
+    Uncertainties,
+    UnderTheSurface,
+)
+from earthspin.bodies.orbit import Orbit, Satellite, SatelliteList
+from earthspin.bodies.shapes import FromMass, figure_of, moments_of
 from earthspin.card import card
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
 from earthspin.interior.layers import LayeredBody
 from earthspin.sky.elements import Plane
-from earthspin.sky.pole_tables import Angles
-from earthspin.sky.poles import Direction, FixedPole, Pole, pole_of
+from earthspin.sky.poles import Angles, Direction, FixedPole, Pole, pole_of
 from earthspin.sky.sources import describe_position, read_position
 from earthspin.units import Text
 
@@ -183,11 +187,11 @@ class Body(FromMass):
                 raise BodyError(self.name, "obliquity", obliquity, _ONE_AXIS)
             object.__setattr__(self, "pole", FixedPole(0.0, math.pi / 2))
         self._read_units()
-        sense.check_kinds(self._fields(), self.UNITS)
+        checks.check_kinds(self._fields(), self.UNITS)
         for name, read in (("pole", pole_of), ("orbit_pole", Direction.of)):
             value = getattr(self, name)
             if value is not None:
-                object.__setattr__(self, name, sense.as_direction(self.name, name, value, read))
+                object.__setattr__(self, name, checks.as_direction(self.name, name, value, read))
         if self.position is not None:
             where = Where(f"{self.name}.position")
             object.__setattr__(self, "position", read_position(self.position, where))
@@ -198,7 +202,7 @@ class Body(FromMass):
             object.__setattr__(self, "satellites", satellites)
         if self.orbit is not None:
             self._read_orbit(self.orbit)
-        sense.check_numbers(self._fields(), self.UNITS)
+        checks.check_numbers(self._fields(), self.UNITS)
         if obliquity is not None:
             object.__setattr__(self, "pole", self._pole_at(obliquity))
 

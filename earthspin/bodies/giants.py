@@ -10,10 +10,9 @@ from __future__ import annotations
 import math
 
 from earthspin.bodies.body import Body
-from earthspin.bodies.figure import flattening_of
 from earthspin.bodies.inner import IAU_2015, SWING
-from earthspin.bodies.orbit import Orbit
-from earthspin.bodies.satellites import Satellite
+from earthspin.bodies.orbit import Orbit, Satellite
+from earthspin.bodies.shapes import flattening_of
 from earthspin.constants import (
     ARCSEC,
     AU,
@@ -27,8 +26,7 @@ from earthspin.constants import (
     Constant,
     Tabulated,
 )  # fmt: skip
-from earthspin.sky.moving_pole import MovingPole
-from earthspin.sky.poles import Direction
+from earthspin.sky.poles import Direction, MovingPole
 
 ELEMENTS = "Standish & Williams, approximate elements 1800-2050"
 _JUNO = "Durante et al. 2020, Geophys. Res. Lett. 47, e2019GL086572 (Juno)"

@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 
 from earthspin.bodies.body import Body
-from earthspin.bodies.figure import flattening_of
 from earthspin.bodies.giants import JPL, JPL_READ, SATELLITES
 from earthspin.bodies.inner import IAU_2015
 from earthspin.bodies.orbit import Orbit
+from earthspin.bodies.shapes import flattening_of
 from earthspin.constants import (
     DAY,
     DAYS_PER_CENTURY,
@@ -22,8 +22,8 @@ from earthspin.constants import (
     Constant,
     Tabulated,
 )
-from earthspin.mass.inertia import homogeneous_ellipsoid
-from earthspin.sky.moving_pole import MovingPole
+from earthspin.mass.figure import homogeneous_ellipsoid
+from earthspin.sky.poles import MovingPole
 
 _IESS = "Iess et al. 2012, Science 337, 457 (Cassini)"
 #: For the moment of inertia of Titan the relation of Radau and Darwin gives J2 = 33.29e-6 and

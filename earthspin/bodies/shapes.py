@@ -1,4 +1,4 @@
-"""Compute the fields of a body from point masses, a density on a grid, a mesh or layers."""
+"""Figure of a body from moments of inertia, point masses, a density on a grid, a mesh or layers."""
 
 from __future__ import annotations
 
@@ -6,13 +6,14 @@ import math
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies.layered import Layers
-from earthspin.constants import G
+from earthspin.bodies.checks import Numeric, all_of
+from earthspin.bodies.kinds import Layers
+from earthspin.constants import Constant, G
 from earthspin.errors import (
     BodyError,
     MissingExtraError,
@@ -30,6 +31,74 @@ from earthspin.units import is_masked, quantity
 if TYPE_CHECKING:
     from earthspin.mass.shape import Shape
 
+# --- J2, H and triaxiality from moments of inertia ------------------------------------------------
+
+
+def flattening_of(j2: Constant, moment: Constant) -> Constant:
+    """Dynamical flattening H = J2/(C/(M R2)), with its propagated uncertainty."""
+    h = j2.value / moment.value
+    u = math.hypot(j2.relative_uncertainty, moment.relative_uncertainty)
+    return Constant(
+        h,
+        "",
+        h * u,
+        f"J2 over C/(M R2): {j2.source}; {moment.source}",
+        f"{j2.read_in}; {moment.read_in}",
+    )
+
+
+def moments_of(j2: float, h: float, triaxiality: float) -> FloatArray:
+    """Principal moments of inertia from J2, H and triaxiality, divided by M a2, shape (3,).
+
+    The order is A <= B <= C, with C about the spin axis.
+
+    Parameters
+    ----------
+    j2, h, triaxiality : float
+        J2 = (C - (A + B)/2)/(M a2); H = (C - (A + B)/2)/C, not zero; (B - A)/(M a2).
+    """
+    polar = j2 / h
+    equatorial, half = polar - j2, triaxiality / 2
+    return np.array([equatorial - half, equatorial + half, polar])
+
+
+def figure_of(
+    name: str, moments: tuple[Numeric, Numeric, Numeric], scale: Numeric
+) -> dict[str, Numeric]:
+    """J2, H and triaxiality from three moments of inertia, as a dict with these field names.
+
+    Parameters
+    ----------
+    name : str
+        Name of the body, for messages.
+    moments : three floats or labelled arrays
+        Principal moments, kg m2, the polar one last.
+    scale : float or labelled array
+        M a2, kg m2.
+
+    Raises
+    ------
+    BodyError
+        If no body can have such moments.
+    """
+    try:
+        small, middle, polar = moments
+    except (TypeError, ValueError):
+        raise BodyError(name, "moments", moments, "give three, the polar one last") from None
+    if not all_of((small > 0) & (middle > 0) & (polar > 0)):
+        raise BodyError(name, "moments", moments, "each moment must be greater than zero")
+    if not all_of(abs(small - middle) <= polar):
+        raise BodyError(name, "moments", moments, "no moment may exceed the sum of the other two")
+    difference = polar - (small + middle) / 2
+    return {
+        "j2": difference / scale,
+        "dynamical_flattening": difference / polar,
+        "triaxiality": abs(middle - small) / scale,
+    }
+
+
+# --- fields of a body from its mass distribution --------------------------------------------------
+
 #: Numbers of a body by field, SI.
 Fields = dict[str, Any]
 
@@ -38,7 +107,7 @@ def of_masses(masses: Any, positions: Any, radius: Any) -> Fields:
     """Compute mass and figure of a body that consists of point masses (kg) at positions (m)."""
     from earthspin.mass.shape import Shape
 
-    return _of(
+    return _fields_of(
         Shape.of_masses(
             _si(masses, "kg", "masses", "1e12 kg"),
             _si(positions, "m", "positions", "500 m"),
@@ -53,14 +122,14 @@ def of_density(density: Any, edges: tuple[Any, Any, Any], radius: Any) -> Fields
 
     x, y, z = (_si(edge, "m", axis, "1 km") for axis, edge in zip("xyz", edges, strict=True))
     rho = _si(density, "kg/m3", "density", "2000 kg/m3")
-    return _of(Shape.of_density(rho, x, y, z, _optional(radius, "m", "radius", "1 km")))
+    return _fields_of(Shape.of_density(rho, x, y, z, _optional(radius, "m", "radius", "1 km")))
 
 
 def of_mesh(mesh: Any, unit: str, density: Any, mass: Any, radius: Any) -> Fields:
     """Compute mass and figure of a homogeneous body bounded by triangles in the given unit."""
     from earthspin.mass.shape import Shape
 
-    return _of(
+    return _fields_of(
         Shape.of_mesh(
             *_mesh(mesh, unit),
             density=_optional(density, "kg/m3", "density", "2000 kg/m3"),
@@ -70,7 +139,7 @@ def of_mesh(mesh: Any, unit: str, density: Any, mass: Any, radius: Any) -> Field
     )
 
 
-def _of(shape: Shape) -> Fields:
+def _fields_of(shape: Shape) -> Fields:
     return {
         "gm": G.value * shape.mass,
         "radius": shape.radius,
@@ -181,3 +250,174 @@ def of_layers(layers: LayeredBody | str | Mapping[str, Any], spin_period: Any) -
         "interior": layers,
         "reference": f"hydrostatic equilibrium of {layers.reference}",
     }
+
+
+# --- constructors of `Body` -----------------------------------------------------------------------
+
+
+class FromMass:
+    """Constructors of a body from point masses, a density, a mesh or layers.
+
+    Each accepts the body's other fields as `Body.replace` does.
+    """
+
+    def __init__(self, **fields: Any) -> None:
+        """Accept the fields of a body as keyword arguments; `Body` implements this."""
+
+    def replace(self, **changes: Any) -> Self:
+        """Return a copy with some fields changed; `Body` implements this."""
+        raise NotImplementedError
+
+    @classmethod
+    def from_masses(
+        cls,
+        masses: Any,
+        positions: Any,
+        *,
+        name: str = "point masses",
+        radius: Any = None,
+        **fields: Any,
+    ) -> Self:
+        """Make a body from point masses; it spins about its axis of greatest inertia.
+
+        Parameters
+        ----------
+        masses : array_like or Quantity, shape (k,)
+            kg.
+        positions : array_like or Quantity, shape (k, 3)
+            m, along any axes.
+        name : str
+        radius : float, str or Quantity, optional
+            Reference radius of J2, J3 and J4. Default: the distance of the farthest mass from the
+            centre of mass.
+        **fields
+            More fields of `Body`, such as ``spin_period="5 h"``, as `replace` takes them.
+
+        Raises
+        ------
+        BodyError, UndefinedError
+            If a mass is not positive, the shapes do not match, or all masses are at one point.
+
+        Examples
+        --------
+        >>> import earthspin
+        >>> dumbbell = earthspin.Body.from_masses([1e12, 1e12], [[-500, 0, 0], [500, 0, 0]])
+        >>> print(dumbbell.moments.round(3))
+        [0.e+00 5.e+17 5.e+17]
+        """
+        return cls(name=name, **of_masses(masses, positions, radius)).replace(**fields)
+
+    @classmethod
+    def from_density(
+        cls,
+        density: Any,
+        x: Any,
+        y: Any,
+        z: Any,
+        *,
+        name: str = "grid",
+        radius: Any = None,
+        **fields: Any,
+    ) -> Self:
+        """Make a body from a density that is constant in each cell of a grid; exact for such cells.
+
+        Parameters
+        ----------
+        density : array_like or Quantity, shape (nx, ny, nz)
+            kg m-3; zero in empty cells.
+        x, y, z : array_like or Quantity
+            Edges of the cells in increasing order, one more than there are cells, m.
+        name, radius, **fields
+            As for `from_masses`; the default radius is that of the farthest corner of a cell.
+
+        Raises
+        ------
+        BodyError, UndefinedError
+            If a density is negative, all are zero, or the edges do not increase or match the cells.
+
+        Examples
+        --------
+        >>> import earthspin
+        >>> brick = earthspin.Body.from_density([[[2000.0]]], [0, 3], [0, 2], [0, 1])
+        >>> print(brick.moments.round(6))
+        [ 5000. 10000. 13000.]
+        """
+        return cls(name=name, **of_density(density, (x, y, z), radius)).replace(**fields)
+
+    @classmethod
+    def from_mesh(
+        cls,
+        mesh: Any,
+        *,
+        density: Any = None,
+        mass: Any = None,
+        unit: str = "m",
+        name: str = "mesh",
+        radius: Any = None,
+        **fields: Any,
+    ) -> Self:
+        """Make a homogeneous body from a closed mesh of triangles; exact for flat faces.
+
+        Parameters
+        ----------
+        mesh : path, Trimesh, or (vertices, faces)
+            Mesh, or a file in a format that trimesh reads, such as OBJ, PLY, STL, OFF. The corners
+            of each triangle are counter-clockwise as seen from outside.
+        density, mass : float, str or Quantity
+            Exactly one of the two.
+        unit : str
+            Unit of the vertices; most file formats do not store it.
+        name, radius, **fields
+            As for `from_masses`.
+
+        Raises
+        ------
+        BodyError
+            If the mesh is open or inside out, or not exactly one of density and mass is given.
+        SeriesError
+            If the file cannot be read.
+        MissingExtraError
+            If a file is given and the extra `mesh` is not installed.
+
+        Examples
+        --------
+        >>> import earthspin
+        >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+        >>> faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+        >>> rock = earthspin.Body.from_mesh((corners, faces), density="3 g/cm3", unit="km")
+        >>> print(f"{rock.mass:.6e} kg")
+        5.000000e+11 kg
+        """
+        return cls(name=name, **of_mesh(mesh, unit, density, mass, radius)).replace(**fields)
+
+    @classmethod
+    def from_layers(
+        cls, layers: Any, *, spin_period: Any, name: str = "layers", **fields: Any
+    ) -> Self:
+        """Make a body from layers in hydrostatic equilibrium, to first order in its flattening.
+
+        The layers are also stored as the body's `interior`.
+
+        Parameters
+        ----------
+        layers : LayeredBody, str or mapping
+            Layers, the name of an interior with layers, such as ``"prem"``, or a table of layers or
+            samples.
+        spin_period : float, str or Quantity
+            Rotation period, which determines the flattening.
+        name, **fields
+            As for `from_masses`.
+
+        Raises
+        ------
+        SceneError
+            If there is no such interior, it has no layers, or the table is invalid.
+
+        Examples
+        --------
+        >>> import earthspin
+        >>> slow = earthspin.Body.from_layers("prem", spin_period="48 h")
+        >>> print(f"1/{1 / slow.flattening:.0f}")
+        1/1206
+        """
+        return cls(name=name, **of_layers(layers, spin_period)).replace(**fields)

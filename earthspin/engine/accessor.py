@@ -6,14 +6,14 @@
 from __future__ import annotations
 
 from collections import Counter
-from importlib import import_module
 from itertools import product
+from types import MethodType
 from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
-import earthspin
-from earthspin.engine.plan import Plan, plan_parts, scene_of, with_run_times
+from earthspin.engine.plan import Plan
+from earthspin.engine.registry import METHODS, registered
 from earthspin.engine.spread import quantiles, sensitivity
 from earthspin.errors import SceneError
 
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
     import pandas as pd
     from astropy.coordinates import SkyCoord
-    from astropy.utils.iers import IERS_A
 
     from earthspin.engine.question import Question
 
@@ -36,13 +35,18 @@ _NO_VECTOR = "the answer has no vector in the GCRS"
 class Answer:
     """Accessor `ds.earthspin` of a result Dataset: its question, plan, statistics and figures.
 
+    Packages above the engine register further methods: `plot` of all answers, `to_iers_table` of a
+    forecast.
+
     Attributes
     ----------
+    dataset : Dataset
+        The answer itself.
     scene : Question
         The question of this answer, with every number.
     plan : Plan
         Plan of the run: parts that ran, and parts that were left out, with reasons; with run times
-        if it ran in this process.
+        in an answer as it was returned, but not in a copy or a selection.
 
     Examples
     --------
@@ -53,18 +57,31 @@ class Answer:
     """
 
     def __init__(self, answer: xr.Dataset | xr.DataTree) -> None:
-        self._dataset = answer.to_dataset() if isinstance(answer, xr.DataTree) else answer
+        self.dataset = answer.to_dataset() if isinstance(answer, xr.DataTree) else answer
+        self.ran: Plan | None = None  # set on an answer as it is returned
+
+    def __getattr__(self, name: str) -> Any:
+        """Return a registered method by its name."""
+        if name not in METHODS:
+            raise AttributeError(f"'{type(self).__name__}' object has no attribute '{name}'")
+        return MethodType(registered(name), self)
+
+    def __dir__(self) -> list[str]:
+        """List the attributes, with the registered methods."""
+        return [*super().__dir__(), *METHODS]
 
     @property
     def scene(self) -> Question:
         """Question that this Dataset answers, with the values of all its input parameters."""
-        question: Question = earthspin.load_scene(self._dataset)
+        question: Question = registered("load_scene")(self.dataset)
         return question
 
     @property
     def plan(self) -> Plan:
         """Plan of the run: functions that ran, and functions left out, with the reasons."""
-        return with_run_times(plan_parts(self.scene), scene_of(self._dataset))
+        if self.ran is None:
+            self.ran = registered("plan")(self.scene)
+        return self.ran
 
     def to_frame(self) -> pd.DataFrame:
         """Return the result as a pandas table: a row for each label, a column for each number.
@@ -87,7 +104,7 @@ class Answer:
              moon            37613.9
             total            25712.1
         """
-        spread = _spread(self._dataset)
+        spread = _spread(self.dataset)
         names: list[str] = []
         for name in (str(n) for n, v in spread.data_vars.items() if v.ndim or not spread.sizes):
             errors = [str(n) for n in spread.data_vars if str(n).startswith(f"{name}{_ERROR}")]
@@ -123,7 +140,7 @@ class Answer:
         """
         from astropy.coordinates import SkyCoord
 
-        data = self._dataset
+        data = self.dataset
         if not isinstance(name, str):
             raise SceneError("to_skycoord", name, "give the name of a vector")
         if not name and {"X", "Y", "Z"} <= set(data.data_vars):
@@ -145,39 +162,6 @@ class Answer:
         )
         coordinates.representation_type = "unitspherical"
         return coordinates
-
-    def to_iers_table(self) -> IERS_A:
-        """Convert a forecast to an astropy table of Earth orientation parameters.
-
-        Polar motion and celestial pole offsets are observed up to the origin and forecast after
-        it, day by day and without errors. UT1 - UTC is that of finals2000A. Dates outside the table
-        are refused, even if astropy would only warn.
-
-        Returns
-        -------
-        astropy.utils.iers.IERS_A
-
-        Raises
-        ------
-        SceneError
-            If the answer is not a forecast, if the forecast used polar motion without a table, or
-            if it reaches farther than the UT1 - UTC of finals2000A.
-
-        Examples
-        --------
-        >>> import earthspin
-        >>> from astropy.utils import iers
-        >>> table = earthspin.forecast(90).earthspin.to_iers_table()
-        >>> with iers.earth_orientation_table.set(table):
-        ...     pass  # transformations of astropy.coordinates
-        """
-        question = self.scene
-        if question.word != "forecast":
-            problem = f"an answer of '{question.word}' has no table; give one of 'forecast'"
-            raise SceneError("to_iers_table", question.word, problem)
-        # imported by name, because the engine is below the questions
-        forecast = import_module("earthspin.questions.forecast")
-        return forecast.iers_table(question)
 
     def quantiles(self, shares: Sequence[float] = (0.025, 0.5, 0.975)) -> xr.Dataset:
         """Return quantiles over the ensemble members of every result that depends on them.
@@ -206,7 +190,7 @@ class Answer:
         >>> print(period.round(2).values)
         [25712.07 25712.08 25712.1 ]
         """
-        return quantiles(self._dataset, shares)
+        return quantiles(self.dataset, shares)
 
     def sensitivity(self) -> xr.Dataset:
         """Compute how much each ensemble input contributes to the variance of each result.
@@ -238,36 +222,7 @@ class Answer:
         >>> print(float(share.sel(input="body.dynamical_flattening").round(3)))
         1.0
         """
-        return sensitivity(self._dataset)
-
-    def plot(self) -> Any:
-        """Draw the standard figures of this result.
-
-        Returns
-        -------
-        list of Figure
-
-        Raises
-        ------
-        SceneError
-            If this is a selection of an answer that cannot be drawn.
-
-        Examples
-        --------
-        >>> import earthspin
-        >>> year = earthspin.torque_series("2026-01-01", "2027-01-01", "6 h")
-        >>> year.earthspin.plot()[0].savefig("torque.png")
-        """
-        views = import_module("earthspin.views.of_question")  # at run time: views import the engine
-        if figures := views.figures_of_fit(self._dataset):
-            return figures
-        question = self.scene
-        try:
-            return views.figures_of(self._dataset)
-        except (AttributeError, KeyError, ValueError):
-            selection = f"a selection of the answer to '{question.word}'"
-            remedy = "plot the full result, which earthspin.run(ds) computes again"
-            raise SceneError("plot", selection, remedy) from None
+        return sensitivity(self.dataset)
 
 
 def _spread(dataset: xr.Dataset) -> xr.Dataset:

@@ -9,9 +9,8 @@ import numpy as np
 
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.members import MEMBER, Members
-from earthspin.engine.plan import ALL, plan_parts
 from earthspin.engine.question import NEGLECTED, Question
-from earthspin.engine.run import run_parts
+from earthspin.engine.run import ALL, Run
 from earthspin.errors import SceneError
 
 if TYPE_CHECKING:
@@ -45,7 +44,7 @@ def answer(question: Question) -> xr.Dataset:
     """
     if question.members is not None:
         return Ensemble(question, in_memory=True).hold()
-    result = run_parts(plan_parts(question)).answer()
+    result = Run(question).answer()
     return _with_sample(question, result) if question.uncertainty == "sample" else result
 
 
@@ -73,11 +72,11 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
             problem = f"an ensemble has only the section '{NEGLECTED}'; request that or none"
             raise SceneError("sections", sections, problem)
         work = Ensemble(question, in_memory=True)
-        nodes = {"/": work.hold(), "plan": work.plan_data()}
+        nodes = {"/": work.hold(), "plan": work.nominal_run.plan().dataset()}
         if named:
-            nodes[NEGLECTED] = answer_tree(work.first_variant, NEGLECTED)[NEGLECTED].to_dataset()
+            nodes[NEGLECTED] = work.nominal_run.tree(NEGLECTED)[NEGLECTED].to_dataset()
         return xr.DataTree.from_dict(nodes)
-    tree = run_parts(plan_parts(question, sections)).tree()
+    tree = Run(question).tree(sections)
     if question.uncertainty == "sample":
         tree.dataset = _with_sample(question, tree.to_dataset())
     return tree

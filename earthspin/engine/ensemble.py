@@ -20,14 +20,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from earthspin.engine import loop
+from earthspin.engine import blocks
+from earthspin.engine.blocks import Layout, request_of
 from earthspin.engine.inputs import along_members, inputs_of, published, with_values
 from earthspin.engine.members import MEMBER, TWICE, IntArray, Members, draw
-from earthspin.engine.plan import SCENE
-from earthspin.engine.question import Question
-from earthspin.engine.run import Rerun, plan_data, scene_text
-from earthspin.engine.series import request_of
-from earthspin.engine.unfinished import Layout
+from earthspin.engine.question import NEGLECTED, SCENE, Question, scene_text
+from earthspin.engine.run import Run
 from earthspin.errors import ApartError, EarthspinError, SceneError
 
 if TYPE_CHECKING:
@@ -89,8 +87,7 @@ class Ensemble:
         nominal = {name: getattr(question, name) for name in question.by_body}
         self.full_question, self.question = question, question.replace(members=None, **nominal)
         self._length = block
-        self._runs: OrderedDict[Names, Rerun] = OrderedDict()
-        self._descriptions: dict[Names, dict[str, Mapping[str, Any]]] = {}
+        self._runs: OrderedDict[Names, Run] = OrderedDict()
         members, where = question.members or Members(), question.where("members")
         for name in members.distributions.keys() & members.values.keys():
             raise where.at(name).error("...", TWICE)
@@ -121,8 +118,8 @@ class Ensemble:
 
     def __getstate__(self) -> dict[str, Any]:
         _ = self.layout, self.width  # computed once, before workers receive copies
-        state = vars(self) | {"_runs": OrderedDict(), "_descriptions": {}}
-        return {name: value for name, value in state.items() if name != "nominal"}
+        state = vars(self) | {"_runs": OrderedDict()}
+        return {n: value for n, value in state.items() if n not in ("nominal", "descriptions")}
 
     # --- size and run time -----------------------------------------------------------------------
 
@@ -222,53 +219,49 @@ class Ensemble:
         keys = (entry.key for entry in self.named.values())
         return self.question.replace(**dict(zip(keys, names, strict=True)))
 
-    def run(self, names: Names) -> Rerun:
-        """Return the stored run for the given names, which repeats what depends on the numbers."""
+    def run(self, names: Names) -> Run:
+        """Run of the question with the given names and its own numbers, kept for its results."""
         if names not in self._runs:
-            moving = {entry.key for entry in self.numbers.values()}
-            self._runs[names] = Rerun(self.variant(names), moving)
+            self._runs[names] = Run(self.variant(names))
             if len(self._runs) > LARGEST_NUMBER_OF_RUNS:
                 self._runs.popitem(last=False)
         self._runs.move_to_end(names)
         return self._runs[names]
 
-    def _answer_for(self, names: Names) -> xr.Dataset:
-        """Compute the answer for the given names with the question's own numbers."""
-        run = self.run(names)()
-        answer = run.answer()
-        self._descriptions[names] = {
-            _WHOLE: answer.attrs,
-            _SOURCES: run.provenance,
-            **{str(name): array.attrs for name, array in answer.variables.items()},
-        }
-        return answer
+    def _changed(self, names: Names, values: Mapping[str, Any]) -> xr.Dataset:
+        """Numbers of the answer for other inputs; only what depends on these is computed again."""
+        run = self.run(names)
+        return run.again(with_values(run.question, self.numbers, values)).numbers()
 
-    def _described(self, name: str) -> dict[Names, Mapping[str, Any]]:
-        """Attributes of one variable, or of the whole answer, for the names of each group."""
-        for names in self.groups:
-            if names not in self._descriptions:
-                self._answer_for(names)
-        return {
-            names: self._descriptions[names][name]
-            for names in self.groups
-            if name in self._descriptions[names]
-        }
+    @property
+    def nominal_run(self) -> Run:
+        """Run for the nominal numbers; inputs given by name are those of the first member."""
+        return self.run(next(iter(self.groups)))
 
     @cached_property
     def nominal(self) -> xr.Dataset:
         """Answer for the nominal numbers; inputs given by name are those of the first member."""
-        return self._answer_for(next(iter(self.groups)))
+        return self.nominal_run.answer()
 
-    @property
-    def first_variant(self) -> Question:
-        """The question for the nominal numbers and for the names of the first member."""
-        return self.variant(next(iter(self.groups)))
+    @cached_property
+    def descriptions(self) -> dict[Names, dict[str, Mapping[str, Any]]]:
+        """Attributes by the names of each group: of variables, of the whole answer, and sources."""
+        descriptions: dict[Names, dict[str, Mapping[str, Any]]] = {}
+        for names in self.groups:
+            run = self.run(names)
+            answer = run.answer()
+            descriptions[names] = {
+                _WHOLE: answer.attrs,
+                _SOURCES: run.provenance([*run.graph.answer, NEGLECTED]),
+                **{str(name): array.attrs for name, array in answer.variables.items()},
+            }
+        return descriptions
 
-    def plan_data(self) -> xr.Dataset:
-        """Plan of the computation for the first member, as a Dataset."""
-        return plan_data(self.run(next(iter(self.groups)))().plan)
+    def _described(self, name: str) -> dict[Names, Mapping[str, Any]]:
+        """Attributes of one variable, or of the whole answer, in those groups that have it."""
+        return {names: each[name] for names, each in self.descriptions.items() if name in each}
 
-    # --- work of `loop` --------------------------------------------------------------------------
+    # --- work of `blocks` ------------------------------------------------------------------------
 
     @property
     def what(self) -> str:
@@ -316,11 +309,11 @@ class Ensemble:
         """
         if self.which.size <= MANY:  # more are estimated before they are drawn
             self._refuse_size(self.nominal.nbytes)
-        return loop.hold(self, client=client)
+        return blocks.hold(self, client=client)
 
     def write(self, path: str | Path, client: object = None) -> Path:
         """Compute the ensemble into a Zarr store, or continue an unfinished store."""
-        return loop.write(self, path, client=client)
+        return blocks.write(self, path, client=client)
 
     def first(self) -> xr.Dataset:
         """Compute the first block of members, with the attributes of the whole ensemble.
@@ -384,9 +377,7 @@ class Ensemble:
         """Compute the answer for one member, or for several members with equal names."""
         which = _list_of_numbers(self.which[indices].tolist())
         try:
-            run = self.run(names)
-            question = with_values(run.plan.question, self.numbers, values)
-            answer = run(question).numbers()
+            answer = self._changed(names, values)
         except EarthspinError as error:
             error.args = (f"member {which}: {error}",)
             raise

@@ -94,15 +94,6 @@ class Neglected:
         known = f"{name}: {shown:.3g} {self.unit} ({self.what})"
         return f"{known}; {unknown}" if unknown else known
 
-    def mark(self, answer: xr.Dataset, headline: str) -> None:
-        """Write the largest neglected effect beside the error of the headline number of an answer.
-
-        Errors do not contain what the model leaves out, which may be larger.
-        """
-        error = error_of(answer, headline)
-        if self.sizes and error in answer:
-            answer[error].attrs["not_modelled"] = self.largest
-
     def dataset(self, effects: Sequence[str] = ()) -> xr.Dataset:
         """Return the sizes as a Dataset along `effect`, with the largest effect first.
 

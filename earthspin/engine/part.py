@@ -7,6 +7,7 @@ optional parameters needs at least one of them.
 
 from __future__ import annotations
 
+import dis
 import inspect
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Mapping
@@ -121,6 +122,26 @@ class Part(Generic[P, R]):
     def uses(self) -> tuple[str, ...]:
         """Names of the optional inputs of this part (function): parameters with default None."""
         return _parameters(self.function, None)
+
+    @cached_property
+    def imports(self) -> tuple[tuple[str, str], ...]:
+        """Modules, each with a name, that the function or its helpers import when they run.
+
+        Helpers are the functions of the same module that it calls.
+        """
+        late, functions = list[tuple[str, str]](), list[Any]([self.function])
+        for function in functions:  # the list grows by the helpers
+            module = ""
+            for step in dis.get_instructions(function):
+                if step.opname == "IMPORT_NAME":
+                    module = step.argval
+                elif step.opname == "IMPORT_FROM":
+                    late.append((module, step.argval))
+                elif step.opname == "LOAD_GLOBAL":
+                    helper = function.__globals__.get(step.argval)
+                    is_helper = inspect.isfunction(helper) and helper.__module__ == self.__module__
+                    functions += [helper] * (is_helper and helper not in functions)
+        return tuple(dict.fromkeys(late))
 
     def reason(self, keys: dict[str, Any]) -> str | None:
         """Return the reason (text) to omit this part for given inputs, else None."""

@@ -20,6 +20,8 @@ from earthspin.units import Kind, kind_of
 
 #: Name of the part that lists the effects that the model of a question does not include.
 NEGLECTED = "neglected"
+#: Attribute of an answer that holds the complete question as the text of a scene file.
+SCENE = "scene"
 
 
 def key(default: Any = MISSING, *, doc: str) -> Any:
@@ -114,8 +116,6 @@ class Question:
         Name of the public function.
     table : str
         Name of the question's own table of settings in a scene; empty if it has none.
-    views : str
-        Module of `views` that makes the figures, and tables other than those of every answer.
     page : str
         Page of the documentation that explains the method; empty if there is none.
     headline : str
@@ -132,7 +132,6 @@ class Question:
     word: ClassVar[str]
     call: ClassVar[str]
     table: ClassVar[str]
-    views: ClassVar[str] = "tables"
     page: ClassVar[str] = ""
     headline: ClassVar[str] = ""
     positional: ClassVar[tuple[str, ...]]
@@ -386,6 +385,50 @@ def unknown_key(question: type[Question], name: str) -> str:
     return f"compute = '{question.word}' has no such key: delete or rename it; {allowed}"
 
 
+# --- text of a scene ------------------------------------------------------------------------------
+
+
+def scene_of(answer: Any) -> str:
+    """Text of the scene (input file) that a result stores; empty if there is none.
+
+    A netCDF file holds the scene as a variable, so that ``ncdump -h`` stays readable.
+    """
+    text = answer.attrs.get(SCENE, "")
+    if not text and SCENE in getattr(answer, "data_vars", ()):
+        text = answer[SCENE].values.tolist()
+    return text if isinstance(text, str) else ""
+
+
+def scene_text(question: Question) -> str:
+    """Write a question, with the values of all its inputs, as the text of a scene file."""
+    import tomli_w
+
+    packed: list[str] = []
+    text = tomli_w.dumps(_without_bytes(question.to_table(), packed))
+    for number, data in enumerate(packed):
+        text = text.replace(f'"{_PACKED.format(number)}"', f'"{data}"', 1)
+    return text
+
+
+#: Placeholder for packed arrays while tomli_w writes a scene, since it writes long text slowly.
+_PACKED = "earthspin: packed array {}"
+
+
+def _without_bytes(value: Any, packed: list[str]) -> Any:
+    """Copy a table with encoded arrays replaced by placeholders; append the arrays to `packed`."""
+    if isinstance(value, list):
+        return [_without_bytes(item, packed) for item in value]
+    if not isinstance(value, dict):
+        return value
+    short = {
+        name: _without_bytes(item, packed) for name, item in value.items() if name != "float64"
+    }
+    if "float64" in value:
+        packed.append(value["float64"])
+        short["float64"] = _PACKED.format(len(packed) - 1)
+    return short
+
+
 # --- what a question is made of ------------------------------------------------------------------
 
 
@@ -413,6 +456,12 @@ class Graph:
     sections: dict[str, tuple[str, ...]]
     together: tuple[str, ...] = ()
     widest: int = 1
+
+    @cached_property
+    def labels(self) -> frozenset[str]:
+        """Names of all variables of results, and of their dimensions."""
+        declared = [item for part in self.parts.values() for item in part.gives.items()]
+        return frozenset(name for variable, entry in declared for name in (variable, *entry.dims))
 
 
 Parts = Part[..., Any] | tuple[Part[..., Any], ...]

@@ -1,154 +1,282 @@
-"""Run the parts (functions) of a plan in order, and merge their results into an answer."""
+"""Run a question: each part is computed when its result is first asked for.
+
+What is not asked for is not computed. The plan that people read is the same walk through the parts,
+without the calls.
+"""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from functools import cache
+from typing import TYPE_CHECKING, Any, Self
 
 from earthspin._version import __version__, version
-from earthspin.engine.imports import import_clock
 from earthspin.engine.labels import CONVENTIONS
-from earthspin.engine.neglected import Neglected
-from earthspin.engine.plan import IMPORTS, SCENE, Plan, plan_parts, remember_run
-from earthspin.engine.question import NEGLECTED, Question
+from earthspin.engine.neglected import Neglected, error_of
+from earthspin.engine.plan import IMPORTS, NOT_REQUESTED, Plan
+from earthspin.engine.question import NEGLECTED, SCENE, Question, scene_text
 from earthspin.engine.variables import Variables
-from earthspin.errors import UndefinedError
+from earthspin.errors import SceneError, UndefinedError, nearest
 
 if TYPE_CHECKING:
     import xarray as xr
 
+#: Word that requests all sections that apply.
+ALL = "all"
 
-@dataclass(frozen=True)
+
 class Run:
-    """A completed run: its plan, and the results of all parts (functions) by name."""
-
-    plan: Plan
-    results: dict[str, Any]
-
-    @property
-    def provenance(self) -> dict[str, str]:
-        """Software versions, and checksums of data files, behind all results of the run."""
-        return _sources(self.results.values())
-
-    def provenance_of(self, parts: Iterable[str]) -> dict[str, str]:
-        """Software versions, and checksums of data files, behind the results of some parts.
-
-        Sources of the inputs of these parts and of the keys of the question are included.
-        """
-        others = {part.name for part in self.plan.parts} - behind(self.plan, parts)
-        return _sources(value for name, value in self.results.items() if name not in others)
-
-    def numbers(self) -> xr.Dataset:
-        """Merge the results of all parts of the answer into a Dataset without attributes."""
-        return self._merged(self.plan.question.graph.answer)
-
-    def answer(self) -> xr.Dataset:
-        """Return the answer as a Dataset, with title, references and other attributes."""
-        import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
-
-        result = self.numbers()
-        result.attrs = _attributes(self)
-        self.results[NEGLECTED].mark(result, self.plan.question.headline)
-        remember_run(result.attrs[SCENE], self.plan)
-        return result
-
-    def tree(self) -> xr.DataTree:
-        """Return a DataTree: the answer at the root, its sections, and the plan of the run."""
-        import xarray as xr
-
-        answer = self.answer()
-        effects = answer["effect"].values.tolist() if "effect" in answer.coords else ()
-        sections = self.plan.question.graph.sections
-        nodes = {name: self._merged(sections[name], effects) for name in self.plan.sections}
-        for name, node in nodes.items():
-            sources = self.provenance_of(sections[name])
-            node.attrs |= {key: word for key, word in sources.items() if key not in answer.attrs}
-        return xr.DataTree.from_dict({"/": answer, **nodes, "plan": plan_data(self.plan)})
-
-    def _merged(self, parts: Iterable[str], effects: Sequence[str] = ()) -> xr.Dataset:
-        """Merge the results of some parts into one Dataset."""
-        results = [self.results[name] for name in parts if name in self.results]
-        first, *others = (
-            result.dataset(effects) if isinstance(result, Neglected) else result
-            for result in results
-        )
-        for other in others:
-            first = first.merge(other, join="exact", combine_attrs="override")
-        return first.copy()
-
-
-def _sources(values: Iterable[Any]) -> dict[str, str]:
-    """Collect software versions, and checksums of data files, from results or inputs."""
-    sources: dict[str, str] = {}
-    for value in values:
-        sources |= getattr(value, "provenance", {})
-    return sources
-
-
-def behind(plan: Plan, parts: Iterable[str]) -> set[str]:
-    """Names of the given parts, and of all parts and inputs on which they depend."""
-    names = {*parts}
-    for part in reversed(plan.parts):
-        if part.name in names:
-            names |= {*part.needs, *part.uses}
-    return names
-
-
-class Rerun:
-    """Run a question repeatedly with some inputs changed; recompute only what depends on them.
+    """Results of the parts behind a question, each computed when it is first asked for.
 
     Parameters
     ----------
     question : Question
-    changing : iterable of str
-        Names of the keys that change; ``"block"`` for blocks of a long series.
+    **values
+        Values that the question does not have: the block of a long series.
+
+    Attributes
+    ----------
+    values : dict of str to object
+        Inputs of the question, and the results so far, by name.
+
+    Raises
+    ------
+    SceneError
+        If nothing that answers the question can run; it gives the reason.
     """
 
-    def __init__(self, question: Question, changing: Iterable[str]) -> None:
-        self.plan, self.changing = plan_parts(question), {*changing}
-        for part in self.plan.parts:
-            if self.changing & {*part.needs, *part.uses}:
-                self.changing.add(part.name)
-        fixed = tuple(part for part in self.plan.parts if part.name not in self.changing)
-        self.fixed = run_parts(replace(self.plan, parts=fixed))
+    def __init__(self, question: Question, **values: Any) -> None:
+        self.question, self.graph, self.keys = question, question.graph, question.keys()
+        self.values: dict[str, Any] = self.keys | values
+        self._seconds: dict[str, float] = {}
+        self._reused: set[str] = set()
+        self._reasons: dict[str, str] = {}
+        self._behind: dict[str, dict[str, None]] = {}
+        self._refuse_taken_dimensions()
+        if why := self.why_not(self.graph.answer[0]):
+            raise question.error("compute", question.word, f"nothing to do: {why}")
 
-    def __call__(self, question: Question | None = None, **values: object) -> Run:
-        """Run the parts that depend on the changed inputs, and reuse all other results.
-
-        The question may differ from the original one in these keys.
-        """
-        plan = self.plan if question is None else plan_parts(question)
-        names = {part.name for part in plan.parts} - self.changing
-        before = {name: value for name, value in self.fixed.results.items() if name in names}
-        return run_parts(plan, before | values)
-
-
-def run_parts(plan: Plan, before: Mapping[str, Any] | None = None) -> Run:
-    """Run the parts (functions) of a plan in order, except those with a result in `before`."""
-    values = plan.question.keys() | dict(before or {})
-    seconds: dict[str, float] = {}
-    reused: set[str] = set()
-    with import_clock() as imports:
-        imported = imports.seconds
-        for part in plan.parts:
-            if part.name in values:
-                continue
-            inputs = {name: values[name] for name in part.needs}
-            inputs |= {name: values[name] for name in part.uses if name in values}
-            begun = time.perf_counter() - imports.seconds
-            with in_range(part.name):
-                value, is_stored = part.stored_or_computed(inputs)
-                if isinstance(value, Neglected):
-                    value = value.also(plan.question.unused)
-                values[part.name] = value.dataset() if isinstance(value, Variables) else value
-            seconds[part.name] = time.perf_counter() - imports.seconds - begun
+    def __getitem__(self, name: str) -> Any:
+        """Result of a part, or value of an input, by name; it is computed at the first time."""
+        if name not in self.values:
+            part = self.graph.parts[name]
+            inputs = {other: self[other] for other in self.inputs(name)}
+            begun = time.perf_counter()
+            with in_range(name):
+                result, is_stored = part.stored_or_computed(inputs)
+                self.values[name] = result.dataset() if isinstance(result, Variables) else result
+            self._seconds[name] = time.perf_counter() - begun
             if is_stored:
-                reused.add(part.name)
-        seconds[IMPORTS] = imports.seconds - imported
-    return Run(replace(plan, seconds=seconds, reused=frozenset(reused)), values)
+                self._reused.add(name)
+        return self.values[name]
+
+    # --- the walk --------------------------------------------------------------------------------
+
+    def why_not(self, name: str) -> str:
+        """Return the reason why a part is left out; empty if it can run."""
+        if name in self._reasons:
+            return self._reasons[name]
+        part, parts = self.graph.parts[name], self.graph.parts
+        lacking = [other for other in part.needs if other in parts and self.why_not(other)]
+        offered = [other for other in part.uses if other in parts]
+        why = part.reason(self.keys) or ""
+        if not why and lacking:
+            reason = self.why_not(lacking[0])
+            why = f"it needs {parts[lacking[0]].title}, which is left out: {reason}"
+        if not why and offered and not part.needs and all(map(self.why_not, offered)):
+            # without required inputs, it needs one of the optional ones
+            why = "; ".join(f"no {parts[other].title}: {self.why_not(other)}" for other in offered)
+        self._reasons[name] = why
+        return why
+
+    def inputs(self, name: str) -> list[str]:
+        """Names of the inputs and results that a part takes in this run; empty for an input."""
+        part, parts = self.graph.parts.get(name), self.graph.parts
+        if part is None:
+            return []
+        offered = (
+            n for n in part.uses if (not self.why_not(n) if n in parts else n in self.values)
+        )
+        return [*part.needs, *offered]
+
+    def behind(self, names: Iterable[str]) -> dict[str, None]:
+        """Names of the inputs and parts behind some parts, themselves included, in order.
+
+        Parts that are left out are omitted.
+        """
+        union: dict[str, None] = {}
+        for name in names:
+            if name in self.graph.parts and self.why_not(name):
+                continue
+            if name not in self._behind:
+                self._behind[name] = self.behind(self.inputs(name)) | {name: None}
+            union |= self._behind[name]
+        return union
+
+    def plan(self, sections: str | Iterable[str] = ()) -> Plan:
+        """Plan of this run: parts that it needs for the answer and some sections, and the others.
+
+        Parameters
+        ----------
+        sections : str or iterable of str
+            Names of the requested sections; ``"all"`` requests all that apply.
+
+        Raises
+        ------
+        SceneError
+            If a section does not exist, or does not apply.
+        """
+        names, graph = self._named(sections), self.graph
+        ends = [
+            *graph.answer,
+            NEGLECTED,
+            *(part for name in names for part in graph.sections[name]),
+        ]
+        parts = tuple(graph.parts[name] for name in self.behind(ends) if name in graph.parts)
+        left_out = {
+            part.title: self.why_not(name) or NOT_REQUESTED
+            for name, part in graph.parts.items()
+            if part not in parts
+        }
+        seconds, reused = dict(self._seconds), frozenset(self._reused)
+        return Plan(self.question, parts, tuple(names), left_out, seconds, reused)
+
+    def _named(self, sections: str | Iterable[str]) -> list[str]:
+        """Names of the requested sections that apply, without duplicates, in standard order."""
+        known = self.graph.sections
+        try:
+            wanted = [sections] if isinstance(sections, str) else [*sections]
+        except Exception:  # not iterable
+            raise SceneError("sections", sections, f"give names, or '{ALL}'") from None
+        if sections == ALL:
+            return [name for name in known if not all(map(self.why_not, known[name]))]
+        for name in wanted:
+            if not isinstance(name, str) or name not in known:  # type: ignore[redundant-expr]
+                raise SceneError("sections", name, nearest(name, [*known, ALL]))
+            if all(map(self.why_not, known[name])):
+                why = self.why_not(known[name][0])
+                raise SceneError("sections", name, f"it does not apply: {why}")
+        return [name for name in known if name in wanted]
+
+    def again(self, question: Question | None = None, **values: Any) -> Self:
+        """Return a run with changed inputs, which has the results of this run that stay the same.
+
+        Parameters
+        ----------
+        question : Question, optional
+            Question of the same class; the same question by default.
+        **values
+            As for `Run`.
+        """
+        new = type(self)(question or self.question, **values)
+        same = {
+            name for name, value in new.values.items() if _is_same(self.values.get(name), value)
+        }
+        for name in new.behind([*self.graph.answer, NEGLECTED]):
+            inputs = new.inputs(name)
+            if name in self.graph.parts and same.issuperset(inputs) and inputs == self.inputs(name):
+                new.values[name] = self[name]
+                same.add(name)
+        return new
+
+    # --- answers ---------------------------------------------------------------------------------
+
+    def numbers(self) -> xr.Dataset:
+        """Merge the results of all parts of the answer into a Dataset without attributes."""
+        return self._merged(self.graph.answer)
+
+    def answer(self) -> xr.Dataset:
+        """Return the answer as a Dataset, with title, references and other attributes."""
+        ends = [*self.graph.answer, NEGLECTED]
+        self._load_modules(ends)
+        result, neglected = self.numbers(), self.neglected
+        result.attrs = _described(self.question) | self.provenance(ends)
+        result.attrs |= {NEGLECTED: neglected.largest, SCENE: scene_text(self.question)}
+        error = error_of(result, self.question.headline)
+        if neglected.sizes and error in result:  # errors do not contain what the model leaves out
+            result[error].attrs["not_modelled"] = neglected.largest
+        result.earthspin.ran = self.plan()
+        return result
+
+    def tree(self, sections: str | Iterable[str]) -> xr.DataTree:
+        """Return a DataTree: the answer at the root, its sections, and the plan of the run."""
+        import xarray as xr
+
+        names = self._named(sections)
+        self._load_modules(part for name in names for part in self.graph.sections[name])
+        answer = self.answer()
+        effects = answer["effect"].values.tolist() if "effect" in answer.coords else ()
+        nodes = {"/": answer}
+        for name in names:
+            parts = self.graph.sections[name]
+            nodes[name] = self._merged(parts, effects)
+            sources = self.provenance(parts)
+            nodes[name].attrs |= {key: sources[key] for key in sources if key not in answer.attrs}
+        return xr.DataTree.from_dict(nodes | {"plan": self.plan(names).dataset()})
+
+    @property
+    def neglected(self) -> Neglected:
+        """Effects that the model of the question does not include."""
+        neglected: Neglected = self[NEGLECTED]
+        return neglected.also(self.question.unused)
+
+    def provenance(self, names: Iterable[str], but: Iterable[str] = ()) -> dict[str, str]:
+        """Software versions, and checksums of data files, behind the results of some parts.
+
+        Parameters
+        ----------
+        names : iterable of str
+            Names of the parts. Sources of all inputs of the question are included.
+        but : iterable of str
+            Names of inputs; parts that depend on them are omitted, and not computed.
+        """
+        sources: dict[str, str] = {}
+        for name in [*self.keys, *self.behind(names)]:
+            if not self.behind([name]).keys() & {*but}:
+                sources |= getattr(self[name], "provenance", {})
+        return sources
+
+    def _merged(self, names: Iterable[str], effects: Sequence[str] = ()) -> xr.Dataset:
+        """Merge the results of those of the named parts that are not left out into one Dataset."""
+        results = [self[name] for name in names if not self.why_not(name)]
+        merged, *others = (
+            self.neglected.dataset(effects) if isinstance(result, Neglected) else result
+            for result in results
+        )
+        for other in others:
+            merged = merged.merge(other, join="exact", combine_attrs="override")
+        return merged.copy()
+
+    def _load_modules(self, names: Iterable[str]) -> None:
+        """Import what some parts need before they run, so that their run times are of the work."""
+        begun = time.perf_counter()
+        _load_xarray()
+        for name in self.behind(names):
+            if name in self.graph.parts:
+                for module, item in self.graph.parts[name].imports:
+                    __import__(module, fromlist=(item,))
+        self._seconds[IMPORTS] = self._seconds.get(IMPORTS, 0.0) + time.perf_counter() - begun
+
+    def _refuse_taken_dimensions(self) -> None:
+        """Raise an error if an array of a body uses a dimension name that results also use."""
+        for name, value in self.keys.items():
+            for inner, number in getattr(value, "__dict__", {}).items():
+                own = {*getattr(number, "dims", ()), *getattr(number, "coords", ())}
+                if clash := own and self.graph.labels & own:
+                    problem = "results already have this name; rename the dimension of the array"
+                    raise self.question.error(f"{name}.{inner}", min(clash), problem)
+
+
+@cache
+def _load_xarray() -> None:
+    """Import xarray, and the array libraries for which it looks when it makes its first Dataset."""
+    import xarray as xr
+
+    import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
+
+    xr.Dataset(coords={"part": [0]})
 
 
 @contextmanager
@@ -176,29 +304,16 @@ def in_range(what: str) -> Iterator[None]:
         ) from error
 
 
+def _is_same(old: object, new: object) -> bool:
+    """Return True if two values of an input are one object, or tuples of the same objects."""
+    return old is new or (isinstance(old, tuple) and isinstance(new, tuple) and old == new)
+
+
 # --- attributes ----------------------------------------------------------------------------------
 
 
-def plan_data(plan: Plan) -> xr.Dataset:
-    """Return the plan of a run as a Dataset, with the run time of each part."""
-    import xarray as xr
-
-    rows = plan.rows
-    why = "description of the part, or reason for leaving it out"
-    seconds = {"units": "s", "long_name": "run time of the part"}
-    return xr.Dataset(
-        {
-            "status": ("part", [row.status for row in rows], {"long_name": "whether the part ran"}),
-            "reason": ("part", [row.reason for row in rows], {"long_name": why}),
-            "run_time": ("part", [row.seconds or 0.0 for row in rows], seconds),
-        },
-        {"part": ("part", [row.part for row in rows], {"long_name": "part of the plan"})},
-    )
-
-
-def _attributes(run: Run) -> dict[str, str]:
-    """Global attributes of a result, such as title and references; equal in every run."""
-    question = run.plan.question
+def _described(question: Question) -> dict[str, str]:
+    """Attributes of a result that follow from its question: title, references, bodies, versions."""
     attributes = {
         "Conventions": CONVENTIONS,
         "title": question.title,
@@ -227,37 +342,4 @@ def _attributes(run: Run) -> dict[str, str]:
         elif isinstance(value, tuple) and value and all(isinstance(item, str) for item in value):
             attributes[name] = " ".join(value)
     attributes["references"] = "; ".join(dict.fromkeys(references))
-    attributes |= run.provenance_of([*question.graph.answer, NEGLECTED])
-    attributes[NEGLECTED] = run.results[NEGLECTED].largest
-    attributes[SCENE] = scene_text(question)
     return attributes
-
-
-def scene_text(question: Question) -> str:
-    """Write a question, with the values of all its inputs, as the text of a scene file."""
-    import tomli_w
-
-    packed: list[str] = []
-    text = tomli_w.dumps(_without_bytes(question.to_table(), packed))
-    for number, data in enumerate(packed):
-        text = text.replace(f'"{_PACKED.format(number)}"', f'"{data}"', 1)
-    return text
-
-
-#: Placeholder for packed arrays while tomli_w writes a scene, since it writes long text slowly.
-_PACKED = "earthspin: packed array {}"
-
-
-def _without_bytes(value: Any, packed: list[str]) -> Any:
-    """Copy a table with encoded arrays replaced by placeholders; append the arrays to `packed`."""
-    if isinstance(value, list):
-        return [_without_bytes(item, packed) for item in value]
-    if not isinstance(value, dict):
-        return value
-    short = {
-        name: _without_bytes(item, packed) for name, item in value.items() if name != "float64"
-    }
-    if "float64" in value:
-        packed.append(value["float64"])
-        short["float64"] = _PACKED.format(len(packed) - 1)
-    return short

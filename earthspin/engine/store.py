@@ -25,7 +25,7 @@ import numpy as np
 
 from earthspin.engine.drafts import as_path, check_identity, identity, mismatch_error, replacing
 from earthspin.engine.labels import IN_FILES
-from earthspin.engine.plan import SCENE, scene_of
+from earthspin.engine.question import SCENE, scene_of
 from earthspin.errors import MissingExtraError, OutputError, in_bytes, one_line
 
 if TYPE_CHECKING:

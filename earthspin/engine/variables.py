@@ -15,7 +15,7 @@ import numpy as np
 
 from earthspin.engine.labels import from_si
 from earthspin.errors import UndefinedError
-from earthspin.numerics.estimate import Estimate
+from earthspin.numerics.arrays import Estimate
 
 if TYPE_CHECKING:
     import xarray as xr

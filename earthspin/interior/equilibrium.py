@@ -10,10 +10,10 @@ import numpy as np
 
 from earthspin.constants import COMPUTED, Constant, G
 from earthspin.errors import UndefinedError
-from earthspin.interior.equations import FOUR_PI_G, START, Profile, liquid, liquid_centre
 from earthspin.interior.layers import LayeredBody, tidal_inertia
+from earthspin.interior.love import FOUR_PI_G, START, Profile, liquid, liquid_centre
 from earthspin.numerics.arrays import Array
-from earthspin.numerics.collocation import carry
+from earthspin.numerics.polynomials import carry
 
 Numeric = Any
 

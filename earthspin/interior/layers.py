@@ -1,12 +1,17 @@
-"""Layered bodies: shells with polynomial profiles, with their mass and moments of inertia."""
+"""Layered bodies: shells with polynomial profiles, from samples along the radius, and PREM."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from earthspin.constants import G
+import numpy as np
+
+from earthspin.constants import PREM_READ, G, Tabulated
+
+# --- layers, mass and moments of inertia ----------------------------------------------------------
 
 Numeric = Any
 
@@ -116,3 +121,130 @@ def tidal_inertia(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
     """
     moment = layers.moment_of_inertia()
     return spin_rate**2 * layers.radius**5 / (3 * G.value * moment)
+
+
+# --- layers from samples, as in seismological tables ----------------------------------------------
+
+
+def from_samples(
+    name: str,
+    radius: Sequence[float],
+    density: Sequence[float],
+    vp: Sequence[float],
+    vs: Sequence[float],
+    shear_q: Sequence[float],
+    reference: str = "",
+) -> LayeredBody:
+    """Make a layered body from samples along the radius, linear between the samples.
+
+    Parameters
+    ----------
+    name : str
+    radius : sequence of float
+        Radii from the centre outwards, m; a boundary is given by the same radius twice.
+    density, vp, vs : sequence of float
+        Density, kg m-3, and wave speeds, m/s; `vs` is 0 in a liquid.
+    shear_q : sequence of float
+        Quality factor of each sample; the value of the upper of two samples applies between them.
+        Not used in a liquid.
+    reference : str
+
+    Raises
+    ------
+    ValueError
+        If the radii do not begin at 0 or do not increase, or the columns differ in length.
+    """
+    r, rho, p, s, q = (
+        np.asarray(column, dtype=float) for column in (radius, density, vp, vs, shear_q)
+    )
+    if len({column.shape for column in (r, rho, p, s, q)}) > 1 or r.ndim != 1 or r.size < 2:
+        raise ValueError("give columns of equal length, at least two samples")
+    if r[0] != 0 or np.any(np.diff(r) < 0) or not np.all(np.isfinite([r, rho, p, s])):
+        raise ValueError("radii must begin at 0 and grow outwards, and all samples must be finite")
+    whole, layers = r[-1], []
+    for i in np.flatnonzero(np.diff(r) > 0):
+        x = r[i : i + 2] / whole
+
+        def line(column: Any, x: Any = x, i: int = int(i)) -> tuple[float, ...]:
+            slope = (column[i + 1] - column[i]) / (x[1] - x[0])
+            return float(column[i] - slope * x[0]), float(slope)
+
+        solid = s[i] > 0 or s[i + 1] > 0
+        layers.append(
+            Layer(
+                float(r[i + 1]),
+                line(rho),
+                line(p),
+                line(s) if solid else (),
+                float(q[i + 1]) if solid else np.inf,
+            )
+        )
+    return LayeredBody(name, tuple(layers), reference)
+
+
+# --- preliminary reference Earth model (PREM) -----------------------------------------------------
+
+
+def _prem(*outermost: Layer) -> tuple[Layer, ...]:
+    """Return the isotropic layers of PREM below the upper crust, followed by the given layers."""
+    lower = (7956.5, -6476.1, 5528.3, -3080.7)
+    lid = ((2691.0, 692.4), (4187.5, 3938.2), (2151.9, 2348.1))
+    return (
+        Layer(
+            1221.5e3, (13088.5, 0.0, -8838.1), (11262.2, 0.0, -6364.0), (3667.8, 0.0, -4447.5), 84.6
+        ),
+        Layer(
+            3480e3,
+            (12581.5, -1263.8, -3642.6, -5528.1),
+            (11048.7, -4036.2, 4802.3, -13573.2),
+        ),
+        Layer(
+            3630e3,
+            lower,
+            (15389.1, -5318.1, 5524.2, -2551.4),
+            (6925.4, 1467.2, -2083.4, 978.3),
+            312.0,
+        ),
+        Layer(
+            5600e3,
+            lower,
+            (24952.0, -40467.3, 51483.2, -26641.9),
+            (11167.1, -13781.8, 17457.5, -9277.7),
+            312.0,
+        ),
+        Layer(
+            5701e3,
+            lower,
+            (29276.6, -23602.7, 5524.2, -2551.4),
+            (22345.9, -17247.3, -2083.4, 978.3),
+            312.0,
+        ),
+        Layer(5771e3, (5319.7, -1483.6), (19095.7, -9867.2), (9983.9, -4932.4), 143.0),
+        Layer(5971e3, (11249.4, -8029.8), (39702.7, -32616.6), (22351.2, -18585.6), 143.0),
+        Layer(6151e3, (7108.9, -3804.5), (20392.6, -12256.9), (8949.6, -4459.7), 143.0),
+        Layer(6291e3, *lid, 80.0),
+        Layer(6346.6e3, *lid, 600.0),
+        Layer(6356e3, (2900.0,), (6800.0,), (3900.0,), 600.0),
+        *outermost,
+    )
+
+
+_PREM_SOURCE = "Dziewonski & Anderson 1981, PEPI 25, 297, table I"
+PREM_LAYERS = Tabulated("layers of PREM", _PREM_SOURCE, PREM_READ)
+
+#: PREM as published, with a global ocean of 3 km.
+PREM_WITH_OCEAN = LayeredBody(
+    "prem-ocean",
+    _prem(
+        Layer(6368e3, (2600.0,), (5800.0,), (3200.0,), 600.0), Layer(6371e3, (1020.0,), (1450.0,))
+    ),
+    _PREM_SOURCE,
+)
+
+#: PREM with the ocean replaced by upper crust, so that the surface is solid and an ocean can be
+#: added separately.
+PREM = LayeredBody(
+    "prem",
+    _prem(Layer(6371e3, (2600.0,), (5800.0,), (3200.0,), 600.0)),
+    _PREM_SOURCE + "; its ocean filled by upper crust",
+)

@@ -1,35 +1,229 @@
-"""Multipole expansion of 1/R and of the potential of a body, in degree n and order m.
+"""Multipole expansion of 1/R and of the potential of a body (I.9.3 to I.9.30).
 
-The harmonics are Racah's, with the phase (-1)^m,
-
-    C_nm(theta, phi) = sqrt((n - m)!/(n + m)!) P_nm(cos theta) e^(i m phi)
-
-so that C_n0 = P_n; in terms of Jackson's Y_nm they are sqrt(4 pi/(2n + 1)) Y_nm. Then
-
-    1/R = sum over n, m of r<^n r>^(-n-1) C_nm(r) C*_nm(r')
-
-and the source's (I.9.17) to (I.9.19) hold as printed; with its own unnormalised harmonics
-(I.9.16) each term needs the factor f(n, -m) of (I.9.12), which (I.9.19) leaves out, and with
-Jackson's 4 pi/(2n + 1). Of each pair of orders m and -m only m >= 0 is stored and summed,
-with Neumann's factor (I.9.13): masses are real.
-
-Solid harmonics are computed from Cartesian coordinates by upward recurrence in the degree, which is
-stable and regular at the poles and the centre.
+Holds the Legendre functions, the multipoles of bodies of any shape by degree n and order m, and the
+zonal moments of bodies of revolution.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.integrate import quad_vec
 
 from earthspin.constants import G
-from earthspin.errors import UndefinedError
-from earthspin.mass._checks import degree, vectors
-from earthspin.mass.distribution import point_masses
+from earthspin.errors import AccuracyError, BodyError, UndefinedError
+from earthspin.mass.figure import Moments, eccentricity_squared
+from earthspin.mass.tensor import degree, first_wrong, point_masses, positive, vectors
 from earthspin.numerics.arrays import ComplexArray, FloatArray
+
+# --- Legendre functions ---------------------------------------------------------------------------
+# P_nm is the associated Legendre function with the phase (-1)^m, not normalised, as in the source
+# and in `scipy.special.lpmv`:
+#
+#     integral of P_nm P_n'm dz = K_nm delta_nn'      K_nm = f(n, m)/(n + 1/2)
+#     f(n, m) = (n + m)!/(n - m)!
+#
+# They are computed as P_nm/sqrt(K_nm), which does not overflow and is more accurate near z = 1 than
+# `lpmv` (for m = 1 at z = 0.999999, errors of 2e-14 and 1e-12).
+
+#: Maximum number of intervals in the quadrature of a projection.
+_INTERVALS = 500
+
+
+def factorial_ratio(n: int, m: int) -> float:
+    """Ratio f(n, m) = (n + m)!/(n - m)!, for |m| <= n (I.9.3).
+
+    f(n, -m) is the weight of a term of 1/R (I.9.11).
+    """
+    _check_order(n, abs(m))
+    try:
+        ratio = float(math.perm(n + abs(m), 2 * abs(m)))
+    except OverflowError:
+        raise UndefinedError(
+            f"f(n, m) of n = {n}, m = {m} exceeds 1e308; unnormalised functions end there"
+        ) from None
+    return ratio if m >= 0 else 1 / ratio
+
+
+def legendre_norm(n: int, m: int = 0) -> float:
+    """Squared norm K_nm: integral of P_nm squared over [-1, 1] (I.9.3)."""
+    return factorial_ratio(n, m) / (n + 0.5)
+
+
+def orthonormal_functions(n_max: int, z: ArrayLike, m: int = 0) -> FloatArray:
+    """Normalised Legendre functions P_nm(z)/sqrt(K_nm) for degrees n = m to n_max.
+
+    Parameters
+    ----------
+    n_max : int
+        Last degree.
+    z : array_like, shape (...)
+        In [-1, 1].
+    m : int
+        Order, from 0 to n_max.
+
+    Returns
+    -------
+    ndarray, shape (n_max + 1 - m, ...)
+        Their squares integrate to 1.
+    """
+    _check_order(n_max, m)
+    x = _argument(z)
+    functions = np.zeros((n_max + 1 - m, *x.shape))
+    sine = np.sqrt((1 - x) * (1 + x))
+    functions[0] = np.sqrt(0.5)
+    for k in range(1, m + 1):
+        functions[0] *= -np.sqrt((2 * k + 1) / (2 * k)) * sine
+    before, share = np.zeros(x.shape), 0.0
+    for k, n in enumerate(range(m + 1, n_max + 1)):
+        # z p_(n-1) = c_n p_n + c_(n-1) p_(n-2)
+        c = math.sqrt((n * n - m * m) / (4 * n * n - 1))
+        functions[k + 1] = (x * functions[k] - share * before) / c
+        before, share = functions[k], c
+    return functions
+
+
+def legendre_coefficients(
+    function: Callable[[float], float],
+    n_max: int,
+    m: int = 0,
+    breaks: Sequence[float] = (),
+    accuracy: float = 1e-12,
+) -> FloatArray:
+    """Coefficients of the expansion of a function in Legendre functions of order m (I.9.3, I.9.4).
+
+    Parameters
+    ----------
+    function : callable
+        g(z), real, z in [-1, 1].
+    n_max : int
+        Last degree.
+    m : int
+        Order, from 0 to n_max.
+    breaks : sequence of float
+        Points at which g or its slope is discontinuous.
+    accuracy : float
+        Largest half-width of the integrals, as a fraction of the largest coefficient (for functions
+        of unit norm).
+
+    Returns
+    -------
+    ndarray, shape (n_max + 1 - m,)
+        g_nm for n = m to n_max.
+
+    Raises
+    ------
+    AccuracyError
+        If the quadrature does not reach the accuracy.
+    """
+    roots = _roots_of_norms(n_max, m)
+    result, error = quad_vec(
+        lambda z: function(z) * orthonormal_functions(n_max, z, m),
+        -1.0,
+        1.0,
+        epsabs=0.0,
+        epsrel=accuracy,
+        norm="max",
+        points=breaks,
+        limit=_INTERVALS,
+    )
+    scale = float(np.max(np.abs(result)))
+    # The odd coefficients of an even function are nonzero at this level by rounding; this is no
+    # failure.
+    if not error <= max(10 * accuracy, 1e-14) * max(scale, np.finfo(float).tiny):
+        raise AccuracyError(
+            accuracy * scale,
+            error,
+            "(of a coefficient)",
+            "list the discontinuities of the function in breaks",
+        )
+    return np.asarray(result / roots)
+
+
+def legendre_sum(coefficients: ArrayLike, z: ArrayLike, m: int = 0) -> FloatArray:
+    """Sum over n of coefficients g_nm times Legendre functions P_nm(z) (I.9.3, I.9.4).
+
+    The degree n runs from m on.
+
+    Parameters
+    ----------
+    coefficients : array_like, shape (k,)
+        g_nm from n = m on.
+    z : array_like, shape (...)
+        In [-1, 1].
+    """
+    weights = np.atleast_1d(np.asarray(coefficients, dtype=float))
+    n_max = m + weights.size - 1
+    weights = weights * _roots_of_norms(n_max, m)
+    return np.asarray(np.tensordot(weights, orthonormal_functions(n_max, z, m), axes=1))
+
+
+def completeness_kernel(n_max: int, z: ArrayLike, other: ArrayLike, m: int = 0) -> FloatArray:
+    """Sum over n of P_nm(z) P_nm(z')/K_nm, which tends to delta(z - z') (I.9.3, I.9.4).
+
+    Parameters
+    ----------
+    n_max : int
+        Last degree.
+    z, other : array_like
+        Points in [-1, 1]; they broadcast.
+    m : int
+        Order.
+
+    Returns
+    -------
+    ndarray
+        Integrated with a polynomial of degree up to n_max, times (1 - z2)^(m/2), the kernel
+        reproduces that function.
+    """
+    x, x_other = np.broadcast_arrays(_argument(z), _argument(other))
+    products = orthonormal_functions(n_max, x, m) * orthonormal_functions(n_max, x_other, m)
+    return np.asarray(np.sum(products, axis=0))
+
+
+def _roots_of_norms(n_max: int, m: int) -> FloatArray:
+    """Square roots of K_nm, the integrals of P_nm squared, for n = m to n_max."""
+    _check_order(n_max, m)
+    return np.sqrt([legendre_norm(n, m) for n in range(m, n_max + 1)])
+
+
+def _argument(z: ArrayLike) -> FloatArray:
+    """Return the argument z of Legendre functions as an array; refuse values outside [-1, 1]."""
+    values = np.asarray(z, dtype=float)
+    wrong = ~(np.abs(values) <= 1)
+    if np.any(wrong):
+        raise UndefinedError(
+            f"z = {float(values[wrong].flat[0])!r} is outside -1 to 1; give the cosine of an angle"
+        )
+    return values
+
+
+def _check_order(n: int, m: int) -> None:
+    """Raise an error unless the order m of a Legendre function satisfies 0 <= m <= n."""
+    if degree("degree n", n) < degree("order m", m):
+        raise UndefinedError(f"order m = {m} exceeds the degree n = {n}; allowed: 0 to {n}")
+
+
+# --- multipoles of any body -----------------------------------------------------------------------
+# The harmonics are Racah's, with the phase (-1)^m,
+#
+#     C_nm(theta, phi) = sqrt((n - m)!/(n + m)!) P_nm(cos theta) e^(i m phi)
+#
+# so that C_n0 = P_n; in terms of Jackson's Y_nm they are sqrt(4 pi/(2n + 1)) Y_nm. Then
+#
+#     1/R = sum over n, m of r<^n r>^(-n-1) C_nm(r) C*_nm(r')
+#
+# and the source's (I.9.17) to (I.9.19) hold as printed; with its own unnormalised harmonics
+# (I.9.16) each term needs the factor f(n, -m) of (I.9.12), which (I.9.19) leaves out, and with
+# Jackson's 4 pi/(2n + 1). Of each pair of orders m and -m only m >= 0 is stored and summed, with
+# Neumann's factor (I.9.13): masses are real.
+#
+# Solid harmonics are computed from Cartesian coordinates by upward recurrence in the degree, which
+# is stable and regular at the poles and the centre.
 
 
 def solid_harmonics(position: FloatArray, n_max: int) -> Iterator[tuple[int, int, ComplexArray]]:
@@ -129,7 +323,7 @@ class Multipoles:
     def zonal(self) -> FloatArray:
         """Zonal moments Z_n (multipole moments of order 0) for n = 0 to n_max, kg.
 
-        They are defined as in `earthspin.mass.zonal`.
+        They are defined as in `zonal_integrals`.
         """
         return np.real(self.moments[:, 0])
 
@@ -208,7 +402,7 @@ def exterior_multipoles(
     Parameters
     ----------
     masses : array_like, shape (k,)
-        kg; for a density see `earthspin.mass.distribution.grid_masses`.
+        kg; for a density see `earthspin.mass.tensor.grid_masses`.
     positions : array_like, shape (k, 3)
         Positions relative to the origin of the expansion, m.
     n_max : int
@@ -272,23 +466,211 @@ def _sources(masses: ArrayLike, positions: ArrayLike) -> tuple[FloatArray, Float
 def _near_and_far(
     position: ArrayLike, source: ArrayLike
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Sort two points by distance from the origin; return also the larger distance and the gap.
+    """Sort two points by distance from the origin.
 
     Return also the larger distance and the difference of the distances.
     """
     point, other = np.broadcast_arrays(vectors("position", position), vectors("source", source))
-    r_one, r_other = (np.sqrt(np.sum(p * p, axis=-1)) for p in (point, other))
-    if np.any(r_one == r_other):
-        r = float(np.asarray(r_one)[r_one == r_other].flat[0])
+    r_point, r_other = (np.sqrt(np.sum(p * p, axis=-1)) for p in (point, other))
+    if np.any(r_point == r_other):
+        r = float(np.asarray(r_point)[r_point == r_other].flat[0])
         raise UndefinedError(
             f"both points are {r:.6g} m from the origin, where the series of 1/R does not "
             f"converge; move one, or compute 1/R directly"
         )
-    first = (r_one < r_other)[..., np.newaxis]
-    near, far = np.where(first, point, other), np.where(first, other, point)
-    return near, far, np.maximum(r_one, r_other), np.abs(r_one - r_other)
+    point_is_nearer = (r_point < r_other)[..., np.newaxis]
+    near, far = np.where(point_is_nearer, point, other), np.where(point_is_nearer, other, point)
+    return near, far, np.maximum(r_point, r_other), np.abs(r_point - r_other)
 
 
 def _neumann(m: int) -> int:
     """Neumann's factor: 1 for m = 0, otherwise 2 (I.9.13)."""
     return 1 if m == 0 else 2
+
+
+# --- zonal moments of bodies of revolution --------------------------------------------------------
+# All follow from one kind of integral, in kg, with a reference radius s,
+#
+#     Z_n = integral of rho (r/s)^n P_n(cos theta) dV
+#
+#     source:  J_n = -G s^n Z_n     V = sum of J_n P_n r^(-n-1)                   (I.9.23)
+#     geodesy: J_n = -Z_n/M, s = a  V = -GM/r [1 - sum over n >= 1 of J_n (a/r)^n P_n]
+#
+# The source's J2 is G (C - A), geodesy's (C - A)/(M a2). Z_n of point masses and grids is the
+# `zonal` of `Multipoles`.
+
+#: Successive numbers of Gauss points in the radius and in the cosine.
+_POINTS = (32, 64, 128, 256)
+
+DensityFunction = Callable[[FloatArray, FloatArray], FloatArray]
+PerimeterFunction = Callable[[FloatArray], FloatArray]
+
+
+def zonal_integrals(
+    density: DensityFunction,
+    perimeter: PerimeterFunction,
+    n_max: int,
+    radius: float,
+    accuracy: float = 1e-12,
+) -> FloatArray:
+    """Zonal integrals Z_n of the density of a body of revolution, to degree n_max (I.9.27).
+
+    The degree n goes from 0 to n_max; the integrals are computed by Gauss quadrature.
+
+    Parameters
+    ----------
+    density : callable
+        rho(r, theta) in kg m-3 from arrays of distances (m) and colatitudes (rad); smooth.
+        For a layered body use `earthspin.mass.figure.layered_moments`.
+    perimeter : callable
+        Surface of the body, r(theta), m.
+    n_max : int
+        Last degree.
+    radius : float
+        Reference radius s, m.
+    accuracy : float
+        Largest half-width of the integrals, as a fraction of the mass times the largest (r/s)^n in
+        the body.
+
+    Returns
+    -------
+    ndarray, shape (n_max + 1,)
+        kg.
+
+    Raises
+    ------
+    AccuracyError
+        If 256 points in each dimension do not reach the accuracy, as for a density that is not
+        smooth.
+    """
+    scale = float(positive("body", "radius", radius))
+    degrees = np.arange(degree("n_max", n_max) + 1)[:, np.newaxis, np.newaxis]
+
+    def harmonics(r: FloatArray, cosine: FloatArray) -> FloatArray:
+        return np.asarray((r / scale) ** degrees * _polynomials(n_max, cosine))
+
+    return _integrate(density, perimeter, harmonics, accuracy)
+
+
+def moments_of_density(
+    density: DensityFunction, perimeter: PerimeterFunction, accuracy: float = 1e-12
+) -> Moments:
+    """Moments A, C and C - A of a body of revolution from its density (I.9.28, I.9.29), kg m2.
+
+    C - A = -integral of rho r2 P2 is integrated directly, not computed as a difference.
+
+    Parameters
+    ----------
+    density, perimeter, accuracy
+        As for `zonal_integrals`.
+    """
+
+    def squares(r: FloatArray, cosine: FloatArray) -> FloatArray:
+        return np.stack([r**2, r**2 * (1.5 * cosine**2 - 0.5)])
+
+    whole, quadrupole = _integrate(density, perimeter, squares, accuracy)
+    return Moments(
+        equatorial=np.asarray((2 * whole + quadrupole) / 3),
+        polar=np.asarray(2 * (whole - quadrupole) / 3),
+        difference=np.asarray(-quadrupole),
+    )
+
+
+def zonal_moments(integrals: ArrayLike, radius: float) -> FloatArray:
+    """Zonal moments J_n of a potential as defined in (I.9.23), m^(n+3) s-2.
+
+    They are -G s^n Z_n, with the reference radius s and the zonal integrals Z_n.
+    J0 = -GM and J2 = G (C - A).
+    """
+    z = np.asarray(integrals, dtype=float)
+    return np.asarray(-G.value * float(radius) ** np.arange(z.size) * z)
+
+
+def geodetic_zonals(integrals: ArrayLike) -> FloatArray:
+    """Dimensionless zonal coefficients J_n of geodesy, from the zonal integrals Z_n.
+
+    They are -Z_n/M, so that J0 = -1 and J2 = (C - A)/(M s2) with the reference radius s.
+    """
+    z = np.asarray(integrals, dtype=float)
+    return np.asarray(-z / positive("body", "mass", z[0]))
+
+
+def spheroid_zonals(flattening: float, n_max: int) -> FloatArray:
+    """Exact zonal coefficients J_n of a homogeneous spheroid, for its equatorial radius.
+
+    J_2k = (-1)^(k+1) 3 e^2k/[(2k + 1)(2k + 3)], J0 = -1, and odd coefficients are zero.
+    """
+    e2 = float(eccentricity_squared(flattening))
+    zonals = np.zeros(degree("n_max", n_max) + 1)
+    for k in range(n_max // 2 + 1):
+        zonals[2 * k] = -3 * (-e2) ** k / ((2 * k + 1) * (2 * k + 3))
+    return zonals
+
+
+def zonal_potential(
+    integrals: ArrayLike, radius: float, distance: ArrayLike, colatitude: ArrayLike
+) -> FloatArray:
+    """Gravitational potential of a body of revolution by its zonal series, m2 s-2.
+
+    The series is that of (I.9.22) and (I.9.23).
+
+    Parameters
+    ----------
+    integrals : array_like, shape (n_max + 1,)
+        Z_n, kg.
+    radius : float
+        Reference radius, of a sphere that contains the body, m.
+    distance, colatitude : array_like
+        Coordinates of the points, m and rad; they broadcast.
+
+    Raises
+    ------
+    UndefinedError
+        If a distance is at or below the radius, where the series may diverge.
+    """
+    z = np.asarray(integrals, dtype=float)
+    r, theta = np.broadcast_arrays(positive("point", "distance", distance), colatitude)
+    if np.any(r <= radius):
+        raise UndefinedError(
+            f"the zonal series may diverge at r = {first_wrong(r, r <= radius):.6g} m; "
+            f"give distances beyond {float(radius):.6g} m"
+        )
+    legendre = np.moveaxis(_polynomials(z.size - 1, np.cos(theta)), 0, -1)
+    powers = (float(radius) / r)[..., np.newaxis] ** np.arange(z.size)
+    return np.asarray(-G.value / r * np.sum(z * legendre * powers, axis=-1))
+
+
+def _polynomials(n_max: int, cosine: FloatArray) -> FloatArray:
+    """Legendre polynomials P_n at given cosines for n = 0 to n_max, along the first axis."""
+    functions = orthonormal_functions(n_max, cosine)
+    norms = np.sqrt(np.arange(n_max + 1) + 0.5)
+    return np.asarray(functions / norms.reshape(-1, *[1] * cosine.ndim))
+
+
+def _integrate(
+    density: DensityFunction,
+    perimeter: PerimeterFunction,
+    integrand: Callable[[FloatArray, FloatArray], FloatArray],
+    accuracy: float,
+) -> FloatArray:
+    """Integrals over a body of the density times each integrand, by Gauss quadrature."""
+    previous, error, size = None, np.inf, np.inf
+    for points in _POINTS:
+        node, weight = np.polynomial.legendre.leggauss(points)
+        cosine, theta = node[:, np.newaxis], np.arccos(node)[:, np.newaxis]
+        edge = positive("body", "perimeter", perimeter(theta))
+        r = edge * (1 + node) / 2
+        rho = np.asarray(density(r, theta * np.ones_like(r)), dtype=float) * np.ones_like(r)
+        wrong = ~(np.isfinite(rho) & (rho >= 0))
+        if np.any(wrong):
+            raise BodyError("body", "density", first_wrong(rho, wrong), "it must not be negative")
+        volume = 2 * np.pi * weight[:, np.newaxis] * (edge / 2 * weight) * r**2
+        terms = integrand(r, cosine)
+        current = np.sum(rho * volume * terms, axis=(-1, -2))
+        size = np.sum(rho * volume * np.max(np.abs(terms), axis=0))
+        if previous is not None:
+            error = float(np.max(np.abs(current - previous)))
+            if error <= accuracy * size:
+                return np.asarray(current)
+        previous = current
+    raise AccuracyError(accuracy, error / size, "of the integral", "give a smooth density")

@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from earthspin.errors import UndefinedError
-from earthspin.mass._checks import degree, positive, vectors
-from earthspin.mass.distribution import centre_of_mass, point_masses
+from earthspin.mass.tensor import centre_of_mass, degree, point_masses, positive, vectors
 from earthspin.numerics.arrays import FloatArray
 
 

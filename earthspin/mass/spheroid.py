@@ -33,8 +33,8 @@ from numpy.typing import ArrayLike
 from scipy.special import elliprc, elliprd, hyp2f1
 
 from earthspin.errors import UndefinedError
-from earthspin.mass._checks import first, positive, vectors
 from earthspin.mass.figure import check_flattening, eccentricity_squared
+from earthspin.mass.tensor import first_wrong, positive, vectors
 from earthspin.numerics.arrays import FloatArray
 
 _BODY = "spheroid"
@@ -161,7 +161,7 @@ def attraction_integrals(
     far = np.abs(scaled) > _FARTHEST
     if np.any(far):
         raise UndefinedError(
-            f"a position {first(scaled, far):.3g} radii away is beyond what can be computed; "
+            f"a position {first_wrong(scaled, far):.3g} radii away is beyond what can be computed; "
             f"give positions within {_FARTHEST:g} radii"
         )
     across, along = confocal_squares(flattening, scaled)

@@ -1,20 +1,183 @@
-"""Inertia tensor: construction, change of origin and frame, and derived quantities (I.1, I.3).
+"""Point masses, inertia tensors and principal axes of bodies of any shape (I.1, I.3).
 
     I = sum of m (r2 1 - r r)        (I.1.3, I.1.5)
 
-For a density on a grid, first compute point masses with `earthspin.mass.distribution`.
+A density on a grid is represented by point masses.
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from earthspin.errors import BodyError, UndefinedError
-from earthspin.mass._checks import positive, vectors
-from earthspin.mass.distribution import point_masses
-from earthspin.mass.figure import spheroid_moments
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import BoolArray, FloatArray
+
+# --- checks of inputs -----------------------------------------------------------------------------
+# Each raises an error with a one-line message.
+
+
+def positive(body: str, field: str, value: ArrayLike) -> FloatArray:
+    """Return numbers as an array; raise an error unless all are finite and positive."""
+    values = np.asarray(value, dtype=float)
+    wrong = ~(np.isfinite(values) & (values > 0))
+    if np.any(wrong):
+        raise BodyError(body, field, first_wrong(values, wrong), "it must be finite and above zero")
+    return values
+
+
+def vectors(name: str, value: ArrayLike) -> FloatArray:
+    """Return vectors as an array whose last axis is x, y, z; refuse infinite and missing values."""
+    values = np.asarray(value, dtype=float)
+    if values.ndim == 0 or values.shape[-1] != 3:
+        raise UndefinedError(
+            f"{name} has the shape {values.shape}; its last axis must hold x, y and z"
+        )
+    wrong = ~np.isfinite(values)
+    if np.any(wrong):
+        raise UndefinedError(
+            f"{name} holds {first_wrong(values, wrong)}; give finite numbers of metres"
+        )
+    return values
+
+
+def degree(name: str, value: Any) -> int:
+    """Return the degree or order of a harmonic as an integer; refuse negative and other values."""
+    if not isinstance(value, int | np.integer) or value < 0:
+        raise UndefinedError(f"{name} = {value!r} is not possible; give an integer of 0 or more")
+    return int(value)
+
+
+def first_wrong(values: FloatArray, wrong: BoolArray) -> float:
+    """Return the first element of `values` for which `wrong` is true."""
+    return float(values[wrong].flat[0])
+
+
+# --- point masses and gridded densities -----------------------------------------------------------
+# A density that is constant in each cell is replaced by Gauss points inside the cells. With k
+# points along each edge every polynomial up to degree 2k - 1 is integrated exactly: two points give
+# the exact inertia tensor of the cells, and exterior multipoles up to degree 3.
+
+
+def point_masses(masses: ArrayLike, positions: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Check point masses and positions, and return them as arrays of matching shapes.
+
+    Parameters
+    ----------
+    masses : array_like, shape (..., k)
+        Positive, kg; a single mass applies to all positions.
+    positions : array_like, shape (..., k, 3)
+        m.
+
+    Raises
+    ------
+    BodyError
+        If a mass is not positive.
+    UndefinedError
+        If the shapes do not match.
+    """
+    places = vectors("positions", positions)
+    if places.ndim < 2 or places.shape[-2] == 0:
+        raise UndefinedError(f"positions have the shape {places.shape}; give (k, 3), k at least 1")
+    weights = positive("point masses", "mass", masses)
+    try:
+        return np.broadcast_to(weights, places.shape[:-1]), places
+    except ValueError:
+        raise UndefinedError(
+            f"masses have the shape {weights.shape}, positions {places.shape}; "
+            f"give one mass for each position"
+        ) from None
+
+
+def centre_of_mass(masses: ArrayLike, positions: ArrayLike) -> FloatArray:
+    """Centre of mass of point masses.
+
+    Parameters
+    ----------
+    masses : array_like, shape (..., k)
+        kg.
+    positions : array_like, shape (..., k, 3)
+        m.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        m.
+    """
+    m, r = point_masses(masses, positions)
+    return np.asarray(np.einsum("...k,...ki->...i", m, r) / np.sum(m, axis=-1)[..., np.newaxis])
+
+
+def grid_masses(
+    density: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike, points: int = 2
+) -> tuple[FloatArray, FloatArray]:
+    """Point masses, with positions, that represent a density on a Cartesian grid.
+
+    Parameters
+    ----------
+    density : array_like, shape (nx, ny, nz)
+        Density of each cell, kg m-3; zero in empty cells.
+    x, y, z : array_like, shapes (nx + 1,), (ny + 1,), (nz + 1,)
+        Edges of the cells in increasing order, m.
+    points : int
+        Gauss points along each edge of a cell.
+
+    Returns
+    -------
+    masses : ndarray, shape (k,)
+        kg; empty cells are omitted.
+    positions : ndarray, shape (k, 3)
+        m.
+
+    Raises
+    ------
+    BodyError
+        If a density is negative, or all are zero.
+    UndefinedError
+        If the edges do not increase or do not match the density.
+    """
+    rho = np.asarray(density, dtype=float)
+    edges = [np.asarray(edge, dtype=float) for edge in (x, y, z)]
+    _check_grid(rho, edges)
+    if points < 1:
+        raise UndefinedError(f"points = {points} is not possible; give 1 or more per cell")
+    node, weight = np.polynomial.legendre.leggauss(points)
+    places = [(e[:-1] + e[1:])[:, None] / 2 + np.diff(e)[:, None] / 2 * node for e in edges]
+    lengths = [np.diff(e)[:, None] / 2 * weight for e in edges]
+    # Axes: cell along x, point along x, cell along y, ...
+    mass = np.einsum("xyz,xa,yb,zc->xaybzc", rho, *lengths)
+    grid = np.stack(np.meshgrid(*[p.ravel() for p in places], indexing="ij"), axis=-1)
+    full = mass.ravel() > 0
+    return mass.ravel()[full], grid.reshape(-1, 3)[full]
+
+
+def _check_grid(rho: FloatArray, edges: list[FloatArray]) -> None:
+    """Raise an error if cell densities or cell edges are invalid, or their sizes do not match."""
+    cells = tuple(e.size - 1 for e in edges)
+    if rho.shape != cells:
+        raise UndefinedError(
+            f"density has the shape {rho.shape}, the edges make {cells} cells; "
+            f"give one more edge than cells along each axis"
+        )
+    for name, edge in zip("xyz", edges, strict=True):
+        if edge.ndim != 1 or not np.all(np.isfinite(edge)) or np.any(np.diff(edge) <= 0):
+            raise UndefinedError(
+                f"the edges along {name} do not increase; sort them, without repeats"
+            )
+    wrong = ~(np.isfinite(rho) & (rho >= 0))
+    if np.any(wrong):
+        raise BodyError(
+            "grid", "density", first_wrong(rho, wrong), "it must be finite and not negative"
+        )
+    if not np.any(rho):
+        raise BodyError("grid", "density", 0.0, "at least one cell must hold mass")
+
+
+# --- inertia tensors ------------------------------------------------------------------------------
+# Construction, change of origin and frame, and derived quantities.
 
 #: Tolerance for rounding errors in a tensor, as a fraction of its largest component.
 ROUNDING = 1e-12
@@ -45,32 +208,6 @@ def inertia_tensor(
     if about is not None:
         r = r - vectors("about", about)
     return tensor_of_second_moments(np.einsum("...k,...ki,...kj->...ij", m, r, r))
-
-
-def spheroid_tensor(
-    mass: ArrayLike,
-    radius: ArrayLike,
-    flattening: ArrayLike,
-    about: ArrayLike = (0.0, 0.0, 0.0),
-) -> FloatArray:
-    """Exact inertia tensor of a homogeneous spheroid with its axis along z.
-
-    Parameters
-    ----------
-    mass, radius, flattening
-        As for `earthspin.mass.figure.spheroid_moments`.
-    about : array_like, shape (..., 3)
-        Reference point, from the centre of the spheroid, m.
-
-    Returns
-    -------
-    ndarray, shape (..., 3, 3)
-        kg m2.
-    """
-    moments = spheroid_moments(mass, radius, flattening)
-    equatorial, polar = np.broadcast_arrays(moments.equatorial, moments.polar)
-    diagonal = np.stack([equatorial, equatorial, polar], axis=-1)
-    return tensor_about_point(diagonal[..., np.newaxis] * np.eye(3), mass, about)
 
 
 def tensor_about_point(tensor: ArrayLike, mass: ArrayLike, offset: ArrayLike) -> FloatArray:
@@ -240,3 +377,129 @@ def tensor_of_second_moments(second: FloatArray) -> FloatArray:
     for i, moment in enumerate((yy + zz, zz + xx, xx + yy)):
         tensor[..., i, i] = moment
     return tensor
+
+
+# --- principal axes -------------------------------------------------------------------------------
+# If two moments are equal, their axes are arbitrary in their plane; if all three are equal, all
+# axes are arbitrary. The choice made here is deterministic, and the result marks arbitrary axes. A
+# regular polygon is isotropic in its plane at any orientation, including the tilted hexagon of
+# I.6.2.
+
+#: Moments closer than this, as a fraction of the largest, count as equal.
+EQUAL = 1e-13
+
+#: Error of the eigenvalues from rounding of the tensor, as a fraction of the largest.
+_EIGENVALUE_ERROR = 4 * np.finfo(float).eps
+
+
+@dataclass(frozen=True)
+class PrincipalAxes:
+    """Principal moments A <= B <= C of a body, and unit vectors along their axes.
+
+    Attributes
+    ----------
+    moments : ndarray, shape (3,)
+        A, B, C, kg m2.
+    b_minus_a, c_minus_a, c_minus_b : float
+        Differences, kg m2, computed from the tensor minus its mean moment; more accurate than
+        differences of `moments`.
+    axes : ndarray, shape (3, 3)
+        Rows: unit vectors of the axes of A, B and C, right-handed. So `axes` is the rotation
+        to the principal frame: v' = axes @ v, and axes @ I @ axes.T is diagonal.
+    shape : str
+        ``"sphere"`` (A = B = C), ``"oblate"`` (A = B), ``"prolate"`` (B = C) or ``"triaxial"``,
+        according to the moments.
+    free : tuple of bool
+        For each axis, whether it is an arbitrary choice.
+    angle_error : float
+        Possible rotation of the axes that are not free, due to rounding of the tensor, rad.
+    """
+
+    moments: FloatArray
+    b_minus_a: float
+    c_minus_a: float
+    c_minus_b: float
+    axes: FloatArray
+    shape: str
+    free: tuple[bool, bool, bool]
+    angle_error: float
+
+
+def principal_axes(tensor: ArrayLike, equal: float = EQUAL) -> PrincipalAxes:
+    """Compute principal moments and axes by diagonalizing an inertia tensor (I.3.1).
+
+    Signs: the first component of each axis that exceeds 0.55 in absolute value is positive, and the
+    third axis completes a right-handed set. Free axes: the first coordinate axis at a large angle
+    to the fixed one is projected onto the plane; for a sphere the axes are those of the tensor's
+    frame.
+
+    Parameters
+    ----------
+    tensor : array_like, shape (3, 3)
+        kg m2.
+    equal : float
+        Moments closer than this fraction of the largest count as equal.
+
+    Raises
+    ------
+    BodyError
+        If no body can have this tensor.
+    """
+    values = check_inertia_tensor(tensor)
+    if values.ndim != 2:
+        raise BodyError("rigid body", "inertia tensor", values.shape, "give one 3 x 3 tensor")
+    mean = float(np.trace(values)) / 3
+    # Subtracting the mean avoids cancellation in the differences of a nearly spherical body.
+    deviation, vectors = np.linalg.eigh(values - mean * np.eye(3))
+    moments = np.maximum(mean + deviation, 0.0)
+    b_minus_a, c_minus_b = (float(gap) for gap in np.diff(deviation))
+    same_ab, same_bc = (gap <= equal * moments[2] for gap in (b_minus_a, c_minus_b))
+    axes, shape, free = _choose(vectors.T, same_ab, same_bc)
+    gaps = [gap for gap, same in ((b_minus_a, same_ab), (c_minus_b, same_bc)) if not same]
+    return PrincipalAxes(
+        moments=moments,
+        b_minus_a=b_minus_a,
+        c_minus_a=float(deviation[2] - deviation[0]),
+        c_minus_b=c_minus_b,
+        axes=axes,
+        shape=shape,
+        free=free,
+        angle_error=float(_EIGENVALUE_ERROR * moments[2] / min(gaps)) if gaps else 0.0,
+    )
+
+
+def _choose(
+    axes: FloatArray, same_ab: bool, same_bc: bool
+) -> tuple[FloatArray, str, tuple[bool, bool, bool]]:
+    """Choose the signs of principal axes, and axes that are arbitrary because moments are equal.
+
+    Return also the kind of body, and which axes are arbitrary.
+    """
+    if same_ab and same_bc:
+        return np.eye(3), "sphere", (True, True, True)
+    if same_ab:
+        pole = _signed(axes[2])
+        across = _across(pole)
+        return np.stack([across, np.cross(pole, across), pole]), "oblate", (True, True, False)
+    if same_bc:
+        pole = _signed(axes[0])
+        across = _across(pole)
+        return np.stack([pole, across, np.cross(pole, across)]), "prolate", (False, True, True)
+    axis_a, axis_b = _signed(axes[0]), _signed(axes[1])
+    return np.stack([axis_a, axis_b, np.cross(axis_a, axis_b)]), "triaxial", (False, False, False)
+
+
+def _signed(axis: FloatArray) -> FloatArray:
+    """Return an axis with the sign that makes its first large component positive.
+
+    A component is large if its absolute value exceeds 0.55.
+    """
+    leading = axis[np.argmax(np.abs(axis) > 0.55)]
+    return np.asarray(axis * np.sign(leading))
+
+
+def _across(pole: FloatArray) -> FloatArray:
+    """Choose a unit vector perpendicular to a given axis, for axes that are arbitrary."""
+    coordinate = np.eye(3)[np.argmax(np.abs(pole) < 0.6)]
+    across = coordinate - pole * np.dot(coordinate, pole)
+    return np.asarray(across / np.linalg.norm(across))

@@ -4,9 +4,9 @@ In units of C Omega, with the figure axis F of an axisymmetric body,
 
     l' = N(F, t)/(C Omega),     F = l - \tau F x F',     \omega/\Omega = F + F x F'/\Omega
 
-A span is divided into segments in which the axis moves little. Each segment is solved as a whole
-(`earthspin.motion.segment`), so that time and memory grow linearly with the span. The mean rate of
-a segment gives the first estimate of the next.
+A span is divided into segments in which the axis moves little. Each segment is solved as a whole,
+so that time and memory grow linearly with the span. The mean rate of a segment gives the first
+estimate of the next.
 """
 
 from __future__ import annotations
@@ -16,12 +16,216 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from earthspin.constants import DAY, NORMAL_95
-from earthspin.motion.forces import Forces
-from earthspin.motion.segment import Segment, Start, signs, solve
-from earthspin.motion.triaxial import equatorial_basis
+from earthspin.constants import ARCSEC, DAY, NORMAL_95
+from earthspin.errors import UndefinedError
+from earthspin.motion.forces import Forces, equatorial_basis, semidiurnal_amplitudes, tilt_of_figure
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.numerics.gauss_windows import Windows
+from earthspin.numerics.polynomials import Windows, integrated
+
+# --- segments -------------------------------------------------------------------------------------
+# The axis moves by arcseconds during an orbit of a perturber, so the torque hardly depends on this
+# motion. Each iteration starts from an estimate of the figure axis F at the nodes of all windows.
+# It integrates the torque through each window with the spectral integration matrix, joins the
+# windows by a cumulative sum, and computes F on the slow manifold (`tilt_of_figure`). Each
+# iteration gains two to three digits (Clenshaw & Norton 1963, on Chebyshev nodes). The iteration
+# ends when the next round would move the axis by less than rounding.
+
+#: Largest allowed last term of the slow manifold, rad.
+LARGEST_MANIFOLD_ERROR = 5e-6 * ARCSEC
+
+_ROUND_OFF = 1e-15  # rad
+#: Change of the axis in a round above which the iteration has diverged, rad.
+_RUNAWAY = 1e3
+#: Number of rough Picard rounds, and terms of the slow manifold in rough and in later rounds.
+_ROUGH, _FEW, _ALL = 2, 2, 9
+
+
+@dataclass(frozen=True)
+class Segment:
+    """Computed angular momentum and figure axis of a body over consecutive time windows.
+
+    Attributes
+    ----------
+    windows : Windows
+        Windows in s from J2000.0 TDB.
+    momentum, tilt : ndarray, shape (3, w, order)
+        Legendre coefficients of the angular momentum in units of C Omega, and of angular momentum
+        minus figure axis.
+    fast : ndarray of complex or None
+        Legendre coefficients of the semidiurnal amplitudes; None for an axisymmetric body.
+    turn : float
+        Upper bound on the motion of the axis, rad.
+    tail, floor, left : float
+        Errors, rad: from torques between the nodes; from the slow manifold and the semidiurnal
+        amplitudes; from the unfinished iteration.
+    rounds : int
+        Number of Picard rounds.
+    """
+
+    windows: Windows
+    momentum: FloatArray
+    tilt: FloatArray
+    fast: ComplexArray | None
+    turn: float
+    tail: float
+    floor: float
+    left: float
+    rounds: int
+
+    def momentum_at_end(self, forward: bool) -> FloatArray:
+        """Angular momentum where the integration leaves this segment, in units of C Omega."""
+        if forward:
+            return np.asarray(self.momentum[:, -1].sum(axis=-1))
+        return np.asarray(self.momentum[:, 0] @ signs(self.momentum.shape[-1]))
+
+    def mean_rate(self) -> FloatArray:
+        """Mean rate of the angular momentum (in units of C Omega) over the segment, s-1."""
+        change = self.momentum_at_end(True) - self.momentum_at_end(False)
+        return np.asarray(change / (self.windows.edges[-1] - self.windows.edges[0]))
+
+
+def signs(terms: int) -> FloatArray:
+    """Values (-1)^n of the Legendre polynomials at -1, by degree n from 0."""
+    return np.asarray((-1.0) ** np.arange(terms))
+
+
+def solve(
+    forces: Forces,
+    windows: Windows,
+    start: FloatArray,
+    mean_rate: FloatArray,
+    *,
+    is_figure: bool,
+    forward: bool,
+) -> Segment:
+    """Integrate angular momentum and figure axis through the windows of one segment.
+
+    Parameters
+    ----------
+    forces : Forces
+    windows : Windows
+        Windows in s from J2000.0 TDB.
+    start : ndarray, shape (3,)
+        Figure axis, or angular momentum in units of C Omega.
+    mean_rate : ndarray, shape (3,)
+        Estimated rate of change of `start`, s-1. The mean rate of the last segment gives a first
+        estimate that is ten times better than without.
+    is_figure : bool
+        True if `start` is the figure axis, False if it is the angular momentum.
+    forward : bool
+        True if `start` is at the first edge, False if it is at the last edge.
+
+    Raises
+    ------
+    UndefinedError
+        If the axis moves too fast for the iteration, or the body spins too slowly for its figure
+        axis to stay near the angular momentum.
+    """
+    law, tensor = forces.over(windows)
+    tau = forces.figure.tau
+    since = windows.times - windows.edges[0 if forward else -1]
+    axis = momentum = start[:, None, None] + np.multiply.outer(mean_rate, since)
+    tilt = np.zeros_like(axis)
+    change = left = np.inf
+    rounds = 0
+    while left > _ROUND_OFF or rounds <= _ROUGH:
+        rounds += 1
+        rate = law(axis, momentum)
+        begin = start + _at_edge(windows, tilt, forward) if is_figure else start
+        starts, momentum = _chain(windows, rate, begin, forward)
+        tilt, terms = tilt_of_figure(windows, axis, rate, tau, _FEW if rounds <= _ROUGH else _ALL)
+        new_axis = momentum - tilt
+        previous, change = change, float(np.max(np.abs(new_axis - axis)))
+        axis, left = new_axis, _remaining_change(change, previous)
+        if (rounds > 6 and change > 0.5 * previous) or not change < _RUNAWAY:
+            break  # limited by rounding, or diverging: the next statement decides
+    if not left < 1e-13:
+        raise UndefinedError(
+            f"the axis moves too fast for the iteration: after {rounds} rounds it still changes by "
+            f"{change:.1g} rad; choose a slower precession or a shorter window"
+        )
+    _refuse_slow_spin(terms[-1], forces.figure.spin_rate)
+    series = windows.coefficients(rate)
+    figure, fast = forces.figure, None
+    if figure.triaxiality:
+        amplitudes = semidiurnal_amplitudes(
+            windows, tensor, axis, tilt, figure.triaxiality, figure.spin_rate, tau
+        )
+        fast = np.asarray(windows.coefficients(amplitudes))
+    return Segment(
+        windows=windows,
+        momentum=integrated(series, windows.half, starts),
+        tilt=windows.coefficients(tilt),
+        fast=fast,
+        turn=float(np.max(np.abs(rate)) * (windows.edges[-1] - windows.edges[0])),
+        tail=_tail(series, windows),
+        floor=terms[-1] + _fast_tail(fast),
+        left=left,
+        rounds=rounds,
+    )
+
+
+def _remaining_change(change: float, previous: float) -> float:
+    """Estimated further change of the axis if the Picard iteration were continued, rad.
+
+    The changes are assumed to form a geometric series.
+    """
+    if not change < previous < np.inf:
+        return change
+    return change * min(1.0, change / (previous - change))
+
+
+def _chain(
+    windows: Windows, rate: FloatArray, begin: FloatArray, forward: bool
+) -> tuple[FloatArray, FloatArray]:
+    """Integrate the rate of a vector; return the vector at the window starts and at the nodes."""
+    to_nodes, whole = windows.integral(rate)
+    if forward:
+        starts = begin[:, None] + np.cumsum(whole, axis=1) - whole
+    else:
+        starts = begin[:, None] - np.cumsum(whole[:, ::-1], axis=1)[:, ::-1]
+    return starts, starts[..., None] + to_nodes
+
+
+def _at_edge(windows: Windows, values: FloatArray, forward: bool) -> FloatArray:
+    """Extrapolate a function from the nodes to the time at which the segment starts, (3,)."""
+    series = windows.coefficients(values[:, :1] if forward else values[:, -1:])[:, 0]
+    return np.asarray(series @ signs(series.shape[-1]) if forward else series.sum(axis=-1))
+
+
+def _refuse_slow_spin(last_term: float, spin_rate: float) -> None:
+    if last_term > LARGEST_MANIFOLD_ERROR:
+        days = 2 * np.pi / abs(spin_rate) / DAY
+        raise UndefinedError(
+            f"a spin of {days:.3g} d is too slow for the figure axis to follow the angular "
+            f"momentum (slow manifold off by {last_term / ARCSEC * 1e3:.2g} mas, allowed "
+            f"{LARGEST_MANIFOLD_ERROR / ARCSEC * 1e3:.2g}); integrate the full attitude with "
+            f"earthspin.rotation, or compute = 'rotation'"
+        )
+
+
+def _fast_tail(fast: ComplexArray | None) -> float:
+    """Truncation error of the semidiurnal amplitudes, from the last terms of their series, rad.
+
+    Two of fourteen terms are too few: at a spin of 1.9 d their sum was half the measured error.
+    """
+    if fast is None:
+        return 0.0
+    last = max(1, fast.shape[-1] // 4)
+    return float(np.max(np.sum(np.abs(fast[..., -last:]), axis=-1)))
+
+
+def _tail(series: FloatArray, windows: Windows) -> float:
+    """Truncation error of the axis in a time window, from the last Legendre terms of its rate, rad.
+
+    The error at the ends of windows is much smaller, since Gauss's rule is exact to twice the
+    degree.
+    """
+    last = np.max(np.abs(series[..., -2:]), axis=(0, 2))
+    return float(np.max(last * windows.half[:, 0]) / (2 * windows.order))
+
+
+# --- paths ----------------------------------------------------------------------------------------
 
 #: Labels of the three axes.
 AXES = ("angular_momentum", "rotation", "figure")
@@ -127,8 +331,10 @@ class AxisPath:
         assert self.fast is not None
         phase = np.exp(2j * (self.spin_rate * times + self.meridian))
         move = self.windows.evaluate(self.fast, times) * phase
-        first, second = equatorial_basis(figure / np.sqrt(np.sum(figure * figure, axis=0)))
-        return np.asarray(move.real[:, np.newaxis] * first + move.imag[:, np.newaxis] * second)
+        towards_x, across_x = equatorial_basis(figure / np.sqrt(np.sum(figure * figure, axis=0)))
+        return np.asarray(
+            move.real[:, np.newaxis] * towards_x + move.imag[:, np.newaxis] * across_x
+        )
 
 
 def axis_path(
@@ -174,30 +380,33 @@ def axis_path(
     figure = forces.figure
     segments: list[Segment] = []
     for edges, forward in _directions(epoch, span, limits, window):
-        start = Start(start_axis, np.zeros(3), is_figure=True)
-        first = 0
-        while first < len(edges) - 1:
-            count = _segment_length(segments, len(edges) - 1 - first, window)
-            part = edges[first : first + count + 1]
-            segment = solve(forces, Windows(np.sort(part), order), start, forward)
+        start, mean_rate, solved = start_axis, np.zeros(3), 0
+        while solved < len(edges) - 1:
+            count = _segment_length(segments, len(edges) - 1 - solved, window)
+            windows = Windows(np.sort(edges[solved : solved + count + 1]), order)
+            segment = solve(
+                forces, windows, start, mean_rate, is_figure=solved == 0, forward=forward
+            )
             segments.append(segment)
-            start = Start(segment.momentum_at_end(forward), segment.mean_rate(), is_figure=False)
-            first += count
+            start, mean_rate = segment.momentum_at_end(forward), segment.mean_rate()
+            solved += count
             if advance is not None:
                 advance(count)
     segments.sort(key=lambda segment: segment.windows.edges[0])
     pieces = [segment.windows.edges[1:] for segment in segments]
     edges = np.concatenate([segments[0].windows.edges[:1], *pieces])
+    fast = [s.fast for s in segments if s.fast is not None]
+    rounding = np.finfo(float).eps * np.sqrt(len(edges) - 1)
     return AxisPath(
         windows=Windows(edges, order),
         momentum=np.concatenate([s.momentum for s in segments], axis=1),
         tilt=np.concatenate([s.tilt for s in segments], axis=1),
-        fast=_concatenated([s.fast for s in segments if s.fast is not None]),
+        fast=np.concatenate(fast, axis=1) if fast else None,
         spin_rate=figure.spin_rate,
         a_over_c=1 - figure.h,
         meridian=figure.meridian,
         interpolation_error=max(s.tail for s in segments),
-        floor=max(s.floor for s in segments) + sum(s.left for s in segments) + _rounding(segments),
+        floor=max(s.floor for s in segments) + sum(s.left for s in segments) + float(rounding),
         rounds=max(s.rounds for s in segments),
     )
 
@@ -273,16 +482,11 @@ def _directions(
                 # At the end of the positions, two equal windows replace a very short one.
                 edges[-2] = (edges[-3] + edges[-1]) / 2
             directions.append((edges, sign > 0))
-    # A span that contains only the epoch still needs a window.
-    return directions or [_one_window(epoch, limits, window)]
-
-
-def _one_window(
-    epoch: float, limits: tuple[float, float], window: float
-) -> tuple[FloatArray, bool]:
-    if epoch + window <= limits[1]:
-        return np.array([epoch, epoch + window]), True
-    return np.array([epoch, max(epoch - window, limits[0])]), False
+    if not directions:  # a span that contains only the epoch still needs a window
+        forward = epoch + window <= limits[1]
+        end = epoch + window if forward else max(epoch - window, limits[0])
+        directions.append((np.array([epoch, end]), forward))
+    return directions
 
 
 def _segment_length(segments: list[Segment], left: int, window: float) -> int:
@@ -293,12 +497,3 @@ def _segment_length(segments: list[Segment], left: int, window: float) -> int:
     per_window = last.turn / len(last.windows.half)
     allowed = SEGMENT_WINDOWS if per_window == 0 else int(SEGMENT_TURN / per_window)
     return max(1, min(left, allowed, SEGMENT_WINDOWS))
-
-
-def _concatenated(pieces: list[ComplexArray]) -> ComplexArray | None:
-    return np.concatenate(pieces, axis=1) if pieces else None
-
-
-def _rounding(segments: list[Segment]) -> float:
-    """Rounding error of the integrated axes, rad, from the number of time windows."""
-    return float(np.finfo(float).eps * np.sqrt(sum(len(s.windows.half) for s in segments)))

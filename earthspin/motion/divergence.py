@@ -87,7 +87,13 @@ def divergence(
     direction : int
         Axis of the sky about which the neighbour is rotated.
     """
-    both = _duplicated(body)
+    lane = body.first()
+    both = replace(
+        lane,
+        c_minus_a=np.repeat(lane.c_minus_a, 2),
+        c_minus_b=np.repeat(lane.c_minus_b, 2),
+        tide=np.repeat(lane.tide, 2),
+    )
     solver = Solver(both, masses, True, TOLERANCE)
     solver.begin_with(start.spin)
     q, momentum = start.attitude[:, :1], start.momentum[:, :1]
@@ -107,17 +113,6 @@ def divergence(
         times.append(reached)
         growth.append(growth[-1] + float(np.log(distance / ASIDE)))
     return Divergence(np.array(times), np.array(growth))
-
-
-def _duplicated(body: Rigid) -> Rigid:
-    """Return the parameters of the first body twice, for two rotations of the same body."""
-    first = body.first()
-    return replace(
-        first,
-        c_minus_a=np.repeat(first.c_minus_a, 2),
-        c_minus_b=np.repeat(first.c_minus_b, 2),
-        tide=np.repeat(first.tide, 2),
-    )
 
 
 def _neighbour_pair(state: FloatArray, rotation: FloatArray, momentum: FloatArray) -> FloatArray:

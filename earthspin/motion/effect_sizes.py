@@ -29,14 +29,12 @@ import numpy as np
 from earthspin.errors import EarthspinError
 from earthspin.motion.axes import AxisPath
 from earthspin.motion.equations import Rigid
-from earthspin.motion.figure import tilt_of_figure
-from earthspin.motion.forces import Forces
+from earthspin.motion.forces import Forces, semidiurnal_amplitudes, tilt_of_figure
 from earthspin.motion.solution import State
-from earthspin.motion.triaxial import semidiurnal_amplitudes
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.gauss_windows import Windows
-from earthspin.torque.quadrupole import apply, dot
+from earthspin.numerics.polynomials import Windows
+from earthspin.torque.gravity import apply, dot
 
 #: Nodes in a window, 8 d of a path or a quarter of a turn. With eight, sizes differ by up to 0.5 %.
 NODES = 4
@@ -147,8 +145,8 @@ def attitude_displacements(
     lever = float(np.max(np.abs(body.levers[:, 0])))
     edges = body.epoch + _edges(body, start, duration, forces)
     changes = {name: _Change(body, start) for name in further}
-    for first in range(0, len(edges) - 1, _TOGETHER):
-        windows = Windows(edges[first : first + _TOGETHER + 1], NODES)
+    for begin in range(0, len(edges) - 1, _TOGETHER):
+        windows = Windows(edges[begin : begin + _TOGETHER + 1], NODES)
         matrix = _steady_rotation(start, windows.times - body.epoch)
         rate, tide = _rate_and_tide(forces, windows, matrix)
         if 3 * lever * tide > along**2:
@@ -188,13 +186,13 @@ def _rate_and_tide(
 ) -> tuple[FloatArray, float]:
     """Rate of the angular momentum, s-1, with the torque on B - A, and the largest tide, s-2."""
     law, tensor = forces.over(windows)
-    first, second, axis = (np.ascontiguousarray(matrix[:, column]) for column in range(3))
+    axis_a, axis_b, axis = (np.ascontiguousarray(matrix[:, column]) for column in range(3))
     figure = forces.figure
     over = 3 * figure.triaxiality / figure.spin_rate * (1 + figure.j2_trend * windows.times)
-    on_first, on_second = apply(tensor, first), apply(tensor, second)
+    on_a, on_b = apply(tensor, axis_a), apply(tensor, axis_b)
     # of the three moments, A and B differ from their mean by half of B - A
-    torque = dot(second, on_first) * axis
-    torque -= (dot(axis, on_second) * first + dot(axis, on_first) * second) / 2
+    torque = dot(axis_b, on_a) * axis
+    torque -= (dot(axis, on_b) * axis_a + dot(axis, on_a) * axis_b) / 2
     return law(axis, axis) + over * torque, float(np.max(tensor[:3].sum(axis=0)))
 
 

@@ -27,7 +27,7 @@ import numpy as np
 
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
-from earthspin.torque.harmonics import zonal_torque
+from earthspin.torque.gravity import zonal_torque
 
 #: Torque divided by C along the body's axes, s-2, shape (m, 3), from times (s), shape (m,),
 #: quaternions (m, 4) and angular velocities along the body's axes, rad/s (m, 3).

@@ -1,19 +1,20 @@
-"""Rate of change of the angular momentum, from all perturbers and effects that are switched on.
+"""Rate of change of the angular momentum, and the figure axis that follows it without free wobble.
 
-For an effect that is switched off, no positions and no torque are evaluated.
+The rate is that of all perturbers and of the effects that are switched on. For an effect that is
+switched off, no positions and no torque are evaluated.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.gauss_windows import Windows
-from earthspin.torque.harmonics import zonal_law
-from earthspin.torque.quadrupole import quadrupole_torque, tidal_tensor
+from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.numerics.polynomials import Windows
+from earthspin.torque.gravity import apply, cross, quadrupole_torque, tidal_tensor, zonal_law
 
 #: Positions by name, each of shape (t, 3), m, at times in s from J2000.0.
 Positions = Callable[[FloatArray], Mapping[str, FloatArray]]
@@ -98,8 +99,6 @@ class Forces:
     def over(self, windows: Windows) -> tuple[RateLaw, FloatArray]:
         """Return a function for the angular momentum's rate in time windows, and the tidal tensor.
 
-        Return also the tidal tensor at these nodes.
-
         Positions of the perturbers are evaluated at the nodes of the windows.
 
         Returns
@@ -119,17 +118,24 @@ class Forces:
         tensor = tidal_tensor((gm, place[name]) for name, gm in self.gm.items())
         scale = figure.h / figure.spin_rate * (1 + figure.j2_trend * windows.times)
         scaled = tensor * scale
-        mean = self._mean_pole_at(windows.times)
-        zonals = self._zonal_laws(place) if figure.zonal else []
+        size = figure.inverse_polar_moment / figure.spin_rate
+        zonal = {degree: size * coefficient for degree, coefficient in figure.zonal.items()}
+        on_harmonics = [
+            zonal_law(zonal, figure.radius, self.gm[name], place[name])
+            for name in (self.near if zonal else ())
+        ]
         further = [torque(self, windows, place) for torque in self.torques]
 
         def on_figure(axis: FloatArray) -> FloatArray:
             total = quadrupole_torque(scaled, axis)
-            for zonal in zonals:
-                total += zonal(axis)
+            for law in on_harmonics:
+                total += law(axis)
             return total
 
-        constant = None if mean is None else on_figure(mean)
+        constant: FloatArray | None = None
+        if self.mean_pole is not None:
+            pole = self.mean_pole(windows.times.ravel()).T
+            constant = on_figure(np.ascontiguousarray(pole).reshape(3, *shape))
 
         def rate(axis: FloatArray, momentum: FloatArray) -> FloatArray:
             total = on_figure(axis) if constant is None else constant.copy()
@@ -139,13 +145,191 @@ class Forces:
 
         return rate, tensor
 
-    def _zonal_laws(self, place: Places) -> list[Callable[[FloatArray], FloatArray]]:
-        figure = self.figure
-        scale = figure.inverse_polar_moment / figure.spin_rate
-        scaled = {degree: scale * coefficient for degree, coefficient in figure.zonal.items()}
-        return [zonal_law(scaled, figure.radius, self.gm[name], place[name]) for name in self.near]
 
-    def _mean_pole_at(self, times: FloatArray) -> FloatArray | None:
-        if self.mean_pole is None:
-            return None
-        return np.ascontiguousarray(self.mean_pole(times.ravel()).T).reshape(3, *times.shape)
+# --- motion of the figure axis --------------------------------------------------------------------
+# For an axisymmetric body whose spin about its figure axis F is Omega, with the angular momentum l
+# in units of C Omega,
+#
+#     l = F + \tau F x F',     \tau = A/(C Omega)
+#
+# is exact. The free motion rotates F about l in about a day (I.6), while the motion due to torques
+# is slow. Iteration for the tilt, l - F = tau F x (l' - (l - F)'), gives the only motion without a
+# free part. Each round adds a term, -tau F x (the last term)', of a series in the ratio of the
+# frequencies of the axis and of the spin. The series is asymptotic; for a slowly rotating body its
+# terms soon grow.
+
+#: Terms below this change no digit of a unit vector, rad.
+_SMALLEST_TILT = 1e-17
+
+
+def tilt_of_figure(
+    windows: Windows, figure: FloatArray, rate: FloatArray, tau: float, rounds: int
+) -> tuple[FloatArray, list[float]]:
+    """Vector from figure axis to angular momentum in motion without free wobble, rad.
+
+    It is tau F x F', where F is the unit figure axis and F' its rate.
+
+    Parameters
+    ----------
+    windows : Windows
+    figure : ndarray, shape (3, w, n)
+        Estimate of F that is correct to first order.
+    rate : ndarray, shape (3, w, n)
+        l', s-1.
+    tau : float
+        A/(C Omega), s; negative for a retrograde spin.
+    rounds : int
+        Largest number of terms of the series.
+
+    Returns
+    -------
+    tilt : ndarray, shape (3, w, n)
+        Tilt, rad.
+    sizes : list of float
+        Largest value of each term, rad. The series is truncated before the terms grow.
+    """
+    scaled = tau * figure
+    tilt = term = cross(scaled, rate)
+    sizes = [float(np.max(np.abs(tilt)))]
+    for _ in range(rounds):
+        term = cross(windows.derivative(term), scaled)
+        size = float(np.max(np.abs(term)))
+        if size > 0.7 * sizes[-1]:
+            break
+        tilt += term
+        sizes.append(size)
+        if size < _SMALLEST_TILT:
+            break
+    return tilt, sizes
+
+
+def fastest_sweep(h: float, spin_rate: float, pulls: Iterable[tuple[float, float]]) -> float:
+    """Largest speed of an axis in precession, over all obliquities (at 45 degrees), rad/s.
+
+    (3/4) H/Omega times the sum of GM/r3: the rate of precession in longitude, (3/2) H/Omega GM/r3
+    cos(eps), times sin(eps) (I.8.23).
+
+    Parameters
+    ----------
+    h : float
+    spin_rate : float
+        rad/s.
+    pulls : iterable of (gm, distance)
+        m3 s-2 and m.
+    """
+    return abs(0.75 * h / spin_rate) * sum(gm / distance**3 for gm, distance in pulls)
+
+
+# --- semidiurnal motion ---------------------------------------------------------------------------
+# The torque on B - A varies twice a day with the rotation of the body. In the plane of the equator,
+# as a complex number with respect to the non-rotating direction e1, it is
+#
+#     n = -(3/2) i (B - A) conj(Q_1F + i Q_2F) exp(2 i theta)
+#
+# (from N = 3 GM/r5 r x I r, I.9.34). Its amplitude varies slowly, so that its integral and the
+# response are series in the ratio of a day to the periods of the perturbers. They are computed by
+# iteration:
+#
+#     l' = n/(C Omega),   l = f + i tau f',   w = f + (i/Omega) f'
+#
+# In addition, l contains the contribution of B - A to the angular momentum of a spin axis that is
+# already tilted by l - f, -(B - A)/(2A) conj(l - f) exp(2 i theta) (0.1 uas). The amplitude of the
+# axes is 0.03 mas; the mean motion does not change.
+
+#: Smallest distance from the resonance of a flat body for which the series converges.
+NEAREST_RESONANCE = 0.2
+_ROUNDS = 8  # largest number of rounds; each gains a factor of 25 for fortnightly terms
+#: Terms below this change no digit of a unit vector, rad.
+_SMALLEST_TERM = 1e-16
+
+
+def equatorial_basis(figure: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Two unit vectors in the equator plane; the first is the projected x axis.
+
+    Parameters
+    ----------
+    figure : ndarray, shape (3, ...)
+        Unit vectors, none along x.
+    """
+    x, y, z = figure
+    from_x = np.sqrt(y * y + z * z)
+    towards_x = np.stack([1 - x * x, -x * y, -x * z]) / from_x
+    across_x = np.stack([np.zeros_like(x), z, -y]) / from_x
+    return towards_x, across_x
+
+
+def semidiurnal_amplitudes(
+    windows: Windows,
+    tensor: FloatArray,
+    figure: FloatArray,
+    tilt: FloatArray,
+    triaxiality: float,
+    spin_rate: float,
+    tau: float,
+) -> ComplexArray:
+    """Complex amplitudes of the semidiurnal motion of a triaxial body's three axes.
+
+    Parameters
+    ----------
+    windows : Windows
+    tensor : ndarray, shape (6, w, n)
+        `earthspin.torque.gravity.tidal_tensor`.
+    figure : ndarray, shape (3, w, n)
+        Figure axis without this motion.
+    tilt : ndarray, shape (3, w, n)
+        Angular momentum minus figure axis, rad.
+    triaxiality : float
+        (B - A)/C.
+    spin_rate : float
+        rad/s.
+    tau : float
+        A/(C Omega), s.
+
+    Returns
+    -------
+    ndarray, shape (3, w, n), complex
+        Amplitudes, rad, to be multiplied by exp(2 i theta), with the angle theta of the axis of
+        least moment.
+
+    Raises
+    ------
+    UndefinedError
+        If the body is so flat that the period of its free nutation is close to half a day.
+    """
+    towards_x, across_x = equatorial_basis(figure)
+    q = _on_equator(apply(tensor, figure), towards_x, across_x)
+    torque = -1.5j * triaxiality / spin_rate * np.conj(q)
+    half_turn = 2j * spin_rate
+    momentum = _series(windows, torque / half_turn, -1 / half_turn)
+
+    turn = tau * spin_rate  # A/C
+    away = 1 - 2 * turn  # from the free nutation, which a thin disc has at half a day
+    if abs(away) < NEAREST_RESONANCE:
+        raise UndefinedError(
+            f"A/C = {turn:.3g}: the semidiurnal torque on B - A resonates with the free nutation "
+            f"(|1 - 2 A/C| under {NEAREST_RESONANCE}); remove the effect 'triaxiality' or set "
+            f"the body's triaxiality to 0"
+        )
+    uneven = triaxiality / (2 * turn) * np.conj(_on_equator(tilt, towards_x, across_x))
+    axis = _series(windows, (momentum + uneven) / away, -1j * tau / away)
+    rotation = -axis + 1j * windows.derivative(axis) / spin_rate
+    return np.stack([momentum, rotation, axis])
+
+
+def _series(windows: Windows, start: ComplexArray, factor: complex) -> ComplexArray:
+    """Solve x = start + factor dx/dt for x, by repeated differentiation of `start`.
+
+    Each term is `factor` times the derivative of the previous term.
+    """
+    total = term = start
+    for _ in range(_ROUNDS):
+        term = factor * windows.derivative(term)
+        total = total + term
+        if np.max(np.abs(term.view(float))) < _SMALLEST_TERM:
+            break
+    return total
+
+
+def _on_equator(vector: FloatArray, towards_x: FloatArray, across_x: FloatArray) -> ComplexArray:
+    """Projections of vectors on the equator plane, as complex numbers in a given basis."""
+    return np.asarray(np.sum(vector * towards_x, axis=0) + 1j * np.sum(vector * across_x, axis=0))

@@ -18,7 +18,7 @@ from earthspin.errors import UndefinedError
 from earthspin.motion.equations import Equations, Pull, Rigid, SkyLaw
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.gauss_windows import Windows, integrated, rule
+from earthspin.numerics.polynomials import Windows, integrated, rule
 
 #: Number of nodes in a window, and of windows for which positions are evaluated in one call.
 ORDER, BATCH = 16, 32
@@ -75,22 +75,15 @@ class Masses:
         positions = self.positions(times.ravel())
         places = np.stack([positions[name].T for name in self.gm], axis=1)
         places = places.reshape(3, len(self.gm), *times.shape)
-        return [
-            Pull(
-                row,
-                gm,
-                np.ascontiguousarray(places[:, :, w]),
-                self.near,
-                self._laws(windows, places, w),
-            )
-            for w, row in enumerate(times)
-        ]
-
-    def _laws(self, windows: Windows, places: FloatArray, w: int) -> Sequence[SkyLaw]:
-        if self.laws is None:
-            return ()
-        window = Windows(windows.edges[w : w + 2], windows.order)
-        return self.laws(window, {name: places[:, m, w : w + 1] for m, name in enumerate(self.gm)})
+        pulls = []
+        for w, row in enumerate(times):
+            laws: Sequence[SkyLaw] = ()
+            if self.laws is not None:
+                by_name = {name: places[:, m, w : w + 1] for m, name in enumerate(self.gm)}
+                laws = self.laws(Windows(windows.edges[w : w + 2], windows.order), by_name)
+            place = np.ascontiguousarray(places[:, :, w])
+            pulls.append(Pull(row, gm, place, self.near, laws))
+        return pulls
 
 
 @dataclass(frozen=True)
@@ -222,23 +215,23 @@ class Solver:
         starts: list[FloatArray] = []
         steady: list[FloatArray] = []
         worst = 0.0
-        seen: FloatArray | None = None
+        estimate: FloatArray | None = None
         if near is not None:
-            found = near.along_sky(windows.times.ravel())
-            seen = np.asarray(found.reshape(7, *windows.times.shape))
+            state = near.along_sky(windows.times.ravel())
+            estimate = np.asarray(state.reshape(7, *windows.times.shape))
         for pull, begin, half in zip(
             self.masses.over(windows), edges[:-1], windows.half[:, 0], strict=True
         ):
             equations = Equations(self.body, pull, self.in_space, start, pull.times - begin)
-            guess = None if seen is None else equations.unknowns(seen[:, len(rates)])
-            found, over = self._solve(equations, start, half, guess)
+            guess = None if estimate is None else equations.unknowns(estimate[:, len(rates)])
+            rate, over = self._solve(equations, start, half, guess)
             worst = max(worst, over)
             if over > 1.0:
                 break
-            rates.append(found)
+            rates.append(rate)
             starts.append(start)
             steady.append(equations.steady)
-            start = self._end(found, equations, start, half)
+            start = self._end(rate, equations, start, half)
         done = len(rates)
         self._resize(worst, complete=done == len(windows.half))
         series = np.zeros((7 * lanes, 0, self.order + 1))
@@ -310,8 +303,3 @@ class Solver:
             self.window *= min(max(factor, _SHRINK), _GROW)
         else:
             self.window *= min(max(factor, _SHRINK), _SHORTER)
-
-
-def half_windows(edges: FloatArray) -> FloatArray:
-    """Divide each time window into two halves, and return the edges of the halves, s."""
-    return np.sort(np.concatenate([edges, (edges[1:] + edges[:-1]) / 2]))

@@ -1,4 +1,4 @@
-r"""Full attitude of a rigid body in time, with its error, by numerical integration.
+"""Full attitude of a rigid body in time, with its error, by numerical integration.
 
 Each motion is integrated twice, in two forms and with two window lengths: Euler's equations along
 the body's axes in long windows, and the angular momentum along the sky's axes in windows of half
@@ -9,23 +9,140 @@ effect of an uncertain number is the difference from a neighbour in which this n
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY, Rigid
-from earthspin.motion.march import (
-    CONVERGED,
-    FINEST,
-    ORDER,
-    Masses,
-    Piece,
-    Solver,
-    half_windows,
+from earthspin.motion.equations import (
+    FLATTENING,
+    PULL,
+    ROUNDING,
+    TRIAXIALITY,
+    CustomTorque,
+    Rigid,
+    SkyLaw,
 )
+from earthspin.motion.forces import Forces, equatorial_basis
+from earthspin.motion.march import CONVERGED, FINEST, ORDER, Masses, Piece, Solver
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.polynomials import Windows
+
+# --- bodies and their neighbours ------------------------------------------------------------------
+# A neighbour is the same body with one uncertain number changed by its half-width. The difference
+# of its motion is the effect of this uncertainty. All are integrated together with the same masses.
+
+
+def rigid_bodies(
+    forces: Forces,
+    unit: float,
+    doubts: Mapping[str, float],
+    epoch: float = 0.0,
+    own: CustomTorque | None = None,
+) -> tuple[Rigid, tuple[str, ...]]:
+    """Make a rigid body, and copies of it that each have one uncertain input changed.
+
+    Parameters
+    ----------
+    forces : Forces
+        Forces with the figure of the body and the effects that are switched on.
+    unit : float
+        Unit of spin, rad/s.
+    doubts : mapping of str to float
+        Relative half-widths by `FLATTENING`, `TRIAXIALITY`, `PULL` (errors of positions) and
+        `ROUNDING` (rounding of positions); an input with zero has no neighbour.
+    epoch : float
+        Start of the motion, s from J2000.0.
+    own : callable or None
+        Custom torque.
+
+    Returns
+    -------
+    Rigid
+        The body in the first lane, and its neighbours.
+    tuple of str
+        Input that is changed in each further lane.
+    """
+    figure = forces.figure
+    names = (FLATTENING, TRIAXIALITY, PULL, ROUNDING)
+    changed = tuple(name for name in names if doubts.get(name, 0.0) > 0.0)
+    factor = {
+        name: np.array([1.0, *(1 + doubts[name] if name == other else 1.0 for other in changed)])
+        if name in changed
+        else np.ones(1 + len(changed))
+        for name in names
+    }
+    # J2 and (B - A)/(M a2) are divided by C/(M a2) = J2/H, so both differences scale with H.
+    h = figure.h * factor[FLATTENING]
+    triaxiality = figure.triaxiality * factor[FLATTENING] * factor[TRIAXIALITY]
+    body = Rigid(
+        c_minus_a=h + triaxiality / 2,
+        c_minus_b=h - triaxiality / 2,
+        tide=factor[PULL] * factor[ROUNDING],
+        unit=unit,
+        zonal=[(n, j * figure.inverse_polar_moment) for n, j in figure.zonal.items()],
+        radius=figure.radius,
+        trend=figure.j2_trend,
+        epoch=epoch,
+        own=own,
+    )
+    return body, changed
+
+
+def masses(forces: Forces, epoch: float = 0.0) -> Masses:
+    """Convert `Forces` to the `Masses` of the attitude solver, with times counted from `epoch`."""
+
+    def laws(window: Windows, places: Mapping[str, FloatArray]) -> Sequence[SkyLaw]:
+        dated = Windows(window.edges + epoch, window.order)
+        return [torque(forces, dated, places) for torque in forces.torques]
+
+    near = {name: gm for name, gm in forces.gm.items() if name in forces.near}
+    return Masses(
+        gm=near | dict(forces.gm),
+        positions=lambda times: forces.positions(times + epoch),
+        near=len(near),
+        laws=laws if forces.torques else None,
+    )
+
+
+def relative_tide_error(distance: float, distance_error: float, angle_error: float) -> float:
+    """Bound on the relative error of a tide GM/r3 due to the position error of its mass.
+
+    Parameters
+    ----------
+    distance, distance_error : float
+        Distance and its error, m.
+    angle_error : float
+        Error of the direction, rad; the relative error of the tide is at most twice this.
+    """
+    return 3 * distance_error / distance + 2 * angle_error
+
+
+def upright(axis: FloatArray, angle: float) -> FloatArray:
+    """Attitude quaternion of a body from its third axis and the rotation angle about this axis.
+
+    Parameters
+    ----------
+    axis : ndarray, shape (3,)
+        Third axis of the body, a unit vector along the sky's axes.
+    angle : float
+        Angle from the sky's x axis, projected on the equator, to the body's first axis, rad.
+
+    Returns
+    -------
+    ndarray, shape (4,)
+    """
+    from scipy.spatial.transform import Rotation
+
+    towards_x, across_x = equatorial_basis(axis)
+    x = math.cos(angle) * towards_x + math.sin(angle) * across_x
+    frame = Rotation.from_matrix(np.stack([x, np.cross(axis, x), axis], axis=1))
+    return np.asarray(frame.as_quat(scalar_first=True))
+
+
+# --- solutions ------------------------------------------------------------------------------------
 
 #: Shortest span that is integrated, s.
 SHORTEST = 1e-6
@@ -149,8 +266,8 @@ class Motion:
             np.concatenate([rotations.rotated(start.attitude, start.momentum), start.attitude]),
             np.concatenate([start.momentum, start.attitude])[:, :1],
         )
-        self._now: tuple[Piece, Piece] | None = None
-        self._asked = 0.0
+        self._current: tuple[Piece, Piece] | None = None
+        self._last_time = 0.0
         self._worst = np.zeros((body.lanes, len(KINDS), 1))
 
     @property
@@ -170,7 +287,9 @@ class Motion:
             rough = self._coarse.through(self._coarse.next_edges(reached, self._end), coarse)
             if len(rough.edges) < 2:
                 continue
-            exact = self._fine.through(half_windows(rough.edges), fine, rough)
+            middles = (rough.edges[1:] + rough.edges[:-1]) / 2
+            halves = np.sort(np.concatenate([rough.edges, middles]))
+            exact = self._fine.through(halves, fine, rough)
             if exact.edges[-1] < rough.edges[-1]:
                 self._coarse.window /= 2
                 continue
@@ -194,21 +313,24 @@ class Motion:
         -------
         RotationSeries
         """
-        if times[0] < self._asked:
+        if times[0] < self._last_time:
             self._restart()
-        self._asked = float(times[-1])
+        self._last_time = float(times[-1])
         states, errors, done = [], [], 0
         while done < times.size:
-            if self._now is None or times[done] > self._now[1].edges[-1]:
-                if self._now is not None:
-                    self._worst = self._errors_until(self._now[0].edges)[..., -1:]
-                self._now = next(self._pieces)
+            if self._current is None or times[done] > self._current[1].edges[-1]:
+                if self._current is not None:
+                    self._worst = self._errors_until(self._current[0].edges)[..., -1:]
+                self._current = next(self._pieces)
                 if tell is not None:
-                    tell(float(self._now[1].edges[-1]))
-            upto = int(np.searchsorted(times, self._now[1].edges[-1], side="right"))
+                    tell(float(self._current[1].edges[-1]))
+            upto = int(np.searchsorted(times, self._current[1].edges[-1], side="right"))
             part = times[done:upto]
-            states.append(self._now[1].at(part)[:, 0])
-            errors.append(self._errors_at(part))
+            states.append(self._current[1].at(part)[:, 0])
+            edges = self._current[0].edges
+            last_edge = np.clip(np.searchsorted(edges, part) - 1, 0, None)
+            before = self._errors_until(edges)[..., last_edge]
+            errors.append(np.maximum(before, self._errors(part)))
             done = upto
         state = np.concatenate(states, axis=1)
         return RotationSeries(
@@ -217,13 +339,6 @@ class Motion:
             omega=self._body.first().spin(state).T,
             error=np.concatenate(errors, axis=2),
         )
-
-    def _errors_at(self, times: FloatArray) -> FloatArray:
-        """Largest error of the rotation from the initial time up to each given time."""
-        assert self._now is not None
-        edges = self._now[0].edges
-        before = self._errors_until(edges)[..., np.clip(np.searchsorted(edges, times) - 1, 0, None)]
-        return np.maximum(before, self._errors(times))
 
     def _errors_until(self, edges: FloatArray) -> FloatArray:
         """Largest error of the rotation from the initial time up to each edge of the windows."""
@@ -235,8 +350,8 @@ class Motion:
         The shape is (lanes, kinds, t): the first lane has the error of the method, each other lane
         that of one uncertain input.
         """
-        assert self._now is not None
-        rough, exact = self._now
+        assert self._current is not None
+        rough, exact = self._current
         states = exact.at(times)
         other = rough.along_sky(times)
         method = TWICE * differences(self._body.first(), states[:, 0], other)
@@ -270,23 +385,23 @@ def shares_of(
     nothing = np.zeros_like(series.error[0])
     by_name = dict(zip(changed, series.error[1:], strict=True))
     kernel = np.full_like(nothing, np.nan) if np.isnan(doubt) else by_name.get(PULL, nothing)
-    given = np.hypot(by_name.get(FLATTENING, nothing), by_name.get(TRIAXIALITY, nothing))
+    inputs = np.hypot(by_name.get(FLATTENING, nothing), by_name.get(TRIAXIALITY, nothing))
     method = series.error[0] + by_name.get(ROUNDING, nothing)
-    shares = {"method": method, "input": given, "kernel": kernel}
-    shares[""] = np.sqrt(shares["method"] ** 2 + given**2 + kernel**2)
+    shares = {"method": method, "input": inputs, "kernel": kernel}
+    shares[""] = np.sqrt(shares["method"] ** 2 + inputs**2 + kernel**2)
     for share in shares.values():
         share[0] = np.minimum(share[0], np.pi)
     return shares
 
 
-def differences(body: Rigid, one: FloatArray, other: FloatArray) -> FloatArray:
+def differences(body: Rigid, state: FloatArray, other: FloatArray) -> FloatArray:
     """Differences of two rotations in attitude (angle), spin and angular momentum (norms).
 
     Parameters
     ----------
     body : Rigid
         Body of the first lane.
-    one, other : ndarray, shape (7, t)
+    state, other : ndarray, shape (7, t)
         Angular momentum along the sky's axes, in units of C u, and attitude.
 
     Returns
@@ -294,11 +409,11 @@ def differences(body: Rigid, one: FloatArray, other: FloatArray) -> FloatArray:
     ndarray, shape (3, t)
         Differences by `KINDS`: rad, rad/s, C u.
     """
-    spin = body.first().spin(one) - body.first().spin(other)
-    momentum = one[:3] - other[:3]
+    spin = body.first().spin(state) - body.first().spin(other)
+    momentum = state[:3] - other[:3]
     return np.stack(
         [
-            rotations.angle_between(one[3:], other[3:]),
+            rotations.angle_between(state[3:], other[3:]),
             np.sqrt(np.sum(spin * spin, axis=0)),
             np.sqrt(np.sum(momentum * momentum, axis=0)),
         ]

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-Numeric = Any
+from earthspin.numerics.arrays import Numeric
 
 _SPLITTER = 2.0**27 + 1.0  # Veltkamp: cuts 53 bits into 26 and 26
 

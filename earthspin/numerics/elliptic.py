@@ -20,10 +20,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import elliprc, elliprf, elliprj
 
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.numerics.double_double import DoubleDouble, as_double_double, where
 
 _HALF_PI = DoubleDouble(1.5707963267948966, 6.123233995736766e-17)
@@ -46,7 +45,7 @@ class LandenDescent:
 
     arithmetic: tuple[DoubleDouble, ...]
     geometric: tuple[DoubleDouble, ...]
-    separatrix: NDArray[np.bool_]
+    separatrix: BoolArray
 
     @property
     def quarter_period(self) -> DoubleDouble:
@@ -205,7 +204,7 @@ def _hyperbolic(u: FloatArray) -> Jacobi:
     return Jacobi(np.tanh(u), sech, sech)
 
 
-def _choose(condition: NDArray[np.bool_], yes: Jacobi, no: Jacobi) -> Jacobi:
+def _choose(condition: BoolArray, yes: Jacobi, no: Jacobi) -> Jacobi:
     return Jacobi(*(np.where(condition, y, n) for y, n in zip(yes, no, strict=True)))
 
 
@@ -283,14 +282,14 @@ def complete_third_kind(complement: FloatArray, shape: FloatArray) -> FloatArray
     root, product = np.sqrt(complement), np.sqrt(complement)
     mean, p = np.ones_like(root), np.sqrt(shape)
     a, b = np.zeros_like(root), 1 / p
-    integral, found = np.zeros_like(root), np.zeros(root.shape, dtype=bool)
-    while not np.all(found):
+    integral, computed = np.zeros_like(root), np.zeros(root.shape, dtype=bool)
+    while not np.all(computed):
         a, b = b / p + a, 2 * (a * product / p + b)
         p = product / p + p
         last, mean = mean, root + mean
-        settled = ~found & (last - root <= 1e-8 * last)
+        settled = ~computed & (last - root <= 1e-8 * last)
         integral = np.where(settled, np.pi / 2 * (b + a * mean) / (mean * (mean + p)), integral)
-        found |= settled
+        computed |= settled
         root = 2 * np.sqrt(product)
         product = root * mean
     return integral

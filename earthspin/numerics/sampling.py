@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import NORMAL_95
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import BoolArray, FloatArray
 
 #: Standard errors by which the correlation of two inputs must differ from zero to be used.
 SIGNIFICANT = 4.0
@@ -62,19 +62,6 @@ class Shares(NamedTuple):
     unexplained: FloatArray
 
 
-def columns_of(labels: NDArray[Any]) -> FloatArray:
-    """Indicator columns (0 or 1) for the label of each sample; the last label has none.
-
-    The shape is (n, labels - 1).
-
-    Parameters
-    ----------
-    labels : ndarray, shape (n,)
-        Label of each sample.
-    """
-    return np.asarray(labels[:, np.newaxis] == np.unique(labels)[:-1], dtype=float)
-
-
 def shares_of_variance(
     inputs: FloatArray, outputs: FloatArray, classes: Sequence[NDArray[Any]] = ()
 ) -> Shares:
@@ -102,7 +89,11 @@ def shares_of_variance(
     Shares
     """
     numbers = inputs.shape[1]
-    coded = [columns_of(labels) for labels in classes]
+    # Indicator columns (0 or 1) for the labels of each class; the last label has none.
+    coded = [
+        np.asarray(labels[:, np.newaxis] == np.unique(labels)[:-1], dtype=float)
+        for labels in classes
+    ]
     owner = np.repeat(
         np.arange(numbers + len(coded)), [1] * numbers + [columns.shape[1] for columns in coded]
     )
@@ -140,7 +131,7 @@ def shares_of_variance(
     return Shares(slope, share, error, rest.reshape(shape))
 
 
-def _related(covariance: FloatArray, owner: NDArray[Any], n: int) -> NDArray[np.bool_]:
+def _related(covariance: FloatArray, owner: NDArray[Any], n: int) -> BoolArray:
     """Select pairs of columns whose correlation is no chance: those of a class, and large ones."""
     correlation = np.clip(np.abs(covariance), 0.0, 1 - 1e-15)
     # Fisher's transformation of a correlation has the standard error 1/sqrt(n - 3)
@@ -154,7 +145,7 @@ def _shares(
     b: FloatArray,
     covariance: FloatArray,
     known: FloatArray,
-    members: NDArray[np.bool_],
+    members: BoolArray,
 ) -> tuple[FloatArray, FloatArray, float]:
     """Shares of the inputs in the variance of one output, their errors, and the unexplained part.
 

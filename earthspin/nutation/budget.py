@@ -1,26 +1,33 @@
-"""Contributions of all effects to the precession rate, compared with IAU 2006."""
+"""Contributions of all effects to the precession rate, and consequences of the rate of IAU 2006."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from earthspin.constants import (
     ARCSEC,
     ARCSEC_PER_YEAR,
+    DAY,
     EPSILON_0,
     FIRST_ORDER_RATE,
     J2_AND_TILT_RATE,
+    JULIAN_YEAR,
     NORMAL_95,
     OMEGA_A_RATE,
+    PREM_MEAN_MOMENT,
+    PREM_RADIUS,
     PUBLISHED_EFFECTS,
     TIDES_IN_OBLIQUITY,
 )
+from earthspin.mass.figure import polar_moment_factor
 
 if TYPE_CHECKING:
     from earthspin.nutation.analysis import Secular
+
+# --- contributions to the precession rate ---------------------------------------------------------
 
 Numeric = Any
 
@@ -200,3 +207,195 @@ def budget_of(
         psi_analysis_error=psi_missed,
         omega_analysis_error=omega_missed,
     )
+
+
+# --- H and C that the rate implies ----------------------------------------------------------------
+# The published H is inferred from the observed precession, so closure of the rate only tests
+# consistency. Only an interior model gives an independent C.
+
+#: Effects whose published sizes measure the error of the computed ones.
+COMPARED = ("planets", "j4", "geodesic", "second-order")
+
+
+def inferred_h(h: float, torque_rate: float, excess: float) -> float:
+    """Dynamical flattening H for which the computed precession rate equals that of the IAU.
+
+    Parameters
+    ----------
+    h : float
+        H used in the computation.
+    torque_rate : float
+        Part of the computed rate that is proportional to H.
+    excess : float
+        Computed rate with all effects minus the IAU rate, in the same unit.
+    """
+    return h * (1 - excess / torque_rate)
+
+
+def inferred_h_uncertainty(h: float, torque_rate: float, effects: float, method: float) -> float:
+    """Standard deviation of the H that is inferred from the IAU precession rate.
+
+    Parameters
+    ----------
+    h, torque_rate : float
+    effects : float
+        Root sum square of the differences between the computed and the published effects.
+    method : float
+        Error of the same analysis for a pole whose rate is known.
+    """
+    return abs(h / torque_rate) * math.hypot(effects, method)
+
+
+def polar_moment_from_mean(
+    mean_moment: float, mean_radius: float, equatorial_radius: Numeric, j2: Numeric
+) -> Numeric:
+    """Polar moment factor C/(M a2) from the mean moment of a spherical model.
+
+    I = (A + B + C)/3 and C - (A + B)/2 = J2 M a2 give C = I + (2/3) J2 M a2.
+
+    Parameters
+    ----------
+    mean_moment : float
+        I/(M R2).
+    mean_radius, equatorial_radius : float
+        R and a, m.
+    j2 : float
+        Like the radius, a float or a labelled array.
+    """
+    return mean_moment * (mean_radius / equatorial_radius) ** 2 + 2 / 3 * j2
+
+
+def prem_polar_moment(radius: Numeric, j2: Numeric) -> Numeric:
+    """Polar moment factor C/(M a2) of the Earth model PREM, for a reference radius a, m, and J2."""
+    return polar_moment_from_mean(PREM_MEAN_MOMENT.value, PREM_RADIUS.value, radius, j2)
+
+
+def polar_moment_from_h(j2: float, h: float) -> float:
+    """Polar moment factor C/(M a2) = J2/H, from J2 and the dynamical flattening H."""
+    return float(polar_moment_factor(j2, h))
+
+
+class Flattening(NamedTuple):
+    """Values of H and C/(M a2) from one source, with their standard uncertainties.
+
+    Attributes
+    ----------
+    h, h_uncertainty : float
+    moment, moment_uncertainty : float
+    """
+
+    h: float
+    h_uncertainty: float
+    moment: float
+    moment_uncertainty: float
+
+
+def inferred_from(budget: Budget, h: float) -> tuple[float, float]:
+    """Value of H that makes the computed precession rate equal to the IAU's, and its uncertainty.
+
+    Parameters
+    ----------
+    budget : Budget
+    h : float
+        H used in the budget.
+    """
+    compared = [effect for effect in budget.psi if effect in COMPARED]
+    spread = math.sqrt(sum((budget.psi[e] - budget.psi_published[e]) ** 2 for e in compared))
+    # all effects except geodesic precession are proportional to H
+    grows = sum(rate for effect, rate in budget.psi.items() if effect != "geodesic")
+    return (
+        inferred_h(h, grows, budget.closure),
+        inferred_h_uncertainty(h, grows, spread, budget.psi_analysis_error),
+    )
+
+
+def compared_flattenings(
+    budget: Budget, h: float, j2: float, radius: float, *, u_h: float, u_j2: float
+) -> dict[str, Flattening]:
+    """Values of H and C/(M a2) by source: published, from the IAU precession rate, and from PREM.
+
+    Parameters
+    ----------
+    budget : Budget
+    h, j2 : float
+        Values used in the budget.
+    radius : float
+        Reference radius of `j2`, m.
+    u_h, u_j2 : float
+        Relative standard uncertainties of `h` and `j2`.
+    """
+
+    def from_h(value: float, uncertainty: float) -> Flattening:
+        moment = polar_moment_from_h(j2, value)
+        return Flattening(
+            value, uncertainty, moment, moment * math.hypot(uncertainty / value, u_j2)
+        )
+
+    prem = prem_polar_moment(radius, j2)
+    # PREM states no errors: half a unit of its last printed digit is used
+    u_prem = PREM_MEAN_MOMENT.relative_uncertainty
+    return {
+        "published": from_h(h, u_h * h),
+        "from the IAU's rate": from_h(*inferred_from(budget, h)),
+        "PREM": Flattening(j2 / prem, j2 / prem * u_prem, prem, prem * u_prem),
+    }
+
+
+# --- equinox, year and calendar -------------------------------------------------------------------
+# Sun and Moon move the equator along the fixed ecliptic; the planets tilt the ecliptic. The sum,
+# the general precession, shifts the seasons. The calendar drifts relative to the *tropical* year,
+# which includes precession, by one day in 128 years; the source text has 129.4 without a
+# derivation.
+
+#: Years in which the Gregorian calendar drops one leap day: three in 400 years (I.8).
+DROPPED_LEAP_DAY = 400 / 3
+#: Mean Gregorian year: 97 leap days in 400 years, s.
+GREGORIAN_YEAR = (365 + 97 / 400) * DAY
+
+
+def general_precession(rate: Numeric, chi_rate: float, obliquity: float) -> Numeric:
+    """General precession in longitude: lunisolar precession minus ecliptic motion, rad/s.
+
+    p_A = psi_A - chi_A cos(epsilon), Capitaine et al. 2003, sect. 6.
+
+    Parameters
+    ----------
+    rate : float
+        Precession of the equator in longitude, rad/s.
+    chi_rate : float
+        Rate of the ecliptic along the equator, rad/s.
+    obliquity : float
+        rad.
+    """
+    return rate - chi_rate * math.cos(obliquity)
+
+
+def time_per_degree(rate: Numeric) -> Numeric:
+    """Time in which a given rate (rad/s) accumulates to one degree, s."""
+    return math.radians(1.0) / rate
+
+
+def tropical_year(rate: Numeric, sidereal_year: float) -> Numeric:
+    """Length of the tropical year, s.
+
+    Parameters
+    ----------
+    rate : float
+        General precession, rad/s; the equinox moves towards the Sun.
+    sidereal_year : float
+        s.
+    """
+    return 2 * math.pi / (2 * math.pi / sidereal_year + rate)
+
+
+def time_per_day_of_drift(tropical: Numeric, calendar: float = JULIAN_YEAR) -> Numeric:
+    """Time in which a calendar year of given length drifts by one day from the seasons, s.
+
+    Parameters
+    ----------
+    tropical : float
+        Tropical year, s.
+    calendar : float
+        Mean year of the calendar, s: the Julian one, 365.25 days, by default.
+    """
+    return DAY / (calendar - tropical) * JULIAN_YEAR

@@ -1,1 +1,25 @@
-"""One module for each question that a user can ask, such as the precession rate of a body."""
+"""One module for each question that a user can ask, and modules for what several questions share.
+
+Parts, the functions that answer a question, convert between labelled data and the arrays of the
+physics packages. They import modules when they run, so that a question loads only what it needs.
+"""
+
+#: Every question by its public call, in the order in which they are listed, and the module of each.
+MODULES = {
+    "precession": "earthspin.questions.precession",
+    "torque_series": "earthspin.questions.torque",
+    "pole": "earthspin.questions.pole",
+    "compare_iau": "earthspin.questions.iau",
+    "nutation_ladder": "earthspin.questions.nutation",
+    "long_term": "earthspin.questions.long_term",
+    "rotation": "earthspin.questions.rotation",
+    "wobble_ladder": "earthspin.questions.wobble",
+    "polar_motion": "earthspin.questions.polar_motion",
+    "pole_offsets": "earthspin.questions.pole_offsets",
+    "forecast": "earthspin.questions.forecast",
+    "free_rotor": "earthspin.questions.free_rotor",
+    "heavy_top": "earthspin.questions.top",
+    "spheroid_field": "earthspin.questions.spheroid",
+    "cassini_states": "earthspin.questions.cassini_states",
+    "love_numbers": "earthspin.questions.love_numbers",
+}

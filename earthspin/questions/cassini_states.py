@@ -9,9 +9,9 @@ from typing import Annotated
 import numpy as np
 
 from earthspin.bodies import BODIES, MOON, SUN, Body, in_a_sentence
-from earthspin.bodies.limits import refuse_break_up, refuse_fast_axis
-from earthspin.bodies.mean_orbits import LEFT_OUT_OF_STATES, PRECESSING_ORBITS
+from earthspin.bodies.checks import refuse_break_up, refuse_fast_axis
 from earthspin.bodies.orbit import Orbit
+from earthspin.bodies.planets import LEFT_OUT_OF_STATES, PRECESSING_ORBITS
 from earthspin.constants import NORMAL_95
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
@@ -20,7 +20,7 @@ from earthspin.engine.question import Question, define_parts, key
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import SceneError, nearest
 from earthspin.numerics.arrays import FloatArray
-from earthspin.parts.elements import refuse_overlap, size_and_motion
+from earthspin.questions.elements import refuse_overlap, size_and_motion
 from earthspin.torque.cassini import Precessing, is_locked, strengths
 from earthspin.torque.cassini import cassini_states as states_of
 
@@ -52,7 +52,7 @@ class CassiniStates(
     [  6.73 175.68] deg
     """
 
-    views, page, headline = "cassini_states", "frames", "obliquity"
+    page, headline = "frames", "obliquity"
 
     body: Body = key(MOON, doc="body with the spin axis")
     orbit: Annotated[Orbit | None, Orbit] = key(

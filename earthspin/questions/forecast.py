@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -16,9 +16,8 @@ from earthspin.dates import Spacing, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.plan import plan_parts
 from earthspin.engine.question import Question, define_parts, key
-from earthspin.engine.run import run_parts
+from earthspin.engine.run import Run
 from earthspin.engine.variables import (
     Labels,
     Pair,
@@ -31,8 +30,8 @@ from earthspin.engine.variables import (
 )
 from earthspin.errors import SceneError, SeriesError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.parts.pole_table import MJD, TableFile, complex_pole, labelled_series
-from earthspin.parts.reasons import no_iau_model
+from earthspin.questions.observed_pole import MJD, Daily, TableFile, complex_pole, labelled_series
+from earthspin.questions.reasons import no_iau_model
 from earthspin.sky.eop import (
     PoleSeries,
     file_of,
@@ -42,12 +41,13 @@ from earthspin.sky.eop import (
     read_pole_offsets,
 )
 from earthspin.units import Number, Plain, pack, unpack
-from earthspin.wobble.forecast import COMPONENTS, LONGEST, NEWEST_BIAS, SKILL, FastExcitation
+from earthspin.wobble.forecast import COMPONENTS, LONGEST, NEWEST_BIAS, SKILL
 from earthspin.wobble.forecast import Forecast as Predicted
 
 if TYPE_CHECKING:
     import xarray as xr
 
+    from earthspin.engine.accessor import Answer
     from earthspin.sky.iers_table import PoleTable
 
 #: How far a date may be from midnight, d.
@@ -148,7 +148,7 @@ class Forecast(
     0.043 ± 0.016, 0.311 ± 0.009 arcsec
     """
 
-    views, page, headline = "forecast", "forecast", "x"
+    page, headline = "forecast", "x"
 
     body: Body = key(EARTH, doc="body whose pole is forecast")
     days: Annotated[float, Number("d", "365 d", above=0.0)] = key(
@@ -234,11 +234,6 @@ def record(file: str | Path | GivenSeries, origin: float | None) -> Record:
         wrong = whole.time[:-1][abs(steps - 1) > _MIDNIGHT][0]
         problem = "a forecast needs one row for each day"
         raise SceneError("file", f"a step of {steps.max():g} d after {_day(wrong)}", problem)
-    return _until(whole, origin)
-
-
-def _until(whole: Record, origin: float | None) -> Record:
-    """Select the rows of a record up to the origin, the last day that the forecast uses."""
     if origin is None:
         return whole
     first, last = whole.time[[0, -1]]
@@ -247,7 +242,7 @@ def _until(whole: Record, origin: float | None) -> Record:
         raise SceneError("origin", _day(origin), problem)
     count = int(np.floor(origin - first + _MIDNIGHT)) + 1
     newest = whole.newest and count == whole.time.size
-    return Record(whole.time[:count], whole.p[:count], whole.name, whole.sha256, newest)
+    return replace(whole, time=whole.time[:count], p=whole.p[:count], newest=newest)
 
 
 def _day(time: float) -> str:
@@ -290,13 +285,7 @@ def _from_common_day(record: Record, excitation: GivenSeries) -> tuple[ComplexAr
     return record.p[max(skipped, 0) :], (chi1 + 1j * chi2)[max(-skipped, 0) :]
 
 
-class AheadOfOrigin(Variables, along=("time",)):
-    """Base class of results given at the times of a forecast, which lie after its origin."""
-
-    time: Labels = labels("time", standard_name="time", comment="0h UTC in daily tables")
-
-
-class ForecastPole(AheadOfOrigin):
+class ForecastPole(Daily):
     """Forecast of polar motion."""
 
     x: Pair = measured("arcsec", "coordinate of the pole towards the prime meridian")
@@ -306,15 +295,16 @@ class ForecastPole(AheadOfOrigin):
     )
 
 
-def _shown(days: float, step: float) -> Any:
+def _days_returned(days: float, step: float) -> Any:
     """Return the slice that selects the requested days from a daily forecast."""
     every = round(step / DAY)
     return slice(every - 1, int(days), every)
 
 
-def _times(record: Record, days: float, step: float) -> Any:
-    """Dates that a forecast returns: every `step` up to `days` after the origin."""
-    return datetime64(record.time[-1] + np.arange(1, int(days) + 1)[_shown(days, step)])
+def _days_ahead(record: Record, days: float, step: float) -> FloatArray:
+    """Days from J2000.0 that a forecast returns: every `step` up to `days` after the origin."""
+    ahead: FloatArray = np.arange(1.0, int(days) + 1)[_days_returned(days, step)]
+    return ahead + float(record.time[-1])
 
 
 @part
@@ -329,8 +319,9 @@ def ahead(
 ) -> ForecastPole:
     """Return the forecast x and y of the pole, with half-widths and correlation of errors."""
     newest = float(record.time[-1])
+    fast = ", ".join(f"{name} = {value:.4g}" for name, value in predicted.fast.as_mapping().items())
     kind = parameters or ("shipped" if excitation is None else "fitted")
-    shown = _shown(days, step)
+    shown = _days_returned(days, step)
     p, covariance = predicted.pole[shown] * MAS, predicted.covariance[shown] * MAS**2
     sx, sy = np.sqrt(covariance[:, 0, 0]), np.sqrt(covariance[:, 1, 1])
     source = {
@@ -339,7 +330,7 @@ def ahead(
         "origin": _day(newest if origin is None else origin),
         "newest_row": _day(newest),
         "age_of_newest_row": f"{0.0 if origin is None else origin - newest:g} d at the origin",
-        "parameters": f"{kind}: {_words(predicted.fast)}",
+        "parameters": f"{kind}: {fast}",
     }
     if record.newest:
         source["newest_row_corrected"] = (
@@ -350,19 +341,14 @@ def ahead(
             f"given from {_day(excitation.rows[0, 0])} to {_day(excitation.rows[0, -1])}"
         )
     return ForecastPole(
-        time=_times(record, days, step),
+        time=datetime64(_days_ahead(record, days, step)),
         x=(p.real, NORMAL_95 * sx),
         y=(-p.imag, NORMAL_95 * sy),
         correlation_xy=covariance[:, 0, 1] / (sx * sy),
     ).with_attributes(x=source, y=source)
 
 
-def _words(fast: FastExcitation) -> str:
-    """Write the parameters of the fast excitation of polar motion as one line of text."""
-    return ", ".join(f"{name} = {value:.4g}" for name, value in fast.as_mapping().items())
-
-
-class Components(AheadOfOrigin):
+class Components(Daily):
     """Parts of the forecast polar motion: Chandler, annual and semiannual wobble, and slow pole."""
 
     component_x: Pair = measured("mas", "part of x", along=("component", "time"))
@@ -380,12 +366,12 @@ def not_separated(excitation: GivenSeries | None) -> str | None:
 @part(unless=not_separated)
 def components(record: Record, predicted: Predicted, days: float, step: float) -> Components:
     """Compute the forecast Chandler, annual and semiannual wobbles and slow pole, with errors."""
-    shown = _shown(days, step)
+    shown = _days_returned(days, step)
     p = np.array([values[shown] for values in predicted.components.values()]) * MAS
     variance = np.array([values[shown] for values in predicted.component_variance.values()])
     half_width = NORMAL_95 * np.sqrt(variance) * MAS
     return Components(
-        time=_times(record, days, step),
+        time=datetime64(_days_ahead(record, days, step)),
         component_x=(p.real, half_width[..., 0]),
         component_y=(-p.imag, half_width[..., 1]),
     )
@@ -433,7 +419,7 @@ def skill() -> Skill:
     )
 
 
-class BulletinA(AheadOfOrigin):
+class BulletinA(Daily):
     """Polar motion x and y as predicted in Bulletin A of the IERS."""
 
     bulletin_a_x: Pair = measured("arcsec", "x predicted by Bulletin A")
@@ -458,7 +444,7 @@ def bulletin_a(
     """Read the polar motion predicted by Bulletin A, with 95 % half-widths, from the table."""
     table = None if isinstance(file, GivenSeries) else read_bulletin_a(file)
     assert table is not None
-    rows = _shown(days, step)
+    rows = _days_returned(days, step)
     return BulletinA(
         time=datetime64(table.mjd[rows] - MJD),
         bulletin_a_x=(table.x[rows], NORMAL_95 * table.x_error[rows]),
@@ -466,7 +452,7 @@ def bulletin_a(
     )
 
 
-class AheadOffsets(AheadOfOrigin):
+class AheadOffsets(Daily):
     """Forecast of the celestial pole offsets."""
 
     dX: Pair = measured("mas", "X of the celestial pole minus that of IAU 2006/2000A")
@@ -481,15 +467,15 @@ def offsets_until(file: str | Path, last: float | None) -> PoleSeries:
 
 def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Predict celestial pole offsets and their half-widths at given dates, shape (n, 2) each."""
-    from earthspin.nutation.offset_prediction import predict
+    from earthspin.nutation.core_nutation import predict
 
     return predict(table.mjd, table.x, table.y, table.x_error, table.y_error, mjd)
 
 
 def no_offsets(file: str | Path | GivenSeries, origin: float | None, days: float) -> str | None:
     """Return the reason (text) to omit celestial pole offsets without a forecast, else None."""
-    from earthspin.nutation.offset_prediction import LONGEST as FARTHEST
-    from earthspin.nutation.offset_prediction import too_short
+    from earthspin.nutation.core_nutation import LONGEST as FARTHEST
+    from earthspin.nutation.core_nutation import too_short
 
     if isinstance(file, GivenSeries):
         return "polar motion has no celestial pole offsets; name a table"
@@ -513,8 +499,8 @@ def pole_offsets(
     """Forecast the celestial pole offsets from those observed up to the origin of the forecast."""
     assert not isinstance(file, GivenSeries)
     table = offsets_until(file, float(record.time[-1]))
-    mjd = record.time[-1] + np.arange(1, int(days) + 1)[_shown(days, step)] + MJD
-    value, error = (pair.T for pair in predicted_offsets(table, mjd))
+    time = _days_ahead(record, days, step)
+    value, error = (pair.T for pair in predicted_offsets(table, time + MJD))
     newest = _day(table.mjd[-1] - MJD)
     source = {
         "references": f"IERS {table.name}",
@@ -522,7 +508,7 @@ def pole_offsets(
         "newest_row": newest,
     }
     return AheadOffsets(
-        time=_times(record, days, step), dX=(value[0], error[0]), dY=(value[1], error[1])
+        time=datetime64(time), dX=(value[0], error[0]), dY=(value[1], error[1])
     ).with_attributes(dX=source, dY=source)
 
 
@@ -556,28 +542,56 @@ define_parts(
 forecast = public_call(Forecast)
 
 
-def iers_table(question: Forecast) -> PoleTable:
-    """Table of Earth orientation for astropy, with forecast values after the origin.
+def to_iers_table(answer: Answer) -> PoleTable:
+    """Convert a forecast to an astropy table of Earth orientation parameters.
+
+    Polar motion and celestial pole offsets are observed up to the origin and forecast after
+    it, day by day and without errors. UT1 - UTC is that of finals2000A. Dates outside the table
+    are refused, even if astropy would only warn.
+
+    Parameters
+    ----------
+    answer : Answer
+        Accessor of the forecast, of which this is a method.
+
+    Returns
+    -------
+    astropy.utils.iers.IERS_A
 
     Raises
     ------
     SceneError
-        If polar motion was given without a table, or finals2000A has no UT1 - UTC as far ahead.
+        If the answer is not a forecast, if the forecast used polar motion without a table, or
+        if it reaches farther than the UT1 - UTC of finals2000A.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> from astropy.utils import iers
+    >>> table = earthspin.forecast(90).earthspin.to_iers_table()
+    >>> with iers.earth_orientation_table.set(table):
+    ...     pass  # transformations of astropy.coordinates
+    >>> print(table["PM_x"].unit)
+    arcsec
     """
+    question = answer.scene
+    if not isinstance(question, Forecast):
+        problem = f"an answer of '{question.word}' has no table; give one of 'forecast'"
+        raise SceneError("to_iers_table", question.word, problem)
     from earthspin.sky.iers_table import last_ut1, with_pole
 
-    results = run_parts(plan_parts(question, ["pole_offsets"])).results
     file = question.file
     if isinstance(file, GivenSeries):
         raise SceneError("file", "polar motion", "name a table, which has celestial pole offsets")
-    seen: Record = results["record"]
+    run = Run(question)
+    seen: Record = run["record"]
     mjd, horizon = seen.time + MJD, int(question.days)
     offsets = offsets_until(file, float(seen.time[-1]))
     rapid = file_of(file) if offsets.name == "finals2000A" else finals_path()
     if (reach := last_ut1(rapid) - mjd[-1]) < horizon:
         problem = f"{rapid.name} has UT1-UTC for {reach:.0f} d after the origin; take no more days"
         raise SceneError("days", f"{question.days:g} d", problem)
-    p = np.concatenate([seen.p, results["predicted"].pole]) * MAS
+    p = np.concatenate([seen.p, run["predicted"].pole]) * MAS
     pole = np.array([_continued(mjd, mjd[-1] + horizon), p.real, -p.imag])
     days = _continued(offsets.mjd, mjd[-1] + horizon)
     later, _ = predicted_offsets(offsets, days[offsets.mjd.size :])

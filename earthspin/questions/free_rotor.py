@@ -15,8 +15,8 @@ from earthspin.engine.question import Question, define_parts, setting
 from earthspin.engine.variables import Labels, Value, labels, number
 from earthspin.errors import Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.parts.times import FromStart, Seconds, instants
-from earthspin.rotor.moments import KEYS
+from earthspin.questions.times import FromStart, Seconds, instants
+from earthspin.rotor.euler import KEYS
 from earthspin.units import Duration, Numbers, Plain, Whole, quantity
 
 if TYPE_CHECKING:
@@ -43,17 +43,17 @@ class Moments:
     unit, example = "kg m2", "8.01e37 kg m2"
 
     @classmethod
-    def read(cls, given: object, where: Where) -> Moments:
+    def read(cls, value: object, where: Where) -> Moments:
         """Read principal moments of inertia: three moments, or a table of "A", "B-A" and "C-A"."""
-        if isinstance(given, Moments):
-            return given
-        table = isinstance(given, Mapping)
-        if isinstance(given, Mapping):
-            if set(given) != set(KEYS):
-                raise where.error(sorted(map(str, given)), f"the keys are {', '.join(KEYS)}")
-            values = [quantity(given[name], "kg m2", where.at(name), "8e37 kg m2") for name in KEYS]
+        if isinstance(value, Moments):
+            return value
+        table = isinstance(value, Mapping)
+        if isinstance(value, Mapping):
+            if set(value) != set(KEYS):
+                raise where.error(sorted(map(str, value)), f"the keys are {', '.join(KEYS)}")
+            values = [quantity(value[name], "kg m2", where.at(name), "8e37 kg m2") for name in KEYS]
         else:
-            values = list(Numbers("kg m2", "8.01e37 kg m2", (3,)).read(given, where))
+            values = list(Numbers("kg m2", "8.01e37 kg m2", (3,)).read(value, where))
         first, second, third = (float(value) for value in values)
         return cls((first, second, third), table)
 
@@ -111,7 +111,7 @@ class FreeRotor(
     [ 1.    0.53 -1.  ]
     """
 
-    views, page, headline = "free_rotor", "rotors", "attitude"
+    page, headline = "rotors", "attitude"
 
     exclusive = (("times",), ("duration", "points"))
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95
@@ -29,11 +28,13 @@ from earthspin.engine.variables import (
 )
 from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
-from earthspin.nutation import flattening as flat
-from earthspin.nutation.angles import ANGLES, polynomials, precession_angles
+from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.nutation import budget as flat
+from earthspin.nutation.analysis import ANGLES, polynomials, precession_angles
 from earthspin.nutation.budget import Budget, budget_of
-from earthspin.parts.observed_sky import ObservedSizes, ObservedSky, observed_sky
-from earthspin.parts.path import (
+from earthspin.progress import progress
+from earthspin.questions.observed_pole import ObservedSizes, ObservedSky, observed_sky
+from earthspin.questions.path import (
     INTERIOR,
     MERGED,
     NEIGHBOUR,
@@ -45,16 +46,16 @@ from earthspin.parts.path import (
     Shift,
     core_response,
     iau_nutation,
+    largest_terms,
     path_over,
     residual_error,
     rigid,
     steady_figure,
 )
-from earthspin.parts.pulls import PULLS, Pulls, start_of
-from earthspin.parts.reasons import neglected_rates
-from earthspin.parts.sky import unmeasured
-from earthspin.parts.times import Dated
-from earthspin.progress import progress
+from earthspin.questions.pulls import PULLS, Pulls, start_of
+from earthspin.questions.reasons import neglected_rates
+from earthspin.questions.sky import unmeasured
+from earthspin.questions.times import Dated
 
 if TYPE_CHECKING:
     from earthspin.nutation.response import Response
@@ -93,7 +94,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     computed pole minus the IAU's in obliquity, nothing removed
     """
 
-    views, page, headline = "iau", "pole", "closure"
+    page, headline = "pole", "closure"
 
     def check(self) -> None:
         """Refuse bodies whose position errors are unknown, as the comparison needs them."""
@@ -211,15 +212,15 @@ def budget(rates_by_effect: Budget) -> EffectRates:
         closure=rates.closure,
         omega_closure=rates.omega_closure,
         omega_closure_with_tides=rates.omega_closure_with_tides,
-        closure_over_flattening=_over(rates.closure, rates.psi_from_h),
-        closure_over_uncertainty=_over(rates.closure, both),
+        closure_over_flattening=_ratio(rates.closure, rates.psi_from_h),
+        closure_over_uncertainty=_ratio(rates.closure, both),
         psi_rate_analysis_error=rates.psi_analysis_error,
         omega_rate_analysis_error=rates.omega_analysis_error,
         effect=list(rates.psi),
     )
 
 
-def _over(closure: float, uncertainty: float) -> float:
+def _ratio(closure: float, uncertainty: float) -> float:
     """Ratio of an unexplained rate to its uncertainty; infinite if that uncertainty is zero."""
     return closure / uncertainty if uncertainty else math.copysign(math.inf, closure)
 
@@ -247,13 +248,13 @@ class Differences:
         The same without a fit, at each time: the precession depends on H, too.
     """
 
-    days: NDArray[np.float64]
+    days: FloatArray
     models: tuple[str, ...]
-    plain: NDArray[np.float64]
-    fitted: NDArray[np.float64]
+    plain: FloatArray
+    fitted: FloatArray
     chosen: int
     error: float
-    unfitted_error: NDArray[np.float64]
+    unfitted_error: FloatArray
 
 
 @part
@@ -267,17 +268,17 @@ def differences(
     predicted_shift: Shift | None = None,
 ) -> Differences:
     """Compute time series of computed pole minus IAU pole, for different sets of effects."""
-    from earthspin.nutation.circles import complex_nutation, without_line
+    from earthspin.nutation.analysis import complex_nutation, without_line
     from earthspin.sky import iau
 
     done = pole_analysis
     days, ends, iau_eta = iau_nutation(pulls, epochs)
     own_start, _ = start_of(body, pulls)
 
-    def axes_of(on: list[str], start: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+    def axes_of(on: list[str], start: FloatArray) -> dict[str, FloatArray]:
         return path_over(body, pulls, on, start, ends).at(days * DAY, semidiurnal=False)
 
-    def eta_of(pole: NDArray[np.float64]) -> NDArray[np.complex128]:
+    def eta_of(pole: FloatArray) -> ComplexArray:
         return complex_nutation(iau.nutation_of(pole, days))
 
     # Each model as `pole` returns it, start included.
@@ -437,32 +438,19 @@ class Nutation(Variables, along=("term",)):
 @part
 def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation:
     """Compare the thirty largest circular nutation terms of the computed pole and the IAU pole."""
-    from earthspin.nutation.circles import phases, term_names
-    from earthspin.nutation.neighbours import amplitude_error, neighbours_of
-    from earthspin.sky import iau
+    from earthspin.nutation.analysis import phases
 
+    order, terms = largest_terms(pole_analysis, LARGEST)
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
-    order = np.argsort(-np.abs(ours.amplitude))[:LARGEST]
-    frequency = ours.frequency[order]
     rigid, real = ours.amplitude[order], theirs.amplitude[order]
-    transfer = core_response.transfer(frequency)
-    at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
-    near = neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
-    neighbour_in, neighbour_out = phases(near.amplitude[order])
-    error, ratio = amplitude_error(frequency), real / rigid
+    transfer, ratio = core_response.transfer(ours.frequency[order]), real / rigid
     return Nutation(
-        period=2 * np.pi / frequency,
+        **terms,
         rigid=phases(rigid),
-        iau=phases(real),
-        amplitude_error=error,
-        neighbour=[near.names[row] for row in order],
-        neighbour_in_phase=neighbour_in,
-        neighbour_out_of_phase=neighbour_out,
         ratio=(ratio.real, ratio.imag),
-        ratio_error=np.hypot(1, np.abs(ratio)) * error / np.abs(rigid),
+        ratio_error=np.hypot(1, np.abs(ratio)) * terms["amplitude_error"] / np.abs(rigid),
         transfer=(transfer.real, transfer.imag),
         left=phases(real - transfer * rigid),
-        term=term_names(ours.multiples[order]),
     )
 
 
@@ -527,7 +515,7 @@ def core(
     pole_analysis: PoleComparison, core_response: Response, response_apart: ResponseFit
 ) -> Core:
     """Return the parameters of the free core nutation fitted to IAU 2000A, and fit residuals."""
-    from earthspin.nutation.circles import phases, term_names
+    from earthspin.nutation.analysis import phases, term_names
     from earthspin.nutation.response import added_half_width
 
     apart, alone = response_apart, response_apart.response
@@ -575,7 +563,7 @@ class Angles(Variables, along=("angle", "degree")):
 @part
 def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
     """Fit polynomials to the precession angles of the computed pole and the IAU pole."""
-    from earthspin.nutation.circles import SLOW_DEGREE
+    from earthspin.nutation.analysis import SLOW_DEGREE
     from earthspin.sky import iau
 
     t = pole_analysis.days / DAYS_PER_CENTURY

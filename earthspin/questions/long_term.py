@@ -3,39 +3,118 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Self
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 import numpy as np
 
-from earthspin.bodies import MOON, SUN, Body, Numeric, in_a_sentence
+from earthspin.bodies import MOON, SUN, Body, in_a_sentence
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
-from earthspin.errors import Where
+from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, item_of
-from earthspin.parts.orbits import OrbitChoice, orbit_table
-from earthspin.parts.pulls import start_error
-from earthspin.parts.reasons import no_iau_model, north_note, not_sun_and_moon
-from earthspin.parts.satellites import mean_pole_error
-from earthspin.parts.side_by_side import SideBySide
-from earthspin.parts.sky import PerturbedBody, Sky, Stretch, places, sky
+from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, of_perturber
+from earthspin.questions.pulls import start_error
+from earthspin.questions.reasons import no_iau_model, north_note, not_sun_and_moon
+from earthspin.questions.satellites import mean_pole_error
+from earthspin.questions.sky import PerturbedBody, Sky, Stretch, places, sky
+from earthspin.questions.times import SideBySide
 from earthspin.secular import budget as solutions
 from earthspin.secular import reading
-from earthspin.secular.angles import equator_and_equinox, equinox_error, inclined_axis
-from earthspin.secular.orbit import moons_height
-from earthspin.secular.strength import Strength, Tides, geodesic_precession
+from earthspin.secular.orbit import Strength, Tides, geodesic_precession, moons_height
+from earthspin.secular.reading import equator_and_equinox, equinox_error, inclined_axis
+from earthspin.sky.columns import is_table
+from earthspin.sky.orbit_files import read_orbit
 from earthspin.sky.orbit_table import OrbitTable, shipped
 from earthspin.torque import rates
-from earthspin.torque.quadrupole import dot
-from earthspin.units import Number
+from earthspin.torque.gravity import dot
+from earthspin.units import FileName, Number, Plain, pack, unpack
 from earthspin.years import YearList, YearSpan, YearStep, grid
 
 if TYPE_CHECKING:
     import xarray as xr
+
+# --- orbits --------------------------------------------------------------------------------------
+
+
+#: Name of the table that is shipped for the body.
+OWN = "own"
+
+
+#: Names of the arrays of a table in a scene.
+_ARRAYS = ("edges", "coefficients", "axes", "errors")
+
+
+class OrbitChoice(FileName):
+    """Kind of input: an orbit table, which is the body's own, a file, or an `OrbitTable`."""
+
+    words = '"own", the path of a table, or the result of read_orbit'
+    hint = "str | PathLike[str] | OrbitTable"
+    known = (OWN,)
+    content = "the table of an orbit"
+
+    def read(self, value: object, where: Where) -> Any:
+        """Read the choice of orbit: "own", a file, an `OrbitTable`, or the result of `write`."""
+        if isinstance(value, OrbitTable):
+            return value
+        if isinstance(value, Mapping):
+            return _table_of(value, where)
+        return super().read(value, where)
+
+    def write(self, value: str | OrbitTable) -> Plain:
+        """Return a word or path unchanged; convert an `OrbitTable` to a dict of all its numbers."""
+        if isinstance(value, str):
+            return value
+        numbers = {name: pack(getattr(value, name)) for name in _ARRAYS}
+        return {"name": value.name, "source": value.source, "sha256": value.sha256} | numbers
+
+    def begins(self, head: bytes) -> bool:
+        """Return True if the first bytes `head` begin a NumPy archive or a text table."""
+        return head[:2] == b"PK" or is_table(head)
+
+
+def _table_of(table: Mapping[str, Any], where: Where) -> OrbitTable:
+    """Build an `OrbitTable` from the dict in which a scene file stores it."""
+    wanted = {"name", "source", "sha256", *_ARRAYS}
+    if set(table) != wanted:
+        raise where.error(sorted(table), f"an orbit table needs {', '.join(sorted(wanted))}")
+    edges, coefficients, axes, errors = (unpack(table[name], where) for name in _ARRAYS)
+    windows = len(edges) - 1
+    shapes = coefficients.shape[:2] == (4, windows) and errors.shape == (2, windows)
+    if not shapes or axes.shape != (3, 3) or coefficients.ndim != 3:
+        raise where.error("a table", "the shapes of its arrays do not fit together")
+    return OrbitTable(
+        name=str(table["name"]),
+        edges=edges,
+        coefficients=coefficients,
+        axes=axes,
+        source=str(table["source"]),
+        errors=errors,
+        sha256=str(table["sha256"]),
+    )
+
+
+@part
+def orbit_table(orbit: str | OrbitTable, body: Body) -> OrbitTable:
+    """Return the table of the body's orbit over millions of years."""
+    if not isinstance(orbit, str):
+        return orbit
+    if orbit != OWN:
+        return read_orbit(orbit, body=body.name)
+    table = shipped(body.name)
+    if table is None:
+        raise UndefinedError(
+            f"no orbit over millions of years is shipped for {body.name}; give a file as orbit"
+        )
+    return table
+
+
+# --- the question --------------------------------------------------------------------------------
+
 
 #: Relative half-width of the published contributions to the rate of the Earth: with them it lies so
 #: far from that of IAU 2006 (3.8 mas a century, `closure` of `precession`).
@@ -79,7 +158,7 @@ class LongTerm(
     101 23.439
     """
 
-    views, page, headline = "long_term", "long_term", "obliquity"
+    page, headline = "long_term", "obliquity"
 
     exclusive = (("times",), ("span", "step"))
     many_pulls = True
@@ -185,11 +264,11 @@ def numbers(
     longitude_shift: float,
 ) -> SideBySide:
     """Broadcast to one shape all inputs of the long-term precession that may be arrays."""
-    rate, error = mean_rates.total()
+    (rate, error), j2 = mean_rates.total(), body.needed("j2")
     as_published = 0.0 if not_sun_and_moon(body, perturbers) else body.are_as_named
     return SideBySide.of(
         **{
-            name: item_of(mean_rates.rate.value, place)
+            name: of_perturber(mean_rates.rate.value, place)
             for place, name in enumerate(mean_rates.means.labels)
         },
         relative_error=np.hypot(error / np.abs(rate), CLOSURE * as_published),
@@ -197,7 +276,7 @@ def numbers(
         spin_rate=body.spin_rate,
         tides=tides,
         ellipticity=ellipticity,
-        j2_rate=_relative_j2_rate(body) if j2_rate is None else j2_rate,
+        j2_rate=body.j2_rate / (j2 + (j2 == 0)) if j2_rate is None else j2_rate,
         obliquity_shift=obliquity_shift,
         longitude_shift=longitude_shift,
     )
@@ -251,12 +330,6 @@ def _published() -> float:
         for name, effect in PUBLISHED_EFFECTS.items()
         if name != "geodesic"
     )
-
-
-def _relative_j2_rate(body: Body) -> Numeric:
-    """Rate of change of J2 divided by J2, s-1; zero if J2 does not change."""
-    j2 = body.needed("j2")
-    return body.j2_rate / (j2 + (j2 == 0))
 
 
 @part

@@ -5,23 +5,23 @@ from __future__ import annotations
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import EARTH, Body, in_a_sentence
-from earthspin.bodies.limits import refuse_break_up
+from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key
 from earthspin.engine.variables import Labels, Value, Variables, labels, number
-from earthspin.interior.anelastic import anelastic_strain
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import Yielding, elastic, yielding
 from earthspin.interior.modes import free_modes, mode_period, numbers_of, parts_of
 from earthspin.interior.named import ANELASTIC_EXPONENT
-from earthspin.mass.inertia import ellipticity_from_h
-from earthspin.parts.layered import FROM_LAYERS, LayeredInterior, layers, require_layers
+from earthspin.interior.ocean_and_anelasticity import anelastic_strain
+from earthspin.mass.figure import ellipticity_from_h
+from earthspin.numerics.arrays import ComplexArray
+from earthspin.questions.interiors import FROM_LAYERS, LayeredInterior, layers, require_layers
 from earthspin.units import Number
 
 
@@ -60,7 +60,7 @@ class LoveNumbers(
     [ 393.6 -455.6  475.5 2411. ]
     """
 
-    views, page, headline = "love_numbers", "wobble", "love_number"
+    page, headline = "wobble", "love_number"
 
     interior: LayeredInterior | None = key(None, doc="layers; those of the body if not given")
     body: Body = key(EARTH, doc="body with the layers, the spin and the dynamical flattening")
@@ -83,7 +83,7 @@ _FIELDS = {
 }  # fmt: skip
 
 
-def _numbers(response: Yielding) -> NDArray[np.complex128]:
+def _numbers(response: Yielding) -> ComplexArray:
     """Array of the complex Love numbers of a body: its response to a tide and to a surface load."""
     return np.array([getattr(response, field) for field in _FIELDS.values()], dtype=complex)
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import Body
 from earthspin.constants import DAYS_PER_CENTURY
@@ -29,9 +28,12 @@ from earthspin.engine.variables import (
 )
 from earthspin.interior.modes import mode_period
 from earthspin.interior.named import ANELASTIC_EXPONENT
+from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import ladder
-from earthspin.nutation.interior_draws import Spread, spread_of
-from earthspin.parts.path import (
+from earthspin.nutation.ladder import Spread, spread_of
+from earthspin.progress import progress
+from earthspin.questions.interiors import SOURCES, Prediction, no_layers, predict
+from earthspin.questions.path import (
     MERGED,
     NEIGHBOUR,
     NEIGHBOUR_SHARE,
@@ -40,14 +42,13 @@ from earthspin.parts.path import (
     PoleComparison,
     iau_nutation,
     iau_pole,
+    largest_terms,
     path_over,
     pole_analysis,
     residual_error,
     steady_figure,
 )
-from earthspin.parts.predicted import SOURCES, Prediction, no_layers, predict
-from earthspin.parts.pulls import PULLS, Pulls
-from earthspin.progress import progress
+from earthspin.questions.pulls import PULLS, Pulls
 from earthspin.units import Number
 
 #: Terms of the table: the largest circles.
@@ -90,7 +91,7 @@ class NutationLadder(
     [21.7 22.5  2.8  2.7  2.   1.9  0.4]
     """
 
-    views, page, headline = "nutation", "nutation", "rms_dpsi_sineps"
+    page, headline = "nutation", "rms_dpsi_sineps"
 
     coupling: Literal["none", "inferred"] = setting(
         "none",
@@ -135,7 +136,7 @@ class RungResiduals:
         95 % half-width of either angle, rad, from the inputs of the interior, H and integration.
     """
 
-    rms: dict[str, NDArray[np.float64]]
+    rms: dict[str, FloatArray]
     error: dict[str, float]
 
 
@@ -156,7 +157,7 @@ def left(
     effects: tuple[str, ...],
 ) -> RungResiduals:
     """Compute the residuals of predicted pole minus IAU pole for each model."""
-    from earthspin.nutation.circles import complex_nutation, responses, without_line
+    from earthspin.nutation.analysis import complex_nutation, responses, without_line
     from earthspin.sky import iau
 
     done = pole_analysis
@@ -166,7 +167,7 @@ def left(
     circles = done.our_circles
     factors = {name: models.transfer(name, circles.frequency) - 1 for name in models.rungs}
 
-    def shifts(at: NDArray[np.float64]) -> NDArray[np.float64]:
+    def shifts(at: FloatArray) -> FloatArray:
         added = np.array([*responses(circles, iau.delaunay_arguments(at), factors).values()])
         return np.stack([added.real, added.imag], axis=-1).swapaxes(0, 1)
 
@@ -305,33 +306,20 @@ class Terms(Variables, along=("term",)):
 @part
 def terms(pole_analysis: PoleComparison, models: Prediction, interior_spread: Spread) -> Terms:
     """Compute the largest circular nutation terms of each model, in phase and out of phase."""
-    from earthspin.nutation.circles import phases, term_names
-    from earthspin.nutation.neighbours import amplitude_error, neighbours_of
-    from earthspin.sky import iau
+    from earthspin.nutation.analysis import phases
 
-    ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
-    order = np.argsort(-np.abs(ours.amplitude))[:LARGEST]
-    frequency, own = ours.frequency[order], ours.amplitude[order]
-    names = models.ladder
+    order, columns = largest_terms(pole_analysis, LARGEST)
+    circles, names = pole_analysis.our_circles, models.ladder
+    frequency, own = circles.frequency[order], circles.amplitude[order]
     predicted = np.array([models.transfer(name, frequency) * own for name in names])
     spread = np.array(
         [interior_spread.transfer_half_width(name, frequency) * np.abs(own) for name in names]
     )
-    error = amplitude_error(frequency)
-    at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
-    near = neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
-    neighbour_in, neighbour_out = phases(near.amplitude[order])
     return Terms(
-        period=2 * np.pi / frequency,
+        **columns,
         predicted=phases(predicted),
-        predicted_error=np.hypot(spread, error),
-        iau=phases(theirs.amplitude[order]),
-        amplitude_error=error,
-        neighbour=[near.names[row] for row in order],
-        neighbour_in_phase=neighbour_in,
-        neighbour_out_of_phase=neighbour_out,
+        predicted_error=np.hypot(spread, columns["amplitude_error"]),
         rung=names,
-        term=term_names(ours.multiples[order]),
     ).with_attributes(predicted_in_phase={"references": SOURCES})
 
 

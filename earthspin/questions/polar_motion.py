@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from earthspin.bodies import Body
-from earthspin.constants import DAY, MAS, NORMAL_95
+from earthspin.constants import DAY, DAYS_PER_YEAR, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
@@ -19,7 +19,7 @@ from earthspin.engine.run import in_range
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.parts.pole_table import (
+from earthspin.questions.observed_pole import (
     MJD,
     Daily,
     OfTable,
@@ -31,9 +31,8 @@ from earthspin.parts.pole_table import (
 from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
 from earthspin.sky.eop import PoleSeries, read_polar_motion
 from earthspin.units import Days, FileName, Number, Numbers, Several, Text, Word, kind_of
-from earthspin.wobble.envelope import envelope
-from earthspin.wobble.record import WobbleFit
-from earthspin.wobble.spectrum import spectrum as amplitude_spectrum
+from earthspin.wobble.record import WobbleFit, envelope
+from earthspin.wobble.record import spectrum as amplitude_spectrum
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -44,7 +43,7 @@ Method = Literal["burg", "likelihood"]
 #: Days that are closer than this are the same, d.
 SAME_DAY = 1e-6
 #: Cycles per day up to which a spectrum is given: three in a year.
-FASTEST = 3 / 365.25
+FASTEST = 3 / DAYS_PER_YEAR
 #: Sum of the amplitudes of the tidal terms of x, mas: Q1, O1, P1, K1, N2, M2, S2, K2.
 OCEAN_TIDES = 0.027 + 0.142 + 0.056 + 0.171 + 0.058 + 0.331 + 0.158 + 0.040
 
@@ -72,7 +71,7 @@ class PolarMotion(OfTable, word="polar-motion", call="polar_motion", table="pola
     IERS c04
     """
 
-    views, page, headline = "polar_motion", "wobble", "x"
+    page, headline = "wobble", "x"
 
     method: Method = setting("burg", doc="method that fits the free wobble")
     window: Days | None = setting(
@@ -165,7 +164,7 @@ def _free_wobble(
     time: FloatArray, p: ComplexArray, fit: WobbleFit, window: float | None
 ) -> FreeWobble:
     """Return the fitted period and quality factor, and wobble amplitudes in sliding windows."""
-    from earthspin.wobble.resonance import coordinates_of
+    from earthspin.wobble.excitation import coordinates_of
 
     wobbles = envelope(time, p, fit.period, window)
     low, high = fit.quality_bounds
@@ -296,7 +295,7 @@ def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArr
 
     The excitation is the mean over each step between dates; pole and excitation are in mas.
     """
-    from earthspin.wobble.resonance import ends_of_steps
+    from earthspin.wobble.excitation import ends_of_steps
 
     time, p = complex_pole(pole)
     middles, driving = _complex_excitation(chi)
@@ -320,7 +319,7 @@ def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArr
 
 def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     """Return the times of an excitation series, days from J2000.0, and chi1 + i chi2, mas."""
-    from earthspin.wobble.resonance import excitation_of
+    from earthspin.wobble.excitation import excitation_of
 
     time, chi1, chi2 = labelled_series(chi, ("chi1", "chi2"), ("mas",))
     return time, excitation_of(chi1, chi2) / MAS
@@ -370,7 +369,7 @@ def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100
     >>> print(seen.time.size, chi.time.size)
     1828 1827
     """
-    from earthspin.wobble import resonance as ex
+    from earthspin.wobble import excitation as ex
 
     days, q = _DAYS.read(period, Where("period")), _PURE.read(quality_factor, _Q)
     time, p = complex_pole(ds)
@@ -438,7 +437,7 @@ def polar_motion_from(
     >>> print(abs(again.x - seen.x).max().values < 1e-12)
     True
     """
-    from earthspin.wobble import resonance as ex
+    from earthspin.wobble import excitation as ex
 
     time, driving = _complex_excitation(chi)
     known = chi.attrs
@@ -454,7 +453,7 @@ def polar_motion_from(
     if fitted_to is not None:
         if start is not None:
             raise SceneError("start", start, "it is fitted to the pole; leave it or fitted_to out")
-        from earthspin.wobble.driven import fitted_start
+        from earthspin.wobble.excitation import fitted_start
 
         ends, observed, driving = _together(fitted_to, chi)
         begin = fitted_start(ends, observed, driving, s)

@@ -16,11 +16,10 @@ from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Value, labels, number
 from earthspin.motion.axes import AXES, AxisPath
 from earthspin.motion.effect_sizes import axis_displacements
-from earthspin.motion.effects import NONRIGID
-from earthspin.motion.effects.nonrigid import LARGEST_CORE_NUTATION, RESPONSE
-from earthspin.nutation.angles import on_fixed_ecliptic
-from earthspin.parts.left_out import drift_by_planets, each_added, switched_off
-from earthspin.parts.path import (
+from earthspin.motion.effects import LARGEST_CORE_NUTATION, NONRIGID, RESPONSE
+from earthspin.nutation.analysis import on_fixed_ecliptic
+from earthspin.questions.interiors import SOURCES, no_layers
+from earthspin.questions.path import (
     INTERIOR,
     SHORTEST_SPAN,
     LongitudeCycles,
@@ -31,23 +30,25 @@ from earthspin.parts.path import (
     drift_of_nodes,
     longitude_cycles,
 )
-from earthspin.parts.predicted import SOURCES, no_layers
-from earthspin.parts.pulls import (
+from earthspin.questions.pulls import (
     EFFECTS_DOC,
     PULLS,
     AxisMotion,
     Effects,
     Pulls,
+    drift_by_planets,
+    each_added,
     idle_note,
     own_kernel,
     start_error,
     start_note,
     start_of,
+    switched_off,
 )
-from earthspin.parts.reasons import no_iau_model, north_note, not_the_iaus_earth
-from earthspin.parts.satellites import no_satellites
-from earthspin.parts.sky import Sky
-from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
+from earthspin.questions.reasons import no_iau_model, north_note, not_the_iaus_earth
+from earthspin.questions.satellites import no_satellites
+from earthspin.questions.sky import Sky
+from earthspin.questions.times import SPAN_DOC, Dated, days_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -86,7 +87,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
     13 ['angular_momentum' 'rotation' 'figure']
     """
 
-    views, page, headline = "pole", "pole", "direction_error"
+    page, headline = "pole", "direction_error"
     with_satellites = True
 
     span: Span = key(("1980-01-01T12:00:00", "2020-01-01T12:00:00"), doc=SPAN_DOC)
@@ -204,7 +205,7 @@ def axes(
     block: Block | None = None,
 ) -> Directions:
     """Compute unit vectors of the angular momentum, rotation and figure axes at every time."""
-    now = days_of(epochs, block, by_region("pole.zarr"))
+    now = days_of(epochs, block, "pole.zarr")
     directions = axis_path.at(now * DAY)
     figure = directions["figure"]
     errors = direction_errors(axis_path, figure, now, epochs, body, pulls, interior_shift)
@@ -252,7 +253,7 @@ def response_error(
     block: Block | None = None,
 ) -> ResponseError:
     """Compute the error of the axis directions that is due to the response of the interior."""
-    half_width = interior_shift.half_width(days_of(epochs, block, by_region("pole.zarr")))
+    half_width = interior_shift.half_width(days_of(epochs, block, "pole.zarr"))
     share = ResponseError(time=axes.time, direction_error_response=half_width)
     if response == "predicted":
         share.with_attributes(direction_error_response={"references": SOURCES})
@@ -275,7 +276,7 @@ def satellite_error(
 ) -> SatelliteError:
     """Compute the error of the axis directions that is due to the nodes of satellites."""
     _, epoch = start_of(body, pulls)
-    days = days_of(epochs, block, by_region("pole.zarr"))
+    days = days_of(epochs, block, "pole.zarr")
     return SatelliteError(
         time=axes.time, direction_error_satellites=drift_of_nodes(body, pulls, days * DAY - epoch)
     )
@@ -318,7 +319,7 @@ def pole_angles(
     vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     angles = on_fixed_ecliptic(vectors.reshape(-1, 3), ecliptic).reshape(*vectors.shape[:2], 2)
-    psi = turns.unwrapped(angles[..., 0], days_of(epochs, block, by_region("pole.zarr")) * DAY)
+    psi = turns.unwrapped(angles[..., 0], days_of(epochs, block, "pole.zarr") * DAY)
     return Angles(time=axes.time, axis=axes.axis, psi=psi, eps=angles[..., 1]).with_attributes(
         eps=north_note(body)
     )

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from earthspin.constants import DAY, NORMAL_95
+from earthspin.constants import DAY, DAYS_PER_YEAR, NORMAL_95
 from earthspin.dates import Span, datetime64
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
@@ -14,9 +14,9 @@ from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, setting
 from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
 from earthspin.errors import UndefinedError
-from earthspin.interior.published import OBSERVED_CORE_NUTATION
+from earthspin.interior.named import OBSERVED_CORE_NUTATION
 from earthspin.nutation import core_nutation as core
-from earthspin.parts.pole_table import MJD, Daily, OfTable, not_observed, within
+from earthspin.questions.observed_pole import MJD, Daily, OfTable, not_observed, within
 from earthspin.sky.eop import PoleSeries, read_pole_offsets
 from earthspin.units import Days
 from earthspin.wobble.record import shortest_span
@@ -52,7 +52,7 @@ class PoleOffsets(OfTable, word="pole-offsets", call="pole_offsets", table="pole
     mas 7306
     """
 
-    views, page, headline = "pole_offsets", "pole_offsets", "dX"
+    page, headline = "pole_offsets", "dX"
 
     window: Days | None = setting(
         None, doc="length of the sliding windows; three years if not given"
@@ -124,7 +124,8 @@ def too_short_for_a_period(span: Span | None) -> str | None:
     needed = 2 * shortest_span()
     if span is None or _length(span) >= needed:
         return None
-    return f"the span is shorter than {needed / 365.25:.0f} years, which the fit of a period needs"
+    years = needed / DAYS_PER_YEAR
+    return f"the span is shorter than {years:.0f} years, which the fit of a period needs"
 
 
 def _length(span: Span) -> float:

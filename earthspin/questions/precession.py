@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import Body, all_of, in_a_sentence
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
@@ -25,15 +24,15 @@ from earthspin.engine.variables import (
     number,
     words,
 )
-from earthspin.mass import inertia
-from earthspin.nutation import seasons as calendar
+from earthspin.mass import figure
+from earthspin.numerics.arrays import FloatArray
+from earthspin.nutation import budget as calendar
 from earthspin.nutation.budget import closure, published_effects
-from earthspin.parts import reasons
-from earthspin.parts.averages import MEANS, MeanRates, MeanTorques, Samples
-from earthspin.parts.observed_wobble import observed_wobble
-from earthspin.parts.reasons import north_note
-from earthspin.parts.satellites import describe_pole, swings
-from earthspin.parts.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
+from earthspin.questions import reasons
+from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, Samples
+from earthspin.questions.reasons import north_note, observed_wobble
+from earthspin.questions.satellites import describe_pole, swings
+from earthspin.questions.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
 from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
 from earthspin.sky.sources import SourceName
 from earthspin.torque import rates
@@ -72,7 +71,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     [81259. 37614. 25712.]
     """
 
-    views, page, headline = "precession", "theory", "precession_rate"
+    page, headline = "theory", "precession_rate"
     with_satellites = True
 
     source: SourceName = key("skyfield", doc=SOURCE_DOC)
@@ -220,22 +219,22 @@ def figure_models(mean_torques: MeanTorques, mean_rates: MeanRates, body: Body) 
     import xarray as xr
 
     j2, measured_h = body.needed("j2"), body.needed("dynamical_flattening")
-    by_mccullough = inertia.h_mccullough(body.needed("flattening"))
-    models = (by_mccullough, inertia.h_homogeneous(j2), measured_h)
+    by_mccullough = figure.h_mccullough(body.needed("flattening"))
+    models = (by_mccullough, figure.h_homogeneous(j2), measured_h)
     h = xr.concat(map(xr.DataArray, models), dim=xr.Variable("earth_model", list(MODELS)))
     precessing, radius = mean_torques.precessing[-1], body.needed("radius")
-    difference = inertia.moment_difference(j2, body.mass, radius)
+    difference = figure.moment_difference(j2, body.mass, radius)
     return FigureModels(
         h_by_model=h,
         period_by_model=rates.period(
             rates.precession_rate(precessing, h * mean_rates.carried.rate, body.spin_rate)
         ),
         wobble_by_model=free_wobble_period(
-            inertia.ellipticity_from_h(h), body.needed("spin_period")
+            figure.ellipticity_from_h(h), body.needed("spin_period")
         ),
         moment_difference=difference,
-        polar_moment_factor=inertia.polar_moment_factor(j2, measured_h),
-        j2_from_moment_difference=inertia.j2_from_moment_difference(difference, body.mass, radius),
+        polar_moment_factor=figure.polar_moment_factor(j2, measured_h),
+        j2_from_moment_difference=figure.j2_from_moment_difference(difference, body.mass, radius),
     )
 
 
@@ -258,11 +257,11 @@ class FreeWobble(Variables, no_error="its relative error is that of free_wobble_
 def free_wobble(body: Body) -> FreeWobble:
     """Compute the period of the free wobble of the body, as if it is rigid."""
     h = body.needed("dynamical_flattening")
-    period = free_wobble_period(inertia.ellipticity_from_h(h), body.needed("spin_period"))
+    period = free_wobble_period(figure.ellipticity_from_h(h), body.needed("spin_period"))
     u = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     return FreeWobble(
         free_wobble_period=(period, free_wobble_error(period, h, u)),
-        free_wobble_period_sidereal=free_wobble_period(inertia.ellipticity_from_h(h), 1.0),
+        free_wobble_period_sidereal=free_wobble_period(figure.ellipticity_from_h(h), 1.0),
     )
 
 
@@ -351,7 +350,7 @@ def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> Be
 
     The observed H contains the observed precession; H = J2 M a2/C with C of PREM does not.
     """
-    from earthspin.nutation.flattening import prem_polar_moment
+    from earthspin.nutation.budget import prem_polar_moment
     from earthspin.sky.iau import precession_rates
 
     rate, error = mean_rates.total()
@@ -380,11 +379,11 @@ class Standstills(Variables, along=("standstill",)):
 @part(unless=reasons.no_moon)
 def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
     """Find major and minor lunar standstills, with dates and extreme declinations."""
-    from earthspin.sky.standstill import find_standstills
+    from earthspin.sky.iau import find_standstills
 
     moon = {"moon": sky.targets["moon"]}
 
-    def declination(days: NDArray[np.float64]) -> NDArray[np.float64]:
+    def declination(days: FloatArray) -> FloatArray:
         return sky.radec(body, days, moon)["moon"][1]
 
     extremes = find_standstills(declination, stretch.first, stretch.last)
@@ -399,18 +398,13 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
     ).with_attributes(no_error=sky.no_error)
 
 
-def neglected_nodes(body: Body, mean_rates: MeanRates) -> dict[str, float]:
-    """Largest additions to the mean rate by the nodes of satellites, rad/s, with their periods."""
-    nutations = swings(body, mean_rates.pull, mean_rates.means.obliquity)
-    return {f"{name}, period {swing.years}": swing.rate for name, swing in nutations.items()}
-
-
 @part
 def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -> Neglected:
     """Published contributions to the precession rate of effects that are not modelled."""
     unknown = reasons.not_the_iaus_earth(body, perturbers)
     published = LEFT_OUT_OF_RATES.get(body.name, {}) if body.is_as_named else {}
-    nodes = neglected_nodes(body, mean_rates)
+    nutations = swings(body, mean_rates.pull, mean_rates.means.obliquity)
+    nodes = {f"{name}, period {swing.years}": swing.rate for name, swing in nutations.items()}
     if published:
         what = "contribution to the rate that the model leaves out; others were not measured"
         cited = Neglected.cited(published, what)

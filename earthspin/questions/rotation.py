@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 
 from earthspin.bodies import Body
-from earthspin.bodies.beyond_rigid import BEYOND_RIGID
-from earthspin.bodies.limits import refuse_break_up
-from earthspin.bodies.planets import pulled_by
+from earthspin.bodies.checks import refuse_break_up
+from earthspin.bodies.planets import BEYOND_RIGID, pulled_by
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
 from earthspin.engine.asking import public_call
@@ -19,7 +18,7 @@ from earthspin.engine.part import Block, part
 from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Value, labels, number, words
 from earthspin.errors import SceneError
-from earthspin.mass.inertia import polar_moment
+from earthspin.mass.figure import polar_moment
 from earthspin.motion.effect_sizes import attitude_displacements
 from earthspin.motion.effects import NONRIGID, SECOND_ORDER
 from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY, Rigid
@@ -35,22 +34,24 @@ from earthspin.motion.solution import (
     start_of,
 )
 from earthspin.numerics.arrays import FloatArray
-from earthspin.parts.custom_torque import CustomTorque
-from earthspin.parts.left_out import drift_by_planets, each_added, switched_off
-from earthspin.parts.pulls import (
+from earthspin.progress import progress
+from earthspin.questions.pulls import (
     PULLS,
     AxisMotion,
+    CustomTorque,
     Pulls,
+    drift_by_planets,
+    each_added,
     figure_of,
     forces_of,
     idle_note,
     start_note,
+    switched_off,
     switched_on,
 )
-from earthspin.parts.satellites import largest_drifts, no_satellites, obliquity_of, swings
-from earthspin.parts.sky import Sky
-from earthspin.parts.times import SPAN_DOC, Dated, by_region, days_of
-from earthspin.progress import progress
+from earthspin.questions.satellites import largest_drifts, no_satellites, obliquity_of, swings
+from earthspin.questions.sky import Sky
+from earthspin.questions.times import SPAN_DOC, Dated, days_of
 from earthspin.sky.elements import ByElements, Elements
 from earthspin.units import Number, Numbers
 
@@ -94,7 +95,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
     [7.2722e-06 7.2722e-06 7.2722e-06]
     """
 
-    views, page, headline = "rotation", "rotation", "attitude"
+    page, headline = "rotation", "attitude"
 
     span: Span = key(("2000-01-01T12:00:00", "2000-02-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("6 h", doc="interval between dates")
@@ -205,7 +206,7 @@ def pulling(
     start_omega: FloatArray | None,
 ) -> Pulling:
     """Build the torques of all perturbers on the body, and estimate the torque error."""
-    from earthspin.motion.neighbours import relative_tide_error
+    from earthspin.motion.solution import relative_tide_error
 
     days = epochs.span()
     pulls.sky.check_times(days, pulls.targets)
@@ -297,7 +298,7 @@ def rotor(
 
     It includes copies of the body in which one uncertain input is changed.
     """
-    from earthspin.motion import neighbours
+    from earthspin.motion import solution
 
     begin, end = epochs.span()
     epoch = begin * DAY
@@ -315,11 +316,11 @@ def rotor(
         PULL: pulling.doubt,
         ROUNDING: pulling.rounding,
     }
-    rigid, changed = neighbours.rigid_bodies(
+    rigid, changed = solution.rigid_bodies(
         pulling.forces, spin_rate, doubts, epoch, None if torque is None else torque.over(moment)
     )
     attitude = (
-        neighbours.upright(body.needed("pole").true(begin), figure.meridian + spin_rate * epoch)
+        solution.upright(body.needed("pole").true(begin), figure.meridian + spin_rate * epoch)
         if start_attitude is None
         else start_attitude
     )
@@ -327,7 +328,7 @@ def rotor(
     return Rotor(
         rigid,
         changed,
-        neighbours.masses(pulling.forces, epoch),
+        solution.masses(pulling.forces, epoch),
         start_of(rigid, attitude, omega),
         begin,
         end,
@@ -419,7 +420,7 @@ def turning(
     block: Block | None = None,
 ) -> Attitudes:
     """Compute attitude, spin and angular momentum with errors at every requested time."""
-    now = days_of(epochs, block, by_region("series.zarr"))
+    now = days_of(epochs, block, "series.zarr")
     order = np.argsort(now, kind="stable")
     seconds = rotor.since(now[order])
     begin = 0.0 if block is None or block.first == 0 else float(seconds[0])

@@ -13,7 +13,7 @@ from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key, setting
 from earthspin.engine.variables import Labels, Value, Variables, labels, number
 from earthspin.numerics.arrays import FloatArray
-from earthspin.parts.side_by_side import SideBySide
+from earthspin.questions.times import SideBySide
 from earthspin.units import Number, Numbers
 
 if TYPE_CHECKING:

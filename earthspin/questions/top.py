@@ -12,8 +12,7 @@ from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, setting
 from earthspin.engine.variables import Labels, Value, Variables, labels, number, words
 from earthspin.numerics.arrays import FloatArray
-from earthspin.parts.side_by_side import SideBySide
-from earthspin.parts.times import FromStart, Seconds, instants
+from earthspin.questions.times import FromStart, Seconds, SideBySide, instants
 from earthspin.top.start import HeavyTop
 from earthspin.units import Duration, Number, Whole
 
@@ -64,7 +63,7 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     cusp
     """
 
-    views, page, headline = "top", "rotors", "theta"
+    page, headline = "rotors", "theta"
 
     exclusive = (("times",), ("duration", "points"))
 
@@ -168,7 +167,7 @@ def euler_angles(
     motion: HeavyTopMotion, heavy_top_start: HeavyTop, numbers: SideBySide, instants: FloatArray
 ) -> Motion:
     """Return the motion of the top in time: Euler angles, attitude and angular velocity."""
-    from earthspin.top.rounding import error_bound
+    from earthspin.top.motion import error_bound
 
     lay = numbers.lay
     # the error grows with time: the last instants and some before show it
@@ -220,7 +219,7 @@ class Potential(
 @part
 def potential(heavy_top_start: HeavyTop) -> Potential:
     """Compute the effective potential of a heavy top as a function of inclination."""
-    from earthspin.top.turning import effective_potential
+    from earthspin.top.height import effective_potential
 
     inclination = np.linspace(0.0, np.pi, POTENTIAL_POINTS)[1:-1]
     return Potential(

@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.dates import Epochs, Span, Step, datetime64
@@ -15,14 +14,14 @@ from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import define_parts, key
 from earthspin.engine.variables import Labels, Pair, Value, labels, measured, number
-from earthspin.mass.inertia import moment_difference
-from earthspin.parts.reasons import no_iau_model
-from earthspin.parts.satellites import largest_torques_of_satellites
-from earthspin.parts.sky import Sky, places, sky
-from earthspin.parts.times import SPAN_DOC, Dated, Series, by_region, days_of, epochs
+from earthspin.mass.figure import moment_difference
+from earthspin.numerics.arrays import FloatArray
+from earthspin.questions.reasons import no_iau_model
+from earthspin.questions.satellites import largest_torques_of_satellites
+from earthspin.questions.sky import Sky, places, sky
+from earthspin.questions.times import SPAN_DOC, Dated, Series, days_of, epochs
 from earthspin.sky.sources import OF_DATE, SourceName
-from earthspin.torque.gravity import torque_error, torque_from_declination
-from earthspin.torque.neglected import largest_torque_on_figure
+from earthspin.torque.gravity import largest_torque_on_figure, torque_error, torque_from_declination
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -53,7 +52,7 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
     23.439
     """
 
-    views, page, headline = "torque", "theory", "torque_magnitude"
+    page, headline = "theory", "torque_magnitude"
     with_satellites = True
 
     span: Span = key(("2000-01-01T12:00:00", "2001-01-01T12:00:00"), doc=SPAN_DOC)
@@ -130,14 +129,12 @@ def torques(
     """Compute declination, distance and torque of each perturber at every time."""
     import xarray as xr
 
-    now = days_of(epochs, block, by_region("series.zarr"), (body, *perturbers))
+    now = days_of(epochs, block, "series.zarr", (body, *perturbers))
     names = list(sky.targets)
     seen = sky.radec(body, now, true=equator == "true", nutation=nutation)
     kernel_error = {name: sky.error(sky.targets[name], epochs.span()) for name in names}
 
-    def stack(
-        values: list[NDArray[np.float64]], *dims: str, times: Numeric | None = None
-    ) -> xr.DataArray:
+    def stack(values: list[FloatArray], *dims: str, times: Numeric | None = None) -> xr.DataArray:
         array = xr.DataArray(np.stack(values, axis=1), dims=("time", "perturber", *dims))
         if times is None or hasattr(times, "dims"):
             return array if times is None else array * times

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import numpy as np
 
 from earthspin.bodies import EARTH, Body, Numeric, all_of
-from earthspin.bodies.limits import refuse_break_up
+from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY
 from earthspin.engine.asking import public_call
 from earthspin.engine.neglected import Neglected
@@ -27,8 +27,8 @@ from earthspin.engine.variables import (
     words,
 )
 from earthspin.interior.named import ANELASTIC_EXPONENT, EXPONENT_RANGE, Interior
-from earthspin.parts import layered
-from earthspin.parts.observed_wobble import observed_wobble
+from earthspin.questions import interiors
+from earthspin.questions.reasons import observed_wobble
 from earthspin.rotor.axisymmetric import free_wobble_error
 from earthspin.units import Number
 from earthspin.wobble import ladder, propagation
@@ -74,7 +74,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
     [297.4 303.6 303.6 444.4 393.9 423.7 431.6]
     """
 
-    views, page, headline = "wobble", "wobble", "period_solar"
+    page, headline = "wobble", "period_solar"
 
     body: Body = key(EARTH, doc="body that wobbles")
     ocean: Literal["real", "global", "none"] = setting("real", doc="kind of ocean on the body")
@@ -104,9 +104,9 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
         self.body.require(("radius", "j2", "dynamical_flattening", "flattening", "spin_period"))
         refuse_break_up(self.body)
-        layered.refuse_unknown(self, self.body)
+        interiors.refuse_unknown(self, self.body)
         rigid = why_rigid(self.body)
-        interior = None if rigid else layered.interior_of(self.body)
+        interior = None if rigid else interiors.interior_of(self.body)
         for name, field in _INTERIOR.items():
             value = getattr(self, name)
             if rigid and field != "anelastic_exponent" and value is not None:
@@ -134,12 +134,12 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
 
 def why_rigid(body: Body) -> str | None:
     """Return the reason (text) to omit non-rigid models if they do not apply, else None."""
-    interior = layered.interior_of(body)
+    interior = interiors.interior_of(body)
     if interior is None:
-        return f"{layered.no_interior(body)}; set body.interior"
+        return f"{interiors.no_interior(body)}; set body.interior"
     if not all_of(body.needed("dynamical_flattening") > 0):
         return "models with an interior are for oblate bodies"
-    return None if interior.layers is None else layered.of_another_body(interior.layers, body)
+    return None if interior.layers is None else interiors.of_another_body(interior.layers, body)
 
 
 # --- what lies inside ------------------------------------------------------------------------
@@ -181,7 +181,7 @@ class Inside:
 
     def stack(self, values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
         """Stack arrays with one value per body along a new dimension, labelled by name."""
-        return _along({name: self.label(value) for name, value in values.items()}, dim)
+        return _stacked({name: self.label(value) for name, value in values.items()}, dim)
 
 
 @part(unless=why_rigid)
@@ -197,7 +197,7 @@ def inside(
     """Collect the inputs of the non-rigid wobble models: figure, interior and ocean of the body."""
     import xarray as xr
 
-    interior = layered.interior_of(body)
+    interior = interiors.interior_of(body)
     assert interior is not None
     names = (*_FIGURE, *_SPIN)
     own = {
@@ -268,14 +268,14 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
             (spread, sampled),
         ):
             lower |= {name: inside.label(value) for name, value in upper.items()}
-    sidereal, day = _along(turns, "rung"), abs(body.needed("spin_period"))
+    sidereal, day = _stacked(turns, "rung"), abs(body.needed("spin_period"))
     period = sidereal * day
     like = xr.zeros_like(period)
     rungs = Rungs(
-        period_solar=(period, _along(spread, "rung") * day + like),
+        period_solar=(period, _stacked(spread, "rung") * day + like),
         period_sidereal=sidereal + like,
         factor=period.copy(data=ladder.factors(sidereal.values)),
-        quality_factor=_along(quality, "rung") + like,
+        quality_factor=_stacked(quality, "rung") + like,
         rung_formula=np.array([ladder.FORMULAS[name] for name in turns]),
     )
     rung = {"left_out": "; ".join(f"{k}: {v}" for k, v in left_out.items()) or "none"}
@@ -308,7 +308,7 @@ def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric
     return spread
 
 
-def _along(values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
+def _stacked(values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
     """Stack the arrays of a mapping along a new dimension, labelled by the keys of the mapping."""
     import xarray as xr
 

@@ -13,16 +13,13 @@ body, to avoid cancellation.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import NORMAL_95
 from earthspin.errors import BodyError, UndefinedError
-from earthspin.numerics.arrays import FloatArray
-
-Numeric = Any
+from earthspin.numerics.arrays import FloatArray, Numeric
 
 #: Tolerance for a negative 2T I3 - L2 due to rounding, relative to L2.
 _ROUNDING = 8 * np.finfo(float).eps
@@ -241,12 +238,7 @@ class SymmetricRotor:
         )
 
     def _in_node_plane(self, length: Numeric, angle: Numeric, times: Numeric) -> FloatArray:
-        """Vector at an angle from the angular momentum towards the figure axis, in inertial axes.
-
-        Its components are along inertial axes.
-
-        The angle is counted from the angular momentum towards the figure axis.
-        """
+        """Vector at an angle from the angular momentum towards the figure axis, inertial axes."""
         phi = np.multiply.outer(self.precession_rate, times)
         across, along = (np.asarray(length * f(angle))[..., np.newaxis] for f in (np.sin, np.cos))
         return np.stack(

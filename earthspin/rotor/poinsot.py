@@ -17,15 +17,20 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
 from earthspin.numerics import quaternion
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.numerics.double_double import TWO_PI
-from earthspin.rotor.constants_of_motion import JacobiMotion, jacobi_motion
-from earthspin.rotor.moments import Moments, finite, principal_moments
-from earthspin.rotor.triaxial import Phase, momentum_frame, phase_at, to_body
+from earthspin.rotor.euler import Moments, finite, principal_moments
+from earthspin.rotor.triaxial import (
+    JacobiMotion,
+    Phase,
+    jacobi_motion,
+    momentum_frame,
+    phase_at,
+    to_body,
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,7 +51,7 @@ class Polhode:
     """
 
     omega: FloatArray
-    closed: NDArray[np.bool_]
+    closed: BoolArray
     period: FloatArray
 
 

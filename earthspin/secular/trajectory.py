@@ -1,9 +1,9 @@
-r"""Integrate one or several spin axes over millions of years, by Newton's method in time.
+"""Integrate one or several spin axes over millions of years, by Newton's method in time.
 
 About a fixed axis N near the mean normal of the orbit, a spin axis s has a longitude phi and a
 height Z = s.N. Both are polynomials in windows of twenty thousand years, through values at
 Gauss-Legendre nodes, and the equation is satisfied at every node (collocation). Newton's method
-solves for all windows of a block together (`newton`).
+solves for all windows of a block together.
 
 phi has a period of 26,000 years and Z hardly changes. Picard iteration diverges over a million
 years, while Newton's method, started from uniform precession, converges in a few steps.
@@ -12,17 +12,234 @@ years, while Newton's method, started from uniform precession, converges in a fe
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from earthspin.errors import ApartError, UndefinedError
-from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.gauss_windows import Windows, integrated
-from earthspin.secular.angles import broadcast_over_members
-from earthspin.secular.newton import TINY, Turn, moved, slope, step
-from earthspin.secular.orbit import Orbit, Pull, pull, reference_axes
-from earthspin.secular.strength import Strength
-from earthspin.torque.quadrupole import dot
+from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.numerics.polynomials import Windows, integrated, rule
+from earthspin.secular.orbit import (
+    Orbit,
+    Pull,
+    Strength,
+    broadcast_over_members,
+    pull,
+    reference_axes,
+)
+from earthspin.torque.gravity import dot
+
+# --- Newton's method at the nodes of all windows --------------------------------------------------
+# The longitude phi of the spin axis about a fixed axis N and the height Z = s.N are canonical
+# variables: with the projection L = m.s on the axis m of the torque, and a rotation g,
+#
+#     F = g.s - (a/2) L^2,    phi' = dF/dZ,    Z' = -dF/dphi.
+#
+# Components perpendicular to N are combined in one complex number relative to the longitude of s:
+# the real part is along the projection of s, the imaginary part perpendicular to it.
+
+#: Largest number of sweeps for the linear equations of windows, and the size that counts as
+#: divergence.
+MOST_SWEEPS, SWEEPS_DIVERGE = 40, 1e6
+#: Smallest change used as a divisor.
+TINY = 1e-300
+
+
+class Turn(NamedTuple):
+    """Averaged torque on a spin axis at the nodes: axis m, constant a and an additional rotation g.
+
+    Vectors are resolved along a reference axis N; components perpendicular to N are complex.
+
+    Attributes
+    ----------
+    axis, drift : ndarray of complex, shape (..., w, n)
+        Components perpendicular to N of the axis m of the torque, and of the rotation g (rad/s).
+    axis_height, drift_height : ndarray, shape (..., w, n)
+        Components of m and g along N.
+    constant : ndarray, shape (..., w, n)
+        a, rad/s.
+    """
+
+    axis: ComplexArray
+    axis_height: FloatArray
+    drift: ComplexArray
+    drift_height: FloatArray
+    constant: FloatArray
+
+    @classmethod
+    def of(cls, torque: Pull, axes: FloatArray, windows: Windows) -> Turn:
+        """Resolve an averaged torque into components along and perpendicular to the axis N."""
+        shape = windows.times.shape
+
+        def components(vector: FloatArray) -> tuple[ComplexArray, FloatArray]:
+            x, y, z = (dot(row, vector).reshape(*vector.shape[1:-1], *shape) for row in axes)
+            return x + 1j * y, z
+
+        constant = torque.constant.reshape(*torque.constant.shape[:-1], *shape)
+        return cls(*components(torque.axis), *components(torque.geodesic), constant)
+
+
+class Slope(NamedTuple):
+    """Rates of a spin axis's longitude and of its component along N at the nodes, with derivatives.
+
+    The shape is (..., w, n) for w windows of n nodes.
+
+    Attributes
+    ----------
+    rates : ndarray, shape (2, ..., w, n)
+        Rates of longitude and height.
+    mixed, by_height, by_longitude : ndarray
+        Derivatives of the rate of longitude by longitude (the negative is that of the rate of
+        height by height), of the rate of longitude by height, and of the rate of height by
+        longitude.
+    """
+
+    rates: FloatArray
+    mixed: FloatArray
+    by_height: FloatArray
+    by_longitude: FloatArray
+
+
+def slope(torque: Turn, phi: FloatArray, z: FloatArray) -> Slope:
+    """Compute the rates of a spin axis's longitude (rad/s) and height (1/s), with derivatives.
+
+    The height is the component along the reference axis.
+    """
+    rotation = np.empty(phi.shape, dtype=complex)
+    np.cos(phi, out=rotation.real)
+    np.negative(np.sin(phi), out=rotation.imag)
+    rho2 = 1 - z * z
+    rho = np.sqrt(rho2)
+    slant = z / rho
+    axis = torque.axis * rotation
+    towards = axis.real.copy()
+    lift_by_phi, lift_by_z = rho * axis.imag, torque.axis_height - slant * towards
+    pull = torque.constant * (rho * towards + z * torque.axis_height)  # a L
+    turn = torque.drift * rotation - pull * axis
+    along = turn.real.copy()
+    across = turn.imag.copy()
+    rates = np.empty((2, *phi.shape))
+    np.subtract(torque.drift_height - pull * torque.axis_height, slant * along, out=rates[0])
+    np.multiply(rho, -across, out=rates[1])
+    steep = torque.constant * lift_by_z
+    return Slope(
+        rates,
+        -steep * lift_by_phi - slant * across,
+        -steep * lift_by_z - along / (rho2 * rho),
+        torque.constant * lift_by_phi**2 + rho * along,
+    )
+
+
+def advance(
+    windows: Windows, rates: FloatArray, state: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Integrate the rates of a spin axis's longitude and component along N over time windows.
+
+    Return the integrals from window starts to nodes, the states at window starts, and the final
+    state. The shapes are (2, ..., w, n), (2, ..., w) and (2, ...).
+    """
+    inside, across = windows.integral(rates)
+    ends = np.cumsum(np.concatenate([state[..., np.newaxis], across], axis=-1), axis=-1)
+    return inside, ends[..., :-1], ends[..., -1]
+
+
+def step(
+    windows: Windows, torque: Turn, values: FloatArray, state: FloatArray, left: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Make one Newton step for a spin axis's longitude and component along N; return also its size.
+
+    With S the integral from the start of a window to its nodes, the values y of a window that
+    starts at b solve y = b + S f(y). Linearised about the current values, the change is d = c + S J
+    d, with the defect c for an unchanged start; a changed start adds S J times a unit step.
+
+    Parameters
+    ----------
+    windows : Windows
+    torque : Turn
+    values : ndarray, shape (2, ..., w, n)
+        Longitude and height.
+    state : ndarray, shape (2, ...)
+        Values at the start of the first window.
+    left : ndarray, shape (...)
+        Fraction of the change that may remain for the next step.
+
+    Returns
+    -------
+    values : ndarray, shape (2, ..., w, n)
+    change : ndarray, shape (...)
+        Largest change; infinity if the linear equations could not be solved.
+    """
+    slopes = slope(torque, *values)
+    inside, starts, _ = advance(windows, slopes.rates, state)
+    sides = np.zeros((2, 3, *values.shape[1:]))
+    np.subtract(starts[..., np.newaxis] + inside, values, out=sides[:, 0])
+    sides[0, 1] = sides[1, 2] = 1.0
+    change, ends, settled = _linear(windows, slopes, sides, left)
+    by_phi, by_z = _shifts(ends)[..., np.newaxis]
+    total = change[:, 0] + change[:, 1] * by_phi + change[:, 2] * by_z
+    return values + total, np.where(settled, np.abs(total).max(axis=(0, -2, -1)), np.inf)
+
+
+def _linear(
+    windows: Windows, slopes: Slope, sides: FloatArray, left: FloatArray
+) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
+    """Solve the linear equations of one Newton step, in every time window.
+
+    The equation is d = c + S J d for the change d, the defect c, the Jacobian J and the integral S.
+
+    Each sweep solves for the height and then for the longitude; the coupling of longitude to height
+    is small, so the residual decreases fast. Return d, shape (2, k, ..., w, n), the change over
+    each window, shape (2, k, ..., w), and which axes converged; each axis has as many sweeps as it
+    would alone.
+    """
+    gauss = rule(windows.order)
+    jacobian = np.empty((3, *sides.shape[1:]))  # as wide as the sides: broadcasting is slower
+    for wide, derivative in zip(
+        jacobian, (slopes.mixed, slopes.by_height, slopes.by_longitude), strict=True
+    ):
+        wide[:] = derivative * windows.half
+    mixed, by_z, by_phi = jacobian
+    phi, z = sides
+    settled = np.zeros(sides.shape[2:-2], dtype=bool)
+    before = 1.0
+    for _ in range(MOST_SWEEPS):
+        height = sides[1] + (by_phi * phi - mixed * z) @ gauss.integrate
+        longitude = sides[0] + (mixed * phi + by_z * height) @ gauss.integrate
+        if settled.any():
+            kept = settled[..., np.newaxis, np.newaxis]
+            longitude, height = np.where(kept, phi, longitude), np.where(kept, z, height)
+        size = np.abs(longitude).max(axis=(0, -2, -1))
+        change = np.abs(longitude - phi).max(axis=(0, -2, -1)) / size
+        phi, z = longitude, height
+        settled = settled | (change * np.minimum(change / before, 1.0) < left)
+        if settled.all() or size.max() > SWEEPS_DIVERGE:
+            break
+        before = np.maximum(change, TINY)
+    ends = [rate @ gauss.weights for rate in (mixed * phi + by_z * z, by_phi * phi - mixed * z)]
+    return np.array([phi, z]), np.array(ends), settled
+
+
+def _shifts(ends: FloatArray) -> FloatArray:
+    """Corrections of a spin axis's longitude and component along N at the window starts.
+
+    Parameters
+    ----------
+    ends : ndarray, shape (2, 3, ..., w)
+        Change between start and end due to the defect, and due to unit changes of each component at
+        the start.
+    """
+    alone = ends.ndim == 3
+    rows = ends.transpose(-1, *range(ends.ndim - 1))
+    phi = z = 0.0 if alone else np.zeros(ends.shape[2:-1])
+    shifts = []
+    for (d0, d00, d01), (d1, d10, d11) in rows.tolist() if alone else rows:
+        shifts.append((phi, z))
+        phi, z = phi + d0 + d00 * phi + d01 * z, z + d1 + d10 * phi + d11 * z
+    return np.moveaxis(np.array(shifts), 0, -1)
+
+
+# --- windows, blocks and the whole trajectory -----------------------------------------------------
 
 #: Number of nodes per window of the orbit.
 ORDER = 16
@@ -31,7 +248,7 @@ BLOCK = 50
 #: Convergence tolerance of a block, rad: stop when the predicted next Newton step is smaller. The
 #: prediction uses the residual of the sweeps and the ratio of the last two steps.
 SETTLED = 1e-9
-MOST_STEPS, DIVERGES = 25, 10.0
+MOST_STEPS, STEPS_DIVERGE = 25, 10.0
 #: Fraction of a step that sweeps may leave for the next step, per radian of the previous step.
 SWEPT = 0.1
 #: Largest height |Z| at which the longitude is well conditioned: 8 degrees from the axis.
@@ -211,23 +428,25 @@ class _BlockSolver:
         Return the Legendre series and the final longitude and height; None if Newton's method does
         not converge.
         """
-        on = Turn.of(self._pull(windows.times.ravel(), state[..., np.newaxis]), self.axes, windows)
-        values, before = self._guess(windows, on, state), np.ones(state.shape[1:])
+        torque = Turn.of(
+            self._pull(windows.times.ravel(), state[..., np.newaxis]), self.axes, windows
+        )
+        values, before = self._guess(windows, torque, state), np.ones(state.shape[1:])
         settled = np.zeros(state.shape[1:], dtype=bool)
         for _ in range(MOST_STEPS):
             self.steps += 1
             residual_share = SWEPT * np.minimum(before, 1.0)
-            new, change = step(windows, on, values, state, residual_share)
+            new, change = step(windows, torque, values, state, residual_share)
             if settled.any():
                 new = np.where(settled[..., np.newaxis, np.newaxis], values, new)
             values = new
-            if not (np.all(change < DIVERGES) and np.abs(values[1]).max() < 1):
+            if not (np.all(change < STEPS_DIVERGE) and np.abs(values[1]).max() < 1):
                 return None
             settled = settled | (change * np.maximum(change / before, residual_share) < SETTLED)
             if settled.all():
                 self.height = values[1].mean(axis=(-2, -1))
-                rates = slope(on, *values).rates
-                _, starts, end = moved(windows, rates, state)
+                rates = slope(torque, *values).rates
+                _, starts, end = advance(windows, rates, state)
                 return integrated(windows.coefficients(rates), windows.half, starts), end
             before = np.maximum(change, TINY)
         return None
@@ -239,19 +458,19 @@ class _BlockSolver:
         )
         return pull(self.strength, (normal, eccentricity, turning), times)
 
-    def _guess(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
+    def _guess(self, windows: Windows, torque: Turn, state: FloatArray) -> FloatArray:
         """First guess of a spin axis at all nodes: longitude, and component along the axis N.
 
         It is a neighbouring trajectory shifted to the initial state, or uniform precession.
         """
         if self.near is None:
-            return self._at_one_height(windows, on, state)
+            return self._at_one_height(windows, torque, state)
         times = np.append(windows.times, windows.edges[0])
         values = self.near.about(times)
         values += state[..., np.newaxis] - values[..., -1:]
         return values[..., :-1].reshape(*state.shape, *windows.times.shape)
 
-    def _at_one_height(self, windows: Windows, on: Turn, state: FloatArray) -> FloatArray:
+    def _at_one_height(self, windows: Windows, torque: Turn, state: FloatArray) -> FloatArray:
         """First guess of the spin axis's motion: uniform precession about the reference axis.
 
         The height, the component along that axis, is constant: that of the start, or the mean of
@@ -260,7 +479,7 @@ class _BlockSolver:
         phi, z = state[..., np.newaxis, np.newaxis]
         if self.height is not None:
             z = self.height[..., np.newaxis, np.newaxis]
-        rate = on.drift_height - on.constant * z * on.axis_height**2
+        rate = torque.drift_height - torque.constant * z * torque.axis_height**2
         inside, across = windows.integral(rate)
         before = np.cumsum(across, axis=-1) - across
         guess = np.empty((2, *inside.shape))

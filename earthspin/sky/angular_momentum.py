@@ -14,13 +14,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.errors import SeriesError, nearest
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.sky.columns import check_calendar, lines_of, numbers, refuse_text_between, rows_of
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 #: Components, by the word in the file name.
 COMPONENTS = {"AAM": "atmosphere", "OAM": "ocean", "HAM": "hydrology", "SLAM": "sea level"}
@@ -44,12 +41,12 @@ class AngularMomentum:
         Mass and motion terms, chi1 + i chi2, rad.
     """
 
-    mjd: Array
-    mass: Complex
-    motion: Complex
+    mjd: FloatArray
+    mass: ComplexArray
+    motion: ComplexArray
 
     @property
-    def chi(self) -> Complex:
+    def chi(self) -> ComplexArray:
         """Excitation of polar motion chi1 + i chi2, the sum of mass and motion terms, rad."""
         return self.mass + self.motion
 
@@ -73,7 +70,7 @@ class AngularMomentum:
             raise SeriesError("excitation", "it covers no whole day", "omit daily")
         edges[[0, -1]] = np.clip(edges[[0, -1]], self.mjd[0], self.mjd[-1])
 
-        def means(values: Complex) -> Complex:
+        def means(values: ComplexArray) -> ComplexArray:
             pieces = np.diff(self.mjd) * (values[1:] + values[:-1]) / 2
             total = np.concatenate([[0], np.cumsum(pieces)])
             # The integral of a linear piece is a parabola.

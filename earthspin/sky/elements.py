@@ -17,8 +17,7 @@ from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.errors import SceneError, UndefinedError
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.kepler import eccentric_anomaly
-from earthspin.sky.equator import fixed_equator
-from earthspin.sky.poles import Direction, Pole
+from earthspin.sky.poles import Direction, Pole, fixed_equator
 from earthspin.sky.protocol import BY_ELEMENTS, Place, checked
 
 #: Bound on the error of a direction in units of the rounding of all angles; measured: 0.73 at most,

@@ -16,10 +16,10 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.constants import ARCSEC
 from earthspin.errors import SeriesError
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.sky.columns import (
     check_calendar,
     checksum,
@@ -30,8 +30,6 @@ from earthspin.sky.columns import (
     starts_with_number,
     text_between,
 )
-
-Array = NDArray[np.float64]
 
 #: Longest gap that is interpolated linearly, in steps and in days; the oldest tables have ten rows
 #: per year.
@@ -141,11 +139,11 @@ class PoleSeries:
         SHA-256 of the file.
     """
 
-    mjd: Array
-    x: Array
-    y: Array
-    x_error: Array
-    y_error: Array
+    mjd: FloatArray
+    x: FloatArray
+    y: FloatArray
+    x_error: FloatArray
+    y_error: FloatArray
     name: str
     repairs: str = ""
     sha256: str = ""
@@ -161,7 +159,7 @@ class PoleSeries:
         return float((self.mjd[-1] - self.mjd[0]) / (self.mjd.size - 1))
 
     @property
-    def offsets(self) -> NDArray[np.complex128]:
+    def offsets(self) -> ComplexArray:
         """Celestial pole offsets as dX + i dY, rad, shape (n,)."""
         return np.asarray(self.x + 1j * self.y)
 

@@ -32,15 +32,20 @@ from earthspin.errors import (
     no_plain_file,
 )
 from earthspin.numerics.arrays import FloatArray
-from earthspin.sky.chebyshev import BLOCK, Epochs, Table
-from earthspin.sky.kernel_checks import (
+from earthspin.sky.kernel import (
     AGAIN,
+    BLOCK,
+    DRIFT,
     PUBLISHED,
+    Epochs,
     Records,
+    Table,
     check_summaries,
     check_words,
+    drift_is_measured,
+    growth,
+    largest_difference,
 )
-from earthspin.sky.kernel_differences import DRIFT, drift_is_measured, growth, largest_difference
 from earthspin.sky.protocol import Place, Trajectory, checked, measured_code, words
 
 #: Kernels with a name; any other kernel is given by its path.
@@ -70,7 +75,7 @@ class Ephemeris:
     KernelError
         If the file is missing, empty, truncated, not a kernel, or damaged. The consistency of its
         parts is checked when the file is opened, and records when they are used
-        (`earthspin.sky.kernel_checks`).
+        (`earthspin.sky.kernel`).
     """
 
     def __init__(self, path: str | Path, name: str | None = None) -> None:

@@ -37,8 +37,8 @@ from earthspin.sky.columns import (
     numbers,
     refuse_text_between,
 )
-from earthspin.sky.equator import direction
 from earthspin.sky.orbit_table import OrbitTable, fitted, load, shipped
+from earthspin.sky.poles import direction
 from earthspin.units import real_numbers
 
 if TYPE_CHECKING:

@@ -9,18 +9,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING, Protocol, TypeAlias, runtime_checkable
+from typing import Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
 from earthspin.dates import datetime64
 from earthspin.errors import UndefinedError, one_line
+from earthspin.numerics.arrays import FloatArray
 from earthspin.units import real_numbers
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    FloatArray: TypeAlias = NDArray[np.float64]
 
 
 class Trajectory(Protocol):

@@ -69,7 +69,7 @@ def is_vector_function(value: object) -> bool:
 def trajectory(position: Any) -> Trajectory:
     """Return the positions of a body as a trajectory; wrap a Skyfield vector function as one."""
     if is_vector_function(position):
-        from earthspin.sky.vector_functions import VectorTrajectory
+        from earthspin.sky.skyfield import VectorTrajectory
 
         return VectorTrajectory(position)
     custom: Trajectory = position
@@ -101,7 +101,7 @@ def read_position(value: Any, where: Where) -> VectorFunction | Trajectory:
         if _LIVE in tables[0]:
             problem = "it was a Python object, which a scene cannot store; pass it again in Python"
             raise where.error(tables[0][_LIVE], problem)
-        from earthspin.sky.vector_functions import read_segments
+        from earthspin.sky.skyfield import read_segments
 
         return read_segments(tables, where)
     parts = (getattr(value, "centre", None), getattr(value, "coverage", None))
@@ -124,7 +124,7 @@ def describe_position(position: object) -> str:
 def write_position(position: Any) -> Any:
     """Convert a body's positions to the form stored in scene files: tables, or a description."""
     if is_vector_function(position):
-        from earthspin.sky.vector_functions import write_segments
+        from earthspin.sky.skyfield import write_segments
 
         tables = write_segments(position)
         if tables is not None:

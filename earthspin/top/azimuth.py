@@ -1,6 +1,6 @@
 """Euler angles phi and psi of a top in time, accurate also near the poles (I.7.9).
 
-It is computed by integrals of the third kind that are regular at the poles.
+The angles are computed by integrals of the third kind that are regular at the poles.
 
 Half the sum and half the difference of phi and psi (for I1 = I3),
 
@@ -31,14 +31,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import ellipkm1, elliprj
 
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.numerics.elliptic import complete_third_kind
-from earthspin.top.height import Nutation, Place
-
-BoolArray = NDArray[np.bool_]
+from earthspin.top.height import Nutation, Place, nutation_of
+from earthspin.top.start import HeavyTop
 
 # cosine of a whole number of quarter turns
 _COSINE = np.array([1.0, 0.0, -1.0, 0.0])
@@ -76,44 +74,42 @@ def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
         arc.phi + (place.halves * full.phi + part.phi),
         arc.psi + (place.halves * full.psi + part.psi),
     )
-    return _windings(nutation, place.halves), rest
+    # Whole quarter turns that the arctangents add up to the nearest turning point. For a passage
+    # exactly over a pole the direction of the half turn is arbitrary; it alternates.
+    quarter = np.mod(place.halves, 4).astype(int)
+    lower, upper = nutation.crosses_lower_pole, nutation.crosses_upper_pole
+    sigma = np.where(lower, _SINE[quarter], place.halves * _lower_winding(nutation))
+    delta = np.where(upper, -_COSINE[quarter], place.halves * _upper_winding(nutation))
+    return Turned(sigma + delta, sigma - delta), rest
 
 
 def shared_rate(nutation: Nutation) -> FloatArray:
     """Constant rate of phi and psi that the angles of `turned_at` do not include.
 
-    It is half the axial angular momentum over I1, or zero.
-
-    It is separated if the axis stays so near the upper pole that phi and psi are nearly degenerate;
-    their sum then advances almost at the rate of the spin.
+    It is half the axial angular momentum over I1, or zero. It is separated if the axis stays so
+    near the upper pole that phi and psi are nearly degenerate; their sum then advances almost at
+    the rate of the spin.
     """
     return np.where(_has_lower_arc(nutation), 0.0, nutation.start.a / 2)
 
 
-def mean_precession(nutation: Nutation) -> FloatArray:
-    """Mean precession rate phi' over one nutation period, in the top's unit of rates.
+def mean_precession_rate(top: HeavyTop) -> FloatArray:
+    """Mean precession rate phi' of a top over one nutation period, rad/s.
 
-    For a top that passes exactly over a pole, it is the mean of the limits from both sides.
+    For a top that passes exactly over a pole it is the mean of the limits from both sides, for a
+    sleeping top its initial phi', and for a top that approaches the upright position asymptotically
+    the limit b/2.
     """
+    nutation = nutation_of(top)
+    start = nutation.start
     full = _complete_integrals(nutation)
     sigma = np.where(nutation.crosses_lower_pole, 0.0, _lower_winding(nutation))
     delta = np.where(nutation.crosses_upper_pole, 0.0, _upper_winding(nutation))
     turning = (np.pi / 2 * (sigma + delta) + full.phi) / nutation.half_period
-    return turning + shared_rate(nutation)
-
-
-def _windings(nutation: Nutation, halves: FloatArray) -> Turned:
-    """Whole quarter turns that arctangents add to phi and psi up to a turning point.
-
-    They are counted from the arctangents.
-
-    For a passage exactly over a pole the direction of the half turn is arbitrary; it alternates.
-    """
-    quarter = np.mod(halves, 4).astype(int)
-    lower, upper = nutation.crosses_lower_pole, nutation.crosses_upper_pole
-    sigma = np.where(lower, _SINE[quarter], halves * _lower_winding(nutation))
-    delta = np.where(upper, -_COSINE[quarter], halves * _upper_winding(nutation))
-    return Turned(sigma + delta, sigma - delta)
+    periodic = turning + shared_rate(nutation)
+    mean = np.where(nutation.complement > 0, periodic, start.b / 2)
+    still = start.asleep | (nutation.stiffness == 0)
+    return np.where(still, top.phi_rate, mean * start.rate_unit)
 
 
 def _lower_winding(nutation: Nutation) -> FloatArray:
@@ -159,14 +155,13 @@ def _arc_tangents(nutation: Nutation, place: Place) -> Turned:
     climb = np.where(upper, gaps.upper, -gaps.lower)  # ur - u(0)
     root = np.sqrt(meets)
 
-    b_minus_au = _sum_or(
-        pole_rate * away, other * root, start.phi_rate * start.sine2, -start.a * climb, root
+    sense = np.where(upper, 1, -1)
+    b_minus_au = _sum_over_root(
+        (pole_rate * away, other * root), (start.phi_rate * start.sine2, -start.a * climb), root
     )
-    a_minus_bu = _sum_or(
-        np.where(upper, -1, 1) * pole_rate * away,
-        np.where(upper, 1, -1) * other * root,
-        start.sine2 * (start.a - start.phi_rate * start.cosine),
-        -start.b * climb,
+    a_minus_bu = _sum_over_root(
+        (-sense * pole_rate * away, sense * other * root),
+        (start.sine2 * (start.a - start.phi_rate * start.cosine), -start.b * climb),
         root,
     )
     y = place.sn * np.where(upper, place.dn, 1.0)
@@ -187,14 +182,23 @@ def _arc_tangents(nutation: Nutation, place: Place) -> Turned:
     )
 
 
-def _sum_or(
-    one: FloatArray, two: FloatArray, three: FloatArray, four: FloatArray, root: FloatArray
+def _sum_over_root(
+    from_poles: tuple[FloatArray, FloatArray],
+    from_start: tuple[FloatArray, FloatArray],
+    root: FloatArray,
 ) -> FloatArray:
-    """Return one + two, or the equal number 2 (three + four)/root if that is more accurate."""
-    open_ = root > 0
-    factor = 2 / np.where(open_, root, 1.0)
-    better = factor * (np.abs(three) + np.abs(four)) < np.abs(one) + np.abs(two)
-    return np.where(open_ & better, factor * (three + four), one + two)
+    """Return 2 (b - a u)/root, or 2 (a - b u)/root, at a turning point u, without cancellation.
+
+    Two terms that follow from the distances to the poles have this sum; two that follow from the
+    start have the sum without the factor 2/root. The sum with the smaller terms is returned.
+    """
+    away = root > 0
+    factor = 2 / np.where(away, root, 1.0)
+    sizes = factor * (np.abs(from_start[0]) + np.abs(from_start[1]))
+    better = sizes < np.abs(from_poles[0]) + np.abs(from_poles[1])
+    return np.where(
+        away & better, factor * (from_start[0] + from_start[1]), from_poles[0] + from_poles[1]
+    )
 
 
 def _lower_pole_rate(nutation: Nutation) -> FloatArray:
@@ -231,13 +235,13 @@ def _side_of_pole(nutation: Nutation, place: Place) -> FloatArray:
 class _Integral(NamedTuple):
     """Coefficients of one elliptic integral in the advance of a top's Euler angles.
 
-    The integral is F first + third sn^3 RJ(cn^2, dn^2, 1, cn^2 + shape sn^2).
+    The integral is F first_kind + third_kind sn^3 RJ(cn^2, dn^2, 1, cn^2 + shape sn^2).
 
     F is the time since the turning point times Omega.
     """
 
-    first: FloatArray
-    third: FloatArray
+    first_kind: FloatArray
+    third_kind: FloatArray
     shape: FloatArray
 
 
@@ -270,8 +274,8 @@ def _integrals(nutation: Nutation, upper: BoolArray) -> tuple[_Integral, _Integr
     near = np.where(upper, nutation.height, gaps.lower_pole)
     excess = start.phi_rate * start.sine2 - start.a * climb
     shared = shared_rate(nutation) != 0
-    first = np.where(shared, excess / (2 * nutation.rate * np.where(shared, near, 1)), sigma.first)
-    return sigma._replace(first=first), delta
+    pace = excess / (2 * nutation.rate * np.where(shared, near, 1))
+    return sigma._replace(first_kind=np.where(shared, pace, sigma.first_kind)), delta
 
 
 def _integral(
@@ -310,7 +314,8 @@ def _partial_integrals(nutation: Nutation, place: Place) -> Turned:
     """
     sn, cn2, dn2 = place.sn, place.cn**2, place.dn**2
     sigma, delta = (
-        x.first * place.phase + x.third * sn**3 * elliprj(cn2, dn2, 1.0, cn2 + x.shape * sn**2)
+        x.first_kind * place.phase
+        + x.third_kind * sn**3 * elliprj(cn2, dn2, 1.0, cn2 + x.shape * sn**2)
         for x in _integrals(nutation, place.upper)
     )
     return Turned(sigma + delta, sigma - delta)
@@ -323,11 +328,12 @@ def _complete_integrals(nutation: Nutation) -> Turned:
     """
     returns = nutation.complement > 0
     complement = np.where(returns, nutation.complement, 1.0)
-    first_kind = ellipkm1(complement)
+    quarter_period = ellipkm1(complement)
     sigma, delta = (
         np.where(
             returns,
-            x.first * first_kind + 3 * x.third * complete_third_kind(complement, shape),
+            x.first_kind * quarter_period
+            + 3 * x.third_kind * complete_third_kind(complement, shape),
             0.0,
         )
         for x in _integrals(nutation, np.asarray(False))

@@ -1,4 +1,4 @@
-r"""Cassini states: equilibria in which a spin axis precesses together with its orbit.
+"""Cassini states, in which a spin axis precesses with its orbit, and locked rotation.
 
 The normal k of an orbit precesses about a fixed pole at the inclination i and the rate -nu (nu > 0
 if the node regresses). A spin axis s is in a Cassini state if it precesses together with k, so that
@@ -27,9 +27,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.numerics.kepler import true_anomaly
+
+# --- Cassini states -------------------------------------------------------------------------------
 
 #: Quadrature nodes per revolution for Hansen's coefficients.
 NODES = 4096
@@ -88,7 +91,7 @@ class States(NamedTuple):
 
     number: NDArray[np.int64]
     obliquity: FloatArray
-    stable: NDArray[np.bool_]
+    stable: BoolArray
 
 
 def is_locked(spin_rate: float, motion: float) -> bool:
@@ -133,12 +136,12 @@ def hansen(multiple: int, eccentricity: float) -> float:
     return float(np.mean(nearness**3 * np.cos(2 * true - multiple * mean)))
 
 
-def cassini_states(of: Precessing) -> States:
+def cassini_states(body: Precessing) -> States:
     """Compute obliquity and stability of all Cassini states of a body.
 
     Parameters
     ----------
-    of : Precessing
+    body : Precessing
         Body and orbit.
 
     Raises
@@ -146,30 +149,85 @@ def cassini_states(of: Precessing) -> States:
     UndefinedError
         If the orbit does not precess, or is perpendicular to the plane of precession.
     """
-    i, nu = of.inclination, of.node_rate
+    i, nu = body.inclination, body.node_rate
     if nu == 0 or np.sin(i) == 0:
         raise UndefinedError(
             "an orbit whose plane does not move has no Cassini states; give it an inclination and "
             "a period of its node"
         )
     # with z = exp(i eps), the slope is a quartic polynomial in z
-    single = nu * np.cos(i) - 1.5 * of.locked
-    double = -0.75 * (of.axial + of.locked)
+    single = nu * np.cos(i) - 1.5 * body.locked
+    double = -0.75 * (body.axial + body.locked)
     roots = np.roots(
         [double, single - 1j * nu * np.sin(i), 0, -single - 1j * nu * np.sin(i), -double]
     )
     angles = np.angle(roots[np.abs(np.abs(roots) - 1) < ON_CIRCLE])
     for _ in range(3):  # Newton steps to full precision
-        angles = angles - of.slope(angles) / of.curvature(angles)
-    stable = of.curvature(angles) * nu * np.sin(i) / np.sin(angles) > 0
+        angles = angles - body.slope(angles) / body.curvature(angles)
+    stable = body.curvature(angles) * nu * np.sin(i) / np.sin(angles) > 0
     number = _numbers(angles * np.sign(nu), stable)
     order = np.argsort(number)
     return States(number[order], angles[order], stable[order])
 
 
-def _numbers(angles: FloatArray, stable: NDArray[np.bool_]) -> NDArray[np.int64]:
+def _numbers(angles: FloatArray, stable: BoolArray) -> NDArray[np.int64]:
     """Conventional numbers 1 to 4 of Cassini states, from their obliquities and stability."""
     number = np.where(angles < 0, 1, 2)
     number[~stable] = 4
     number[np.argmax(np.where(stable, np.abs(angles), -1.0))] = 3
     return number
+
+
+# --- detection of resonances ----------------------------------------------------------------------
+# A body that rotates p/2 times per orbit (the Moon once, Mercury one and a half times) has the same
+# orientation at the same position of each orbit. The torque on its equatorial ellipticity then does
+# not average to zero, and is as large as the mean torque on the bulge.
+
+#: Largest number of half turns per orbit of a resonance, tolerance of the ratio, and number of
+#: orbits. Over `ORBITS` an eccentricity of 0.2 changes the mean ratio by less than half of the
+#: tolerance.
+MOST_HALF_TURNS, CLOSENESS, ORBITS = 6, 0.01, 20
+#: Rotation period, s, below which a body is far from resonance with orbits of days or longer.
+SLOW = 5 * DAY
+
+
+def locked_ratio(
+    times: FloatArray, position: FloatArray, axis: FloatArray, spin_rate: float
+) -> float | None:
+    """Rotations per orbit of a body in spin-orbit resonance, from positions; otherwise None.
+
+    Parameters
+    ----------
+    times : ndarray, shape (n,)
+        Times, s, with a spacing much shorter than the orbit, over about 20 orbits.
+    position : ndarray, shape (n, 3)
+        From the body to the other body.
+    axis : ndarray, shape (3,)
+        Unit vector of the spin, in the same frame.
+    spin_rate : float
+        rad/s, not negative, about that axis.
+    """
+    across = np.cross(axis, position[0])
+    x_axis, y_axis = np.cross(across, axis), across
+    angle = np.unwrap(np.arctan2(position @ y_axis, position @ x_axis))
+    mean_motion = (angle[-1] - angle[0]) / (times[-1] - times[0])
+    if mean_motion <= 0:
+        return None
+    return locked_turns(spin_rate, mean_motion)
+
+
+def locked_turns(spin_rate: float, mean_motion: float) -> float | None:
+    """Rotations per orbit of a body in spin-orbit resonance, from rates; otherwise None.
+
+    Parameters
+    ----------
+    spin_rate : float
+        rad/s.
+    mean_motion : float
+        Mean motion of the orbit about the spin axis, rad/s; negative if retrograde.
+    """
+    ratio = spin_rate / mean_motion
+    half_turns = round(2 * ratio)
+    if not 1 <= half_turns <= MOST_HALF_TURNS:
+        return None
+    return half_turns / 2 if abs(2 * ratio / half_turns - 1) < CLOSENESS else None

@@ -58,12 +58,12 @@ class Satellites:
     def mutual(self) -> FloatArray:
         """Torque P_ij between each two satellites, m5 s-4, with zeros on the diagonal."""
         torque = np.zeros((self.gm.size, self.gm.size))
-        for first in range(self.gm.size):
-            for second in range(first):
-                inner, outer = sorted((self.a[first], self.a[second]))
+        for i in range(self.gm.size):
+            for j in range(i):
+                inner, outer = sorted((self.a[i], self.a[j]))
                 ratio = inner / outer
-                size = self.gm[first] * self.gm[second] * ratio * laplace_coefficient(ratio)
-                torque[first, second] = torque[second, first] = size / (8 * outer)
+                size = self.gm[i] * self.gm[j] * ratio * laplace_coefficient(ratio)
+                torque[i, j] = torque[j, i] = size / (8 * outer)
         return torque
 
 

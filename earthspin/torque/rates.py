@@ -18,7 +18,7 @@ import math
 import numpy as np
 
 from earthspin.constants import NORMAL_95
-from earthspin.numerics.estimate import Estimate, Numeric
+from earthspin.numerics.arrays import Estimate, Numeric
 
 
 def precession_estimate(
@@ -99,9 +99,9 @@ def period_error(rate: Numeric, rate_error: Numeric) -> Numeric:
 
 def rate_ratio(precessing: Numeric) -> Numeric:
     """Ratio of each precessing torque to that of the first perturber; 1 if both are 0."""
-    first = precessing[0]
+    reference = precessing[0]
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(precessing == first, 1.0, precessing / first)
+        return np.where(precessing == reference, 1.0, precessing / reference)
 
 
 def total_uncertainty(precessing: Numeric, u_gm: Numeric) -> Numeric:

@@ -13,12 +13,14 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import numpy as np
 import xarray as xr
 
 from earthspin.views.reading import Result, section
+from earthspin.views.solids import Solid
+from earthspin.views.tables import Table
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -27,6 +29,8 @@ if TYPE_CHECKING:
 #: Types for annotations, which do not import the library.
 Axes: TypeAlias = "matplotlib.axes.Axes"
 Figure: TypeAlias = "matplotlib.figure.Figure"
+
+T = TypeVar("T")
 
 #: Colours that remain apart for colour-blind eyes (Okabe & Ito 2008) and in print.
 BLUE, RED, GREEN, PINK, ORANGE, SKY = (
@@ -191,6 +195,30 @@ class PageFigure:
         return Drawing(self.title, caption, figure, self.square, phone)
 
 
+#: Tables or pictures of a result, each with the names of the sections that it needs.
+Makers: TypeAlias = Sequence[tuple[str, Callable[[Result], T]]]
+
+
+@dataclass(frozen=True)
+class Views:
+    """What is shown of the answers to one question besides the tables of every answer.
+
+    Attributes
+    ----------
+    figures : sequence of PageFigure
+    solids, tables : sequence of (str, callable)
+        Names of the sections that it needs, and the function that makes it. A table replaces that
+        of the answer, if it names no section, or those of the sections that it names.
+    lead : callable, optional
+        Function that makes the first sentence of the page.
+    """
+
+    figures: Sequence[PageFigure] = ()
+    solids: Makers[Solid] = ()
+    tables: Makers[Table] = ()
+    lead: Callable[[Result], str] | None = None
+
+
 def figure_of(shown: Axes | Figure) -> Figure:
     """Return the figure that contains the given axes; return a given figure unchanged."""
     figure = shown.get_figure(root=True)
@@ -228,16 +256,6 @@ def lines(ax: Axes, x: Any, values: xr.DataArray, **how: Any) -> None:
     labels = values[values.dims[-1]].values
     for colour, label, value in zip((*CYCLE, GREY), labels, values.values.T, strict=False):
         ax.plot(x, value, color=colour, label=label, **how)
-
-
-def plot_both_angles(
-    ax: Axes, time: Any, dpsi_sineps: Any, deps: Any, title: str, label: str
-) -> None:
-    """Draw celestial pole offsets in longitude and obliquity over time, on the same axes."""
-    ax.plot(time, dpsi_sineps, color=BLUE, lw=0.6, label="dpsi sin(eps)")
-    ax.plot(time, deps, color=RED, lw=0.6, label="deps")
-    ax.set_title(title, loc="left", fontsize=9)
-    ax.set_ylabel(label)
 
 
 def rungs(ax: Axes, labels: Sequence[object]) -> None:

@@ -12,13 +12,14 @@ from earthspin.engine.members import MEMBER
 from earthspin.engine.spread import inputs_of, members_needed, quantiles, sensitivity
 from earthspin.errors import SceneError
 from earthspin.numerics.arrays import FloatArray
-from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, PageFigure, axes
-from earthspin.views.reading import Result, views_of
-from earthspin.views.table import Table, short_exponents, with_error
-from earthspin.views.tables import tables_of
+from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, PageFigure, Views, axes
+from earthspin.views.reading import Result
+from earthspin.views.tables import Table, short_exponents, tables_of, with_error
 
 #: The figure of shares has at most so many bars and colours.
 MOST_ROWS, MOST_COLOURS = 12, 6
+#: Main quantities of answers whose first quantity is not the main one, by question.
+CHIEF = {"precession": ("precession_rate", "mean_torque"), "wobble": ("period_solar",)}
 #: Shares of variance below this are not told apart.
 SMALL = 5e-4
 
@@ -185,20 +186,23 @@ def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
-FIGURES = [
-    PageFigure(
-        "How the members spread",
-        _caption_of_spread,
-        plot_spread,
-        applies=lambda tree: bool(_numbers(_whole(tree))),
-    ),
-    PageFigure(
-        "Where the spread comes from",
-        "Share of each input in the variance of the members.",
-        plot_shares,
-        applies=lambda tree: bool(_numbers(_whole(tree))) and _enough(_whole(tree)),
-    ),
-]
+VIEWS = Views(
+    figures=[
+        PageFigure(
+            "How the members spread",
+            _caption_of_spread,
+            plot_spread,
+            applies=lambda tree: bool(_numbers(_whole(tree))),
+        ),
+        PageFigure(
+            "Where the spread comes from",
+            "Share of each input in the variance of the members.",
+            plot_shares,
+            applies=lambda tree: bool(_numbers(_whole(tree))) and _enough(_whole(tree)),
+        ),
+    ],
+    lead=lead,
+)
 
 
 # --- what is shown -------------------------------------------------------------------------------
@@ -242,7 +246,7 @@ def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
     if no number differs.
     """
     differing = dict.fromkeys(number.name for number in _numbers(answer))
-    chiefs = [name for name in getattr(views_of(answer), "CHIEF", ()) if name in differing]
+    chiefs = [name for name in CHIEF.get(answer.attrs["compute"], ()) if name in differing]
     return tuple(chiefs or [*differing][:1])
 
 

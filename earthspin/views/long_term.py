@@ -9,7 +9,7 @@ from earthspin.constants import EPSILON_0
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing
-from earthspin.views.drawing import Axes, PageFigure, axes
+from earthspin.views.drawing import Axes, PageFigure, Views, axes
 from earthspin.views.reading import Result, answer_of, needed
 from earthspin.views.stars import YEARS, on_the_chart, plot_path, year_labels
 
@@ -198,3 +198,6 @@ FIGURES = [
         section="budget",
     ),
 ]
+
+
+VIEWS = {"long-term": Views(FIGURES)}

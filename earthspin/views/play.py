@@ -16,7 +16,7 @@ import numpy as np
 
 from earthspin._version import __version__
 from earthspin.bodies import EARTH, MOON, SUN, Body
-from earthspin.bodies.mean_orbits import MOON_ECCENTRICITY, MOON_INCLINATION, SUN_ECCENTRICITY
+from earthspin.bodies.planets import MOON_ECCENTRICITY, MOON_INCLINATION, SUN_ECCENTRICITY
 from earthspin.constants import ARCSEC_PER_YEAR, DAY
 from earthspin.engine import drafts
 from earthspin.errors import SceneError

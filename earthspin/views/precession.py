@@ -12,13 +12,10 @@ from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
 from earthspin.engine.labels import si
 from earthspin.engine.neglected import largest_of
 from earthspin.numerics.arrays import FloatArray
-from earthspin.views import drawing, reading, stars, table, torque
-from earthspin.views.drawing import Axes, Figure, PageFigure, axes, note
+from earthspin.views import drawing, reading, stars, tables, torque
+from earthspin.views.drawing import Axes, Figure, PageFigure, Views, axes, note
 from earthspin.views.reading import Result, answer_of, changes_of, needed, section
-from earthspin.views.table import Column, Table, measured, table_along
-
-#: Numbers that an ensemble of answers shows first.
-CHIEF = ("precession_rate", "mean_torque")
+from earthspin.views.tables import Column, Table, measured, table_along
 
 #: Once round, arcsec.
 FULL_TURN = 360 * 3600.0
@@ -37,7 +34,7 @@ def lead(tree: Result) -> str:
         return f"{once} {alone} in this model: {pull}, and nothing else."
     period, error = _with_known_effects(known)
     return (
-        f"{once} {table.with_error(period, error)} years by all known effects together; IAU 2006 "
+        f"{once} {tables.with_error(period, error)} years by all known effects together; IAU 2006 "
         f"has {FULL_TURN / float(known.iau_rate):,.3f}. "
         f"The model of this page, {pull}, gives {alone} by itself: it leaves out effects that add "
         f"{period - float(answer.precession_period[-1]):.2f} years."
@@ -65,7 +62,7 @@ def periods(tree: Result) -> Table:
     )
     years = (
         measured(total, "precession_period"),
-        table.with_error(period, error),
+        tables.with_error(period, error),
         measured(seasons, "general_precession_period"),
     )
     added = period - float(total.precession_period)
@@ -103,12 +100,16 @@ def rates(tree: Result) -> Table:
         answer = answer.isel(perturber=[0])
     first, last = answer.perturber.values[[0, -1]]
     method, given = (
-        table.two_digits(answer[f"precession_rate_error_{share}"][-1])
+        tables.two_digits(answer[f"precession_rate_error_{share}"][-1])
         for share in ("method", "input")
     )
 
+    neglected = answer.attrs["neglected"]
+    largest = None if "unknown size" in neglected else largest_of(neglected)
+    size = "size unknown" if largest is None else f"{largest[1]:g} ({largest[0]})"
+
     def left_out(row: xr.Dataset) -> str:
-        return _largest_left_out(answer) if row.perturber == last else ""
+        return size if row.perturber == last else ""
 
     columns = (
         "precession_rate",
@@ -118,7 +119,7 @@ def rates(tree: Result) -> Table:
     )
     note = (
         "Rates are in longitude along the fixed orbit and refer to "
-        f"{table.date(answer.reference_epoch, 'm')} TDB; the obliquity is "
+        f"{tables.date(answer.reference_epoch, 'm')} TDB; the obliquity is "
         f"{float(answer.obliquity):.6f} deg. Torques are averaged with the "
         f"{answer.precession_rate.attrs['window']}. In the error of the last rate, {method} "
         f"arcsec/yr are due to averaging and {given} arcsec/yr to the given numbers."
@@ -126,16 +127,9 @@ def rates(tree: Result) -> Table:
     return table_along(answer, "perturber", "Precession", columns, note, first="pulled by")
 
 
-def _largest_left_out(answer: xr.Dataset) -> str:
-    """Name and size, as text, of the largest effect on the precession rate that is not modelled."""
-    text = answer.attrs["neglected"]
-    effect = None if "unknown size" in text else largest_of(text)
-    return "size unknown" if effect is None else f"{effect[1]:g} ({effect[0]})"
-
-
 def sky_and_calendar(tree: Result) -> Table:
     """Table of the general precession and of the drift of the calendar."""
-    computed = table.quantities(
+    computed = tables.quantities(
         needed(tree, "seasons"),
         "general_precession",
         "general_precession_period",
@@ -198,7 +192,7 @@ def free_wobble(tree: Result) -> Table:
     rigid, rows = measured(wobble, "free_wobble_period"), []
     if "observed_period" in wobble:
         period, error = wobble.free_wobble_period, wobble.free_wobble_period_error
-        rigid = table.beside_observed(period, error, None)
+        rigid = tables.beside_observed(period, error, None)
         rows.append(("observed", measured(wobble, "observed_period"), ""))
         source = wobble.observed_period.attrs["references"]
         notes.append(f"Source of the observed period: {source}.")
@@ -214,7 +208,7 @@ def free_wobble(tree: Result) -> Table:
 def iau(tree: Result) -> Table:
     """Table of the computed precession rate compared with that of IAU 2006."""
     known, left_out, answer = needed(tree, "iau_2006"), section(tree, "neglected"), answer_of(tree)
-    effects = () if left_out is None else table.along(left_out, "effect")
+    effects = () if left_out is None else tables.along(left_out, "effect")
     rows = [
         ("computed", measured(answer.isel(perturber=-1), "precession_rate")),
         ("IAU 2006, psi_A", f"{float(known.iau_rate):.8f}"),
@@ -227,7 +221,7 @@ def iau(tree: Result) -> Table:
     ]
     return Table(
         "Comparison with IAU 2006",
-        (f"rate at {table.date(answer.reference_epoch)}", "arcsec/yr"),
+        (f"rate at {tables.date(answer.reference_epoch)}", "arcsec/yr"),
         rows,
         "The sizes of the effects left out are published: Capitaine, Wallace & Chapront 2003, "
         "table 3. H itself comes from observed precession, so the comparison tests consistency, "
@@ -241,7 +235,7 @@ def standstills(tree: Result) -> Table:
     extremes, text = needed(tree, "standstills"), {"major": "28.58", "minor": "18.30"}
     error = float(extremes.standstill_declination_error.values.max(initial=0.0))
     columns = (
-        Column("standstill", lambda row: table.date(row.standstill), "date (TDB)"),
+        Column("standstill", lambda row: tables.date(row.standstill), "date (TDB)"),
         *("standstill_kind", "standstill_declination:+.4f"),
         Column("", lambda row: text[row.standstill_kind.item()], "source text (I.8), deg"),
     )
@@ -330,7 +324,7 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.yaxis.set_major_formatter(drawing.power_of_ten)
     error = float(total.precession_rate_error_method)
     ax.axhline(error, color="0.3", lw=0.9, ls="--")
-    words = f"error claimed for averaging, {table.two_digits(error)} arcsec/yr"
+    words = f"error claimed for averaging, {tables.two_digits(error)} arcsec/yr"
     note(ax, words, (1.05, error), (0, -3), va="top", color="0.3")
     ax.set_xlabel("length of the window (cycles of the slowest perturbation)")
     ax.set(ylabel="difference (arcsec per year)", ylim=(3e-7, None))
@@ -393,18 +387,13 @@ def _plot_circle_on_page(tree: Result, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def _precesses(tree: Result) -> bool:
-    """Return True if the body's axis precesses, which a sphere's axis does not."""
-    return bool(np.isfinite(answer_of(tree).precession_period[-1]))
-
-
 FIGURES = [
     PageFigure(
         "The circle of the pole among the stars",
         _caption_of_circle,
         _plot_circle_on_page,
         section="seasons",
-        applies=_precesses,
+        applies=lambda tree: bool(np.isfinite(answer_of(tree).precession_period[-1])),
         square=True,
         phone=drawing.NARROW,
     ),
@@ -418,3 +407,6 @@ FIGURES = [
         section="convergence",
     ),
 ]
+
+
+VIEWS = {"precession": Views(FIGURES, tables=TABLES, lead=lead)}

@@ -1,15 +1,18 @@
-"""Read the Dataset, sections, body and perturbers from a result, for tables and figures."""
+"""Read the parts and the words of a result, and write the line that closes the output."""
 
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
-from importlib import import_module
-from types import ModuleType
 
+import numpy as np
 import xarray as xr
 
 from earthspin.bodies import in_a_sentence
+from earthspin.engine.labels import from_si
+from earthspin.engine.neglected import error_of, largest_of
+from earthspin.engine.plan import IMPORTS
 from earthspin.engine.question import Question
+from earthspin.rounded import plain, shown_unit
 from earthspin.scenes import QUESTIONS, run_tree
 
 #: A plain answer, or one with sections beside it.
@@ -19,7 +22,7 @@ Result = xr.Dataset | xr.DataTree
 def answer_of(result: Result) -> xr.Dataset:
     """Return the main Dataset of a result; for many bodies or starts, select the first."""
     whole = result.to_dataset() if isinstance(result, xr.DataTree) else result
-    return _first(whole, whole.attrs)
+    return _first_case(whole, whole.attrs)
 
 
 def question_of(result: Result) -> type[Question] | None:
@@ -27,17 +30,11 @@ def question_of(result: Result) -> type[Question] | None:
     return QUESTIONS.get(result.attrs["compute"])
 
 
-def views_of(result: Result) -> ModuleType:
-    """Return the view module of a result's question; `tables` if it has none of its own."""
-    question = question_of(result)
-    return import_module(f"earthspin.views.{question.views if question else 'tables'}")
-
-
 def section(result: Result, name: str) -> xr.Dataset | None:
     """Return the section (Dataset) of a result with the given name, or None if there is none."""
     if not isinstance(result, xr.DataTree) or name not in result.children:
         return None
-    return _first(result[name].to_dataset(), result.attrs)
+    return _first_case(result[name].to_dataset(), result.attrs)
 
 
 def needed(result: Result, name: str) -> xr.Dataset:
@@ -48,11 +45,11 @@ def needed(result: Result, name: str) -> xr.Dataset:
     SceneError
         If the question has no such section, or the section does not apply; the error says why.
     """
-    found = section(result, name)
-    if found is None:
-        found = section(run_tree(result, [name]), name)
-    assert found is not None
-    return found
+    data = section(result, name)
+    if data is None:
+        data = section(run_tree(result, [name]), name)
+    assert data is not None
+    return data
 
 
 def body_of(answer: xr.Dataset) -> str:
@@ -86,7 +83,7 @@ def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:
     ]
 
 
-def _first(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
+def _first_case(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
     """Select the first body or initial state from a Dataset with many of them.
 
     That is, the first along dimensions that no part of the question declares.
@@ -100,3 +97,93 @@ def _first(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
     for name in first.variables.keys() & declared.keys():
         first[name].attrs |= {"short": declared[str(name)].short}
     return first
+
+
+# --- line that closes the output -----------------------------------------------------------------
+
+
+#: Words for the shares of an error, by the endings of their names.
+SHARES = {
+    "method": "method",
+    "input": "inputs",
+    "kernel": "positions",
+    "response": "response",
+    "satellites": "satellites",
+}
+
+
+def closing_line(result: Result, seconds: float | None = None) -> str:
+    """Error of the headline number of a result, and its run time, as one line.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Answer to a question. In a series, the largest error is given, with its place. The largest
+        neglected effect is named if it is larger than the error.
+    seconds : float, optional
+        Run time, s; that of the parts in the plan of the tree by default.
+
+    Returns
+    -------
+    str
+        Such as ``"precession rate: 95 % error 3.3e-5 arcsec/yr (method 1.3e-5, inputs 3e-5); 0.09 s
+        (+ 0.5 s imports)"``. Without an error it gives the reason.
+    """
+    answer = result.to_dataset() if isinstance(result, xr.DataTree) else result
+    cost = "" if seconds is None else f"{plain(seconds)} s"
+    if isinstance(result, xr.DataTree) and "plan" in result.children:
+        run_time = result["plan"].run_time
+        imports = float(run_time.sel(part=IMPORTS)) if IMPORTS in run_time.part else 0.0
+        cost = f"{plain(float(run_time.sum()) - imports)} s (+ {plain(imports)} s imports)"
+    return "; ".join(filter(None, (_error(answer), cost)))
+
+
+def _error(answer: xr.Dataset) -> str:
+    """Largest 95 % error of the headline number, with its shares, or why there is none."""
+    question = question_of(answer)
+    if question is None or question.headline not in answer:
+        return ""
+    name = question.headline
+    value = answer[name]
+    label = name.removesuffix("_error").replace("_", " ")
+    error_name = error_of(answer, name)
+    if not error_name:
+        return f"{label}: no error: {value.attrs['no_error']}"
+    if answer.sizes.get("perturber", 0) == 1 or "total" in answer.get("perturber", ()):
+        answer = answer.isel(perturber=-1)
+    value, error = answer[name], answer[error_name]
+    if not np.isfinite(error).any():
+        return f"{label}: no error: {error.attrs.get('no_error', 'it is not finite')}"
+    largest = np.unravel_index(np.nanargmax(error.values), error.shape)
+    place = {dim: int(index) for dim, index in zip(error.dims, largest, strict=True)}
+    size, unit = float(error[place]), error.attrs["units"]
+    shares = [
+        f"{words} {plain(float(answer[f'{error_name}_{ending}'][place]))}"
+        for ending, words in SHARES.items()
+        if f"{error_name}_{ending}" in answer
+    ]
+    relative = unit == "1" != value.attrs["units"]
+    text = f"{label}: {'largest ' if place else ''}{'relative ' if relative else ''}95 % error "
+    text += plain(size) + shown_unit(unit)
+    text += f" ({', '.join(shares)})" if shares else ""
+    if place:
+        text += f" at {', '.join(_label(error[place], dim, index) for dim, index in place.items())}"
+    if relative:
+        size *= float(np.abs(value).max())
+        unit = value.attrs["units"]
+    effect, left_out, its_unit = largest_of(answer.attrs.get("neglected", "")) or ("", 0.0, "1")
+    if abs(left_out) / from_si(its_unit) > size / from_si(unit):
+        text += f"; not modelled: {effect}, {plain(left_out)}{shown_unit(its_unit)}"
+    return text
+
+
+def _label(point: xr.DataArray, dim: Hashable, index: int) -> str:
+    """Label of one place along a dimension, as text; its index if the dimension has no labels."""
+    if dim not in point.coords:
+        return f"{dim} {index}"
+    label = point[dim]
+    if label.dtype.kind == "M":
+        return str(label.values.astype("M8[D]"))
+    if label.dtype.kind in "fiu":
+        return f"{dim} {plain(float(label))}{shown_unit(label.attrs.get('units', '1'))}"
+    return str(label.item())

@@ -15,13 +15,13 @@ from earthspin.engine import drafts, store
 from earthspin.progress import progress
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.scenes import load_scene, run, run_tree
-from earthspin.views import free_rotor, precession, top, torque
+from earthspin.views import precession, rotors, torque
+from earthspin.views.answers import drawings_for, page_of, solids_for
 from earthspin.views.drawing import Drawing
-from earthspin.views.of_question import drawings_for, page_of, solids_for
 from earthspin.views.page import page, write_texts
 from earthspin.views.reading import answer_of, body_of, needed, section
 from earthspin.views.solids import Solid
-from earthspin.views.table import beside_observed, measured
+from earthspin.views.tables import beside_observed, measured
 
 HALF_A_YEAR = np.timedelta64(183, "D")
 HALF_A_NODE_CYCLE = np.timedelta64(3400, "D")
@@ -108,9 +108,9 @@ def gallery() -> list[Solid]:
     tops = ("top-wave", "top-cusp", "top-loop")
     return [
         *solids_for(run_tree("poinsot", ["poinsot"])),
-        free_rotor.rolling_cones(prolate, "Rolling cones, prolate"),
-        free_rotor.rolling_cones(oblate, "Rolling cones, oblate"),
-        *(top.path_of_top(run_tree(name, ["turning"])) for name in tops),
+        rotors.rolling_cones(prolate, "Rolling cones, prolate"),
+        rotors.rolling_cones(oblate, "Rolling cones, oblate"),
+        *(rotors.path_of_top(run_tree(name, ["turning"])) for name in tops),
     ]
 
 

@@ -103,15 +103,15 @@ def plot_path(
     if layout is not None:
         layout.execute(figure_of(ax))
     ax.apply_aspect()  # labels are placed in the final layout
-    _put(ax, [*dates, *names], path)
+    _place_labels(ax, [*dates, *names], path)
     return ax
 
 
-def _put(ax: Axes, labels: list[Label], path: FloatArray) -> None:
+def _place_labels(ax: Axes, labels: list[Label], path: FloatArray) -> None:
     """Place labels on the chart one after another, each where it overlaps least."""
     window = ax.get_window_extent()
     points = min(window.width, window.height) * 72 / ax.figure.dpi / (2 * REACH)
-    line, dots = _even(path * points), np.array([label.at for label in labels]) * points
+    line, dots = _resampled(path * points), np.array([label.at for label in labels]) * points
     boxes = [(dot - 2, dot + 2) for dot in dots]
     for label, dot in zip(labels, dots, strict=True):
         half = np.array([LETTER * len(label.text), LINE]) * TEXT / 2
@@ -123,7 +123,7 @@ def _put(ax: Axes, labels: list[Label], path: FloatArray) -> None:
         note(ax, label.text, label.at, tuple(shift.tolist()), color=label.colour, **how)
 
 
-def _even(path: FloatArray) -> FloatArray:
+def _resampled(path: FloatArray) -> FloatArray:
     """Resample a path at steps of about two typographic points.
 
     The path's overlap with a label can then be counted.

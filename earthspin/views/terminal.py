@@ -11,10 +11,10 @@ from rich.table import Table as RichTable
 from rich.text import Text
 
 from earthspin.errors import printable
-from earthspin.views.table import SHORT, SPACE, least_width, short_exponents
+from earthspin.views.tables import SHORT, SPACE, least_width, short_exponents
 
 if TYPE_CHECKING:
-    from earthspin.views.table import Table
+    from earthspin.views.tables import Table
 
 #: Columns where the output goes to a file or a pipe.
 WIDTH = 100

@@ -1,4 +1,4 @@
-"""Figures of the torques of perturbers over time."""
+"""Figures of torques, and of the Cassini states of a spin axis."""
 
 from __future__ import annotations
 
@@ -8,9 +8,20 @@ import numpy as np
 import xarray as xr
 
 from earthspin.views import drawing
-from earthspin.views.drawing import CYCLE, Axes, Figure, PageFigure, axes, legend_above
+from earthspin.views.drawing import (
+    BLUE,
+    CYCLE,
+    GREY,
+    RED,
+    Axes,
+    Figure,
+    PageFigure,
+    Views,
+    axes,
+    legend_above,
+)
 from earthspin.views.reading import Result, answer_of
-from earthspin.views.table import along
+from earthspin.views.tables import along
 
 COLOURS = {"sun": "#E69F00", "moon": "#0072B2", "total": "#222222"}
 #: What turns more often than this in a figure is drawn as a band.
@@ -19,7 +30,10 @@ MANY_SWINGS = 200
 
 def through(tree: Result, title: str, smooth_days: float) -> drawing.Drawing:
     """Figure of declination and torque over time; fast oscillations are drawn as bands."""
-    plot, caption = partial(_plot_both, smooth_days=smooth_days), _caption(tree, smooth_days)
+    plot, caption = (
+        partial(_plot_both, smooth_days=smooth_days),
+        _caption_of_torque(tree, smooth_days),
+    )
     return PageFigure(title, caption, plot).drawn(tree)
 
 
@@ -31,7 +45,7 @@ def _plot_both(tree: Result, smooth_days: float | None = None) -> Figure:
     return figure
 
 
-def _caption(tree: Result, smooth_days: float | None = None) -> str:
+def _caption_of_torque(tree: Result, smooth_days: float | None = None) -> str:
     lines = (
         "Dashed lines are means. To see: the torque vanishes when a perturber crosses the "
         "equator, and is largest at its extremes."
@@ -139,4 +153,54 @@ def _colour(label: str, number: int) -> str:
     return COLOURS.get(label, CYCLE[number % len(CYCLE)])
 
 
-FIGURES = [PageFigure("Declination and torque", _caption, _plot_both)]
+TORQUE_FIGURES = [PageFigure("Declination and torque", _caption_of_torque, _plot_both)]
+
+
+# --- Cassini states ------------------------------------------------------------------------------
+
+
+def _caption_of_states(tree: Result) -> str:
+    words = (
+        "Spin axes in the states, in the plane of the orbit's normal (dashed) and of the pole that "
+        "it goes round (dotted)."
+    )
+    if not bool(answer_of(tree).stable.all()):
+        words += " An axis beside a blue one stays there; beside the red one it leaves."
+    return words
+
+
+def plot_states(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Draw the spin axes of the Cassini states in the plane in which all of them lie.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``cassini-states``.
+    ax : Axes, optional
+    """
+    answer = answer_of(result)
+    ax = axes(ax, 4.6, 4.6)
+    inclination = np.radians(answer.tilt.attrs["inclination"])
+    named = (0.0, "--", "normal of the orbit ", "right"), (inclination, ":", " its pole", "left")
+    for angle, line, words, side in named:
+        x, y = 1.1 * np.sin(angle), 1.1 * np.cos(angle)
+        ax.plot([0, x], [0, y], line, color=GREY, lw=1.2)
+        ax.annotate(words, (x, y), ha=side, color=GREY)
+    turn = np.linspace(0, 2 * np.pi, 200)
+    ax.plot(np.sin(turn), np.cos(turn), color=GREY, lw=0.5)
+    for state, row in along(answer, "state"):
+        angle = np.radians(float(row.obliquity)) * (1 if row.towards_pole else -1)
+        colour = BLUE if row.stable else RED
+        x, y = np.sin(angle), np.cos(angle)
+        ax.annotate("", (x, y), (0, 0), arrowprops={"arrowstyle": "->", "color": colour, "lw": 1.6})
+        beside = 0.8 * x + 0.08 * y, 0.8 * y - 0.08 * x
+        ax.annotate(state, beside, color=colour, weight="bold", ha="center", va="center")
+    ax.set(xlim=(-1.25, 1.25), ylim=(-1.15, 1.2), aspect="equal")
+    ax.axis("off")
+    return ax
+
+
+STATES_FIGURES = [PageFigure("The states", _caption_of_states, plot_states, square=True)]
+
+
+VIEWS = {"torque": Views(TORQUE_FIGURES), "cassini-states": Views(STATES_FIGURES)}

@@ -1,17 +1,28 @@
-"""Table and figure of the free wobble period from models of increasing detail."""
+"""Table and figure of the ladder of the free wobble, and figure of the Love numbers."""
 
 from __future__ import annotations
 
 import numpy as np
 import xarray as xr
 
-from earthspin.views import table
-from earthspin.views.drawing import BLUE, RED, Axes, PageFigure, axes, note, rungs
-from earthspin.views.reading import Result, answer_of, changes_of, section
-from earthspin.views.table import Column, Table, table_along
-
-#: Numbers that an ensemble of answers shows first.
-CHIEF = ("period_solar",)
+from earthspin.views import tables
+from earthspin.views.drawing import (
+    BLUE,
+    CYCLE,
+    GREY,
+    RED,
+    Axes,
+    Figure,
+    PageFigure,
+    Views,
+    axes,
+    note,
+    rungs,
+    stacked,
+    style,
+)
+from earthspin.views.reading import Result, answer_of, changes_of, needed, section
+from earthspin.views.tables import Column, Table, along, table_along
 
 
 def ladder(tree: Result) -> Table:
@@ -20,9 +31,12 @@ def ladder(tree: Result) -> Table:
 
     def period(row: xr.Dataset) -> str:
         if observed is None or row.rung != answer.rung[-1]:
-            return table.measured(row, "period_solar")
+            return tables.measured(row, "period_solar")
         left_out = section(tree, "neglected")
-        return table.beside_observed(row.period_solar, row.period_solar_error, left_out)
+        return tables.beside_observed(row.period_solar, row.period_solar_error, left_out)
+
+    def quality(row: xr.Dataset) -> str:
+        return f"{float(row.quality_factor):.0f}" if np.isfinite(row.quality_factor) else ""
 
     notes = [
         "Each rung is a model that adds one effect to the model before; the factor is the ratio of "
@@ -37,7 +51,7 @@ def ladder(tree: Result) -> Table:
         notes.append(f"Rungs left out: {answer.rung.attrs['left_out']}.")
     more = []
     if observed is not None:
-        more.append(("observed", table.measured(observed, "observed_period"), "", "", ""))
+        more.append(("observed", tables.measured(observed, "observed_period"), "", "", ""))
         source = observed.observed_period.attrs.get("references", "")
         notes.append(
             f"Source of the observed period: {source}. "
@@ -48,20 +62,17 @@ def ladder(tree: Result) -> Table:
     columns = (
         Column("period_solar", period, "days of 86400 s"),
         *("period_sidereal:.3f", "factor:.6f"),
-        Column("quality_factor", table.quality),
+        Column("quality_factor", quality),
     )
     title = "Free wobble, rung by rung"
     return table_along(answer, "rung", title, columns, " ".join(notes), more=more)
 
 
-TABLES = [("", ladder)]
-
-
-def _caption(tree: Result) -> str:
+def _caption_of_ladder(tree: Result) -> str:
     band = "; the band is the observed period" if section(tree, "observed") is not None else ""
     words = (
         "Period of the free wobble by a series of models, with 95 % errors from sampled inputs "
-        f"({table.NUMBERS_ONLY}){band}."
+        f"({tables.NUMBERS_ONLY}){band}."
     )
     return " ".join([words, *changes_of(answer_of(tree), "body")])
 
@@ -97,6 +108,73 @@ def plot_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
     return ax
 
 
-FIGURES = [
-    PageFigure("From the rigid to the deformable body", _caption, plot_ladder, uses=["observed"])
+LADDER_FIGURES = [
+    PageFigure(
+        "From the rigid to the deformable body", _caption_of_ladder, plot_ladder, uses=["observed"]
+    )
 ]
+
+
+# --- Love numbers --------------------------------------------------------------------------------
+
+
+#: How a number is written in a figure.
+SYMBOLS = {
+    "k2": "$k_2$", "h2": "$h_2$", "l2": "$l_2$",
+    "k2_load": "$k'_2$", "h2_load": "$h'_2$", "l2_load": "$l'_2$",
+}  # fmt: skip
+#: Left out of the figure: small as it is, its changes would hide all others.
+SMALL = "l2_load"
+#: Vertical lines, by their periods in days.
+MARKS = {"a day": 1.0, "14 months": 430.0, "the node": 6798.4}
+
+
+@style()
+def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
+    """Draw how much the Love numbers exceed the elastic ones, and their phase lag, by period.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``love-numbers``.
+    figure : Figure, optional
+        Drawn on one of its own by default.
+    """
+    data = needed(result, "by_period")
+    figure, (above, below) = stacked(2, 4.6, figure, width=7.5)
+    days = data.love_period.values
+    for number, (name, row) in enumerate(along(data, "love")):
+        if name == SMALL:
+            continue
+        ratio = row.love_number_by_period + 1j * row.love_number_by_period_imaginary
+        ratio = (ratio / row.elastic_love_number).values
+        line, colour = "--" if name.endswith("load") else "-", CYCLE[number % 3]
+        above.plot(days, 100 * (abs(ratio) - 1), line, color=colour, label=SYMBOLS[name])
+        below.plot(days, -np.degrees(np.angle(ratio)), line, color=colour)
+    above.set(xscale="log", ylabel="over the elastic one (%)")
+    below.set(ylabel="lag (deg)", xlabel="period (d)")
+    where = {"xycoords": ("data", "axes fraction"), "ha": "right", "color": GREY}
+    for words, at in MARKS.items():
+        for ax in (above, below):
+            ax.axvline(at, color=GREY, lw=0.7, ls=":")
+        note(below, words, (at, 0), (-3, 4), **where)
+    above.legend(ncols=5, loc="upper left", fontsize=8)
+    return figure
+
+
+LOVE_FIGURES = [
+    PageFigure(
+        "Softer and later with the period",
+        "Love numbers of tide and load, by the period of what deforms the body: how much larger "
+        "they are than those of the elastic body, at 1 s, and by which angle they lag. The small "
+        "tangential one of a load is left out.",
+        plot_by_period,
+        section="by_period",
+    )
+]
+
+
+VIEWS = {
+    "wobble": Views(LADDER_FIGURES, tables=[("", ladder)]),
+    "love-numbers": Views(LOVE_FIGURES),
+}

@@ -24,10 +24,106 @@ from typing import Any
 import numpy as np
 
 from earthspin.errors import UndefinedError
-from earthspin.wobble.innovations import EXTRAPOLATED, Autoregression, forecast_covariance
+from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.wobble.excitation import chandler_frequency, polar_motion_from
 from earthspin.wobble.record import YEAR
-from earthspin.wobble.resonance import chandler_frequency, polar_motion_from
-from earthspin.wobble.state_space import Array, Complex, Filter, StateSpace
+from earthspin.wobble.state_space import Filter, StateSpace, burg, side_by_side
+
+# --- innovations: their autoregression, and forecast errors ---------------------------------------
+# The innovations (differences of each observation from its prediction) are not white: what the
+# model of the excitation and the smoothing of the tables leave is correlated over some days. With
+#
+#     nu[k] = -sum_j a[j] nu[k - j] + e[k],
+#
+# the error of a forecast h days ahead is sum_j M[j] e[h - j] over 0 <= j < h, where M[j] is the
+# response of the observed pole to e after j days. Its covariance follows from that of e, which is
+# estimated in x and y separately, so that the correlation of x and y depends on the horizon.
+#
+# Source: Anderson & Moore (1979), Optimal Filtering, section 9.1, for the innovations form.
+
+#: Order of the autoregression, days from which it is estimated (the noise of the tables changes
+#: within years), and days that it extrapolates.
+ORDER, FITTED_OVER, EXTRAPOLATED = 20, 730, 40
+
+
+@dataclass(frozen=True)
+class Autoregression:
+    """Autoregression of complex innovations, with residuals that are unequal in both coordinates.
+
+    Attributes
+    ----------
+    coefficients : complex array, shape (ORDER,)
+        a[1], a[2] and so on.
+    residual : complex
+        Last e, mas.
+    covariance : array, shape (2, 2)
+        Of the real and imaginary part of e, mas squared.
+    """
+
+    coefficients: ComplexArray
+    residual: complex
+    covariance: FloatArray
+
+    @classmethod
+    def fitted(cls, innovations: ComplexArray) -> Autoregression:
+        """Fit the autoregression to the last days of a series of innovations."""
+        last = innovations[-FITTED_OVER:]
+        filter_ = burg(last, ORDER)
+        residuals = np.convolve(last, filter_, mode="valid")
+        parts = np.array([residuals.real, residuals.imag])
+        # a fit of so many coefficients leaves too small a residual
+        covariance = parts @ parts.T / residuals.size * (1 + ORDER / residuals.size)
+        return cls(filter_[1:], complex(residuals[-1]), covariance)
+
+    def extended(self, series: ComplexArray, days: int) -> ComplexArray:
+        """Extend a series of innovations by some days, with e = 0."""
+        values = list(series[-ORDER:])
+        for _ in range(days):
+            values.append(-np.dot(self.coefficients, values[: -ORDER - 1 : -1]))
+        return np.array(values[ORDER:], dtype=complex)
+
+    def without_error(self, variance: float) -> tuple[complex, FloatArray]:
+        """Most probable last e, if the last observation has an error, and its covariance.
+
+        Parameters
+        ----------
+        variance : float
+            Of the error in each coordinate, beyond that of other observations, mas squared.
+        """
+        share = self.covariance @ np.linalg.inv(self.covariance + variance * np.eye(2))
+        real, imaginary = share @ [self.residual.real, self.residual.imag]
+        return complex(real, imaginary), self.covariance - share @ self.covariance
+
+
+def forecast_covariance(
+    kalman: Filter, autoregression: Autoregression, last: FloatArray, days: int
+) -> FloatArray:
+    """Covariance of the forecast, shape (days, 2, 2), real and imaginary part of the pole.
+
+    Parameters
+    ----------
+    kalman : Filter
+    autoregression : Autoregression
+        Of its innovations.
+    last : array, shape (2, 2)
+        Covariance of the last e; zero if the last observation is as good as the others.
+    days : int
+    """
+    start = np.zeros(ORDER, dtype=complex)
+    start[-1] = 1
+    impulse = np.concatenate([start[-1:], autoregression.extended(start, days)])
+    model, gain = kalman.model, kalman.gains[-1]
+    response, state = np.empty((days + 1, 2, 2)), np.zeros((len(model.transition), 2))
+    for day, value in enumerate(impulse):
+        innovation = side_by_side(np.array([[value]]))
+        response[day] = model.observed @ state + innovation
+        state = model.transition @ (state + gain @ innovation)
+    turned = np.swapaxes(response, 1, 2)
+    later = np.cumsum(response @ autoregression.covariance @ turned, axis=0)[:-1]
+    return np.asarray(later + response[1:] @ last @ turned[1:])
+
+
+# --- the model and its forecast -------------------------------------------------------------------
 
 #: Measured skill; `python -m data_tools forecast` writes it.
 SKILL = Path(__file__).with_name("forecast_skill.json")
@@ -102,13 +198,13 @@ class FastExcitation:
     white: float = 0.0
 
     @property
-    def density(self) -> Array:
+    def density(self) -> FloatArray:
         """Covariance of the x and y noise that enters the fast excitation, mas2/d, shape (2, 2)."""
         across = -self.correlation * self.x * self.y
         return np.array([[self.x**2, across], [across, self.y**2]])
 
     @property
-    def free(self) -> Array:
+    def free(self) -> FloatArray:
         """Parameters of the fast excitation, transformed to unbounded values for an optimiser.
 
         The white part must be greater than zero.
@@ -118,7 +214,7 @@ class FastExcitation:
         return np.array([*logs, *turns, np.log(self.white)])
 
     @classmethod
-    def from_free(cls, free: Array) -> FastExcitation:
+    def from_free(cls, free: FloatArray) -> FastExcitation:
         """Build the fast excitation from unbounded parameters, the inverse of `free`."""
         first, second, x, y, white = map(float, np.exp(free[[0, 1, 2, 3, 7]]))
         first_turn, second_turn = map(float, free[4:6])
@@ -186,16 +282,16 @@ class Forecast:
         Parameters that were used.
     """
 
-    pole: Complex
-    covariance: Array
-    model_covariance: Array
-    components: Mapping[str, Complex]
-    component_variance: Mapping[str, Array]
+    pole: ComplexArray
+    covariance: FloatArray
+    model_covariance: FloatArray
+    components: Mapping[str, ComplexArray]
+    component_variance: Mapping[str, FloatArray]
     fast: FastExcitation
 
 
 def forecast(
-    p: Complex,
+    p: ComplexArray,
     days: int,
     fast: FastExcitation = SHIPPED,
     used: int = RECORD,
@@ -262,7 +358,7 @@ def forecast(
     return Forecast(pole @ np.array([1, 1j]), combined, spread, complex_parts, variances, fast)
 
 
-def last_of(p: Complex, used: int = RECORD) -> Complex:
+def last_of(p: ComplexArray, used: int = RECORD) -> ComplexArray:
     """Return the last days of a record of polar motion, as many as a forecast uses.
 
     Raises
@@ -278,14 +374,14 @@ def last_of(p: Complex, used: int = RECORD) -> Complex:
     return p[-used:]
 
 
-def _rows(states: list[int]) -> Array:
+def _rows(states: list[int]) -> FloatArray:
     """Matrix that sums the chosen states of the model into one x and one y coordinate."""
     row = np.zeros(len(BEFORE))
     row[states] = 1
     return np.asarray(np.kron(np.eye(2), row), dtype=float)
 
 
-def fit(p: Complex, used: int = RECORD) -> FastExcitation:
+def fit(p: ComplexArray, used: int = RECORD) -> FastExcitation:
     """Fit the fast excitation by maximum likelihood, from every tenth day of a record.
 
     Parameters
@@ -300,7 +396,7 @@ def fit(p: Complex, used: int = RECORD) -> FastExcitation:
     record = last_of(p, used)[::-1][::THINNED][::-1]
     data = np.column_stack([record.real, record.imag])
 
-    def height(free: Array) -> float:
+    def height(free: FloatArray) -> float:
         system = model(FastExcitation.from_free(free)).every(THINNED)
         kalman = Filter.of(system, len(data))
         return kalman.minus_twice_log(kalman.run(data)[1])
@@ -312,7 +408,9 @@ def fit(p: Complex, used: int = RECORD) -> FastExcitation:
     return FastExcitation.from_free(best.x)
 
 
-def forecast_with_excitation(p: Complex, chi: Complex, days: int, newest: bool = False) -> Forecast:
+def forecast_with_excitation(
+    p: ComplexArray, chi: ComplexArray, days: int, newest: bool = False
+) -> Forecast:
     """Forecast polar motion from a record and from a known excitation that extends beyond it.
 
     The pole that the known excitation drives is computed exactly up to a day before its end. The

@@ -1,4 +1,4 @@
-"""Records of polar motion: check them, remove drift and seasonal terms; what is fitted to them.
+"""Records of polar motion: checks, drift and seasonal terms, amplitudes in windows, and spectra.
 
 Polar motion is complex, p = x - i y, so that the free wobble turns with exp(+i omega t).
 """
@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from earthspin.constants import DAYS_PER_YEAR, NORMAL_95
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+# --- checks, drift and seasonal terms -------------------------------------------------------------
 
 YEAR = 365.2422  # d, the tropical year of the seasons
 #: Seasonal terms that are fitted and removed, d; negative ones turn backwards.
@@ -34,7 +34,7 @@ def shortest_span(period: float = NEAR) -> float:
     return 1 / (1 / YEAR - 1 / period)
 
 
-def check(time: Array, p: Complex) -> None:
+def check(time: FloatArray, p: ComplexArray) -> None:
     """Refuse a record of polar motion that no fitting method can use.
 
     Parameters
@@ -63,24 +63,25 @@ def check(time: Array, p: Complex) -> None:
     span, needed = time[-1] - time[0], 2 * shortest_span()
     if span < needed:
         raise UndefinedError(
-            f"a span of {span / 365.25:.1f} years is too short to separate {YEAR:.0f} from "
-            f"{NEAR:.0f} days; it takes {needed / 365.25:.0f} years, two beats of the two wobbles"
+            f"a span of {span / DAYS_PER_YEAR:.1f} years is too short to separate {YEAR:.0f} from "
+            f"{NEAR:.0f} days; it takes {needed / DAYS_PER_YEAR:.0f} years, "
+            "two beats of the two wobbles"
         )
 
 
-def turning(time: Any, period: float) -> Complex:
+def turning(time: Any, period: float) -> ComplexArray:
     """Values of exp(2 pi i time/period), a prograde circular motion of unit amplitude."""
     return np.asarray(np.exp(2j * np.pi * time / period))
 
 
-def drift_terms(time: Array, degree: int = DRIFT) -> Complex:
+def drift_terms(time: FloatArray, degree: int = DRIFT) -> ComplexArray:
     """Powers of time scaled to -1 to 1, for a drift polynomial, shape (n, degree + 1)."""
     centre, half = (time[-1] + time[0]) / 2, (time[-1] - time[0]) / 2
     scaled = (time - centre) / half
     return np.column_stack([scaled**k for k in range(degree + 1)]).astype(complex)
 
 
-def known_terms(time: Array, drift: int = DRIFT) -> Complex:
+def known_terms(time: FloatArray, drift: int = DRIFT) -> ComplexArray:
     """Values of the drift and seasonal terms at given times, shape (n, drift + 5)."""
     seasons = [turning(time, period) for period in SEASONS]
     return np.column_stack([drift_terms(time, drift), *seasons])
@@ -92,7 +93,9 @@ def block_means(values: Any, size: int) -> Any:
     return values[: count * size].reshape(count, size, *values.shape[1:]).mean(axis=1)
 
 
-def in_blocks(time: Array, p: Complex, length: float) -> tuple[Array, Complex, float]:
+def in_blocks(
+    time: FloatArray, p: ComplexArray, length: float
+) -> tuple[FloatArray, ComplexArray, float]:
     """Mean times and mean polar motion of consecutive blocks, and the block length, d.
 
     Blocks have about the given length in days.
@@ -104,12 +107,12 @@ def in_blocks(time: Array, p: Complex, length: float) -> tuple[Array, Complex, f
     return block_means(time, size), block_means(p, size), size * float(step)
 
 
-def least_squares(columns: Complex, values: Complex) -> Complex:
+def least_squares(columns: ComplexArray, values: ComplexArray) -> ComplexArray:
     """Fit a linear combination of given columns to a series; return its coefficients."""
     return np.asarray(np.linalg.lstsq(columns, values, rcond=None)[0])
 
 
-def without_known_terms(time: Array, p: Complex, period: float = NEAR) -> Complex:
+def without_known_terms(time: FloatArray, p: ComplexArray, period: float = NEAR) -> ComplexArray:
     """Subtract drift and seasonal terms from polar motion; the fit includes the free wobble."""
     columns = known_terms(time)
     found = least_squares(np.column_stack([columns, turning(time, period)]), p)
@@ -136,3 +139,143 @@ class WobbleFit:
     period_error: float
     quality_factor: float
     quality_bounds: tuple[float, float]
+
+
+# --- amplitude and phase in sliding windows -------------------------------------------------------
+
+WINDOW_BLOCK = 30.0  # d
+#: How far amplitudes scatter beyond the noise that is left in a window, from simulations: the
+#: fit takes some of it away.
+AMPLITUDE_EXCESS = 1.3
+
+
+@dataclass(frozen=True)
+class Envelope:
+    """Amplitudes and phases of the free and annual wobbles in sliding time windows.
+
+    Attributes
+    ----------
+    time : array, shape (w,)
+        Middles of the windows, d.
+    chandler, annual, annual_retrograde : complex array
+        Sizes and phases at time 0: terms a exp(2 pi i time/T).
+    error : array
+        95 % half-width of the amplitudes.
+    drift : complex array
+        Mean position in the window.
+    """
+
+    time: FloatArray
+    chandler: ComplexArray
+    annual: ComplexArray
+    annual_retrograde: ComplexArray
+    drift: ComplexArray
+    error: FloatArray
+
+
+def envelope(
+    time: FloatArray,
+    p: ComplexArray,
+    period: float,
+    window: float | None = None,
+    step: float = 30.0,
+) -> Envelope:
+    """Fit free wobble, annual wobble and linear drift of the pole in sliding time windows.
+
+    Parameters
+    ----------
+    time : array
+        d, evenly spaced.
+    p : complex array
+    period : float
+        Of the free wobble, d.
+    window : float, optional
+        Length, d; one beat of the two wobbles by default, the shortest that parts them.
+    step : float
+        Between windows, d.
+
+    Raises
+    ------
+    UndefinedError
+        If the window is shorter than a beat, or longer than the series.
+    """
+    beat = shortest_span(period)
+    length = beat if window is None else window
+    sample = (time[-1] - time[0]) / (time.size - 1)
+    time, p, spacing = in_blocks(time, p, WINDOW_BLOCK)
+    size = round(length / spacing) + 1
+    if length < 0.9 * beat or size > time.size:
+        raise UndefinedError(
+            f"a window of {length:.0f} d is not possible; it lies between one beat of the wobbles, "
+            f"{beat:.0f} d, and the series' {time[-1] - time[0]:.0f} d"
+        )
+    local = (np.arange(size) - (size - 1) / 2) * spacing
+    terms = (period, YEAR, -YEAR, YEAR / 2)
+    # The mean over m samples in a block B reduces the amplitude of a sinusoid with the period T by
+    # the factor sin(pi B/T)/(m sin(pi B/(m T))).
+    factors = [np.sinc(spacing / term) / np.sinc(sample / term) for term in terms]
+    waves = [turning(local, term) * factor for term, factor in zip(terms, factors, strict=True)]
+    columns = np.column_stack([np.ones(size), local / length, *waves])
+    solver = np.linalg.pinv(columns)
+    starts = np.arange(0, time.size - size + 1, max(1, round(step / spacing)))
+    series = np.lib.stride_tricks.sliding_window_view(p, size)[starts]
+    # Plain sums: a BLAS rounds otherwise with another number of threads.
+    found = np.einsum("ws,ks->wk", series, solver)
+    middle = time[starts] + local[-1]
+    left = series - np.einsum("wk,sk->ws", found, columns)
+    back = np.exp(-2j * np.pi * middle[:, None] / np.array(terms[:3]))
+    turned = found[:, 2:5] * back
+    return Envelope(
+        middle,
+        turned[:, 0],
+        turned[:, 1],
+        turned[:, 2],
+        found[:, 0],
+        _amplitude_error(left, spacing, 2 * np.pi / period),
+    )
+
+
+def _amplitude_error(left: ComplexArray, spacing: float, rate: float) -> FloatArray:
+    """95 % half-width of wobble amplitudes in time windows, from residuals with correlated noise.
+
+    Neighbouring months err alike: the noise is taken for an autoregressive one of first
+    order, and its spectrum read off at the wobble's frequency.
+    """
+    power = np.mean(abs(left) ** 2, axis=1)
+    alike = np.mean(left[:, 1:] * left[:, :-1].conj(), axis=1) / power
+    turned = abs(1 - alike * np.exp(-1j * rate * spacing)) ** 2
+    density = power * (1 - abs(alike) ** 2) / turned
+    return np.asarray(AMPLITUDE_EXCESS * NORMAL_95 * np.sqrt(density / (2 * left.shape[1])))
+
+
+# --- amplitude spectra ----------------------------------------------------------------------------
+
+#: Points of the spectrum for each one that is independent.
+PADDING = 4
+
+
+def spectrum(time: FloatArray, p: ComplexArray) -> tuple[FloatArray, FloatArray]:
+    """Compute the prograde and retrograde amplitude spectra of polar motion.
+
+    Parameters
+    ----------
+    time : array
+        d, evenly spaced.
+    p : complex array
+        In any unit; a cubic drift is removed and a Hann window applied.
+
+    Returns
+    -------
+    frequency : array
+        Cycles per unit of time, ascending; negative is retrograde.
+    amplitude : array
+        Of a sinusoid that stands alone, in the unit of p.
+    """
+    step = (time[-1] - time[0]) / (time.size - 1)
+    drift = drift_terms(time)
+    rest = p - drift @ least_squares(drift, p)
+    taper = np.hanning(time.size)
+    padded = PADDING * time.size
+    amplitude = abs(np.fft.fftshift(np.fft.fft(rest * taper, padded))) / taper.sum()
+    frequency = np.fft.fftshift(np.fft.fftfreq(padded, step))
+    return frequency, amplitude

@@ -1,4 +1,4 @@
-"""Linear Gaussian models in discrete time: Kalman filter, likelihood and forecast.
+"""Linear Gaussian models in discrete time: Kalman filter, driven oscillator and autoregression.
 
 A state z obeys z' = A z + n with complex A, and is observed at even steps with an error. The noise
 may be unequal and correlated in the real and the imaginary part, which a complex covariance alone
@@ -15,13 +15,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from earthspin.numerics.arrays import ComplexArray, FloatArray
+
+# --- Kalman filter, likelihood and autoregression -------------------------------------------------
 
 
-def side_by_side(matrix: Complex) -> Array:
+def side_by_side(matrix: ComplexArray) -> FloatArray:
     """Real matrix for a complex one, acting on real parts followed by imaginary parts."""
     return np.block([[matrix.real, -matrix.imag], [matrix.imag, matrix.real]])
 
@@ -44,15 +44,20 @@ class StateSpace:
         Covariance of the state before the first observation; its mean is zero.
     """
 
-    transition: Array
-    noise: Array
-    observed: Array
-    error: Array
-    start: Array
+    transition: FloatArray
+    noise: FloatArray
+    observed: FloatArray
+    error: FloatArray
+    start: FloatArray
 
     @classmethod
     def sampled(
-        cls, rates: Complex, density: Array, observed: Complex, error: Array, start: Array
+        cls,
+        rates: ComplexArray,
+        density: FloatArray,
+        observed: ComplexArray,
+        error: FloatArray,
+        start: FloatArray,
     ) -> StateSpace:
         """Convert a linear model in continuous time to one with steps of a day.
 
@@ -84,11 +89,11 @@ class StateSpace:
             noise = self.transition @ noise @ self.transition.T + self.noise
         return StateSpace(transition, noise, self.observed, self.error, self.start)
 
-    def propagated(self, covariance: Array) -> Array:
+    def propagated(self, covariance: FloatArray) -> FloatArray:
         """Covariance of the state one step later."""
         return np.asarray(self.transition @ covariance @ self.transition.T + self.noise)
 
-    def of_observation(self, covariance: Array) -> Array:
+    def of_observation(self, covariance: FloatArray) -> FloatArray:
         """Covariance of the predicted observation, from the covariance of the state."""
         return np.asarray(self.observed @ covariance @ self.observed.T + self.error)
 
@@ -108,9 +113,9 @@ class Filter:
     """
 
     model: StateSpace
-    gains: Array
-    innovation: Array
-    covariance: Array
+    gains: FloatArray
+    innovation: FloatArray
+    covariance: FloatArray
 
     @classmethod
     def of(cls, model: StateSpace, count: int) -> Filter:
@@ -127,7 +132,7 @@ class Filter:
             predicted = model.propagated(after)
         return cls(model, gains, innovation, after)
 
-    def run(self, data: Array) -> tuple[Array, Array]:
+    def run(self, data: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Filter observations: return the final state and the prediction errors (innovations).
 
         Parameters
@@ -148,9 +153,130 @@ class Filter:
             state = self.model.transition @ after
         return after, innovations
 
-    def minus_twice_log(self, innovations: Array) -> float:
+    def minus_twice_log(self, innovations: FloatArray) -> float:
         """Minus twice the logarithm of the likelihood of the observations, from `run`."""
         weighted = np.linalg.solve(self.innovation, innovations[..., None])[..., 0]
         size = innovations.size * np.log(2 * np.pi)
         determinants = np.linalg.slogdet(self.innovation)[1].sum()
         return float(size + determinants + np.sum(innovations * weighted))
+
+
+def burg(x: ComplexArray, order: int) -> ComplexArray:
+    """Compute the prediction-error filter 1, a1, ... of a complex series, by Burg's method.
+
+    Forward and backward errors are shortened by reflection coefficients of least mean
+    error (Burg 1967; Marple 1987, Digital Spectral Analysis, sect. 8.5).
+
+    Parameters
+    ----------
+    x : complex array
+        Of mean zero.
+    order : int
+    """
+    forward, backward = x[1:], x[:-1]
+    filter_ = np.ones(1, dtype=complex)
+    for _ in range(order):
+        power = np.vdot(forward, forward).real + np.vdot(backward, backward).real
+        reflection = -2 * np.vdot(backward, forward) / power
+        longer = np.append(filter_, 0)
+        filter_ = longer + reflection * longer[::-1].conj()
+        forward, backward = (
+            (forward + reflection * backward)[1:],
+            (backward + np.conj(reflection) * forward)[:-1],
+        )
+    return filter_
+
+
+# --- damped oscillator driven by white and red noise ----------------------------------------------
+# Polar motion obeys p' = i s (p - chi). An excitation chi with the correlation time tau adds a
+# second mode of rate -1/tau to the free one of rate i s. With z the amplitudes of the two modes,
+#
+#     z' = L z + n,   p = z1 + z2,   cov(n) = N,   cov(z) = P_ij = -N_ij/(l_i + conj l_j),
+#
+# and the covariance of p at a lag t > 0 is the sum of g_i exp(l_i t), g = P (1, 1).
+
+
+@dataclass(frozen=True)
+class DrivenOscillator:
+    """Model of polar motion: a damped wobble and a slowly varying part, driven by noise.
+
+    Attributes
+    ----------
+    s : complex
+        Frequency of the free mode and, as its imaginary part, its decay; rad/d.
+    memory : float
+        Correlation time of red excitation and background, d.
+    white : float
+        Variance that white noise adds to p in a day.
+    red : float
+        Variance of the red excitation chi.
+    background : float
+        Variance of a red part of p that is not excited by anything; in the unit of p, squared.
+    """
+
+    s: complex
+    memory: float
+    white: float = 0.0
+    red: float = 0.0
+    background: float = 0.0
+
+    @property
+    def rates(self) -> ComplexArray:
+        """Complex rates (1/d) of the wobble and of the slowly varying part of polar motion."""
+        return np.array([1j * self.s, -1 / self.memory])
+
+    @property
+    def covariance(self) -> ComplexArray:
+        """Stationary covariance of wobble and slowly varying part of polar motion, shape (2, 2)."""
+        rates = self.rates
+        # chi' = -chi/tau + n puts c chi into the slow mode and leaves p - c chi to the free one.
+        share = rates[0] / (rates[0] - rates[1])
+        into = np.array([-share, share])
+        noise = 2 / self.memory * self.red * np.outer(into, into.conj())
+        noise += np.diag([self.white, 2 / self.memory * self.background])
+        return np.asarray(-noise / (rates[:, None] + rates.conj()))
+
+    def of_means(self, length: float, reference: float) -> tuple[ComplexArray, ComplexArray]:
+        """Covariance of block means of polar motion in this model, for lags of 0, 1 and 2 blocks.
+
+        The rotation at the reference frequency is removed first.
+
+        Parameters
+        ----------
+        length : float
+            Of a block, d.
+        reference : float
+            rad/d.
+
+        Returns
+        -------
+        factors : complex array, shape (2,)
+            By which the modes change from one block to the next.
+        lags : complex array, shape (3,)
+            Covariance at lags of none, one and two blocks.
+        """
+        x = (self.rates - 1j * reference) * length
+        size, factors = self.covariance.sum(axis=1), np.exp(x)
+        apart = size * (np.sinh(x / 2) / (x / 2)) ** 2
+        same = 2 * np.sum(size * (np.expm1(x) - x) / x**2).real
+        return factors, np.array([same, apart @ factors, apart @ factors**2])
+
+    def sampled(self, count: int, step: float, generator: np.random.Generator) -> ComplexArray:
+        """Simulate polar motion at evenly spaced times, shape (count,), with random noise.
+
+        The simulation starts from the stationary distribution.
+        """
+        from scipy.signal import lfilter
+
+        keep, stationary = np.exp(self.rates * step), self.covariance
+        kicks = stationary - keep[:, None] * stationary * keep.conj()
+        drawn = generator.standard_normal((count, 2, 2)) @ np.array([1, 1j]) / np.sqrt(2)
+        pushed = drawn @ _root(kicks).T
+        pushed[0] = _root(stationary) @ drawn[0]
+        return np.asarray(sum(lfilter([1], [1, -keep[i]], pushed[:, i]) for i in (0, 1)))
+
+
+def _root(covariance: ComplexArray) -> ComplexArray:
+    """Square root R of a covariance matrix, such that R R^H is the matrix; it may be singular."""
+    values, vectors = np.linalg.eigh(covariance)
+    return np.asarray(vectors * np.sqrt(np.maximum(values, 0)))

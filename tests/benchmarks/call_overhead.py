@@ -15,7 +15,7 @@ from contextlib import contextmanager
 import xarray as xr
 
 import earthspin
-from earthspin.bodies.mean_orbits import MEAN_MOON, MEAN_SUN
+from earthspin.bodies.planets import MEAN_MOON, MEAN_SUN
 from earthspin.engine.variables import Variables
 
 RUNS = 31

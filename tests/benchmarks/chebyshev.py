@@ -15,9 +15,8 @@ import numpy as np
 from jplephem.spk import SPK
 
 from earthspin.constants import J2000_JD
-from earthspin.sky.chebyshev import BLOCK
 from earthspin.sky.ephemeris import find_kernel
-from earthspin.sky.kernel_checks import Records
+from earthspin.sky.kernel import BLOCK, Records
 
 ROUNDS, SIZE = 9, 200_000
 RNG = np.random.default_rng(0)

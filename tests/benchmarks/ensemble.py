@@ -23,8 +23,8 @@ import xarray as xr
 from distributed import Client, LocalCluster
 from scipy.special import ellipj
 
-from earthspin.engine import loop
-from earthspin.engine.unfinished import Layout
+from earthspin.engine import blocks
+from earthspin.engine.blocks import Layout
 
 MEMBERS, NUMBERS, BLOCK = 20_000, 1_000, 1_024
 ROUNDS = 2
@@ -75,7 +75,7 @@ def main() -> int:
         place = Path(folder, "r.zarr")
 
         def written(by: Client | None) -> tuple[float, float]:
-            taken = seconds(lambda: loop.write(work, place, client=by))
+            taken = seconds(lambda: blocks.write(work, place, client=by))
             shutil.rmtree(place)
             return taken
 

@@ -5,7 +5,7 @@ import pytest
 
 from data_tools import free_wobble, neglected
 from data_tools.__main__ import main
-from earthspin.motion.effects.nonrigid import RESPONSE
+from earthspin.motion.effects import RESPONSE
 
 
 def test_hashes_are_as_known(capsys: pytest.CaptureFixture[str]) -> None:

@@ -9,6 +9,7 @@ import pytest
 
 import earthspin
 from earthspin import cli
+from earthspin.questions import MODULES
 from tests.docs.lessons import DOCS, built
 
 EXAMPLES = DOCS / "examples"
@@ -17,10 +18,7 @@ EXAMPLES = DOCS / "examples"
 @pytest.fixture
 def example(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     module = built(EXAMPLES / "surface_gravity.py", monkeypatch)
-    # as in the list of `earthspin/__init__.py`
-    modules = vars(earthspin)["_QUESTIONS"]
-    monkeypatch.setitem(modules, "surface_gravity", "earthspin.questions.surface_gravity")
-    monkeypatch.setattr(earthspin, "surface_gravity", module.surface_gravity, raising=False)
+    monkeypatch.setitem(MODULES, "surface_gravity", "surface_gravity")
     return module
 
 

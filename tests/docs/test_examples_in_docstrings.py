@@ -15,6 +15,7 @@ import pytest
 import earthspin
 from earthspin.bodies import Body
 from earthspin.engine.accessor import Answer
+from earthspin.engine.registry import METHODS, registered
 from earthspin.scenes import QUESTIONS
 
 
@@ -26,7 +27,8 @@ def public() -> Iterator[tuple[str, Any]]:
     yield "Body.replace", Body.replace
     yield "Answer", Answer
     yield "Answer.to_frame", Answer.to_frame
-    yield "Answer.plot", Answer.plot
+    for name in METHODS:
+        yield name, registered(name)
 
 
 PUBLIC = dict(public())

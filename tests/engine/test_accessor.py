@@ -102,3 +102,17 @@ def test_vectors_along_other_axes_are_refused() -> None:
     year = earthspin.torque_series("2000-01-01", "2000-01-03", "1 d")
     with pytest.raises(SceneError, match="no vector in the GCRS"):
         year.earthspin.to_skycoord("torque")
+
+
+def test_methods_that_other_packages_register_are_listed_and_load_nothing_before_a_call() -> None:
+    program = (
+        "import sys, earthspin, xarray\n"
+        "answer = earthspin.love_numbers()\n"
+        "assert {'plot', 'to_iers_table'} <= set(dir(answer.earthspin))\n"
+        "assert not hasattr(answer.earthspin, 'print')\n"
+        "assert not {'matplotlib', 'earthspin.views.answers'} & set(sys.modules)\n"
+        "figures = answer.earthspin.plot()\n"
+        "assert 'matplotlib' in sys.modules\n"
+        "print(len(figures), answer.earthspin.plot.__doc__.split('.')[0])"
+    )
+    assert printed(program).strip() == "1 Draw the standard figures of a result"

@@ -14,7 +14,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from earthspin.engine import loop
+from earthspin.engine import blocks
 from tests.engine.work import Squares, blocks_in, bytes_of
 
 ROOT = Path(__file__).parents[2]
@@ -54,7 +54,7 @@ def slow() -> Squares:
 @pytest.fixture
 def undisturbed(tmp_path: Path) -> dict[str, str]:
     """What an undisturbed run gives."""
-    return bytes_of(loop.write(slow(), tmp_path / "undisturbed.zarr"))
+    return bytes_of(blocks.write(slow(), tmp_path / "undisturbed.zarr"))
 
 
 @pytest.fixture
@@ -111,7 +111,7 @@ def finished(path: Path, undisturbed: dict[str, str]) -> None:
     partial = path.with_name(path.name + ".partial")
     had = blocks_in(partial)
     work = slow()
-    loop.write(work, path)
+    blocks.write(work, path)
     assert len(work.made) == work.layout.count - had
     assert bytes_of(path) == undisturbed
     assert not partial.exists()

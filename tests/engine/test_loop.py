@@ -19,7 +19,7 @@ import zarr
 
 import earthspin
 from earthspin import EarthspinError, OutputError, SceneError
-from earthspin.engine import drafts, loop, unfinished
+from earthspin.engine import blocks, drafts
 from tests.engine.work import Squares, bytes_of
 from tests.processes import printed
 
@@ -27,7 +27,7 @@ from tests.processes import printed
 @pytest.fixture
 def undisturbed(tmp_path: Path) -> Path:
     """A store that was made in one go."""
-    return loop.write(Squares(), tmp_path / "undisturbed.zarr")
+    return blocks.write(Squares(), tmp_path / "undisturbed.zarr")
 
 
 class _EndError(BaseException):
@@ -50,7 +50,7 @@ class Ends(Squares):
 def ended(path: Path, at: int = 3) -> Path:
     """A store whose writer ended before a block."""
     with pytest.raises(_EndError):
-        loop.write(Ends(at=at), path)
+        blocks.write(Ends(at=at), path)
     return path.with_name(path.name + ".partial")
 
 
@@ -58,7 +58,7 @@ def test_a_store_holds_what_was_made(undisturbed: Path) -> None:
     answer = earthspin.open(undisturbed)
     assert np.array_equal(answer.square.sel(column="plus"), np.arange(20) ** 2.0)
     assert answer.day[19] == np.datetime64("2000-01-20")
-    assert answer.identical(loop.hold(Squares()))
+    assert answer.identical(blocks.hold(Squares()))
     assert earthspin.verify(undisturbed) == undisturbed
     assert [p.name for p in undisturbed.parent.iterdir()] == ["undisturbed.zarr"]
 
@@ -66,7 +66,7 @@ def test_a_store_holds_what_was_made(undisturbed: Path) -> None:
 def test_a_store_holds_no_date_and_no_path(undisturbed: Path, tmp_path: Path) -> None:
     time.sleep(1.1)
     (tmp_path / "elsewhere").mkdir()
-    again = loop.write(Squares(), tmp_path / "elsewhere" / "other.zarr")
+    again = blocks.write(Squares(), tmp_path / "elsewhere" / "other.zarr")
     assert bytes_of(again) == bytes_of(undisturbed)
 
 
@@ -76,7 +76,7 @@ def test_it_goes_on_where_it_was_ended(tmp_path: Path, undisturbed: Path, at: in
     assert ended(path, at).is_dir()
     assert not path.exists()
     work = Squares()
-    loop.write(work, path)
+    blocks.write(work, path)
     assert work.made == list(range(at, 7))
     assert bytes_of(path) == bytes_of(undisturbed)
     assert sorted(p.name for p in tmp_path.iterdir()) == ["r.zarr", "undisturbed.zarr"]
@@ -84,7 +84,7 @@ def test_it_goes_on_where_it_was_ended(tmp_path: Path, undisturbed: Path, at: in
 
 def test_an_end_from_outside_says_how_to_go_on(tmp_path: Path) -> None:
     with pytest.raises(_EndError) as end:
-        loop.write(Ends(), tmp_path / "r.zarr")
+        blocks.write(Ends(), tmp_path / "r.zarr")
     assert end.value.__notes__ == [
         "9 of 20 are stored in r.zarr.partial; run the same command to continue"
     ]
@@ -92,16 +92,16 @@ def test_an_end_from_outside_says_how_to_go_on(tmp_path: Path) -> None:
 
 def test_a_chunk_that_was_cut_short_is_made_again(tmp_path: Path, undisturbed: Path) -> None:
     folder = ended(tmp_path / "r.zarr")
-    (folder / unfinished.STORE / "square" / "2.0").write_bytes(b"half a chu")
+    (folder / blocks.STORE / "square" / "2.0").write_bytes(b"half a chu")
     work = Squares()
-    path = loop.write(work, tmp_path / "r.zarr")
+    path = blocks.write(work, tmp_path / "r.zarr")
     assert work.made == [2, 3, 4, 5, 6]
     assert bytes_of(path) == bytes_of(undisturbed)
 
 
 def test_a_complete_store_is_not_made_again(undisturbed: Path) -> None:
     work = Squares()
-    assert loop.write(work, undisturbed) == undisturbed
+    assert blocks.write(work, undisturbed) == undisturbed
     assert work.made == []
 
 
@@ -120,19 +120,19 @@ def test_a_store_of_something_else_is_left_alone(
 ) -> None:
     path = tmp_path / "r.zarr"
     if done:
-        loop.write(Squares(), path)
+        blocks.write(Squares(), path)
     else:
         ended(path)
     before = bytes_of(tmp_path)
     with pytest.raises(OutputError, match="another question" if done else words):
-        loop.write(other, path)
+        blocks.write(other, path)
     assert bytes_of(tmp_path) == before
     assert other.made == []
 
 
 def test_a_series_replaces_what_stands_there(tmp_path: Path) -> None:
-    path = loop.write(Squares(size=4), tmp_path / "r.zarr")
-    loop.write(Squares(), path, replace=True)
+    path = blocks.write(Squares(size=4), tmp_path / "r.zarr")
+    blocks.write(Squares(), path, replace=True)
     assert earthspin.open(path).sizes["member"] == 20
     assert [p.name for p in tmp_path.iterdir()] == ["r.zarr"]
 
@@ -144,11 +144,11 @@ def test_two_runs_on_one_store(tmp_path: Path, undisturbed: Path) -> None:
         def make(self, number: int) -> xr.Dataset:
             if number in (0, 2):
                 with pytest.raises(OutputError) as error:
-                    loop.write(second, path)
+                    blocks.write(second, path)
                 refused.append(str(error.value))
             return super().make(number)
 
-    loop.write(First(), path)
+    blocks.write(First(), path)
     assert len(refused) == 2
     assert all("another run is writing it" in complaint for complaint in refused)
     assert second.made == []
@@ -169,11 +169,11 @@ def test_a_disk_that_is_full(
     with monkeypatch.context() as patched:
         patched.setattr(zarr.Array, "__setitem__", full)
         with pytest.raises(OutputError) as error:
-            loop.write(Squares(), path)
+            blocks.write(Squares(), path)
     assert "No space left" in str(error.value)
     assert "r.zarr.partial: free some space and run it again" in str(error.value)
     work = Squares()
-    loop.write(work, path)
+    blocks.write(work, path)
     assert 1 < len(work.made) < 7
     assert bytes_of(path) == bytes_of(undisturbed)
 
@@ -185,7 +185,7 @@ def test_a_disk_without_room_is_refused_at_once(
     monkeypatch.setattr(drafts.shutil, "disk_usage", lambda at: type("U", (), {"free": usage[2]}))
     work = Squares()
     with pytest.raises(OutputError, match=r"20 members take .* 10 B of the disk are free"):
-        loop.write(work, tmp_path / "r.zarr")
+        blocks.write(work, tmp_path / "r.zarr")
     assert work.made == [0]
     assert list(tmp_path.iterdir()) == []
 
@@ -196,7 +196,7 @@ def test_places_that_cannot_be_written(tmp_path: Path) -> None:
     for place in ("r.nc", "file/r.zarr", "folder.zarr"):
         work = Squares()
         with pytest.raises(OutputError):
-            loop.write(work, tmp_path / place)
+            blocks.write(work, tmp_path / place)
         assert work.made == []
 
 
@@ -207,15 +207,15 @@ def test_a_block_that_does_not_fit(tmp_path: Path) -> None:
             return made if number < 2 else made.isel(column=[0])
 
     with pytest.raises(OutputError, match=r"block 2 does not fit: .*'square'"):
-        loop.write(Wider(), tmp_path / "r.zarr")
+        blocks.write(Wider(), tmp_path / "r.zarr")
 
 
 def test_a_failure_is_told_and_what_was_made_is_kept(tmp_path: Path, undisturbed: Path) -> None:
     path = tmp_path / "r.zarr"
     with pytest.raises(RuntimeError, match="half-way"):
-        loop.write(Ends(error=RuntimeError("half-way")), path)
+        blocks.write(Ends(error=RuntimeError("half-way")), path)
     again = Squares()
-    loop.write(again, path)
+    blocks.write(again, path)
     assert again.made == [3, 4, 5, 6]
     assert bytes_of(path) == bytes_of(undisturbed)
 
@@ -225,7 +225,7 @@ def test_a_folder_of_others_is_left_alone(tmp_path: Path) -> None:
     folder.mkdir()
     (folder / "letter.txt").write_text("not of this program")
     with pytest.raises(OutputError, match=r"asked\.json is not what was written"):
-        loop.write(Squares(), tmp_path / "r.zarr")
+        blocks.write(Squares(), tmp_path / "r.zarr")
     assert (folder / "letter.txt").read_text() == "not of this program"
 
 
@@ -250,8 +250,8 @@ def test_a_damaged_block_is_made_again(
     tmp_path: Path, undisturbed: Path, chunk: str, damage: Callable[[Path], object]
 ) -> None:
     path, work = tmp_path / "r.zarr", Squares()
-    damage(ended(path) / unfinished.STORE / chunk)
-    loop.write(work, path)
+    damage(ended(path) / blocks.STORE / chunk)
+    blocks.write(work, path)
     assert work.made == sorted([3, 4, 5, 6, int(chunk.partition("/")[2][0])])
     assert bytes_of(path) == bytes_of(undisturbed)
     assert earthspin.verify(path) == path
@@ -264,10 +264,10 @@ def test_a_damaged_block_where_none_is_missing(
     path, work = tmp_path / "r.zarr", Squares()
     folder = ended(path, 6)
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(unfinished.Unfinished, "finish", lambda *_: None)
-        loop.write(Squares(), path)
-    flip(folder / unfinished.STORE / name)
-    loop.write(work, path)
+        patched.setattr(blocks.Unfinished, "finish", lambda *_: None)
+        blocks.write(Squares(), path)
+    flip(folder / blocks.STORE / name)
+    blocks.write(work, path)
     assert work.made == [6]
     assert bytes_of(path) == bytes_of(undisturbed)
 
@@ -281,7 +281,7 @@ def test_a_damaged_block_where_none_is_missing(
             ".zattrs", ".zgroup", ".zmetadata", "square/.zarray", "square/.zattrs",
             "member/.zattrs", "constant/0", "constant/.zattrs", "column/0",
         )
-    ] + [unfinished.REQUEST],
+    ] + [blocks.REQUEST],
 )  # fmt: skip
 def test_a_damaged_frame_is_refused(
     tmp_path: Path, file: str, damage: Callable[[Path], object]
@@ -291,7 +291,7 @@ def test_a_damaged_frame_is_refused(
     damage(folder / file)
     work = Squares()
     with pytest.raises(OutputError):
-        loop.write(work, path)
+        blocks.write(work, path)
     assert work.made == []
     assert not path.exists()
 
@@ -299,23 +299,23 @@ def test_a_damaged_frame_is_refused(
 def test_a_damaged_finished_store_is_refused(undisturbed: Path) -> None:
     flip(undisturbed / "square" / "1.0")
     with pytest.raises(OutputError):
-        loop.write(Squares(), undisturbed)
+        blocks.write(Squares(), undisturbed)
 
 
 def test_a_disk_that_changes_what_is_written(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    write_block = unfinished.write_block
+    write_block = blocks.write_block
 
-    def damaging(folder: Path, layout: unfinished.Layout, number: int, block: xr.Dataset):  # type: ignore[no-untyped-def]
+    def damaging(folder: Path, layout: blocks.Layout, number: int, block: xr.Dataset):  # type: ignore[no-untyped-def]
         write_block(folder, layout, number, block)
-        flip(folder / unfinished.STORE / "square" / f"{number}.0")
+        flip(folder / blocks.STORE / "square" / f"{number}.0")
 
-    monkeypatch.setattr(loop, "write_block", damaging)
+    monkeypatch.setattr(blocks, "write_block", damaging)
     with pytest.raises(OutputError, match="differs from what was just written"):
-        loop.write(Squares(), tmp_path / "r.zarr")
+        blocks.write(Squares(), tmp_path / "r.zarr")
     monkeypatch.undo()
-    loop.write(Squares(), tmp_path / "r.zarr")
+    blocks.write(Squares(), tmp_path / "r.zarr")
     earthspin.verify(tmp_path / "r.zarr")
 
 
@@ -352,9 +352,9 @@ def killed(tmp_path: Path, times: int) -> None:
     assert sum(was for was, _ in rows) >= times / 2  # most were killed on their way
     work = Squares(size=150)
     had = rows[-1][1] if path.with_name("killed.zarr.partial").exists() else 0
-    loop.write(work, path)
+    blocks.write(work, path)
     assert len(work.made) == work.layout.count - had  # no block that was done
-    straight = bytes_of(loop.write(Squares(size=150), tmp_path / "straight.zarr"))
+    straight = bytes_of(blocks.write(Squares(size=150), tmp_path / "straight.zarr"))
     made = sorted(tmp_path.glob("killed.zarr*"))
     assert path in made
     for store in made:
@@ -375,7 +375,7 @@ def test_killed_a_hundred_times(tmp_path: Path) -> None:
 
 
 def test_a_cluster_of_two_makes_the_same_bytes(tmp_path: Path, undisturbed: Path) -> None:
-    path = loop.write(Squares(), tmp_path / "r.zarr", client=2)
+    path = blocks.write(Squares(), tmp_path / "r.zarr", client=2)
     assert bytes_of(path) == bytes_of(undisturbed)
 
 
@@ -386,7 +386,7 @@ def _connections(process: psutil.Process) -> list[Any]:
 
 
 def test_a_cluster_listens_to_this_machine_only() -> None:
-    with loop._cluster(1):
+    with blocks._cluster(1):
         own = psutil.Process()
         connections = [
             connection
@@ -399,14 +399,14 @@ def test_a_cluster_listens_to_this_machine_only() -> None:
 
 
 def test_a_scheduler_that_does_not_answer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(loop, "TIMEOUT", 1)
+    monkeypatch.setattr(blocks, "TIMEOUT", 1)
     with pytest.raises(SceneError, match="no scheduler answers there within 1 s"):
-        loop.write(Squares(), tmp_path / "r.zarr", client="tcp://127.0.0.1:9")
-    loop.write(Squares(), tmp_path / "r.zarr")
+        blocks.write(Squares(), tmp_path / "r.zarr", client="tcp://127.0.0.1:9")
+    blocks.write(Squares(), tmp_path / "r.zarr")
 
 
 @pytest.mark.parametrize("client", [0, -1, True, 2.5, "nonsense://x"])
 def test_what_is_no_client(tmp_path: Path, client: object, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(loop, "TIMEOUT", 1)
+    monkeypatch.setattr(blocks, "TIMEOUT", 1)
     with pytest.raises(EarthspinError):
-        loop.write(Squares(), tmp_path / "r.zarr", client=client)
+        blocks.write(Squares(), tmp_path / "r.zarr", client=client)

@@ -13,6 +13,7 @@ from earthspin.engine.part import BLOCK, STORED, Part
 from earthspin.engine.part import part as make_part
 from earthspin.engine.plan import NOT_REQUESTED
 from earthspin.engine.question import Question, keys_of
+from earthspin.engine.run import Run
 from earthspin.scenes import QUESTIONS, shipped_scenes
 
 EVERY = [(scene, sections) for scene in shipped_scenes() for sections in ("all", ())]
@@ -150,3 +151,31 @@ def test_a_stored_result_is_reused_for_equal_inputs_only() -> None:
         square.stored_or_computed({"number": number})
     assert square.stored_or_computed({"number": 2}) == (4, False)
     assert square(2) == 4
+
+
+def test_a_changed_question_gets_no_result_of_another_path(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The key `response` of the pole leaves out parts that take no key themselves."""
+    calls: list[str] = []
+
+    def watched(run: Run, name: str) -> object:
+        if name not in run.values:
+            calls.append(name)
+        return original(run, name)
+
+    original = Run.__getitem__
+    monkeypatch.setattr(Run, "__getitem__", watched)
+    keys = {"span": ["2000-01-01", "2001-01-01"], "step": "30 d", "effects": ["nonrigid"]}
+    fitted = load_scene("pole", keys | {"response": "fitted"})
+    predicted = fitted.replace(response="predicted")
+    run, other = Run(fitted), Run(predicted).numbers()
+    run.answer()
+    calls.clear()
+    again = run.again(predicted)
+    assert again.numbers().identical(other)
+    assert "axis_path" in calls
+    assert "sky" not in calls
+    calls.clear()
+    assert run.again(fitted).numbers().identical(run.numbers())
+    assert calls == []

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 import earthspin
 from earthspin import EARTH, MARS, SceneError, VersionWarning, load_scene
 from earthspin.bodies import BODIES
-from earthspin.bodies.limits import refuse_break_up
+from earthspin.bodies.checks import refuse_break_up
 from earthspin.engine.question import Question, keys_of
 from earthspin.questions.free_rotor import FreeRotor
 from earthspin.questions.pole import Pole

@@ -14,9 +14,8 @@ from astropy.time import Time
 
 import earthspin
 from earthspin import CoverageError, Scene, SceneError, load_scene, scenes
-from earthspin.engine.plan import plan_parts
-from earthspin.engine.run import run_parts
-from earthspin.parts import averages
+from earthspin.engine.run import Run
+from earthspin.questions import averages
 from earthspin.scenes import run, run_blocks
 from earthspin.sky import ephemeris
 from earthspin.sky.poles import FixedPole
@@ -243,7 +242,7 @@ def test_the_nearest_place_of_a_very_long_series_is_found() -> None:
     """Every n-th of 500,000 times: the smallest distance to 1e-4, the torque to 1e-3."""
     scene = Scene(compute="torque", span=("1905-01-01", "1995-01-01"), step="95 min")
     dense = earthspin.torque_series("1905-01-01", "1995-01-01", "95 min").distance.min("time")
-    near = run_parts(plan_parts(scene)).results["nearest"]
+    near = Run(scene)["nearest"]
     for name, distance in near.items():
         smallest = float(dense.sel(perturber=name))
         assert smallest <= distance < smallest * (1 + 1e-4)

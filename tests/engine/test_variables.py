@@ -17,7 +17,7 @@ from earthspin.engine.variables import (
     number,
     words,
 )
-from earthspin.numerics.estimate import Estimate
+from earthspin.numerics.arrays import Estimate
 
 
 class Turns(Variables, along=("body",), no_error="it is counted"):

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from earthspin.engine.unfinished import Layout
+from earthspin.engine.blocks import Layout
 
 
 @dataclass

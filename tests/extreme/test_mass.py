@@ -7,14 +7,21 @@ import math
 import numpy as np
 
 from earthspin.constants import G
-from earthspin.mass.figure import layered_moments, spheroid_mass, spheroid_moments
-from earthspin.mass.legendre import orthonormal_functions
-from earthspin.mass.maccullagh import maccullagh_potential
-from earthspin.mass.multipoles import exterior_multipoles, inverse_distance, inverse_distance_bound
-from earthspin.mass.principal_axes import principal_axes
+from earthspin.mass.figure import (
+    layered_moments,
+    maccullagh_potential,
+    spheroid_mass,
+    spheroid_moments,
+)
+from earthspin.mass.multipoles import (
+    exterior_multipoles,
+    inverse_distance,
+    inverse_distance_bound,
+    orthonormal_functions,
+    spheroid_zonals,
+)
 from earthspin.mass.spheroid import spheroid_attraction, spheroid_potential, spheroid_torque
-from earthspin.mass.tensor import check_inertia_tensor, inertia_tensor
-from earthspin.mass.zonal import spheroid_zonals
+from earthspin.mass.tensor import check_inertia_tensor, inertia_tensor, principal_axes
 from tests.extreme import Distances, holds, refused
 
 EPS = float(np.finfo(float).eps)

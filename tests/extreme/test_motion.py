@@ -19,10 +19,10 @@ from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, PUBLISHED_EFF
 from earthspin.motion.axes import AxisPath, axis_path
 from earthspin.motion.forces import Figure, Forces
 from earthspin.numerics.arrays import FloatArray
-from earthspin.nutation.angles import on_fixed_ecliptic
-from earthspin.parts.averages import Samples, torque_samples
-from earthspin.parts.sky import Stretch, places, sky, stretch
+from earthspin.nutation.analysis import on_fixed_ecliptic
+from earthspin.questions.averages import Samples, torque_samples
 from earthspin.questions.pole import pole
+from earthspin.questions.sky import Stretch, places, sky, stretch
 from earthspin.sky.iau import fixed_ecliptic
 from earthspin.torque.rates import precession_rate
 from tests.extreme import Distances, holds, relative_error

@@ -7,15 +7,18 @@ import pytest
 
 from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, SIDEREAL_YEAR, UAS
 from earthspin.interior.equilibrium import equilibrium
-from earthspin.interior.layers import Layer, LayeredBody
+from earthspin.interior.layers import PREM, Layer, LayeredBody
 from earthspin.interior.love import elastic
 from earthspin.interior.modes import parts_of, system, wobble_response
-from earthspin.interior.prem import PREM
-from earthspin.nutation.angles import on_fixed_ecliptic, pole_from, precession_angles
-from earthspin.nutation.budget import contributions
-from earthspin.nutation.circles import MULTIPLES, FrequencyAnalysis
+from earthspin.nutation.analysis import (
+    MULTIPLES,
+    FrequencyAnalysis,
+    on_fixed_ecliptic,
+    pole_from,
+    precession_angles,
+)
+from earthspin.nutation.budget import contributions, general_precession, tropical_year
 from earthspin.nutation.response import Response, fit_response
-from earthspin.nutation.seasons import general_precession, tropical_year
 from earthspin.sky import iau
 from earthspin.torque.rates import period, period_error, rate_ratio
 from tests.extreme import Distances, holds, refused

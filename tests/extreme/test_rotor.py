@@ -9,14 +9,12 @@ import numpy as np
 import pytest
 
 from earthspin.constants import JULIAN_YEAR, UAS
-from earthspin.mass.inertia import ellipticity_from_h
+from earthspin.mass.figure import ellipticity_from_h
 from earthspin.numerics import quaternion
 from earthspin.numerics.arrays import FloatArray
 from earthspin.rotor.axisymmetric import SymmetricRotor
-from earthspin.rotor.constants_of_motion import jacobi_motion
-from earthspin.rotor.euler import integrate_rotation
-from earthspin.rotor.moments import principal_moments
-from earthspin.rotor.triaxial import FreeRotation, free_rotation
+from earthspin.rotor.euler import integrate_rotation, principal_moments
+from earthspin.rotor.triaxial import FreeRotation, free_rotation, jacobi_motion
 from tests.extreme import Distances, holds, refused, relative_error
 from tests.reference.sky import BODY, J2, SPIN, H
 

@@ -12,7 +12,7 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.long_term import LongTerm, long_term
 from earthspin.scenes import run_tree
 from earthspin.secular.insolation import Season, daily
-from earthspin.secular.strength import Strength
+from earthspin.secular.orbit import Strength
 from earthspin.secular.trajectory import solve
 from tests.extreme import Distances, holds
 from tests.reference.sky import BODY

@@ -11,9 +11,8 @@ from earthspin.bodies import MARS, MOON
 from earthspin.constants import DAY, J2000_JD
 from earthspin.questions.torque import torque_series
 from earthspin.sky.ephemeris import Ephemeris
-from earthspin.sky.equator import fixed_equator, spherical
-from earthspin.sky.iau import Nutation
-from earthspin.sky.standstill import find_standstills
+from earthspin.sky.iau import Nutation, find_standstills
+from earthspin.sky.poles import fixed_equator, spherical
 from tests.extreme import Distances, holds, refused, relative_error, temporary
 from tests.reference.sky import BODY, CENTRE, CODES, kernel, positions
 

@@ -9,11 +9,11 @@ import numpy as np
 from scipy.special import ellipkm1
 
 from earthspin.numerics.arrays import FloatArray
+from earthspin.top.azimuth import mean_precession_rate
+from earthspin.top.height import nutation_period, turning_angles
 from earthspin.top.motion import heavy_top_motion
-from earthspin.top.patterns import nutation_pattern, pattern_limits
+from earthspin.top.patterns import nutation_pattern, pattern_limits, sleeping_top, steady_precession
 from earthspin.top.start import HeavyTop
-from earthspin.top.steady import sleeping_top, steady_precession
-from earthspin.top.turning import mean_precession_rate, nutation_period, turning_angles
 from tests.extreme import Distances, holds, refused
 
 #: I1 = 2, I3 = 1, m g r = 2: the critical spin is 4 rad/s exactly.

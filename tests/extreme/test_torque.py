@@ -14,12 +14,16 @@ from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, G
 from earthspin.questions.pole import pole
 from earthspin.questions.precession import precession
 from earthspin.questions.torque import torque_series
-from earthspin.sky.equator import direction, spherical
 from earthspin.sky.iau import ecliptic_pole
+from earthspin.sky.poles import direction, spherical
 from earthspin.torque.average import TAPERS, Window, best_window, precessing_torque
-from earthspin.torque.gravity import torque_from_declination, torque_from_position
-from earthspin.torque.harmonics import zonal_torque
-from earthspin.torque.quadrupole import quadrupole_torque, tidal_tensor
+from earthspin.torque.gravity import (
+    quadrupole_torque,
+    tidal_tensor,
+    torque_from_declination,
+    torque_from_position,
+    zonal_torque,
+)
 from earthspin.torque.rates import circular_orbit_torque
 from tests.extreme import Distances, holds, refused, relative_error
 from tests.reference.sky import BODY, J2, H

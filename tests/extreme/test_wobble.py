@@ -11,7 +11,7 @@ from earthspin.constants import UAS
 from earthspin.questions.polar_motion import excitation, polar_motion
 from earthspin.rotor.axisymmetric import free_wobble_period
 from earthspin.sky.eop import c04_path, read_polar_motion
-from earthspin.wobble import resonance
+from earthspin.wobble import excitation as equation
 from earthspin.wobble.ladder import turns_rigid
 from tests.extreme import Distances, holds, refused, relative_error, temporary
 
@@ -26,13 +26,13 @@ def _round_trip(
 
     The original excitation is white noise of 30 mas.
     """
-    s = resonance.chandler_frequency(PERIOD, quality_factor)
+    s = equation.chandler_frequency(PERIOD, quality_factor)
     both = 30 * np.random.default_rng(1).standard_normal((2, size))
     chi = both[0] + 1j * both[1]
-    p = resonance.polar_motion_from(chi, step, s, 100 - 40j)
-    again = resonance.excitation(p, step, s)
+    p = equation.polar_motion_from(chi, step, s, 100 - 40j)
+    again = equation.excitation(p, step, s)
     yield again - chi
-    yield resonance.polar_motion_from(again, step, s, p[0]) - p
+    yield equation.polar_motion_from(again, step, s, p[0]) - p
 
 
 @holds(bound=2e-11, unit="mas")
@@ -130,7 +130,7 @@ def test_microarcsecond() -> Distances:
     Hard because: it is the smallest amplitude that is ever resolved, in a pole given in arcseconds
     Compared with: excitation that produced the polar motion, relative to its size
     """
-    s = resonance.chandler_frequency(PERIOD, 100.0)
+    s = equation.chandler_frequency(PERIOD, 100.0)
     chi = UAS * np.exp(0.3j * np.arange(2000.0))
-    p = resonance.polar_motion_from(chi, 1.0, s)
-    yield relative_error(resonance.excitation(p, 1.0, s), chi)
+    p = equation.polar_motion_from(chi, 1.0, s)
+    yield relative_error(equation.excitation(p, 1.0, s), chi)

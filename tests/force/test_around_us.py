@@ -15,7 +15,7 @@ import pytest
 import earthspin
 from earthspin import SceneError
 from earthspin.engine import store
-from earthspin.views.table import Table
+from earthspin.views.tables import Table
 from earthspin.views.terminal import Terminal
 
 #: Nearly each starts a process or more.
@@ -41,7 +41,7 @@ def test_no_style_of_the_readers_own_reaches_a_figure(tmp_path: Path) -> None:
         "text.usetex: True\nfont.size: 30\naxes.facecolor: red\nsvg.fonttype: path\n"
     )
     program = (
-        "import earthspin, sys; from earthspin.views.of_question import scene_page\n"
+        "import earthspin, sys; from earthspin.views.answers import scene_page\n"
         "sys.stdout.write(scene_page(earthspin.run_tree('torque')))"
     )
     pages = [
@@ -132,14 +132,14 @@ def test_signals_end_in_one_line_that_says_how_to_go_on(
         if int(sys.argv[2]) == signal.SIGINT:
             signal.signal(signal.SIGINT, signal.default_int_handler)
         from earthspin import cli, scenes
-        from earthspin.engine.series import Series
+        from earthspin.engine.blocks import Series
         def slow(series, number):
             while number == 2:
                 print("half-way", flush=True)
                 time.sleep(60)
             return real(series, number)
         real, Series.make = Series.make, slow
-        from earthspin.parts import times
+        from earthspin.questions import times
         times.LONGEST_IN_MEMORY, scenes.BLOCK = 100, 500
         sys.exit(cli.main(["run", "torque", "--out", sys.argv[1]]))
     """

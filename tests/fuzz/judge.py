@@ -23,7 +23,7 @@ import earthspin
 from earthspin import EarthspinError, UndefinedError, process
 from earthspin.cli import main
 from earthspin.engine import answering, asking, run
-from earthspin.views.of_question import scene_page, tables_for
+from earthspin.views.answers import scene_page, tables_for
 from tests.fuzz import inputs, requests
 
 #: Longest message: `LONGEST_MESSAGE` and what a command puts around it.
@@ -55,14 +55,14 @@ def elsewhere() -> Iterator[None]:
 @contextlib.contextmanager
 def only_planned() -> Iterator[None]:
     """Read and plan whatever is asked, and compute nothing."""
-    planned = mock.Mock(side_effect=lambda question, *_: run.plan_parts(question))
+    planned = mock.Mock(side_effect=lambda question, *_: run.Run(question).plan())
     with (
         elsewhere(),
         mock.patch.object(asking, "answer", planned),
         mock.patch.object(answering, "answer", planned),
         mock.patch.object(answering, "answer_tree", planned),
         mock.patch("earthspin.scenes.warn_of_versions"),
-        mock.patch.object(run.Rerun, "__init__", side_effect=UndefinedError("not tried")),
+        mock.patch.object(run.Run, "__getitem__", side_effect=UndefinedError("not tried")),
     ):
         yield
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from earthspin.interior.anelastic import anelastic_strain
+from earthspin.interior.ocean_and_anelasticity import anelastic_strain
 
 
 def test_an_exponent_of_zero_is_the_limit() -> None:

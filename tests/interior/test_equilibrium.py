@@ -4,9 +4,8 @@ import numpy as np
 
 from earthspin import EARTH
 from earthspin.interior.equilibrium import equilibrium, hydrostatic_core
-from earthspin.interior.layers import tidal_inertia
+from earthspin.interior.layers import PREM, tidal_inertia
 from earthspin.interior.love import elastic, yielding
-from earthspin.interior.prem import PREM
 from tests.conftest import load_pins
 from tests.interior.shells import sphere
 

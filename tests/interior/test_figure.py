@@ -9,8 +9,7 @@ from scipy.integrate import solve_ivp
 from earthspin import EARTH
 from earthspin.constants import G
 from earthspin.interior.equilibrium import figure
-from earthspin.interior.layers import LayeredBody
-from earthspin.interior.prem import PREM
+from earthspin.interior.layers import PREM, LayeredBody
 from tests.conftest import load_pins
 from tests.interior.shells import sphere
 

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from earthspin.interior.layers import LayeredBody
-from earthspin.interior.prem import PREM, PREM_WITH_OCEAN
+from earthspin.interior.layers import PREM, PREM_WITH_OCEAN, LayeredBody
 
 
 def density(body: LayeredBody, r: float) -> float:

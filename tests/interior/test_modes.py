@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 
 from earthspin import EARTH
 from earthspin.interior.equilibrium import figure
+from earthspin.interior.layers import PREM
 from earthspin.interior.love import elastic
 from earthspin.interior.modes import (
     Parts,
@@ -19,7 +20,6 @@ from earthspin.interior.modes import (
     transfer,
     wobble_response,
 )
-from earthspin.interior.prem import PREM
 from tests.conftest import load_pins
 
 PINS = load_pins("nutation")

@@ -1,7 +1,7 @@
 """An ocean all over, beside the independent calculation."""
 
-from earthspin.interior.ocean import global_ocean
-from earthspin.interior.prem import PREM
+from earthspin.interior.layers import PREM
+from earthspin.interior.ocean_and_anelasticity import global_ocean
 from tests.conftest import load_pins
 
 PINS = load_pins("wobble")

@@ -1,6 +1,6 @@
 """PREM beside what was published of it."""
 
-from earthspin.interior.prem import PREM, PREM_WITH_OCEAN
+from earthspin.interior.layers import PREM, PREM_WITH_OCEAN
 from tests.conftest import load_pins
 
 PINS = load_pins("wobble")

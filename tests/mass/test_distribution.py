@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from earthspin.errors import BodyError, UndefinedError
-from earthspin.mass.distribution import centre_of_mass, grid_masses
 from earthspin.mass.figure import spheroid_moments
-from earthspin.mass.tensor import inertia_tensor
+from earthspin.mass.tensor import centre_of_mass, grid_masses, inertia_tensor
 from tests.mass.closeness import close
 from tests.refusals import refused
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.special import lpmv
 
 from earthspin.errors import AccuracyError, UndefinedError
-from earthspin.mass import legendre
+from earthspin.mass import multipoles
 from tests.mass.closeness import close
 from tests.refusals import refused
 
@@ -23,28 +23,28 @@ NODE, WEIGHT = np.polynomial.legendre.leggauss(32)
 @pytest.mark.parametrize("m", [0, 1, 4])
 def test_orthogonality_and_norm(m: int) -> None:
     """Gauss quadrature, exact for these polynomials (measured: 9e-15, the rule's own)."""
-    values = legendre.orthonormal_functions(29, NODE, m)
+    values = multipoles.orthonormal_functions(29, NODE, m)
     assert close((values * WEIGHT) @ values.T, np.eye(30 - m), abs=5e-14)
     degrees = np.arange(m, 30)
-    roots = np.sqrt([legendre.legendre_norm(int(n), m) for n in degrees])
+    roots = np.sqrt([multipoles.legendre_norm(int(n), m) for n in degrees])
     assert close(values, lpmv(m, degrees[:, None], NODE) / roots[:, None], abs=3e-13)
 
 
 def test_the_factor_f_and_its_inverse() -> None:
-    assert legendre.factorial_ratio(4, 2) == 360.0
-    assert legendre.factorial_ratio(4, -2) == 1 / 360
-    assert legendre.factorial_ratio(7, 0) == 1.0
+    assert multipoles.factorial_ratio(4, 2) == 360.0
+    assert multipoles.factorial_ratio(4, -2) == 1 / 360
+    assert multipoles.factorial_ratio(7, 0) == 1.0
     for n, m in ((30, 30), (80, 80), (60, 41)):
         exact = mp.fac(n + m) / mp.fac(n - m)
-        assert close(legendre.factorial_ratio(n, m), float(exact), rel=2e-15)
+        assert close(multipoles.factorial_ratio(n, m), float(exact), rel=2e-15)
 
 
 @pytest.mark.parametrize("m", [0, 1, 3])
 def test_a_polynomial_comes_back(m: int) -> None:
     """Coefficients in, coefficients out (measured: 6e-15, and 1.8e-14 of nothing)."""
     given_back = np.arange(1.0, 9.0)
-    found = legendre.legendre_coefficients(
-        lambda z: float(legendre.legendre_sum(given_back, z, m)), m + 9, m
+    found = multipoles.legendre_coefficients(
+        lambda z: float(multipoles.legendre_sum(given_back, z, m)), m + 9, m
     )
     assert close(found[:8], given_back, rel=5e-14)
     assert np.all(np.abs(found[8:]) < 1e-13)
@@ -52,7 +52,7 @@ def test_a_polynomial_comes_back(m: int) -> None:
 
 def test_coefficients_against_fifty_digits() -> None:
     """exp(z): g_n = (2n + 1) i_n(1), modified spherical Bessel (measured: 5e-15)."""
-    found = legendre.legendre_coefficients(np.exp, 12)
+    found = multipoles.legendre_coefficients(np.exp, 12)
     with mp.workdps(50):
         for n, value in enumerate(found):
             exact = (2 * n + 1) * mp.sqrt(mp.pi / 2) * mp.besseli(n + mp.mpf(1) / 2, 1)
@@ -61,7 +61,7 @@ def test_coefficients_against_fifty_digits() -> None:
 
 def test_a_step_needs_its_break_named() -> None:
     """The step at 0 has g_n = (P_(n-1)(0) - P_(n+1)(0))/2."""
-    found = legendre.legendre_coefficients(lambda z: float(z > 0), 9, breaks=[0.0])
+    found = multipoles.legendre_coefficients(lambda z: float(z > 0), 9, breaks=[0.0])
     at_zero = lpmv(0, np.arange(11), 0.0)
     expected = np.array([0.5, *((at_zero[n - 1] - at_zero[n + 1]) / 2 for n in range(1, 10))])
     assert close(found, expected, abs=4e-15)
@@ -69,19 +69,19 @@ def test_a_step_needs_its_break_named() -> None:
 
 def test_a_function_that_cannot_be_integrated_says_so() -> None:
     with pytest.raises(AccuracyError, match="list the discontinuities"):
-        legendre.legendre_coefficients(lambda z: float(np.sign(np.sin(1 / (z + 1e-9)))), 3)
+        multipoles.legendre_coefficients(lambda z: float(np.sign(np.sin(1 / (z + 1e-9)))), 3)
 
 
 def test_partial_sums_converge() -> None:
     """|z| by Legendre: the mean-square error falls with the degree, and equals Parseval's."""
-    coefficients = legendre.legendre_coefficients(abs, 41, breaks=[0.0])
+    coefficients = multipoles.legendre_coefficients(abs, 41, breaks=[0.0])
     errors = []
     for n_max in (5, 11, 21, 41):
         kept = coefficients[: n_max + 1]
-        norms = np.array([legendre.legendre_norm(n) for n in range(n_max + 1)])
+        norms = np.array([multipoles.legendre_norm(n) for n in range(n_max + 1)])
         errors.append(2 / 3 - float(np.sum(kept**2 * norms)))
     node, weight = np.polynomial.legendre.leggauss(48)
-    left_out = (node + 1) / 2 - legendre.legendre_sum(coefficients, (node + 1) / 2)
+    left_out = (node + 1) / 2 - multipoles.legendre_sum(coefficients, (node + 1) / 2)
     assert close(errors[-1], np.sum(weight * left_out**2), rel=2e-10)
     # The terms left out fall as n^-4, from 22 and from 42 on.
     assert np.all(np.diff(errors) < 0)
@@ -95,9 +95,9 @@ def test_the_kernel_gives_a_function_back(m: int, extra: int, z: float) -> None:
     Measured: 1.2e-14.
     """
     n = m + extra
-    kernel = legendre.completeness_kernel(m + 6, z, NODE, m)
+    kernel = multipoles.completeness_kernel(m + 6, z, NODE, m)
     back = np.sum(WEIGHT * kernel * lpmv(m, n, NODE))
-    scale = np.sqrt(legendre.legendre_norm(n, m))
+    scale = np.sqrt(multipoles.legendre_norm(n, m))
     assert close(back, float(lpmv(m, n, z)), abs=1e-13 * scale)
 
 
@@ -107,8 +107,8 @@ def test_the_kernel_gathers_at_its_point() -> None:
     other = 0.3
     p = lpmv(0, np.array([n, n + 1])[:, None], np.append(z, other))
     closed = (n + 1) / 2 * (p[1, :3] * p[0, 3] - p[0, :3] * p[1, 3]) / (z - other)
-    assert close(legendre.completeness_kernel(n, z, other), closed, abs=1.5e-14)
-    peak = legendre.completeness_kernel(n, other, other)
+    assert close(multipoles.completeness_kernel(n, z, other), closed, abs=1.5e-14)
+    peak = multipoles.completeness_kernel(n, other, other)
     assert close(peak, (n + 1) / (np.pi * np.sqrt(1 - other**2)), rel=0.05)
 
 
@@ -132,20 +132,20 @@ def test_functions_against_fifty_digits() -> None:
     for _ in range(CASES):
         m, extra = int(rng.integers(0, 12)), int(rng.integers(0, 50))
         z = float(rng.choice([-1, 1]) * (1 - 10 ** rng.uniform(-9, 0)))
-        root = mp.sqrt(mp.mpf(legendre.legendre_norm(m + extra, m)))
+        root = mp.sqrt(mp.mpf(multipoles.legendre_norm(m + extra, m)))
         with mp.workdps(50):
             exact = _fifty_digits(m + extra, m, z) / root
             moved = _fifty_digits(m + extra, m, float(np.nextafter(z, 0))) / root
-        found = mp.mpf(float(legendre.orthonormal_functions(m + extra, z, m)[-1]))
+        found = mp.mpf(float(multipoles.orthonormal_functions(m + extra, z, m)[-1]))
         assert abs(found - exact) <= 2 * abs(moved - exact) + 2e-14
 
 
 test_what_has_no_value = refused(
-    (lambda: legendre.legendre_norm(2, 3), "order m = 3 exceeds the degree n = 2"),
-    (lambda: legendre.legendre_norm(-1), "degree n = -1"),
-    (lambda: legendre.legendre_sum([1.0, 2.0], 1.5), r"z = 1\.5 is outside -1 to 1"),
-    (lambda: legendre.legendre_sum([1.0], np.nan), "z = nan"),
-    (lambda: legendre.factorial_ratio(150, 150), "exceeds 1e308"),
-    (lambda: legendre.completeness_kernel(2.5, 0.1, 0.2), r"degree n = 2\.5"),
+    (lambda: multipoles.legendre_norm(2, 3), "order m = 3 exceeds the degree n = 2"),
+    (lambda: multipoles.legendre_norm(-1), "degree n = -1"),
+    (lambda: multipoles.legendre_sum([1.0, 2.0], 1.5), r"z = 1\.5 is outside -1 to 1"),
+    (lambda: multipoles.legendre_sum([1.0], np.nan), "z = nan"),
+    (lambda: multipoles.factorial_ratio(150, 150), "exceeds 1e308"),
+    (lambda: multipoles.completeness_kernel(2.5, 0.1, 0.2), r"degree n = 2\.5"),
     kind=UndefinedError,
 )

@@ -9,11 +9,10 @@ from scipy.spatial.transform import Rotation
 
 from earthspin.constants import G
 from earthspin.errors import BodyError, UndefinedError
-from earthspin.mass import maccullagh
-from earthspin.mass.distribution import centre_of_mass
+from earthspin.mass import figure
 from earthspin.mass.multipoles import exterior_multipoles
 from earthspin.mass.rings import torque_on_masses
-from earthspin.mass.tensor import change_frame, inertia_tensor
+from earthspin.mass.tensor import centre_of_mass, change_frame, inertia_tensor
 from earthspin.torque.gravity import torque_from_position
 from tests.mass.accuracy import maccullagh_torque
 from tests.mass.closeness import close
@@ -40,7 +39,7 @@ def test_the_potential_is_the_expansion_to_degree_two(seed: int) -> None:
     masses, r = _body(seed)
     series = exterior_multipoles(masses, r, 2)
     point = np.array([0.36, 0.48, -0.8]) * series.radius * 1.5
-    found = maccullagh.maccullagh_potential(np.sum(masses), inertia_tensor(masses, r), point)
+    found = figure.maccullagh_potential(np.sum(masses), inertia_tensor(masses, r), point)
     assert close(found, float(series.potential(point)), rel=4e-15)
 
 
@@ -51,7 +50,7 @@ def test_the_next_term_falls_as_the_fourth_power() -> None:
     for distance in (50.0, 100.0):
         point = distance * direction
         exact = -G.value * np.sum(masses / np.linalg.norm(point - r, axis=-1))
-        errors.append(maccullagh.maccullagh_potential(np.sum(masses), inertia, point) - exact)
+        errors.append(figure.maccullagh_potential(np.sum(masses), inertia, point) - exact)
     assert close(errors[0] / errors[1], 16, rel=0.2)
 
 
@@ -60,7 +59,7 @@ def test_the_torque_is_the_limit_of_the_sum_over_the_masses(seed: int) -> None:
     masses, r = _body(seed)
     inertia = inertia_tensor(masses, r)
     point = 1e7 * np.array([0.36, 0.48, -0.8])
-    found = maccullagh.maccullagh_torque(2.0, inertia, point)
+    found = figure.maccullagh_torque(2.0, inertia, point)
     exact = torque_on_masses(2.0, point, masses, r)
     scale = 3 * 2.0 * np.trace(inertia) / 1e21
     # The next order is (size/distance) smaller.
@@ -74,11 +73,11 @@ def test_the_torque_is_the_moment_of_the_slope_of_the_potential(seed: int) -> No
     inertia, point, h = inertia_tensor(masses, r), np.array([3.0, -2.0, 4.0]), 2e-3
 
     def v(offset: np.ndarray) -> np.ndarray:
-        return maccullagh.maccullagh_potential(np.sum(masses), inertia, point + offset) / G.value
+        return figure.maccullagh_potential(np.sum(masses), inertia, point + offset) / G.value
 
     steps = h * np.eye(3)
     slope = (8 * (v(steps) - v(-steps)) - (v(2 * steps) - v(-2 * steps))) / (12 * h)
-    found = maccullagh.maccullagh_torque(1.0, inertia, point)
+    found = figure.maccullagh_torque(1.0, inertia, point)
     assert close(np.cross(point, slope), found, abs=1e-11)
 
 
@@ -95,17 +94,17 @@ def test_the_whole_tensor_of_a_nearly_spherical_body_serves_as_well() -> None:
     tensor = np.diag([8e37, 8e37 * (1 + 3e-10), 8e37 * (1 + 1e-9)])
     point = np.array([3.0e9, -2.0e9, 4.0e9])
     differences = np.diag(np.diag(tensor) - tensor[0, 0])
-    whole = maccullagh.maccullagh_torque(1.3e20, tensor, point)
-    assert close(whole, maccullagh.maccullagh_torque(1.3e20, differences, point), rel=1e-14)
+    whole = figure.maccullagh_torque(1.3e20, tensor, point)
+    assert close(whole, figure.maccullagh_torque(1.3e20, differences, point), rel=1e-14)
 
 
 @given(st.integers(0, 10**6), st.floats(-1e3, 1e3))
 def test_a_multiple_of_the_unit_matrix_changes_no_torque(seed: int, sphere: float) -> None:
     masses, r = _body(seed)
     inertia, point = inertia_tensor(masses, r), np.array([3.0, -2.0, 4.0])
-    found = maccullagh.maccullagh_torque(1.0, inertia + sphere * np.eye(3), point)
+    found = figure.maccullagh_torque(1.0, inertia + sphere * np.eye(3), point)
     scale = (np.trace(inertia) + abs(sphere)) / 50
-    expected = maccullagh.maccullagh_torque(1.0, inertia, point)
+    expected = figure.maccullagh_torque(1.0, inertia, point)
     assert close(found, expected, abs=3e-16 * scale)
 
 
@@ -113,8 +112,8 @@ def test_a_multiple_of_the_unit_matrix_changes_no_torque(seed: int, sphere: floa
 def test_turned_body_and_mass_turn_the_torque(seed: int, turn: np.ndarray) -> None:
     masses, r = _body(seed)
     inertia, point = inertia_tensor(masses, r), np.array([3.0, -2.0, 4.0])
-    there = maccullagh.maccullagh_torque(1.0, change_frame(inertia, turn), turn @ point)
-    here = maccullagh.maccullagh_torque(1.0, inertia, point)
+    there = figure.maccullagh_torque(1.0, change_frame(inertia, turn), turn @ point)
+    here = figure.maccullagh_torque(1.0, inertia, point)
     assert close(there, turn @ here, abs=2e-17 * np.trace(inertia))
 
 
@@ -124,10 +123,10 @@ def test_the_axisymmetric_forms(theta: float, phi: float, bulge: float) -> None:
     axis = np.array([0.0, 0.0, 1.0])
     n = np.array([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)])
     tensor = np.diag([1.0, 1.0, 1.0 + bulge])
-    general = maccullagh.maccullagh_potential(2.0, tensor, 3.0 * n)
-    special = maccullagh.maccullagh_potential_axisymmetric(2.0, bulge, 3.0, theta)
+    general = figure.maccullagh_potential(2.0, tensor, 3.0 * n)
+    special = figure.maccullagh_potential_axisymmetric(2.0, bulge, 3.0, theta)
     assert close(special, general, rel=2e-15)
-    torque = maccullagh.maccullagh_torque(5.0, np.diag([0.0, 0.0, bulge]), 3.0 * n)
+    torque = figure.maccullagh_torque(5.0, np.diag([0.0, 0.0, bulge]), 3.0 * n)
     expected = torque_from_position(5.0, bulge, 3.0 * n[None, :], axis)[0]
     assert close(torque, expected, rel=5e-15, abs=1e-17)
 
@@ -135,24 +134,24 @@ def test_the_axisymmetric_forms(theta: float, phi: float, bulge: float) -> None:
 def test_many_points_and_bodies() -> None:
     points = np.random.default_rng(0).normal(size=(6, 3)) * 9
     tensors = np.stack([np.diag([1.0, 1.2, 1.3 + k]) for k in range(6)])
-    assert maccullagh.maccullagh_torque(1.0, tensors, points).shape == (6, 3)
-    assert maccullagh.maccullagh_potential(np.ones(6), tensors[0], points).shape == (6,)
-    assert np.all(maccullagh.maccullagh_torque(1.0, 4.0 * np.eye(3), points) == 0)
+    assert figure.maccullagh_torque(1.0, tensors, points).shape == (6, 3)
+    assert figure.maccullagh_potential(np.ones(6), tensors[0], points).shape == (6,)
+    assert np.all(figure.maccullagh_torque(1.0, 4.0 * np.eye(3), points) == 0)
 
 
 test_wrong_input = refused(
     (
-        lambda: maccullagh.maccullagh_torque(1.0, np.eye(3), [0.0, 0, 0]),
+        lambda: figure.maccullagh_torque(1.0, np.eye(3), [0.0, 0, 0]),
         UndefinedError,
         r"\[0, 0, 0\] is the centre",
     ),
     (
-        lambda: maccullagh.maccullagh_potential(-1.0, np.eye(3), [1.0, 0, 0]),
+        lambda: figure.maccullagh_potential(-1.0, np.eye(3), [1.0, 0, 0]),
         BodyError,
         r"mass = -1\.0",
     ),
     (
-        lambda: maccullagh.maccullagh_potential_axisymmetric(1.0, 1.0, 0.0, 0.0),
+        lambda: figure.maccullagh_potential_axisymmetric(1.0, 1.0, 0.0, 0.0),
         BodyError,
         r"distance = 0\.0",
     ),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from earthspin.errors import BodyError, UndefinedError
-from earthspin.mass.mesh import closed_mesh, solid_points
+from earthspin.mass.shape import closed_mesh, solid_points
 from tests.mass.solids import brick
 from tests.refusals import refused
 

@@ -14,9 +14,8 @@ from scipy.special import lpmv
 from earthspin.constants import G
 from earthspin.errors import BodyError, UndefinedError
 from earthspin.mass import multipoles
-from earthspin.mass.distribution import grid_masses
-from earthspin.mass.legendre import factorial_ratio
-from earthspin.mass.tensor import inertia_tensor
+from earthspin.mass.multipoles import factorial_ratio
+from earthspin.mass.tensor import grid_masses, inertia_tensor
 from tests.mass.accuracy import inverse_distance
 from tests.mass.closeness import close
 from tests.refusals import refused

@@ -9,9 +9,8 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from earthspin.errors import BodyError
-from earthspin.mass.principal_axes import PrincipalAxes, principal_axes
 from earthspin.mass.rings import ring_positions
-from earthspin.mass.tensor import change_frame, inertia_tensor
+from earthspin.mass.tensor import PrincipalAxes, change_frame, inertia_tensor, principal_axes
 from tests.mass.accuracy import axes_errors, random_tensor
 from tests.mass.closeness import close
 

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from earthspin import EARTH
-from earthspin.mass import inertia
+from earthspin.mass import figure
 from earthspin.mass.shape import Shape
 from tests.conftest import load_pins
 
@@ -13,29 +13,29 @@ PINS = load_pins("precession")
 
 
 def test_the_polar_moment() -> None:
-    PINS["polar moment"].check(inertia.polar_moment_factor(EARTH.j2, EARTH.dynamical_flattening))
+    PINS["polar moment"].check(figure.polar_moment_factor(EARTH.j2, EARTH.dynamical_flattening))
 
 
 @given(st.floats(-0.3, 0.5))
 def test_h_and_ellipticity_are_inverse(h: float) -> None:
     assert np.isclose(
-        inertia.h_from_ellipticity(inertia.ellipticity_from_h(h)), h, rtol=1e-14, atol=0
+        figure.h_from_ellipticity(figure.ellipticity_from_h(h)), h, rtol=1e-14, atol=0
     )
 
 
 @given(st.floats(1e-12, 1e-1), st.floats(1e20, 1e30), st.floats(1e5, 1e8))
 def test_j2_and_back(j2: float, mass: float, radius: float) -> None:
-    difference = inertia.moment_difference(j2, mass, radius)
+    difference = figure.moment_difference(j2, mass, radius)
     assert np.isclose(
-        inertia.j2_from_moment_difference(difference, mass, radius), j2, rtol=1e-15, atol=0
+        figure.j2_from_moment_difference(difference, mass, radius), j2, rtol=1e-15, atol=0
     )
 
 
 def test_a_homogeneous_spheroid_has_both() -> None:
     """To first order in the flattening, J2 = 2/5 f, and both models give the same H."""
     flattening = 1e-6
-    h = inertia.h_homogeneous(0.4 * flattening)
-    assert np.isclose(h, inertia.h_mccullough(flattening), rtol=2e-6, atol=0)
+    h = figure.h_homogeneous(0.4 * flattening)
+    assert np.isclose(h, figure.h_mccullough(flattening), rtol=2e-6, atol=0)
 
 
 def test_a_homogeneous_ellipsoid_of_small_cells() -> None:
@@ -46,4 +46,4 @@ def test_a_homogeneous_ellipsoid_of_small_cells() -> None:
     inside = (x / a) ** 2 + (y / b) ** 2 + (z / c) ** 2 < 1
     shape = Shape.of_density(1.0 * inside, *edges, radius=a)
     found = shape.j2, shape.dynamical_flattening, shape.triaxiality
-    np.testing.assert_allclose(inertia.homogeneous_ellipsoid(a, b, c), found, rtol=8e-3, atol=0)
+    np.testing.assert_allclose(figure.homogeneous_ellipsoid(a, b, c), found, rtol=8e-3, atol=0)

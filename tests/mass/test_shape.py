@@ -8,8 +8,8 @@ from scipy.spatial.transform import Rotation
 
 from earthspin.errors import BodyError, UndefinedError
 from earthspin.mass.figure import spheroid_moments
+from earthspin.mass.multipoles import spheroid_zonals
 from earthspin.mass.shape import Shape
-from earthspin.mass.zonal import spheroid_zonals
 from tests.mass.solids import ball, brick
 
 #: What is left of moments, J2 and J4 at 20,000 vertices: 1.9e-4, 1.8e-4 and 4.5e-4.
@@ -107,7 +107,7 @@ def test_a_mesh_of_a_spheroid_comes_close_to_the_spheroid() -> None:
 def test_many_triangles_come_in_pieces_and_add_up(monkeypatch: pytest.MonkeyPatch) -> None:
     vertices, faces = ball(500)
     whole = Shape.of_mesh(vertices, faces, density=1.0)
-    monkeypatch.setattr("earthspin.mass.mesh.AT_ONCE", 100)
+    monkeypatch.setattr("earthspin.mass.shape.AT_ONCE", 100)
     pieces = Shape.of_mesh(vertices, faces, density=1.0)
     assert pieces.mass == pytest.approx(whole.mass, rel=1e-14, abs=0)
     assert pieces.principal.moments == pytest.approx(whole.principal.moments, rel=1e-13, abs=0)

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from earthspin.constants import G
 from earthspin.errors import AccuracyError, BodyError, UndefinedError
-from earthspin.mass import figure, zonal
-from earthspin.mass.inertia import j2_from_moment_difference
+from earthspin.mass import figure, multipoles
+from earthspin.mass.figure import j2_from_moment_difference
 from earthspin.mass.multipoles import exterior_multipoles
 from earthspin.mass.spheroid import spheroid_potential
 from tests.mass.closeness import close
@@ -34,12 +34,12 @@ def test_a_homogeneous_spheroid_by_quadrature(flattening: float) -> None:
         return figure.perimeter(1.0, flattening, theta)
 
     mass = float(figure.spheroid_mass(5.0, 1.0, flattening))
-    found = zonal.zonal_integrals(_uniform, edge, 8, radius=1.0)
+    found = multipoles.zonal_integrals(_uniform, edge, 8, radius=1.0)
     assert close(found[0], mass, rel=2e-14)
     size = max(1.0, (1 - flattening) ** 8)
-    expected = zonal.spheroid_zonals(flattening, 8)
-    assert close(zonal.geodetic_zonals(found), expected, abs=8e-15 * size)
-    moments = zonal.moments_of_density(_uniform, edge)
+    expected = multipoles.spheroid_zonals(flattening, 8)
+    assert close(multipoles.geodetic_zonals(found), expected, abs=8e-15 * size)
+    moments = multipoles.moments_of_density(_uniform, edge)
     known = figure.spheroid_moments(mass, 1.0, flattening)
     assert close(moments.equatorial, known.equatorial, rel=5e-14)
     assert close(moments.polar, known.polar, rel=3e-14)
@@ -51,7 +51,7 @@ def test_closed_zonals_against_fifty_digits(flattening: float, k: int) -> None:
     with mp.workdps(50):
         e2 = mp.mpf(flattening) * (2 - mp.mpf(flattening))
         exact = (-1) ** (k + 1) * 3 * e2**k / ((2 * k + 1) * (2 * k + 3))
-        found = zonal.spheroid_zonals(flattening, 2 * k)
+        found = multipoles.spheroid_zonals(flattening, 2 * k)
         assert abs(mp.mpf(float(found[-1])) - exact) <= 6e-15 * abs(exact)
     assert np.all(found[1::2] == 0)
 
@@ -60,11 +60,11 @@ def test_both_kinds_of_j2() -> None:
     """The source's is G (C - A), geodesy's (C - A)/(M a2) = e2/5."""
     mass, a, f = 6e24, 6.4e6, 1 / 298.257
     difference = figure.spheroid_moments(mass, a, f).difference
-    integrals = -mass * zonal.spheroid_zonals(f, 4)
-    source = zonal.zonal_moments(integrals, a)
+    integrals = -mass * multipoles.spheroid_zonals(f, 4)
+    source = multipoles.zonal_moments(integrals, a)
     assert close(source[0], -G.value * mass, rel=1e-15)
     assert close(source[2], G.value * difference, rel=2e-15)
-    geodesy = zonal.geodetic_zonals(integrals)
+    geodesy = multipoles.geodetic_zonals(integrals)
     assert close(geodesy[2], j2_from_moment_difference(difference, mass, a), rel=2e-15)
 
 
@@ -72,11 +72,11 @@ def test_both_kinds_of_j2() -> None:
 def test_the_series_is_the_exact_spheroid(theta: float, height: float, flattening: float) -> None:
     """Degree 200 at and beyond 1.05 of a sphere that holds the body (measured: 8e-16)."""
     outer = max(1.0, 1 - flattening)
-    integrals = -zonal.spheroid_zonals(flattening, 200)
+    integrals = -multipoles.spheroid_zonals(flattening, 200)
     r = outer * height
     radius = 1.0 if flattening >= 0 else outer
     scaled = integrals / radius ** np.arange(201)
-    found = zonal.zonal_potential(scaled, radius, r, theta) / G.value
+    found = multipoles.zonal_potential(scaled, radius, r, theta) / G.value
     point = [r * np.sin(theta), 0.0, r * np.cos(theta)]
     exact = float(spheroid_potential(1.0, 1.0, flattening, point))
     assert close(found, exact, rel=6e-15)
@@ -101,7 +101,7 @@ def test_a_condensed_body_breaks_mccullough() -> None:
     def edge(theta: np.ndarray) -> np.ndarray:
         return figure.perimeter(1.0, f, theta)
 
-    moments = zonal.moments_of_density(_condensed, edge)
+    moments = multipoles.moments_of_density(_condensed, edge)
     ratio = float(moments.difference / moments.equatorial)
     assert close(ratio / f, 0.28, rel=2e-3)
 
@@ -115,10 +115,10 @@ def test_a_density_with_a_direction() -> None:
     def density(r: np.ndarray, theta: np.ndarray) -> np.ndarray:
         return np.asarray(1 + np.cos(theta) ** 2)
 
-    found = zonal.zonal_integrals(density, edge, 3, radius=1.0)
+    found = multipoles.zonal_integrals(density, edge, 3, radius=1.0)
     assert close(found[0], 2 * np.pi * (8 / 3) / 3, rel=1e-14)
     assert close(found[2], 2 * np.pi * (4 / 15) / 5, rel=6e-14)
-    assert close(zonal.moments_of_density(density, edge).difference, -found[2], rel=1e-14)
+    assert close(multipoles.moments_of_density(density, edge).difference, -found[2], rel=1e-14)
 
 
 def test_a_rough_density_says_so() -> None:
@@ -126,21 +126,21 @@ def test_a_rough_density_says_so() -> None:
         return np.where(r < 0.5, 2.0, 1.0)
 
     with pytest.raises(AccuracyError, match="smooth density"):
-        zonal.moments_of_density(step, lambda theta: np.ones_like(theta))
+        multipoles.moments_of_density(step, lambda theta: np.ones_like(theta))
 
 
 test_wrong_input = refused(
     (
-        lambda: zonal.zonal_potential([1.0], 2.0, [3.0, 2.0], 0.1),
+        lambda: multipoles.zonal_potential([1.0], 2.0, [3.0, 2.0], 0.1),
         UndefinedError,
         r"r = 2 m; give distances beyond 2 m",
     ),
     (
-        lambda: zonal.zonal_integrals(lambda r, t: -r, np.ones_like, 2, 1.0),
+        lambda: multipoles.zonal_integrals(lambda r, t: -r, np.ones_like, 2, 1.0),
         BodyError,
         "density = -",
     ),
-    (lambda: zonal.zonal_integrals(_uniform, np.cos, 2, 1.0), BodyError, "perimeter = -"),
-    (lambda: zonal.geodetic_zonals([0.0, 1.0]), BodyError, r"mass = 0\.0"),
-    (lambda: zonal.spheroid_zonals(0.1, -1), UndefinedError, "n_max = -1"),
+    (lambda: multipoles.zonal_integrals(_uniform, np.cos, 2, 1.0), BodyError, "perimeter = -"),
+    (lambda: multipoles.geodetic_zonals([0.0, 1.0]), BodyError, r"mass = 0\.0"),
+    (lambda: multipoles.spheroid_zonals(0.1, -1), UndefinedError, "n_max = -1"),
 )

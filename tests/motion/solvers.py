@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from earthspin.bodies import EARTH
 from earthspin.motion.axes import AxisPath, axis_path
-from earthspin.motion.triaxial import equatorial_basis
+from earthspin.motion.forces import equatorial_basis
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.ephemeris import Ephemeris
 from tests.motion.sky import NORTH, UAS, figure, forces

@@ -15,12 +15,15 @@ from earthspin.bodies import EARTH
 from earthspin.constants import DAY
 from earthspin.motion import forces as forces_module
 from earthspin.motion.axes import axis_path
-from earthspin.motion.effects.geodesic import geodesic_rate, geodesic_torque
-from earthspin.numerics.gauss_windows import Windows
+from earthspin.motion.effects import geodesic_rate, geodesic_torque
+from earthspin.numerics.polynomials import Windows
 from earthspin.sky.ephemeris import Ephemeris
-from earthspin.torque.gravity import torque_from_position
-from earthspin.torque.harmonics import zonal_torque
-from earthspin.torque.quadrupole import quadrupole_torque, tidal_tensor
+from earthspin.torque.gravity import (
+    quadrupole_torque,
+    tidal_tensor,
+    torque_from_position,
+    zonal_torque,
+)
 from tests.motion.sky import CODES, GM, NORTH, UAS, figure, forces
 
 directions = st.tuples(st.floats(-1, 1), st.floats(0, 2 * math.pi)).map(
@@ -104,8 +107,8 @@ def test_off_is_not_evaluated(de421: Ephemeris, monkeypatch: pytest.MonkeyPatch)
         raise AssertionError("this effect is switched off")
 
     monkeypatch.setattr(forces_module, "zonal_law", never)
-    monkeypatch.setattr("earthspin.motion.effects.geodesic.geodesic_rate", never)
-    monkeypatch.setattr("earthspin.motion.segment.semidiurnal_amplitudes", never)
+    monkeypatch.setattr("earthspin.motion.effects.geodesic_rate", never)
+    monkeypatch.setattr("earthspin.motion.axes.semidiurnal_amplitudes", never)
     axis_path(forces(de421, near=("sun", "moon")), NORTH, 0.0, (0.0, 8 * DAY))
     zonal = figure(zonal={3: EARTH.j3})  # type: ignore[arg-type]
     with pytest.raises(AssertionError):

@@ -5,7 +5,7 @@ import pytest
 
 import earthspin
 from earthspin.sky.ephemeris import open_ephemeris
-from earthspin.sky.kernel_differences import DIFFERENCES, drift_is_measured, growth
+from earthspin.sky.kernel import DIFFERENCES, drift_is_measured, growth
 
 #: Years from J2000.0, and how far the figure axes by DE421 and by DE440 are apart within 2.5 years
 #: of it, uas: paths of `pole` with either kernel from 1901 to 2050, in steps of 20 d.

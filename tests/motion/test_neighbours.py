@@ -8,16 +8,18 @@ from earthspin.constants import DAY
 from earthspin.motion.axes import axis_path
 from earthspin.motion.effects import EFFECTS, RIGID
 from earthspin.motion.forces import Figure, Forces
-from earthspin.motion.neighbours import (
+from earthspin.motion.solution import (
     FLATTENING,
     PULL,
     TRIAXIALITY,
+    Motion,
     masses,
     relative_tide_error,
     rigid_bodies,
+    shares_of,
+    start_of,
     upright,
 )
-from earthspin.motion.solution import Motion, shares_of, start_of
 from earthspin.sky.ephemeris import Ephemeris
 from tests.motion.kepler import AS_SKY, Ellipse, angle
 from tests.motion.sky import CODES, GM, NORTH, UAS, figure, forces

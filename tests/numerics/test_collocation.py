@@ -8,7 +8,7 @@ from scipy.linalg import expm
 from scipy.special import iv, kv
 
 from earthspin import UndefinedError
-from earthspin.numerics.collocation import carry
+from earthspin.numerics.polynomials import carry
 
 
 @given(st.floats(0.1, 3.0), st.integers(0, 50))

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from earthspin.numerics.gauss_windows import Windows, integrated
+from earthspin.numerics.polynomials import Windows, integrated
 
 EDGES = np.array([-1.0, 0.5, 2.0, 2.75, 5.0])
 

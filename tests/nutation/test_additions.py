@@ -11,11 +11,16 @@ from numpy.typing import NDArray
 import earthspin
 from earthspin import EARTH
 from earthspin.constants import UAS
-from earthspin.engine.plan import plan_parts
+from earthspin.engine.run import Run
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.nutation.additions import ADDITIONS, added_to
-from earthspin.nutation.circles import MULTIPLES, phases
-from earthspin.nutation.response import CORE_NUTATION_START, Response, fit_response
+from earthspin.nutation.analysis import MULTIPLES, phases
+from earthspin.nutation.response import (
+    ADDITIONS,
+    CORE_NUTATION_START,
+    Response,
+    added_to,
+    fit_response,
+)
 
 #: The mode that is built into IAU 2000A, as IERS Conventions (2010), table 6.4, have it.
 BUILT_IN = complex(*CORE_NUTATION_START)
@@ -74,13 +79,8 @@ class Terms:
 @cache
 def terms() -> Terms:
     """Those of the comparison with the IAU."""
-    planned = plan_parts(earthspin.load_scene("iau"), ["core"])
-    values = planned.question.keys()
-    for step in planned.parts:
-        if "response_apart" not in values:
-            there = (*step.needs, *(name for name in step.uses if name in values))
-            values[step.name] = step(**{name: values[name] for name in there})
-    apart, circles = values["response_apart"], values["pole_analysis"].our_circles
+    run = Run(earthspin.load_scene("iau"))
+    apart, circles = run["response_apart"], run["pole_analysis"].our_circles
     iau = apart.left + apart.response.transfer(circles.frequency) * apart.rigid
     return Terms(circles.multiples, circles.frequency, apart.rigid, iau, apart.added)
 

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from earthspin.nutation.angles import followed, polynomials
+from earthspin.nutation.analysis import followed, polynomials
 
 
 def test_a_polynomial_comes_back() -> None:

@@ -7,13 +7,11 @@ import numpy as np
 import pytest
 
 import earthspin
-from earthspin.engine.plan import plan_parts
-from earthspin.engine.run import Run, run_parts
+from earthspin.engine.run import Run
 from earthspin.interior.modes import mode_period
 from earthspin.interior.named import EXPONENT_RANGE
-from earthspin.nutation.interior_draws import changed, inputs_of, spread_of
-from earthspin.nutation.ladder import climb
-from earthspin.parts.predicted import Prediction
+from earthspin.nutation.ladder import changed, climb, inputs_of, spread_of
+from earthspin.questions.interiors import Prediction
 from earthspin.questions.nutation import left
 
 #: Draws of all inputs together; three standard errors of their share are 0.046.
@@ -23,12 +21,12 @@ DRAWS = 200
 @pytest.fixture(scope="module")
 def run() -> Run:
     keys = {"nutation.coupling": "inferred", "step": "30 d"}
-    return run_parts(plan_parts(earthspin.load_scene("nutation", keys), "modes"))
+    return Run(earthspin.load_scene("nutation", keys))
 
 
 @pytest.fixture(scope="module")
 def models(run: Run) -> Prediction:
-    return run.results["models"]
+    return run["models"]
 
 
 @pytest.fixture(scope="module")
@@ -49,8 +47,8 @@ def drawn(models: Prediction) -> list[Prediction]:
 def test_95_per_cent_of_draws_move_the_rms_by_less_than_its_error(
     run: Run, drawn: list[Prediction]
 ) -> None:
-    inputs = {name: run.results[name] for name in left.needs}
-    nominal = run.results["left"]
+    inputs = {name: run[name] for name in left.needs}
+    nominal = run["left"]
     inputs["interior_spread"] = SimpleNamespace(rms_half_width=lambda *_: 0.0)
     moves = []
     for models in drawn:
@@ -67,7 +65,7 @@ def test_95_per_cent_of_draws_move_the_rms_by_less_than_its_error(
 def test_95_per_cent_of_draws_move_a_period_by_less_than_its_error(
     run: Run, models: Prediction, drawn: list[Prediction]
 ) -> None:
-    spread = run.results["interior_spread"]
+    spread = run["interior_spread"]
     for rung in ("elastic", "inner-core", "anelastic", "coupling"):
         half_widths = spread.period_half_widths(rung)
         nominal = models.rungs[rung].modes(refined=False)
@@ -81,7 +79,7 @@ def test_95_per_cent_of_draws_move_a_period_by_less_than_its_error(
 
 def test_the_inner_core_nutation_of_the_coupling_has_the_published_range(run: Run) -> None:
     """1025 d, from 930 to 1140 d (Mathews, Herring & Buffett 2002)."""
-    modes = run.results["modes"].sel(mode="coupling inner_core_nutation")
+    modes = run["modes"].sel(mode="coupling inner_core_nutation")
     period, error = float(modes.mode_period), float(modes.mode_period_error)
     assert period - error < 930
     assert period + error > 1140
@@ -89,7 +87,7 @@ def test_the_inner_core_nutation_of_the_coupling_has_the_published_range(run: Ru
 
 
 def test_the_core_nutation_that_is_observed_has_its_own_error(run: Run) -> None:
-    modes = run.results["modes"]
+    modes = run["modes"]
     for rung in ("core-ellipticity", "coupling"):
         error = modes.mode_period_error.sel(mode=f"{rung} free_core_nutation")
         assert float(error) == pytest.approx(1.96 * 0.13, rel=2e-3, abs=0)

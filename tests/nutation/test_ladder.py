@@ -6,10 +6,9 @@ import xarray as xr
 
 import earthspin
 from earthspin import EARTH, MARS, SceneError
-from earthspin.interior.diurnal_ocean import WAVES, diurnal_response, wave_response
-from earthspin.interior.named import CORE_ELLIPTICITY
-from earthspin.interior.prem import PREM
-from earthspin.interior.published import CORE_NUTATION
+from earthspin.interior.layers import PREM
+from earthspin.interior.named import CORE_ELLIPTICITY, CORE_NUTATION
+from earthspin.interior.ocean_and_anelasticity import WAVES, diurnal_response, wave_response
 from earthspin.motion.effects import RIGID
 from earthspin.nutation import ladder
 from tests import shipped

@@ -5,8 +5,13 @@ import pytest
 from skyfield.functions import load_bundled_npy
 
 from earthspin.constants import ARCSEC, EPSILON_0, MAS
-from earthspin.nutation.circles import MULTIPLES
-from earthspin.nutation.neighbours import LEFT_OUT, amplitude_error, circles_of, neighbours_of
+from earthspin.nutation.analysis import (
+    LEFT_OUT,
+    MULTIPLES,
+    amplitude_error,
+    circles_of,
+    neighbours_of,
+)
 from earthspin.sky import iau
 from tests import shipped
 

@@ -6,11 +6,11 @@ import pytest
 from data_tools.pole_offsets import mjd_of, scores
 from earthspin import UndefinedError
 from earthspin.constants import MAS
-from earthspin.nutation.core_nutation import PERIOD
-from earthspin.nutation.offset_prediction import (
+from earthspin.nutation.core_nutation import (
     FLOOR,
     HALF_LIFE,
     LONGEST,
+    PERIOD,
     fit_each_day,
     predict,
 )

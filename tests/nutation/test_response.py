@@ -6,8 +6,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from earthspin.constants import ARCSEC, DAY
-from earthspin.nutation.angles import on_fixed_ecliptic, pole_from, precession_angles
-from earthspin.nutation.circles import MULTIPLES, FrequencyAnalysis, phases, without_line
+from earthspin.nutation.analysis import (
+    MULTIPLES,
+    FrequencyAnalysis,
+    on_fixed_ecliptic,
+    phases,
+    pole_from,
+    precession_angles,
+    without_line,
+)
 from earthspin.nutation.response import Response, fit_response
 from earthspin.sky import iau
 

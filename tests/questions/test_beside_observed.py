@@ -7,13 +7,13 @@ import pytest
 import earthspin
 from data_tools.worlds import CIRCULAR, OBSERVED, PUBLISHED, locked, worlds
 from earthspin import MARS, MOON
-from earthspin.bodies.moon import OBLIQUITY
+from earthspin.bodies.earth_moon_sun import MOON_OBLIQUITY
 from earthspin.bodies.moons import TITAN_OBLIQUITY
 from earthspin.engine.neglected import Neglected
 from earthspin.questions.cassini_states import CassiniStates
 from earthspin.questions.precession import Precession
-from earthspin.views.of_question import tables_for
-from earthspin.views.table import NUMBERS_ONLY, beside_observed, some_unknown, systematic_size
+from earthspin.views.answers import tables_for
+from earthspin.views.tables import NUMBERS_ONLY, beside_observed, some_unknown, systematic_size
 from tests.reference import lunar_state
 
 
@@ -42,7 +42,7 @@ def test_the_moon_on_its_real_orbit_measures_what_the_state_leaves_out() -> None
 
 
 @pytest.mark.parametrize(
-    ("name", "observed"), [("moon", OBLIQUITY.value), ("titan", TITAN_OBLIQUITY.value)]
+    ("name", "observed"), [("moon", MOON_OBLIQUITY.value), ("titan", TITAN_OBLIQUITY.value)]
 )
 def test_what_is_observed_lies_inside_what_is_printed(name: str, observed: float) -> None:
     (row,) = (row for row in locked() if row.name == name)

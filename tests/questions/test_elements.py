@@ -12,7 +12,7 @@ import xarray as xr
 
 import earthspin
 from earthspin import EARTH, MOON, SUN, Body, BodyError, Orbit, Scene, SceneError, UndefinedError
-from earthspin.bodies.mean_orbits import MEAN_MOON, MEAN_SUN
+from earthspin.bodies.planets import MEAN_MOON, MEAN_SUN
 from earthspin.constants import ARCSEC_PER_YEAR, DAY
 from earthspin.torque.rates import circular_orbit_torque
 from tests.refusals import refused

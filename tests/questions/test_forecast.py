@@ -18,7 +18,7 @@ from scipy.stats import binomtest
 import earthspin
 from earthspin.constants import ARCSEC, MAS
 from earthspin.sky import eop
-from earthspin.views import forecast as views
+from earthspin.views import observed_pole as views
 from earthspin.wobble.forecast import SKILL
 
 ORIGIN = "2018-06-01"

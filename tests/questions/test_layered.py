@@ -10,13 +10,11 @@ from hypothesis import strategies as st
 
 import earthspin
 from earthspin import EARTH, MARS, SceneError, UndefinedError
-from earthspin.bodies.layered import Layers
+from earthspin.bodies.kinds import Layers
 from earthspin.errors import Where
-from earthspin.interior.layers import Layer, LayeredBody
+from earthspin.interior.layers import PREM, Layer, LayeredBody, from_samples
 from earthspin.interior.love import elastic
 from earthspin.interior.mars import MARS as MARS_LAYERS
-from earthspin.interior.prem import PREM
-from earthspin.interior.samples import from_samples
 from tests import shipped
 from tests.refusals import refused
 

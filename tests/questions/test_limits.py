@@ -10,8 +10,8 @@ from scipy.optimize import minimize_scalar
 
 import earthspin
 from earthspin import EARTH, MOON, SUN, Body, EarthspinError, Scene
-from earthspin.bodies.limits import SLOW
-from earthspin.bodies.mean_orbits import PRECESSING_ORBITS
+from earthspin.bodies.checks import SLOW
+from earthspin.bodies.planets import PRECESSING_ORBITS
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, G
 from earthspin.dates import datetime64
 from earthspin.interior.equilibrium import FASTEST

@@ -11,9 +11,9 @@ import xarray as xr
 
 import earthspin
 from earthspin import EARTH, SUN, SceneError
-from earthspin.engine.part import BLOCK, Block
+from earthspin.engine.part import Block
 from earthspin.engine.question import Question
-from earthspin.engine.run import Rerun
+from earthspin.engine.run import Run
 from earthspin.motion.effects import EFFECTS
 from earthspin.scenes import load_scene, run, run_blocks, series_length, write_series
 
@@ -21,8 +21,8 @@ YEAR = {"span": ["2000-01-01", "2001-01-01"], "step": "4 min"}
 
 
 def _stretches(scene: Question, blocks: list[Block]) -> Iterator[xr.Dataset]:
-    rerun = Rerun(scene, {BLOCK})
-    return (rerun(block=block).answer() for block in blocks)
+    shared = Run(scene, block=blocks[0])
+    return (shared.again(block=block).answer() for block in blocks)
 
 
 def test_stretches_are_the_series() -> None:

@@ -10,7 +10,7 @@ from earthspin import BODIES, EARTH, MARS, BodyError
 from earthspin.constants import ARCSEC, NORMAL_95
 from earthspin.questions.long_term import LongTerm
 from earthspin.questions.pole import Pole
-from earthspin.sky.moving_pole import MovingPole
+from earthspin.sky.poles import MovingPole
 
 #: Pole of Mars at J2000.0 without nutation: IAU 2009 (Archinal et al. 2011), and of Konopliv et al.
 #: 2016 (Icarus 274, 253), right ascension and declination, deg.

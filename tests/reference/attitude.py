@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from earthspin.motion.triaxial import equatorial_basis
+from earthspin.motion.forces import equatorial_basis
 from tests.reference.momentum_and_figure import Tide
 from tests.reference.stepping import FloatArray, integrate, quaternion_rate
 

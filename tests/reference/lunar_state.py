@@ -16,7 +16,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from earthspin.bodies import EARTH, MOON, SUN
-from earthspin.bodies.mean_orbits import MEAN_MOON, MOON_NODE
+from earthspin.bodies.planets import MEAN_MOON, MOON_NODE
 from earthspin.constants import DAY
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky import iau

@@ -8,7 +8,7 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 
-from earthspin.interior.prem import PREM
+from earthspin.interior.layers import PREM
 from earthspin.sky import iau
 from tests.benchmarks.accuracy import (
     compliances,

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 from scipy.signal import lfilter
 
-from earthspin.wobble.oscillator import DrivenOscillator
-from earthspin.wobble.record import NEAR, YEAR, Array, Complex, turning
-from earthspin.wobble.resonance import chandler_frequency
+from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.wobble.excitation import chandler_frequency
+from earthspin.wobble.record import NEAR, YEAR, turning
+from earthspin.wobble.state_space import DrivenOscillator
 
 #: Default correlation time of the red excitation, d.
 RED_MEMORY = 500.0
@@ -25,7 +26,7 @@ def simulate(
     red: float = 0.0,
     memory: float = RED_MEMORY,
     seed: int | None = None,
-) -> tuple[Array, Complex]:
+) -> tuple[FloatArray, ComplexArray]:
     """Simulate polar motion: free wobble driven by noise, with seasonal terms and a trend.
 
     Parameters
@@ -54,7 +55,7 @@ def simulate(
     generator = np.random.default_rng(seed)
     time = np.arange(0.0, years * 365.25, step)
 
-    def process(rate: complex, size: float) -> Complex:
+    def process(rate: complex, size: float) -> ComplexArray:
         """Draw complex noise of rms `size` whose autocorrelation is exp(rate |time lag|)."""
         kick = generator.standard_normal((time.size, 2)) @ np.array([1, 1j]) / np.sqrt(2)
         keep = np.exp(rate * step)

@@ -9,8 +9,7 @@ import numpy as np
 
 from earthspin.constants import JULIAN_YEAR
 from earthspin.numerics.arrays import FloatArray
-from earthspin.secular.orbit import Orbit, pull
-from earthspin.secular.strength import Strength
+from earthspin.secular.orbit import Orbit, Strength, pull
 from tests.reference.extrapolation import LONG, LongArray, extrapolated, states
 
 

@@ -6,8 +6,7 @@ import numpy as np
 from earthspin.bodies import SUN
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.torque.average import precessing_torque
-from earthspin.torque.gravity import torque_from_position
-from earthspin.torque.quadrupole import tidal_tensor
+from earthspin.torque.gravity import tidal_tensor, torque_from_position
 from tests.reference import model_sky
 from tests.reference.equator import true_equator
 from tests.reference.sky import GM, Tide, chebyshev_pieces, positions

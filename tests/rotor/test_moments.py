@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from earthspin.errors import BodyError
-from earthspin.rotor.moments import principal_moments
+from earthspin.rotor.euler import principal_moments
 
 
 def exact(number: Any) -> list[Fraction]:

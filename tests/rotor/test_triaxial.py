@@ -14,9 +14,8 @@ from hypothesis import strategies as st
 from earthspin.errors import BodyError, UndefinedError
 from earthspin.numerics.quaternion import multiply, rotate
 from earthspin.rotor.axisymmetric import SymmetricRotor
-from earthspin.rotor.constants_of_motion import jacobi_motion
 from earthspin.rotor.euler import integrate_rotation
-from earthspin.rotor.triaxial import FreeRotation, free_rotation
+from earthspin.rotor.triaxial import FreeRotation, free_rotation, jacobi_motion
 from tests.conftest import load_pins
 from tests.refusals import refused
 from tests.rotor.accuracy import errors

@@ -7,8 +7,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, J2000_JD, JULIAN_YEAR
-from earthspin.secular.orbit import Orbit, Shape
-from earthspin.secular.strength import Strength, Tides
+from earthspin.secular.orbit import Orbit, Shape, Strength, Tides
 from earthspin.sky.orbit_table import OrbitTable, shipped
 
 KYR = 1000 * JULIAN_YEAR

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from earthspin.constants import ARCSEC, JULIAN_YEAR, NORMAL_95
-from earthspin.secular.budget import Setting, Uncertainty, changed, changes, moved
+from earthspin.secular.budget import Setting, Uncertainty, changed, changes, shifted_orbit
 from earthspin.secular.trajectory import solve
 from tests.secular.setting import EARTHS, KYR, POLE, arcsec, earths
 
@@ -76,7 +76,7 @@ def test_the_j2_band_widens_where_its_rate_has_faded() -> None:
 @pytest.mark.parametrize("way", [0, 1])
 def test_a_moved_orbit_is_moved_by_its_error_and_still_an_orbit(way: int) -> None:
     times = np.linspace(-900, 900, 37) * KYR
-    other = moved(EARTHS, EARTHS.error, np.eye(2)[way])
+    other = shifted_orbit(EARTHS, EARTHS.error, np.eye(2)[way])
     n, e, turning = other.at(times)
     n0, e0, turning0 = EARTHS.at(times)
     by_normal, by_shape = EARTHS.error(times)
@@ -114,7 +114,7 @@ def test_a_circular_orbit_can_be_moved() -> None:
         EARTHS, coefficients=EARTHS.coefficients * [[[1.0]], [[1.0]], [[0.0]], [[0.0]]]
     )
     half_widths = lambda times: np.full((2, times.size), 1e-6)  # noqa: E731
-    n, e, _ = moved(circle, half_widths, (1.0, 0.0)).at(np.zeros(1))
+    n, e, _ = shifted_orbit(circle, half_widths, (1.0, 0.0)).at(np.zeros(1))
     assert np.linalg.norm(n - circle.at(np.zeros(1))[0]) == pytest.approx(1e-6, rel=1e-6, abs=0)
     assert np.linalg.norm(e) == pytest.approx(1e-6, rel=1e-6, abs=0)
 

@@ -7,7 +7,15 @@ import pytest
 from scipy.special import ndtr
 
 from earthspin.constants import ARCSEC, NORMAL_95
-from earthspin.secular.budget import Setting, Uncertainty, changed, solved
+from earthspin.secular.budget import (
+    MEMBERS,
+    Quantiles,
+    Setting,
+    Uncertainty,
+    changed,
+    draws,
+    solved,
+)
 from earthspin.secular.reading import (
     LINEAR_TO,
     SAMPLED_FROM,
@@ -20,7 +28,6 @@ from earthspin.secular.reading import (
     readings,
     together,
 )
-from earthspin.secular.sample import MEMBERS, Quantiles, draws
 from earthspin.secular.trajectory import solve
 from earthspin.sky.iau import fixed_ecliptic
 from tests.secular.setting import EARTHS, KYR, POLE, earths

@@ -16,8 +16,7 @@ from earthspin.constants import (
     SPEED_OF_LIGHT,
 )
 from earthspin.errors import UndefinedError
-from earthspin.secular.orbit import pull, reference_axes
-from earthspin.secular.strength import (
+from earthspin.secular.orbit import (
     FADES_FROM,
     FADES_TO,
     J2_SHARE,
@@ -26,6 +25,8 @@ from earthspin.secular.strength import (
     band,
     faded,
     geodesic_precession,
+    pull,
+    reference_axes,
 )
 from tests.secular.setting import E0, EARTHS, KYR, NODE_RATE, arcsec, earths
 

@@ -9,10 +9,8 @@ from hypothesis import strategies as st
 
 from earthspin.constants import ARCSEC
 from earthspin.errors import ApartError, UndefinedError
-from earthspin.secular.newton import Turn, slope
-from earthspin.secular.orbit import pull
-from earthspin.secular.strength import Strength, Tides
-from earthspin.secular.trajectory import solve
+from earthspin.secular.orbit import Strength, Tides, pull
+from earthspin.secular.trajectory import Turn, slope, solve
 from tests.reference.spin_axis import spin_axis
 from tests.secular.setting import (
     E0,

@@ -8,10 +8,9 @@ from jplephem.spk import SPK
 from numpy.polynomial.chebyshev import chebval
 
 from earthspin.constants import J2000_JD
-from earthspin.sky import chebyshev
-from earthspin.sky.chebyshev import BLOCK, Table
+from earthspin.sky import kernel
 from earthspin.sky.ephemeris import find_kernel
-from earthspin.sky.kernel_checks import Records
+from earthspin.sky.kernel import BLOCK, Records, Table
 
 RECORDS, DAYS_EACH = 40, 4.0
 
@@ -85,9 +84,9 @@ def test_a_time_has_the_same_bits_in_any_company(
 def test_each_way_of_laying_out_is_used(monkeypatch: pytest.MonkeyPatch) -> None:
     """In order by rows; uneven or turned round by coefficients for each."""
     used: list[str] = []
-    rows = chebyshev._InOrder.sums
+    rows = kernel._InOrder.sums
     monkeypatch.setattr(
-        chebyshev._InOrder, "sums", lambda *of: (used.append("rows"), rows(*of))[1], raising=True
+        kernel._InOrder, "sums", lambda *of: (used.append("rows"), rows(*of))[1], raising=True
     )
     tables = table(13)
     dense = np.arange(0.0, 100.0, 0.01)
@@ -96,7 +95,7 @@ def test_each_way_of_laying_out_is_used(monkeypatch: pytest.MonkeyPatch) -> None
         used.clear()
         tables.positions(days)
         assert len(used) == ways
-    assert dense.size > BLOCK == chebyshev.BLOCK
+    assert dense.size > BLOCK == kernel.BLOCK
 
 
 def test_no_times_have_no_positions() -> None:

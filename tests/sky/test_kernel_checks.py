@@ -15,7 +15,7 @@ from earthspin.bodies import MOON, SUN
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky import ephemeris
 from earthspin.sky.ephemeris import Ephemeris, find_kernel, open_ephemeris
-from earthspin.sky.kernel_checks import DISTANCES, PUBLISHED
+from earthspin.sky.kernel import DISTANCES, PUBLISHED
 from tests.sky.kernel_files import FIRST_SUMMARY, RECORD, SUMMARY, Piece, from_de421, write_kernel
 
 NAMES = {(0, 10): 0, (0, 3): 1, (3, 399): 2, (3, 301): 3}

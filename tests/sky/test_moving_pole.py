@@ -9,9 +9,7 @@ import earthspin
 from earthspin import MARS, SUN
 from earthspin.constants import DAYS_PER_CENTURY
 from earthspin.errors import EarthspinError, Where
-from earthspin.sky.moving_pole import MovingPole
-from earthspin.sky.pole_tables import Angles
-from earthspin.sky.poles import Direction, pole_of
+from earthspin.sky.poles import Angles, Direction, MovingPole, pole_of
 
 #: Neptune's, with one slow term.
 SLOW = MovingPole.published(

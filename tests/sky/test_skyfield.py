@@ -12,7 +12,7 @@ from skyfield.api import load, load_file
 
 import earthspin
 from earthspin.engine.question import keys_of
-from earthspin.parts.averages import torque_samples
+from earthspin.questions.averages import torque_samples
 from earthspin.sky import iau
 from earthspin.sky.ephemeris import Ephemeris, find_kernel, open_ephemeris
 from earthspin.sky.skyfield import Skyfield

@@ -8,9 +8,8 @@ import pytest
 
 from earthspin.errors import UndefinedError
 from earthspin.top.motion import heavy_top_motion
-from earthspin.top.patterns import nutation_pattern, pattern_limits
+from earthspin.top.patterns import nutation_pattern, pattern_limits, steady_precession
 from earthspin.top.start import HeavyTop, top_constants
-from earthspin.top.steady import steady_precession
 from tests.refusals import refused
 from tests.top.families import FAMILIES, cases
 from tests.top.textbook import DIGITS, Textbook

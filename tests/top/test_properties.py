@@ -8,10 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
+from earthspin.top.azimuth import mean_precession_rate
+from earthspin.top.height import nutation_period, turning_angles
 from earthspin.top.motion import HeavyTopMotion, heavy_top_motion
 from earthspin.top.patterns import nutation_pattern
 from earthspin.top.start import HeavyTop
-from earthspin.top.turning import mean_precession_rate, nutation_period, turning_angles
 
 # Below 1e-100 rad/s a top counts as still.
 RATES = st.floats(-8, 8).map(lambda rate: rate if abs(rate) > 1e-90 else 0.0)

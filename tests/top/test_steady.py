@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 from earthspin.errors import UndefinedError
+from earthspin.top.height import nutation_period, turning_angles
 from earthspin.top.motion import heavy_top_motion
-from earthspin.top.start import HeavyTop
-from earthspin.top.steady import (
+from earthspin.top.patterns import (
     minimum_spin,
     sleeping_top,
     slow_precession_limit,
     steady_precession,
 )
-from earthspin.top.turning import nutation_period, turning_angles
+from earthspin.top.start import HeavyTop
 from tests.reference.heavy_top import integrate_heavy_top
 
 I1, I3, WEIGHT = 1.25, 0.75, 2.0

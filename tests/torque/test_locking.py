@@ -5,7 +5,7 @@ import pytest
 
 import earthspin
 from earthspin import Body, UndefinedError
-from earthspin.torque.locking import locked_ratio
+from earthspin.torque.cassini import locked_ratio
 
 UP = np.array([0.0, 0.0, 1.0])
 

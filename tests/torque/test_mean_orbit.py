@@ -9,15 +9,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from earthspin.numerics.kepler import true_anomaly
-from earthspin.torque.average import precessing_torque
-from earthspin.torque.gravity import torque_from_position
-from earthspin.torque.mean_orbit import (
+from earthspin.torque.average import (
     mean_square_of_normal,
     mean_tide,
     mean_torque,
+    precessing_torque,
     rounding,
     square_of_normal,
 )
+from earthspin.torque.gravity import torque_from_position
 from earthspin.torque.rates import circular_orbit_torque
 
 NORTH = np.array([0.0, 0.0, 1.0])

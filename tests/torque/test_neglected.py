@@ -5,8 +5,7 @@ import pytest
 
 import earthspin
 from earthspin.bodies import EARTH, MOON, SUN
-from earthspin.torque.harmonics import zonal_torque
-from earthspin.torque.neglected import largest_torque_on_figure
+from earthspin.torque.gravity import largest_torque_on_figure, zonal_torque
 
 MASS, RADIUS = 6.0e24, 6.4e6
 GM, DISTANCE = 4.9e12, 3.6e8

@@ -11,7 +11,7 @@ import matplotlib.image
 import numpy as np
 import pytest
 
-from earthspin.views.of_question import scene_page
+from earthspin.views.answers import scene_page
 from earthspin.views.report import gallery, gallery_page
 from tests import shipped
 

@@ -11,7 +11,7 @@ import earthspin
 from earthspin import EARTH, cli
 from earthspin.engine.neglected import largest_of
 from earthspin.scenes import QUESTIONS
-from earthspin.views.closing import closing_line
+from earthspin.views.reading import closing_line
 from tests import shipped
 
 

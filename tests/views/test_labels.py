@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.text import Annotation, Text
 from matplotlib.transforms import Bbox
 
+from earthspin.views.answers import drawings_for
 from earthspin.views.drawing import BLUE, CYCLE, axes, empty, style
-from earthspin.views.iau import plot_pole_residuals
-from earthspin.views.of_question import drawings_for
+from earthspin.views.pole import plot_pole_residuals
 from earthspin.views.precession import plot_pole_circle
 from tests import shipped
 

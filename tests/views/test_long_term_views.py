@@ -15,7 +15,7 @@ from matplotlib.transforms import Bbox
 import earthspin
 from earthspin.errors import UndefinedError
 from earthspin.views import long_term, precession
-from earthspin.views.of_question import drawings_for, tables_for
+from earthspin.views.answers import drawings_for, tables_for
 from earthspin.views.stars import STARS, on_the_chart, star_vectors, year_words
 from tests import shipped
 

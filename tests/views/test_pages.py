@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 import earthspin
 from earthspin.scenes import QUESTIONS, shipped_scenes
-from earthspin.views.of_question import (
+from earthspin.views.answers import (
     ERRORS,
     PAGES,
     drawings_for,
@@ -19,8 +19,8 @@ from earthspin.views.of_question import (
     solids_for,
     tables_for,
 )
+from earthspin.views.page import typeset
 from earthspin.views.report import write_report
-from earthspin.views.typeset import typeset
 from tests import shipped
 
 

@@ -12,17 +12,18 @@ import pytest
 from earthspin import EARTH
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.errors import UndefinedError
-from earthspin.interior.anelastic import anelastic_strain
+from earthspin.interior.layers import PREM
 from earthspin.interior.love import softening
-from earthspin.interior.prem import PREM
+from earthspin.interior.ocean_and_anelasticity import anelastic_strain
 from earthspin.numerics.quaternion import rotate
 from earthspin.rotor.triaxial import free_rotation
 from earthspin.scenes import run
+from earthspin.top.azimuth import mean_precession_rate
+from earthspin.top.height import nutation_period, turning_angles
 from earthspin.top.motion import heavy_top_motion
 from earthspin.top.start import HeavyTop
-from earthspin.top.turning import mean_precession_rate, nutation_period, turning_angles
 from earthspin.torque.average import precessing_torque
-from earthspin.torque.quadrupole import quadrupole_torque, tidal_tensor
+from earthspin.torque.gravity import quadrupole_torque, tidal_tensor
 from earthspin.torque.rates import precession_rate
 from earthspin.views.page import source
 from earthspin.views.play import PLAYS, play_page

@@ -8,9 +8,9 @@ import xarray as xr
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import earthspin
-from earthspin.views import iau as of_iau
+from earthspin.views import pole as of_iau
 from earthspin.views import pole as of_pole
-from earthspin.views.of_question import tables_for
+from earthspin.views.answers import tables_for
 from tests import shipped
 
 

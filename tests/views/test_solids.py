@@ -8,7 +8,7 @@ import xarray as xr
 
 import earthspin
 from earthspin.rotor.axisymmetric import SymmetricRotor
-from earthspin.views import free_rotor, report, solids
+from earthspin.views import report, rotors, solids
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +38,7 @@ def test_the_polhode_lies_on_both_ellipsoids(poinsot: xr.DataTree) -> None:
 
 def test_a_polhode_crosses_the_sphere_of_its_mean_speed(poinsot: xr.DataTree) -> None:
     """I.5.4: the speed varies, by what energy and momentum allow, so no sphere holds the curve."""
-    solid = free_rotor.polhode_with_sphere(poinsot)
+    solid = rotors.polhode_with_sphere(poinsot)
     sphere, curve = (np.asarray(item["points"]).reshape(-1, 3) for item in solid.items[1:3])
     radius = np.linalg.norm(sphere, axis=1)
     assert np.ptp(radius) < 1e-12 * radius[0]
@@ -49,7 +49,7 @@ def test_a_polhode_crosses_the_sphere_of_its_mean_speed(poinsot: xr.DataTree) ->
 
 def test_the_rolling_ellipsoid_touches_the_plane(poinsot: xr.DataTree) -> None:
     """At every time the highest point of the ellipsoid is the tip of omega, on the plane."""
-    solid = free_rotor.rolling_ellipsoid(poinsot)
+    solid = rotors.rolling_ellipsoid(poinsot)
     height = float(poinsot["poinsot"].invariable_plane_distance)
     track = next(i["track"] for i in solid.items if i["kind"] == "arrow" and "track" in i)
     assert np.allclose(track[:, 2], height, rtol=8e-15, atol=0)

@@ -1,7 +1,5 @@
 """Tables: numbers written with as many digits as they have."""
 
-from importlib import import_module
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -10,10 +8,19 @@ import earthspin
 from earthspin import EARTH
 from earthspin.questions.precession import Rates
 from earthspin.scenes import QUESTIONS
-from earthspin.views.of_question import drawings_for, scene_page, tables_for, what_ran
+from earthspin.views.answers import VIEWS, drawings_for, scene_page, tables_for, what_ran
+from earthspin.views.drawing import Views
 from earthspin.views.reading import answer_of, needed
-from earthspin.views.table import label, quantities, table_along, with_error
-from earthspin.views.tables import MOST_ROWS, SAMPLE, tables, tables_of
+from earthspin.views.tables import (
+    MOST_ROWS,
+    SAMPLE,
+    label,
+    quantities,
+    table_along,
+    tables,
+    tables_of,
+    with_error,
+)
 from tests import shipped
 
 
@@ -128,10 +135,9 @@ def test_a_view_reads_declared_labels_and_leaves_the_answer_as_it_is(
 @pytest.mark.parametrize("word", QUESTIONS)
 def test_views_need_sections_of_their_question(word: str) -> None:
     sections = QUESTIONS[word].graph.sections
-    views = import_module(f"earthspin.views.{QUESTIONS[word].views}")
-    figures = getattr(views, "FIGURES", ())
-    needed = {name for figure in figures for name in (figure.section, *figure.uses)}
-    for names, _ in (*getattr(views, "TABLES", ()), *getattr(views, "SOLIDS", ())):
+    views = VIEWS.get(word, Views())
+    needed = {name for figure in views.figures for name in (figure.section, *figure.uses)}
+    for names in [names for names, _ in views.tables] + [names for names, _ in views.solids]:
         needed |= set(names.split())
     assert needed - {""} <= set(sections)
 

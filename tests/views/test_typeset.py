@@ -5,8 +5,7 @@ from itertools import product
 
 import pytest
 
-from earthspin.views.page import source
-from earthspin.views.typeset import anchor, figure_on_page, typeset
+from earthspin.views.page import anchor, figure_on_page, source, typeset
 
 SHEET = source("page.css")
 

@@ -9,8 +9,8 @@ import xarray as xr
 import earthspin
 from earthspin.cli import main
 from earthspin.constants import MAS
-from earthspin.views import polar_motion, wobble
-from earthspin.views.of_question import tables_for
+from earthspin.views import observed_pole, wobble
+from earthspin.views.answers import tables_for
 
 SPAN = ("1962-01-01", "2026-09-29")
 
@@ -41,7 +41,7 @@ def test_the_observed_polhode_is_drawn_as_published(pole: xr.DataTree) -> None:
     from astropy.utils.iers import IERS_B
 
     table = IERS_B.open()
-    ax = polar_motion.plot_polhode(pole, years=None)
+    ax = observed_pole.plot_polhode(pole, years=None)
     y, x = ax.lines[0].get_data()
     first = table["MJD"].value >= 37665
     np.testing.assert_allclose(x, table["PM_x"].to_value("mas")[first][: x.size], rtol=0, atol=1e-9)
@@ -65,7 +65,7 @@ def test_ladder_figure(ladder: xr.DataTree) -> None:
 
 
 def test_polhode_of_the_last_six_years(pole: xr.DataTree) -> None:
-    ax = polar_motion.plot_polhode(pole)
+    ax = observed_pole.plot_polhode(pole)
     y, x = ax.lines[0].get_data()
     assert len(x) == pytest.approx(6 * 365.25, abs=2)
     assert x[-1] == pytest.approx(float(pole.x[-1]) * 1e3, rel=1e-15, abs=0)
@@ -76,12 +76,14 @@ def test_polhode_of_the_last_six_years(pole: xr.DataTree) -> None:
     ax.figure.draw_without_rendering()
     metres = float(pole.polar_radius) * MAS
     assert far.get_xlim()[1] == pytest.approx(ax.get_xlim()[1] * metres, rel=1e-14, abs=0)
-    whole = polar_motion.plot_polhode(pole.to_dataset().sel(time=slice("1990", "1995")), years=None)
+    whole = observed_pole.plot_polhode(
+        pole.to_dataset().sel(time=slice("1990", "1995")), years=None
+    )
     assert len(whole.lines[0].get_xdata()) == 6 * 365 + 1
 
 
 def test_spectra_peak_at_the_free_wobble(pole: xr.DataTree) -> None:
-    ax = polar_motion.plot_spectra(pole)
+    ax = observed_pole.plot_spectra(pole)
     prograde, retrograde = (line.get_data() for line in ax.lines[:2])
     at = prograde[0][np.argmax(prograde[1])]
     assert 365.25 / at == pytest.approx(433, abs=4)
@@ -91,9 +93,9 @@ def test_spectra_peak_at_the_free_wobble(pole: xr.DataTree) -> None:
 def test_amplitude_figure_takes_either_layout(pole: xr.DataTree) -> None:
     fit = earthspin.fit_chandler(pole.to_dataset())
     for result in (pole, fit):
-        ax = polar_motion.plot_amplitude(result)
+        ax = observed_pole.plot_amplitude(result)
         assert np.array_equal(ax.lines[0].get_ydata(), fit.chandler_amplitude)
-        assert len(polar_motion.plot_phase(result).lines) == 2
+        assert len(observed_pole.plot_phase(result).lines) == 2
 
 
 def test_report(tmp_path: Path) -> None:

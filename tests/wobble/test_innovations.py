@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from earthspin.wobble import forecast
-from earthspin.wobble.innovations import ORDER, Autoregression, forecast_covariance
+from earthspin.wobble.forecast import ORDER, Autoregression, forecast_covariance
 from earthspin.wobble.state_space import Filter
 
 NONE = np.zeros((2, 2))

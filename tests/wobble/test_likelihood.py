@@ -9,11 +9,10 @@ from scipy.linalg import expm, solve_continuous_lyapunov, toeplitz
 
 import earthspin
 from earthspin import SceneError
-from earthspin.views.polar_motion import plot_modelled
-from earthspin.wobble import driven, likelihood, record, resonance
+from earthspin.views.observed_pole import plot_modelled
+from earthspin.wobble import excitation, observed, record
 from earthspin.wobble.observed import fit, fit_with_excitation
-from earthspin.wobble.oscillator import DrivenOscillator
-from earthspin.wobble.state_space import side_by_side
+from earthspin.wobble.state_space import DrivenOscillator, side_by_side
 from tests.reference import simulation
 
 MIDDLE, TAU = 2 * np.pi / record.NEAR, 500.0
@@ -55,7 +54,7 @@ def test_against_the_full_covariance(
     rate: float, log_decay: float, log_red: float, log_background: float, log_white: float
 ) -> None:
     """Five diagonals against the whole matrix, real and imaginary parts as numbers of their own."""
-    one = likelihood.Likelihood(*simulation.simulate(30, seed=5))
+    one = observed.Likelihood(*simulation.simulate(30, seed=5))
     data = one.data(0j)
     free = 1j * (MIDDLE + rate) - np.exp(log_decay)
     flat = abs(1j * free.imag + 1 / TAU) ** 2 / abs(free) ** 2
@@ -85,7 +84,7 @@ TOLERANCE = 2e-13
 
 def test_samples_have_the_covariance_of_the_state() -> None:
     """Variance of p and its change in 30 days, of a quick oscillator, within four errors."""
-    s = resonance.chandler_frequency(433.0, 5.0)
+    s = excitation.chandler_frequency(433.0, 5.0)
     oscillator = DrivenOscillator(s, TAU, white=3.0, red=400.0, background=50.0)
     of = covariance(1j * s, 3.0, 400.0, 50.0)
     p = oscillator.sampled(40_000, 30.0, np.random.default_rng(7))
@@ -99,7 +98,7 @@ def test_samples_have_the_covariance_of_the_state() -> None:
 
 def best_period(given: tuple[np.ndarray, np.ndarray]) -> float:
     """Where the likelihood is largest, without the ends of its interval."""
-    at, _ = likelihood.lowest(likelihood.Likelihood(*given))
+    at, _ = observed.lowest(observed.Likelihood(*given))
     return float(2 * np.pi / (MIDDLE + at[0]))
 
 
@@ -119,7 +118,7 @@ def test_red_excitation_biases_no_period() -> None:
 @pytest.mark.parametrize("memory", [100.0, 500.0, 1826.0])
 def test_size_of_the_red_excitation(memory: float) -> None:
     """Spectral densities of the two excitations at the free frequency, by hand."""
-    s = resonance.chandler_frequency(433.0, 100.0)
+    s = excitation.chandler_frequency(433.0, 100.0)
     size = simulation.red_size(433.0, 100.0, 0.3, memory)
     white = 2 * s.imag * 128**2 / abs(s) ** 2
     red = 2 * memory * size**2 / (1 + (s.real * memory) ** 2)
@@ -151,8 +150,8 @@ def driven_pole(
     generator = np.random.default_rng(seed)
     days = np.arange(0.0, years * 365.25, 2.0)
     chi, rest = generator.standard_normal((2, days.size - 1, 2)) @ [1, 1j]
-    s = resonance.chandler_frequency(period, q)
-    p = resonance.polar_motion_from(40 * chi + left * rest, 2.0, s, 100 - 60j)
+    s = excitation.chandler_frequency(period, q)
+    p = excitation.polar_motion_from(40 * chi + left * rest, 2.0, s, 100 - 60j)
     p += 94 * record.turning(days, record.YEAR) + 30 - 300j
     return days, p, 40 * chi
 
@@ -178,8 +177,8 @@ def test_a_known_excitation_sharpens_the_fit() -> None:
 def test_the_start_is_found() -> None:
     """Exactly, where all of the excitation is known; drift and seasons stay out of it."""
     days, p, chi = driven_pole(431.0, 90.0, 0.0, 1)
-    s = resonance.chandler_frequency(431.0, 90.0)
-    assert driven.fitted_start(days, p, chi, s) == pytest.approx(100 - 60j, rel=1e-10, abs=0)
+    s = excitation.chandler_frequency(431.0, 90.0)
+    assert excitation.fitted_start(days, p, chi, s) == pytest.approx(100 - 60j, rel=1e-10, abs=0)
 
 
 @pytest.fixture(scope="module")
@@ -188,8 +187,8 @@ def synthetic() -> tuple[xr.Dataset, xr.Dataset]:
     generator = np.random.default_rng(3)
     count = 60 * 365
     chi, rest = generator.standard_normal((2, count, 2)) @ [1, 1j]
-    s = resonance.chandler_frequency(431.0, 90.0)
-    p = resonance.polar_motion_from(30 * chi + 6 * rest, 1.0, s, 100 - 60j)
+    s = excitation.chandler_frequency(431.0, 90.0)
+    p = excitation.polar_motion_from(30 * chi + 6 * rest, 1.0, s, 100 - 60j)
     midnights = np.datetime64("1962-01-01", "ns") + np.arange(count + 1) * np.timedelta64(1, "D")
     noons = midnights[:-1] + np.timedelta64(12, "h")
     pole = xr.Dataset({"x": ("time", p.real / 1e3), "y": ("time", -p.imag / 1e3)})
@@ -259,5 +258,5 @@ def test_the_end_of_an_interval_if_a_search_at_the_best_value_fails() -> None:
     def profile(value: float) -> float:
         return abs(value) if value else 5.0
 
-    assert abs(likelihood._risen(profile, 0.0, 4.0, reach=8.0, target=1.96) - 1.96) < 0.1
-    assert likelihood._risen(profile, 0.0, -1.0, reach=8.0, target=1.96) == -1.0
+    assert abs(observed._risen(profile, 0.0, 4.0, reach=8.0, target=1.96) - 1.96) < 0.1
+    assert observed._risen(profile, 0.0, -1.0, reach=8.0, target=1.96) == -1.0

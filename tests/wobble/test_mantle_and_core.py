@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 
 from earthspin.errors import UndefinedError
 from earthspin.interior.equilibrium import figure
+from earthspin.interior.layers import PREM
 from earthspin.interior.love import yielding
 from earthspin.interior.modes import all_fluid, free_modes, parts_of
-from earthspin.interior.prem import PREM
-from earthspin.wobble.mantle_and_core import Core, Mantle, solve
+from earthspin.wobble.ladder import Core, Mantle, solve
 
 
 def eigenvalues(mantle: Mantle, core: Core) -> np.ndarray:

@@ -11,11 +11,11 @@ from scipy.optimize import brentq
 import earthspin
 from earthspin import EARTH
 from earthspin.interior.equilibrium import figure
+from earthspin.interior.layers import PREM
 from earthspin.interior.love import elastic
 from earthspin.interior.modes import all_fluid, free_modes, parts_of
 from earthspin.interior.named import INTERIORS
-from earthspin.interior.prem import PREM
-from earthspin.mass.inertia import ellipticity_from_h
+from earthspin.mass.figure import ellipticity_from_h
 from tests import shipped
 
 #: k21 of an elastic Earth, IERS Conventions (2010), table 6.3.

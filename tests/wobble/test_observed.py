@@ -14,7 +14,8 @@ import earthspin
 from earthspin import SceneError, UndefinedError
 from earthspin.constants import ARCSEC, DAY, MAS, TROPICAL_YEAR
 from earthspin.sky.eop import read_polar_motion
-from earthspin.wobble import burg, envelope, observed, record, spectrum
+from earthspin.wobble import observed, record
+from earthspin.wobble.state_space import burg
 from tests.conftest import load_pins
 from tests.reference import simulation
 
@@ -49,14 +50,14 @@ def test_burg_finds_an_autoregressive_process(seed: int, size: float, turn: floa
     pole = size * np.exp(1j * turn)
     kicks = np.random.default_rng(seed).standard_normal((4000, 2)) @ [1, 1j]
     x = lfilter([1], [1, -pole], kicks)[1000:]
-    found = -burg.burg(x, 1)[1]
+    found = -burg(x, 1)[1]
     assert abs(found - pole) < 5 * np.sqrt((1 - size**2) / x.size) + 1e-3
 
 
 def test_burg_is_exact_on_sinusoids() -> None:
     t = np.arange(500)
     x = np.exp(0.3j * t) + 0.5 * np.exp(-1.1j * t)
-    poles = np.roots(burg.burg(x, 2))
+    poles = np.roots(burg(x, 2))
     assert np.allclose(np.sort(np.angle(poles)), [-1.1, 0.3], rtol=0, atol=2e-3)
 
 
@@ -100,7 +101,7 @@ def test_envelope_of_steady_wobbles() -> None:
     t = np.arange(0.0, 9000.0)
     p = 30 - 200j + 0.01 * t + 150 * np.exp(1j * (2 * np.pi * t / 433 + 0.7))
     p = p + 90 * np.exp(2j * np.pi * t / record.YEAR) + 5 * np.exp(-2j * np.pi * t / record.YEAR)
-    seen = envelope.envelope(t, p, 433.0)
+    seen = record.envelope(t, p, 433.0)
     assert np.allclose(abs(seen.chandler), 150, rtol=2e-5, atol=0)
     assert np.allclose(np.angle(seen.chandler), 0.7, rtol=0, atol=1e-5)
     assert np.allclose(abs(seen.annual), 90, rtol=2e-5, atol=0)
@@ -112,7 +113,7 @@ def test_wide_steps_keep_the_amplitude(step: float) -> None:
     """Samples of old tables are no means over thirty days."""
     t = np.arange(0.0, 20000.0, step)
     p = 150 * np.exp(2j * np.pi * t / 433) + 90 * np.exp(2j * np.pi * t / record.YEAR)
-    seen = envelope.envelope(t, p, 433.0)
+    seen = record.envelope(t, p, 433.0)
     assert np.allclose(abs(seen.chandler), 150, rtol=1e-12, atol=0)
     assert np.allclose(abs(seen.annual), 90, rtol=1e-12, atol=0)
 
@@ -124,14 +125,14 @@ def test_errors_of_the_amplitude_cover_it() -> None:
     for seed in range(12):
         kicks = np.random.default_rng(seed).standard_normal((t.size, 2)) @ [1, 1j]
         noise = 15 * np.sqrt(1 - 0.8**2) * lfilter([1], [1, -0.8], kicks) / np.sqrt(2)
-        seen = envelope.envelope(t, 100 * np.exp(2j * np.pi * t / 433) + noise, 433.0)
+        seen = record.envelope(t, 100 * np.exp(2j * np.pi * t / 433) + noise, 433.0)
         inside.append(abs(abs(seen.chandler) - 100) < seen.error)
     assert 0.88 < np.mean(inside) < 0.995
 
 
 def test_spectrum_tells_the_sense_of_rotation() -> None:
     t = np.arange(0.0, 20000.0)
-    frequency, amplitude = spectrum.spectrum(t, 100 * np.exp(2j * np.pi * t / 433))
+    frequency, amplitude = record.spectrum(t, 100 * np.exp(2j * np.pi * t / 433))
     at = np.argmax(amplitude)
     assert frequency[at] * 365.25 == pytest.approx(365.25 / 433, abs=0.01)
     assert amplitude[at] == pytest.approx(100, rel=0.01, abs=0)
@@ -163,14 +164,14 @@ def test_a_short_span_may_leave_the_quality_factor_open(
 
 @pytest.mark.parametrize("year", [1965, 1986, 1992, 2001, 2010, 2015, 2018, 2020])
 def test_amplitudes(c04: tuple[np.ndarray, np.ndarray], year: int) -> None:
-    seen = envelope.envelope(*c04, 432.5)
+    seen = record.envelope(*c04, 432.5)
     when = 2000 + seen.time / 365.25
     at = np.argmin(abs(when - max(year, when[0])))
     PINS[f"amplitude {year}"].check(abs(seen.chandler[at]))
 
 
 def test_the_fall_of_2018_and_the_return(c04: tuple[np.ndarray, np.ndarray]) -> None:
-    seen = envelope.envelope(*c04, 432.5)
+    seen = record.envelope(*c04, 432.5)
     size, when = abs(seen.chandler), 2000 + seen.time / 365.25
     assert 2017 < when[size.argmin()] < 2019
     assert size.min() == pytest.approx(14, abs=3)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from earthspin import UndefinedError
-from earthspin.wobble import observed, presence, record
+from earthspin.wobble import observed, record
 from tests.reference import simulation
 
 DAYS = np.arange(0.0, 65 * 365.25, 10.0)
@@ -52,7 +52,7 @@ def test_noise_passes_once_in_a_hundred(years: float, walks: bool) -> None:
     for seed in range(200):
         p = noise(seed, days.size)
         try:
-            presence.need_wobble(days, np.cumsum(p) if walks else p)
+            observed.need_wobble(days, np.cumsum(p) if walks else p)
             passed += 1
         except UndefinedError:
             pass
@@ -63,4 +63,4 @@ def test_noise_passes_once_in_a_hundred(years: float, walks: bool) -> None:
 def test_a_wobble_is_seen(years: float) -> None:
     """Of the usual size all of sixty, measured; of a tenth of it most."""
     for seed in range(30):
-        presence.need_wobble(*simulation.simulate(years, seed=seed))
+        observed.need_wobble(*simulation.simulate(years, seed=seed))

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from earthspin import UndefinedError
-from earthspin.wobble import resonance as ex
+from earthspin.wobble import excitation as ex
 
 S = ex.chandler_frequency(433.0, 100.0)
 DAYS = 60 * 365

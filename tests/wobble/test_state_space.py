@@ -9,10 +9,11 @@ import pytest
 from scipy.stats import binomtest, multivariate_normal
 
 from earthspin.constants import MAS, NORMAL_95
+from earthspin.numerics.arrays import FloatArray
 from earthspin.sky import eop
 from earthspin.wobble import forecast
 from earthspin.wobble.forecast import FastExcitation
-from earthspin.wobble.state_space import Array, Filter, StateSpace
+from earthspin.wobble.state_space import Filter, StateSpace
 
 COUNT = 40
 
@@ -26,7 +27,7 @@ def small() -> StateSpace:
     return StateSpace.sampled(rates, density, observed, 0.04 * np.eye(2), np.eye(4))
 
 
-def joint(model: StateSpace, count: int) -> Array:
+def joint(model: StateSpace, count: int) -> FloatArray:
     """Covariance of so many observations, written out without a filter."""
     states = [model.start]
     for _ in range(count - 1):
@@ -43,7 +44,7 @@ def joint(model: StateSpace, count: int) -> Array:
     return whole
 
 
-def draw(model: StateSpace, count: int, seed: int) -> Array:
+def draw(model: StateSpace, count: int, seed: int) -> FloatArray:
     """Observations drawn step by step."""
     generator = np.random.default_rng(seed)
     state = generator.multivariate_normal(np.zeros(len(model.start)), model.start)

@@ -9,10 +9,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from earthspin.constants import G
-from earthspin.mass.distribution import centre_of_mass
-from earthspin.mass.maccullagh import maccullagh_potential
+from earthspin.mass.figure import maccullagh_potential
 from earthspin.mass.multipoles import inverse_distance, inverse_distance_bound
-from earthspin.mass.tensor import inertia_tensor
+from earthspin.mass.tensor import centre_of_mass, inertia_tensor
 
 # %%
 # Series of the inverse distance

@@ -8,10 +8,14 @@ The inertia tensor of point masses: its value about any axis, and the axes that 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from earthspin.mass.distribution import centre_of_mass, grid_masses
-from earthspin.mass.principal_axes import principal_axes
 from earthspin.mass.rings import ring_positions
-from earthspin.mass.tensor import inertia_tensor, moment_about_axis
+from earthspin.mass.tensor import (
+    centre_of_mass,
+    grid_masses,
+    inertia_tensor,
+    moment_about_axis,
+    principal_axes,
+)
 
 # %%
 # Moment of inertia about any axis

@@ -9,8 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from earthspin.constants import G
-from earthspin.mass.figure import spheroid_moments
-from earthspin.mass.maccullagh import maccullagh_potential_axisymmetric
+from earthspin.mass.figure import maccullagh_potential_axisymmetric, spheroid_moments
 from earthspin.mass.rings import ellipse_positions, ellipse_torque, torque_on_masses
 from earthspin.mass.spheroid import spheroid_potential
 

@@ -8,7 +8,7 @@ Which part of the Earth changes the nutation by how much.
 import matplotlib.pyplot as plt
 
 import earthspin
-from earthspin.views.nutation import plot_nutation_ladder, plot_transfer
+from earthspin.views.pole import plot_nutation_ladder, plot_transfer
 
 # %%
 # From a rigid Earth to half a milliarcsecond

@@ -8,7 +8,7 @@ What IAU 2006/2000A does not contain: the free core nutation.
 import matplotlib.pyplot as plt
 
 import earthspin
-from earthspin.views.pole_offsets import plot_core_nutation, plot_offsets
+from earthspin.views.observed_pole import plot_core_nutation, plot_offsets
 
 # %%
 # Celestial pole offsets since 1984

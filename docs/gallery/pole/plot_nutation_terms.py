@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import earthspin
-from earthspin.views.iau import plot_nutation_ratio
+from earthspin.views.pole import plot_nutation_ratio
 
 # %%
 # Largest terms of nutation

@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import earthspin
-from earthspin.views.iau import plot_budget
+from earthspin.views.pole import plot_budget
 
 # %%
 # Contributions to the rate of precession

@@ -10,12 +10,12 @@ import numpy as np
 
 import earthspin
 from earthspin import EARTH, MARS
-from earthspin.bodies import BODIES, giants, inner, mars, mean_orbits, moon, moons, proper
+from earthspin.bodies import BODIES, earth_moon_sun, giants, inner, moons, planets, proper
 from earthspin.constants import PSI_A_RATE
 from earthspin.sky.poles import FixedPole
 from earthspin.torque.cassini import strengths
 from earthspin.views.drawing import note
-from earthspin.views.table import measured
+from earthspin.views.tables import measured
 
 # %%
 # Earth, Earth without Moon, and Mars
@@ -81,7 +81,7 @@ ax.legend()
 # none was measured.
 
 published = {
-    "venus": inner.VENUS_PRECESSION, "earth": PSI_A_RATE, "mars": mars.PRECESSION,
+    "venus": inner.VENUS_PRECESSION, "earth": PSI_A_RATE, "mars": inner.MARS_PRECESSION,
     "jupiter": giants.JUPITER_CONSTANT, "saturn": giants.SATURN_CONSTANT,
 }  # fmt: skip
 
@@ -114,7 +114,7 @@ ax.set(xlabel="one turn of precession (years)", xlim=(1.5e4, 2e7), ylim=(4.6, -0
 # measured.
 
 observed = {
-    "moon": moon.OBLIQUITY.value, "titan": moons.TITAN_OBLIQUITY.value,
+    "moon": earth_moon_sun.MOON_OBLIQUITY.value, "titan": moons.TITAN_OBLIQUITY.value,
     "mercury": inner.MERCURY_OBLIQUITY.value / 60, "phobos": None,
 }  # fmt: skip
 
@@ -122,7 +122,7 @@ fig, ax = plt.subplots()
 for often in np.geomspace(0.05, 0.97, 200), np.geomspace(1.03, 5000, 500):
     ax.plot(often, 1 / np.abs(often - 1), "0.7")
 for name, seen in observed.items():
-    body, orbit = BODIES[name], mean_orbits.PRECESSING_ORBITS[name]
+    body, orbit = BODIES[name], planets.PRECESSING_ORBITS[name]
     motion, polar = 2 * np.pi / orbit.period, body.j2 / body.dynamical_flattening
     all_of_it = (motion, body.spin_rate, body.j2, body.triaxiality / 4, polar, orbit.e)
     axial, locked = strengths(*all_of_it)

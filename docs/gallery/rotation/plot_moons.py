@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 import earthspin
 from earthspin.bodies import PHOBOS
-from earthspin.mass.inertia import homogeneous_ellipsoid
+from earthspin.mass.figure import homogeneous_ellipsoid
 
 # %%
 # Libration of Phobos

@@ -10,8 +10,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import earthspin
+from earthspin.top.height import effective_potential, turning_angles
 from earthspin.top.start import HeavyTop
-from earthspin.top.turning import effective_potential, turning_angles
 
 # %%
 # The effective potential

@@ -8,8 +8,8 @@ Two rates of steady precession at each inclination, and the spin below which an 
 import matplotlib.pyplot as plt
 import numpy as np
 
+from earthspin.top.patterns import minimum_spin, sleeping_top, steady_precession
 from earthspin.top.start import HeavyTop
-from earthspin.top.steady import minimum_spin, sleeping_top, steady_precession
 
 # %%
 # Two rates of steady precession

@@ -11,7 +11,7 @@ import numpy as np
 import earthspin
 from earthspin import EARTH, MOON, SUN
 from earthspin.constants import G
-from earthspin.mass.inertia import moment_difference
+from earthspin.mass.figure import moment_difference
 from earthspin.views.torque import plot_declination, plot_torque
 
 # %%

@@ -8,7 +8,7 @@ A forecast over a year with its errors, beside the pole that was observed later.
 import matplotlib.pyplot as plt
 
 import earthspin
-from earthspin.views.forecast import plot_coordinates, plot_path, plot_skill
+from earthspin.views.observed_pole import plot_coordinates, plot_path, plot_skill
 
 # %%
 # Coordinates of the pole, with error bands

@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import earthspin
-from earthspin.views.polar_motion import plot_amplitude, plot_polhode, plot_spectra
+from earthspin.views.observed_pole import plot_amplitude, plot_polhode, plot_spectra
 
 # %%
 # Path of the pole on the ground

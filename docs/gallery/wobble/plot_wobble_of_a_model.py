@@ -12,10 +12,9 @@ import numpy as np
 
 import earthspin
 from earthspin.interior.equilibrium import equilibrium
+from earthspin.interior.layers import PREM
 from earthspin.interior.love import elastic
-from earthspin.interior.prem import PREM
-from earthspin.views.love_numbers import plot_by_period
-from earthspin.views.wobble import plot_ladder
+from earthspin.views.wobble import plot_by_period, plot_ladder
 
 # %%
 # From the rigid to the deformable Earth

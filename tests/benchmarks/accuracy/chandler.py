@@ -6,8 +6,9 @@ from functools import cache, partial
 import numpy as np
 
 from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.wobble.observed import fit
-from earthspin.wobble.record import BAND, Array, Complex
+from earthspin.wobble.record import BAND
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.simulation import simulate
 
@@ -52,12 +53,14 @@ def best_scatter(years: float) -> float:
 
 
 @cache
-def record(years: float, seed: int) -> tuple[Array, Complex]:
+def record(years: float, seed: int) -> tuple[FloatArray, ComplexArray]:
     """Simulate polar motion with a known free wobble; return the times (d) and the pole (mas)."""
     return simulate(years, PERIOD, QUALITY, seed=seed)
 
 
-def _period(estimate: Callable[[Array, Complex], float]) -> Callable[..., tuple[float, int]]:
+def _period(
+    estimate: Callable[[FloatArray, ComplexArray], float],
+) -> Callable[..., tuple[float, int]]:
     def run(years: float, case: int = 0) -> tuple[float, int]:
         time, p = record(years, case)
         return estimate(time, p), time.size
@@ -65,14 +68,14 @@ def _period(estimate: Callable[[Array, Complex], float]) -> Callable[..., tuple[
     return run
 
 
-def _by_fit(name: str, time: Array, p: Complex) -> float:
+def _by_fit(name: str, time: FloatArray, p: ComplexArray) -> float:
     try:
         return fit(time, p, name).period
     except UndefinedError:
         return PERIOD + NOTHING_FOUND
 
 
-def _peak(time: Array, p: Complex) -> float:
+def _peak(time: FloatArray, p: ComplexArray) -> float:
     """Period of the highest peak in the spectrum of polar motion, near the wobble, d."""
     p = p - np.polyval(np.polyfit(time, p, 1), time)
     frequency = np.fft.fftfreq(time.size, time[1] - time[0])

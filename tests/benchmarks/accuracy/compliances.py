@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from scipy.linalg import expm
 
 from earthspin.constants import G
+from earthspin.interior.layers import PREM
 from earthspin.interior.love import yielding
-from earthspin.interior.prem import PREM
-from earthspin.numerics.collocation import carry as collocation
+from earthspin.numerics.polynomials import carry as collocation
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.stepping import integrate
 from tests.reference.stored import load

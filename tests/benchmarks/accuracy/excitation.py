@@ -11,9 +11,8 @@ every series, so that they are constant within each interval.
 
 import numpy as np
 
-from earthspin.numerics.arrays import FloatArray
-from earthspin.wobble.record import Complex
-from earthspin.wobble.resonance import FROM_EXCITATION, TO_EXCITATION, chandler_frequency
+from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.wobble.excitation import FROM_EXCITATION, TO_EXCITATION, chandler_frequency
 from tests.benchmarks.accuracy.ladder import Ladder, Run
 
 #: Period (d) and quality factor of the free wobble, and length of the series (d).
@@ -72,7 +71,7 @@ def _ladder(
     )
 
 
-def true_polar_motion(t: FloatArray) -> Complex:
+def true_polar_motion(t: FloatArray) -> ComplexArray:
     """Exact polar motion at times in d, mas."""
     s = FREQUENCY
     p = START * np.exp(1j * s * t)
@@ -84,7 +83,7 @@ def true_polar_motion(t: FloatArray) -> Complex:
     return np.asarray(p)
 
 
-def true_mean(begin: FloatArray, length: float) -> Complex:
+def true_mean(begin: FloatArray, length: float) -> ComplexArray:
     """Exact mean excitation over successive equal intervals, mas."""
     middle = begin + length / 2
     chi = np.zeros(begin.shape, dtype=complex)

@@ -6,15 +6,15 @@ from functools import cache, partial
 import numpy as np
 
 from earthspin.constants import MAS
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.sky.eop import read_polar_motion
-from earthspin.wobble.burg import burg
 from earthspin.wobble.forecast import OBSERVATION, PERIOD, SHIPPED, FastExcitation, fit, forecast
-from earthspin.wobble.record import YEAR, Complex
+from earthspin.wobble.record import YEAR
+from earthspin.wobble.state_space import burg
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 
 #: Function that returns a forecast, of a record (x - i y, mas), the days ahead and the years used.
-Predictor = Callable[[Complex, int, float], Complex]
+Predictor = Callable[[ComplexArray, int, float], ComplexArray]
 
 #: Bounds on the mean absolute error of the last setting of this package by days ahead, mas: 1.5
 #: times the errors measured for 2014 to 2025 with many origins.
@@ -64,7 +64,7 @@ def ladder(days: int) -> Ladder:
 
 
 @cache
-def observed() -> tuple[Complex, np.ndarray]:
+def observed() -> tuple[ComplexArray, np.ndarray]:
     """Observed pole x - i y of IERS C04, mas, and the row numbers at which forecasts begin."""
     table = read_polar_motion("c04")
     ends = np.searchsorted(table.mjd, FIRST + EVERY * np.arange(ORIGINS)) + 1
@@ -78,11 +78,11 @@ def _fitted() -> FastExcitation:
     return fit(p[: ends[0]])
 
 
-def _ours(fast: FastExcitation, p: Complex, days: int, years: float) -> Complex:
+def _ours(fast: FastExcitation, p: ComplexArray, days: int, years: float) -> ComplexArray:
     return forecast(p, days, fast, round(years * YEAR)).pole
 
 
-def usual(p: Complex, days: int, years: float) -> Complex:
+def usual(p: ComplexArray, days: int, years: float) -> ComplexArray:
     """Predict polar motion by a common method: least squares and autoregression of the residual.
 
     The fit has a free wobble, annual and semiannual circles, a constant and a trend.
@@ -100,5 +100,5 @@ def usual(p: Complex, days: int, years: float) -> Complex:
     return np.asarray(future @ fitted + np.array(residual[count:]))
 
 
-def _last_value(p: Complex, days: int, years: float) -> Complex:
+def _last_value(p: ComplexArray, days: int, years: float) -> ComplexArray:
     return np.full(days, p[-1])

@@ -13,8 +13,7 @@ from earthspin.bodies import MOON
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, JULIAN_YEAR
 from earthspin.numerics.arrays import FloatArray
 from earthspin.secular import trajectory
-from earthspin.secular.orbit import pull
-from earthspin.secular.strength import Strength, Tides
+from earthspin.secular.orbit import Strength, Tides, pull
 from earthspin.sky.orbit_table import OrbitTable, shipped
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.sky import BODY, SPIN

@@ -11,9 +11,14 @@ import numpy as np
 from earthspin.constants import DAY
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.elements import Ellipse
-from earthspin.torque.average import Window, precessing_torque
+from earthspin.torque.average import (
+    Window,
+    mean_square_of_normal,
+    mean_tide,
+    mean_torque,
+    precessing_torque,
+)
 from earthspin.torque.gravity import torque_from_position
-from earthspin.torque.mean_orbit import mean_square_of_normal, mean_tide, mean_torque
 from tests.benchmarks.accuracy.elements import ELEMENTS, ORBIT, PLANE
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.stored import load

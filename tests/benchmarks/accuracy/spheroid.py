@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 from numpy.polynomial import legendre
 
-from earthspin.mass.maccullagh import maccullagh_torque
+from earthspin.mass.figure import maccullagh_torque
+from earthspin.mass.multipoles import spheroid_zonals
 from earthspin.mass.spheroid import spheroid_attraction, spheroid_torque
-from earthspin.mass.zonal import spheroid_zonals
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.double_double import DoubleDouble
 from tests.benchmarks.accuracy.ladder import Ladder, settings

@@ -14,7 +14,7 @@ from skyfield.jpllib import SpiceKernel
 from earthspin.constants import J2000_JD, MAS
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky import iau
-from earthspin.sky.equator import rotate
+from earthspin.sky.poles import rotate
 from earthspin.sky.skyfield import Skyfield
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.equator import true_equator

@@ -1,0 +1,221 @@
+"""Numbers of Earth, Moon and Sun with sources and uncertainties, and these built-in bodies."""
+
+from __future__ import annotations
+
+import math
+
+from earthspin.bodies.body import Body
+from earthspin.constants import (
+    ARCSEC,
+    DAY,
+    DAYS_PER_CENTURY,
+    DE440,
+    EPSILON_0,
+    GM_HORIZONS,
+    IERS_2010,
+    IERS_TABLE_READ,
+    P03,
+    PCK11,
+    SHTOOLS,
+    SIDEREAL_MONTH,
+    SIDEREAL_YEAR,
+    Constant,
+    Tabulated,
+)
+from earthspin.sky.poles import IAU_2006, Direction, MovingPole
+
+# --- Earth ----------------------------------------------------------------------------------------
+
+_EGM2008 = "Pavlis et al. 2012, JGR 117, B04406 (EGM2008)"
+_EGM2008_READ = "coefficient files of EGM2008 in public repositories"
+_ROTATION_ANGLE = "Capitaine, Guinot & McCarthy 2000, A&A 355, 398, eq. 14"
+
+# Normalised coefficients of EGM2008, of degree and order 2.
+_C22, _S22 = 2.43938357e-6, -1.40027370e-6
+#: Earth Rotation Angle, turns: rate per day of UT1, and value at J2000.0 UT1.
+_TURNS_A_DAY, _TURNS_AT_START = 1.00273781191135448, 0.7790572732640
+
+EARTH_NUMBERS = {
+    "gm": Constant(
+        398600.435507e9, "m3 s-2", 8e5, DE440 + "; uncertainty from " + IERS_2010, GM_HORIZONS
+    ),
+    "radius": Constant(
+        6378136.6, "m", 0.1, IERS_2010 + " (equatorial, zero-tide)", IERS_TABLE_READ
+    ),
+    "j2": Constant(1.0826359e-3, "", 1e-10, IERS_2010 + " (zero-tide)", IERS_TABLE_READ),
+    "dynamical_flattening": Constant(
+        0.0032737949,
+        "",
+        1e-9,
+        "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068; uncertainty from " + IERS_2010,
+        f"{IERS_TABLE_READ}; uncertainty: {SHTOOLS}Earth.py",
+    ),
+    # (B - A)/(M a2) = 4 sqrt(5/12) |C22 + i S22|
+    "triaxiality": Constant(7.2624e-6, "", None, _EGM2008 + ", degree 2, order 2", _EGM2008_READ),
+    # J_n = -sqrt(2n + 1) C_n0 of the normalised coefficients
+    "j3": Constant(-9.57161207e-7 * math.sqrt(7.0), "", None, _EGM2008, _EGM2008_READ),
+    "j4": Constant(-5.39965866e-7 * 3.0, "", None, _EGM2008, _EGM2008_READ),
+    "j2_rate": Constant(
+        -3.001e-9 / (DAYS_PER_CENTURY * DAY),
+        "s-1",
+        None,
+        P03 + ": -3.001e-9 a century, sect. 4.1",
+        "public code that cites IAU 2006 for it",
+    ),
+    # Angle of the axis of least moment at J2000.0 TDB from the x axis of the GCRS: the Earth
+    # Rotation Angle at UT1 = TDB - 63.83 s, and the longitude atan2(S22, C22)/2 = -14.93 deg.
+    "meridian": Constant(
+        2 * math.pi * (_TURNS_AT_START - _TURNS_A_DAY * 63.83 / DAY) + math.atan2(_S22, _C22) / 2,
+        "rad",
+        1e-4,
+        f"{_ROTATION_ANGLE}; {_EGM2008}",
+        f"ERFA, eraEra00; {_EGM2008_READ}",
+    ),
+    "pole_uncertainty": Constant(
+        (EPSILON_0.uncertainty or 0.0) * ARCSEC, "rad", None, EPSILON_0.source, EPSILON_0.read_in
+    ),
+    "flattening": Constant(1 / 298.25642, "", 1.1e-10, IERS_2010 + " (zero-tide)", IERS_TABLE_READ),
+    "spin_period": Constant(
+        DAY / _TURNS_A_DAY,
+        "s",
+        0.0,
+        _ROTATION_ANGLE + " (IAU 2000 Resolution B1.8)",
+        "ERFA, eraEra00",
+    ),
+    "orbital_period": SIDEREAL_YEAR,
+}
+
+EARTH = Body.cited(
+    "earth",
+    EARTH_NUMBERS,
+    naif=(399,),
+    pole=IAU_2006,
+    interior="prem",
+    observed_wobble=Constant(
+        430.9,
+        "d",
+        0.7,
+        "Nastula & Gross 2015, JGR Solid Earth 120, 6474",
+        "value and uncertainty as quoted in a text on the wobble in a public repository",
+    ),
+    reference="IERS Conventions (2010); Mathews, Herring & Buffett 2002; DE440",
+)
+
+
+# --- Moon -----------------------------------------------------------------------------------------
+
+_GRAIL = "Williams et al. 2014, JGR Planets 119, 1546 (GRAIL and laser ranging)"
+_GRAIL_READ = SHTOOLS + "Moon.py"
+#: Gravity field of DE430, by degree and order.
+_DE430_READ = "mockingbirdnest/Principia, astronomy/sol_gravity_model.proto.txt"
+
+#: Observed obliquity of the Moon to its orbit.
+MOON_OBLIQUITY = Constant(
+    6.688,
+    "deg",
+    None,
+    "1.543 to the ecliptic (arXiv:2201.00803) and 5.145 of the orbit",
+    "arXiv:2201.00803; page of the Moon of JPL Horizons",
+)
+#: (C - A)/B and (B - A)/C.
+MOON_BETA = Constant(6.310213e-4, "", 3.1e-9, _GRAIL, _GRAIL_READ)
+MOON_GAMMA = Constant(2.277317e-4, "", 4.2e-9, _GRAIL, _GRAIL_READ)
+MOON_J2 = Constant(
+    2.03216e-4, "", 2e-9, _GRAIL + "; rounded", f"2.03214e-4 of DE430: {_DE430_READ}"
+)
+
+# moments in units of C: A = B - gamma and 1 - A = beta B
+_B = (1 + MOON_GAMMA.value) / (1 + MOON_BETA.value)
+_H = 1 - (_B - MOON_GAMMA.value / 2)
+
+MOON_NUMBERS = {
+    "gm": Constant(
+        4902.800118e9,
+        "m3 s-2",
+        4.2e4,
+        DE440 + "; uncertainty: the difference from DE421's 4902.800076",
+        GM_HORIZONS,
+    ),
+    "radius": Constant(1738.0e3, "m", None, "reference radius of " + _GRAIL, _DE430_READ),
+    "j2": MOON_J2,
+    "dynamical_flattening": Constant(_H, "", 4e-9, "from beta and gamma: " + _GRAIL, _GRAIL_READ),
+    "triaxiality": Constant(
+        MOON_GAMMA.value * MOON_J2.value / _H, "", None, "gamma C/(M R2): " + _GRAIL, _GRAIL_READ
+    ),
+    # synchronous rotation
+    "spin_period": SIDEREAL_MONTH,
+    "orbital_period": SIDEREAL_MONTH,
+    # period of the node, 1296000"/6962890.5431" centuries = 6798.383 d
+    "cycle": Constant(
+        1296000.0 / 6962890.5431 * DAYS_PER_CENTURY * DAY,
+        "s",
+        0.0,
+        "Simon et al. 1994, A&A 282, 663, sect. 3.5: rate of the mean longitude of the node",
+        "ERFA, eraFaom03",
+    ),
+}
+
+MOON_POLE = Tabulated(
+    "pole of the Moon", "Archinal et al. 2011, Celest. Mech. 109, 101 (IAU 2009)", PCK11
+)
+#: Terms of the IAU pole: phase at J2000.0 (deg) and rate (deg/d) of E1 to E4, E6, E7, E10, E13.
+_POLE_TERMS = {
+    1: (125.045, -0.0529921),
+    2: (250.089, -0.1059842),
+    3: (260.008, 13.0120009),
+    4: (176.625, 13.3407154),
+    6: (311.589, 26.4057084),
+    7: (134.963, 13.0649930),
+    10: (15.134, -0.1589763),
+    13: (25.053, 12.9590088),
+}
+
+
+def _pole_terms(sizes: dict[int, float]) -> list[tuple[float, float, float]]:
+    """Amplitude (deg), phase (deg), rate (deg/century) of periodic terms of the Moon's pole."""
+    return [(s, _POLE_TERMS[n][0], _POLE_TERMS[n][1] * DAYS_PER_CENTURY) for n, s in sizes.items()]
+
+
+MOON = Body.cited(
+    "moon",
+    MOON_NUMBERS,
+    naif=(301,),
+    pole=MovingPole.published(
+        (269.9949, 0.0031),
+        (66.5392, 0.0130),
+        _pole_terms(
+            {1: -3.8787, 2: -0.1204, 3: 0.0700, 4: -0.0172, 6: 0.0072, 10: -0.0052, 13: 0.0043}
+        ),
+        _pole_terms(
+            {
+                1: 1.5419, 2: 0.0239, 3: -0.0278, 4: 0.0068, 6: -0.0029, 7: 0.0009, 10: 0.0008,
+                13: -0.0009,
+            }
+        ),
+    ),
+    # the orbit precesses about the normal of the ecliptic of J2000.0
+    orbit_pole=Direction(math.radians(270.0), math.radians(66.5607)),
+    reference=f"{MOON_NUMBERS['gm'].source}; {_GRAIL}",
+)  # fmt: skip
+
+
+# --- Sun ------------------------------------------------------------------------------------------
+
+SUN_NUMBERS = {
+    "gm": Constant(
+        132712440041.279419e9,
+        "m3 s-2",
+        1e10,
+        DE440 + "; uncertainty from " + IERS_2010,
+        GM_HORIZONS,
+    ),
+    "radius": Constant(
+        6.957e8,
+        "m",
+        0.0,
+        "IAU 2015 Resolution B3: nominal solar radius",
+        "R_sun of astropy.constants",
+    ),
+}
+
+SUN = Body.cited("sun", SUN_NUMBERS, naif=(10,), reference=SUN_NUMBERS["gm"].source)

@@ -1,0 +1,565 @@
+"""Long series and ensembles, computed in blocks: in this process or on several workers.
+
+A `Work` holds the request, the division of the result into blocks, and a method that makes a block.
+Blocks are independent. Without a client, they are made one after the other; with a client of
+``dask.distributed``, its workers make and write them.
+
+While a store ``X.zarr`` is not complete, a folder ``X.zarr.partial`` next to it holds the store,
+whose arrays have their full length from the beginning, the request that it answers (`REQUEST`), and
+the lock of the process that writes it. A run of the same request continues with the blocks that are
+not done; a run of another request is refused, and nothing is changed.
+
+A block is a chunk of every variable along one dimension, so no two writers share a chunk. Zarr
+writes a chunk in one step, with its checksum. So the chunks show which blocks are done: those whose
+chunks are present and match their checksums. A block that is made again has the same bytes. The
+store holds no date, no run time and no path.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+from earthspin._version import __version__, version
+from earthspin.engine import drafts
+from earthspin.engine.part import BLOCK, Block
+from earthspin.engine.question import NEGLECTED, Question, scene_text
+from earthspin.engine.run import Run
+from earthspin.engine.store import FORMAT, MADE_OF, VERSION, encoding_of, spelled, verify, zarr_of
+from earthspin.errors import EarthspinError, MissingExtraError, OutputError, SceneError, one_line
+from earthspin.progress import progress
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from distributed import Client
+
+# --- unfinished stores ----------------------------------------------------------------------------
+
+#: Suffix of the folder of an unfinished store.
+PARTIAL = ".partial"
+#: Names in the folder: the store, the request, and a store whose first block is being written.
+STORE, REQUEST, _DRAFT = "store", "asked.json", "begun"
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Division of a Zarr store into blocks along one dimension.
+
+    Attributes
+    ----------
+    along : str
+        The dimension that is divided, the first of every variable that has it.
+    size : int
+        Length of this dimension.
+    block : int
+        Length of a block; the last block may be shorter.
+    """
+
+    along: str
+    size: int
+    block: int
+
+    @property
+    def count(self) -> int:
+        """Number of blocks into which the store is divided."""
+        return -(-self.size // self.block)
+
+    def bounds(self, number: int) -> tuple[int, int]:
+        """Index at which a block begins, and index after its end, along the divided dimension."""
+        return number * self.block, min((number + 1) * self.block, self.size)
+
+    def length(self, number: int) -> int:
+        """Length of a block along the divided dimension."""
+        first, last = self.bounds(number)
+        return last - first
+
+
+class Unfinished:
+    """A partly written Zarr store, in a folder that this process has locked.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder whose name ends in `PARTIAL`.
+    layout : Layout
+
+    Attributes
+    ----------
+    missing : list of int
+        Numbers of the blocks that are not done. Their damaged chunks are removed.
+    length : int
+        Number of finished epochs or members: total length of the finished blocks.
+
+    Raises
+    ------
+    OutputError
+        If the metadata, or a variable that is not written in blocks, is damaged.
+    """
+
+    def __init__(self, folder: Path, layout: Layout) -> None:
+        from earthspin.engine import zarr_folder
+
+        self.folder, self.layout, self.store = folder, layout, folder / STORE
+        try:
+            metadata = zarr_folder.verify(self.store, besides=layout.along)
+        except OutputError:
+            raise _damaged(folder, "what its blocks share is") from None
+        self.missing = list[int]()
+        for number in range(layout.count):
+            damaged = zarr_folder.damaged_chunks(self.store, metadata, layout.along, number)
+            for chunk in damaged:
+                (self.store / chunk).unlink(missing_ok=True)
+            if damaged:
+                self.missing.append(number)
+        self.length = layout.size - sum(map(layout.length, self.missing))
+
+    def finish(self, target: Path) -> None:
+        """Verify the complete store, and move it to its target.
+
+        Raises
+        ------
+        OutputError
+            If a file differs from what was written; the next run makes its block again.
+        """
+        from earthspin.engine import zarr_folder
+
+        for stray in self.store.rglob("*.partial"):  # a chunk whose writer was killed
+            stray.unlink()
+        try:
+            zarr_folder.verify(self.store)
+        except OutputError:
+            problem = "a block differs from what was just written"
+            raise OutputError(self.folder, problem, "check the disk and run it again") from None
+        drafts.put_in_place(self.store, target, self.folder)
+        drafts.remove(self.folder)
+
+
+def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) -> None:
+    """Write one block into an unfinished store.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder whose name ends in `PARTIAL`.
+    layout : Layout
+    number : int
+    block : Dataset
+
+    Raises
+    ------
+    OutputError
+        If the folder does not exist, or the block does not fit into the store.
+    """
+    from earthspin.engine import zarr_folder
+
+    store = folder / STORE
+    if not store.is_dir():
+        raise OutputError(folder, "it was removed while it was written", "run it again")
+    constant = [n for n, variable in block.variables.items() if layout.along not in variable.dims]
+    # With an index, to_zarr would not write the coordinate along the region.
+    grown = block.drop_vars(constant).drop_indexes(layout.along, errors="ignore")
+    try:
+        zarr_folder.write_region(grown, store, {layout.along: slice(*layout.bounds(number))})
+    except ValueError as error:
+        raise OutputError(folder, f"block {number} does not fit: {one_line(error)}") from None
+
+
+@contextmanager
+def claimed(target: Path) -> Iterator[Path]:
+    """Lock and yield the folder of an unfinished store; remove it at the end if none was begun.
+
+    Parameters
+    ----------
+    target : Path
+        Path of the complete store.
+
+    Raises
+    ------
+    OutputError
+        If another run has locked it.
+    """
+    folder = target.with_name(target.name + PARTIAL)
+    with drafts.claimed(folder, target):
+        try:
+            yield folder
+        finally:
+            if not _is_begun(folder):
+                drafts.remove(folder)
+
+
+def _is_begun(folder: Path) -> bool:
+    """Return True if a folder holds more than the lock and the draft of a store."""
+    return folder.exists() and not {path.name for path in folder.iterdir()} <= {drafts.LOCK, _DRAFT}
+
+
+def refuse_another(folder: Path, request: Mapping[str, str]) -> None:
+    """Raise an error if a store was begun for another question, version or layout.
+
+    Raises
+    ------
+    OutputError
+    """
+    if not _is_begun(folder):
+        return
+    try:
+        begun = json.loads((folder / REQUEST).read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
+        begun = None
+    if not isinstance(begun, dict):
+        raise _damaged(folder, f"its {REQUEST} is")
+    differ = [name for name in {**request, **begun} if request.get(name) != begun.get(name)]
+    if differ:
+        what = " and ".join(name.replace("_", " ") for name in differ)
+        problem = f"it was begun with another {what}"
+        raise OutputError(folder, problem, "finish that run, or move the folder away")
+
+
+def _damaged(folder: Path, what: str) -> OutputError:
+    return OutputError(folder, f"{what} not what was written", "remove it and run it again")
+
+
+def begin(folder: Path, request: Mapping[str, str], layout: Layout, first: xr.Dataset) -> None:
+    """Create a Zarr store of full length, in which only the first block is written.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder whose name ends in `PARTIAL`.
+    request : mapping of str to str
+    layout : Layout
+    first : Dataset
+        Block 0, with the attributes of the whole result.
+
+    Raises
+    ------
+    OutputError
+        If the complete store does not fit on the disk.
+    """
+    from earthspin.engine import zarr_folder
+
+    whole = first.nbytes / layout.length(0) * layout.size
+    drafts.refuse_what_does_not_fit(folder, whole, f"{layout.size} {layout.along}s")
+    node = spelled(first).assign_attrs({FORMAT: VERSION, MADE_OF: digest(request)})
+    encoding = encoding_of(node)
+    for name, variable in node.variables.items():
+        if layout.along in variable.dims:
+            encoding[str(name)]["chunks"] = variable.shape
+    draft = folder / _DRAFT
+    drafts.remove(draft)
+    zarr_folder.write({"/": node}, draft, {"/": encoding})
+    zarr_folder.lengthen(draft, layout.along, layout.size)
+    zarr_folder.seal(draft)
+    (folder / REQUEST).write_text(json.dumps(dict(request), indent=1), encoding="utf-8")
+    os.rename(draft, folder / STORE)
+
+
+def digest(request: Mapping[str, str]) -> str:
+    """SHA-256 of the texts that identify a run; a complete store holds it as an attribute."""
+    return hashlib.sha256(json.dumps(dict(request), sort_keys=True).encode()).hexdigest()
+
+
+# --- the loop over blocks -------------------------------------------------------------------------
+
+#: Time limit for the answer of a scheduler, s.
+TIMEOUT = 10
+#: The only address on which a local cluster listens, also for its dashboard.
+LOCAL_HOST = "127.0.0.1"
+#: Blocks submitted for each thread of a cluster, so that no thread is idle.
+QUEUED = 3
+
+
+class Work(Protocol):
+    """Interface of a result that is computed in blocks, such as a long series or an ensemble."""
+
+    @property
+    def what(self) -> str:
+        """Name of the computed result, which the progress bar shows."""
+
+    @property
+    def layout(self) -> Layout:
+        """Division of the result into blocks along one dimension."""
+
+    @property
+    def request(self) -> Mapping[str, str]:
+        """Texts that determine the result: the question and the software versions, by name."""
+
+    def first(self) -> xr.Dataset:
+        """Compute the first block (number 0), with the attributes of the whole result."""
+
+    def make(self, number: int) -> xr.Dataset:
+        """Compute one block of the result, given the number of the block.
+
+        The dimension of the layout is the first dimension of every variable that has it.
+        """
+
+
+def write(work: Work, path: str | Path, *, client: object = None, replace: bool = False) -> Path:
+    """Compute a result block by block into a Zarr store, or resume an unfinished store.
+
+    Parameters
+    ----------
+    work : Work
+    path : str or Path
+        Path that ends in ``.zarr``. Until the result is complete, a store at this path is not
+        changed, and the blocks are in a folder next to it whose name ends in ``.partial``.
+    client : Client, int or str, optional
+        A client of ``dask.distributed``, the number of local workers to start, or the address of a
+        scheduler whose workers see the same folder. By default this process makes all blocks.
+    replace : bool
+        Whether a complete store of another question is replaced.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    OutputError
+        If the store cannot be written, another run writes it, it belongs to another question, or
+        it is damaged.
+    MissingExtraError
+        If zarr is not installed; or distributed, if `client` needs it.
+    """
+    _check_client(client)
+    place = drafts.as_path(path)
+    if place.suffix != ".zarr":
+        problem = "its name does not end in .zarr"
+        raise OutputError(place, problem, "long results can only be written to Zarr")
+    zarr_of()
+    target, layout = drafts.prepared(place), work.layout
+    size = f"{layout.size} along {layout.along} by {layout.block}"
+    request = dict(work.request) | {"size": size, "format of files": str(VERSION)}
+    stay = f"finished blocks stay in {target.name}{PARTIAL}"
+    remedy = f"{stay}: free some space and run it again"
+    with drafts.output_errors(place, remedy), claimed(target) as folder:
+        existing = _digest_of_store(target)
+        complete = existing == digest(request)
+        if existing is not None and not complete and not replace:
+            raise OutputError(place, "a store of another question exists there", "move it away")
+        refuse_another(folder, request)
+        if complete:
+            drafts.remove(folder)  # a run that was killed after its last block can have left it
+            return verify(place)
+        if not (folder / STORE).exists():
+            begin(folder, request, layout, work.first())
+        _complete(work, Unfinished(folder, layout), target, client)
+    return place
+
+
+def hold(work: Work, *, client: object = None) -> xr.Dataset:
+    """Compute a result block by block, and return it in memory.
+
+    Parameters
+    ----------
+    work : Work
+    client : Client, int or str, optional
+        See `write`.
+    """
+    import xarray as xr
+
+    _check_client(client)
+    layout = work.layout
+    with progress(work.what, layout.size) as advance:
+        blocks = {0: work.first()}
+        advance(layout.length(0))
+        for number, block in _blocks(work, list(range(1, layout.count)), client):
+            blocks[number] = block
+            advance(layout.length(number))
+    first, *others = (blocks[n] for n in range(layout.count))
+    if not others:
+        return first
+    whole = xr.concat(
+        [first, *others], layout.along, data_vars="minimal", coords="minimal", compat="override",
+        join="override", combine_attrs="override",
+    )  # fmt: skip
+    return whole.assign_attrs(first.attrs)
+
+
+def _complete(work: Work, store: Unfinished, target: Path, client: object) -> None:
+    """Compute the missing blocks of an unfinished store; then finish the store."""
+    layout, done = work.layout, store.length
+    try:
+        with progress(work.what, layout.size, done) as advance:
+            for number, _ in _blocks(work, store.missing, client, store.folder):
+                done += layout.length(number)
+                advance(layout.length(number))
+    except BaseException as ended:
+        if not isinstance(ended, Exception):  # interrupted from outside, as by Ctrl-C
+            state = f"{done} of {layout.size} are stored in {store.folder.name}"
+            ended.add_note(f"{state}; run the same command to continue")
+        raise
+    store.finish(target)
+
+
+def _blocks(
+    work: Work, numbers: list[int], client: object, folder: Path | None = None
+) -> Iterator[tuple[int, Any]]:
+    """Compute blocks; yield each number with its data, or None if there is a folder for them."""
+    if client is None:
+        yield from (_make_block(work, number, folder) for number in numbers)
+    elif numbers:
+        with _cluster(client) as cluster:
+            yield from _blocks_from_cluster(work, numbers, cluster, folder)
+
+
+def _make_block(work: Work, number: int, folder: Path | None) -> tuple[int, Any]:
+    """Compute one block of the result, and write it if a folder is given."""
+    block = work.make(number)
+    if folder is None:
+        return number, block
+    write_block(folder, work.layout, number, block)
+    return number, None
+
+
+def _blocks_from_cluster(
+    work: Work, numbers: list[int], client: Client, folder: Path | None
+) -> Iterator[tuple[int, Any]]:
+    from distributed import as_completed
+
+    sent = client.scatter(work, broadcast=True, hash=False)
+    threads = sum(client.nthreads().values()) or 1
+    submitted = (client.submit(_make_block, sent, n, folder, pure=False) for n in numbers)
+    running = as_completed([*islice(submitted, QUEUED * threads)], loop=client.loop)
+    for future in running:
+        try:
+            yield future.result()
+        except EarthspinError:
+            raise
+        except Exception as error:
+            if type(error).__module__.partition(".")[0] != "distributed":
+                raise
+            problem = f"the cluster lost a block: {one_line(error)}"
+            raise SceneError("client", str(client.scheduler), problem) from None
+        running.update(islice(submitted, 1))
+
+
+@contextmanager
+def _cluster(client: object) -> Iterator[Client]:
+    """Yield a client of a Dask cluster; a local cluster is started and closed if needed."""
+    try:
+        import dask
+        import distributed
+    except ImportError:
+        raise MissingExtraError("distributed", "scale", "work by many processes") from None
+    if isinstance(client, distributed.Client):
+        yield client
+        return
+    options: dict[str, Any] = {"address": client, "timeout": TIMEOUT}
+    if isinstance(client, int):
+        options = {"n_workers": client, "threads_per_worker": 1, "silence_logs": 50}
+        options |= {"host": LOCAL_HOST, "dashboard_address": f"{LOCAL_HOST}:0"}
+    quiet = {"distributed.admin.log-format": "", "logging.distributed": "critical"}
+    with dask.config.set(quiet if isinstance(client, int) else {}):
+        try:
+            connected = distributed.Client(**options, set_as_default=False)
+        except Exception as error:  # wrong address, network error or another version
+            if isinstance(client, int):
+                raise
+            problem = f"no scheduler answers there within {TIMEOUT} s: {one_line(error)}"
+            raise SceneError("scheduler", client, problem) from None
+        with connected:
+            if not connected.nthreads():
+                raise SceneError("scheduler", client, "it has no workers; start at least one")
+            yield connected
+
+
+def _check_client(client: object) -> None:
+    """Raise an error if `client` has a wrong type, before anything is computed.
+
+    Raises
+    ------
+    SceneError
+    """
+    counted = isinstance(client, int) and not isinstance(client, bool) and client > 0
+    if not (client is None or counted or isinstance(client, str) or hasattr(client, "scatter")):
+        allowed = "give a number of workers, the address of a scheduler, or a Client of distributed"
+        raise SceneError("client", client, allowed)
+
+
+def _digest_of_store(target: Path) -> str | None:
+    """Hash that identifies the computation in a complete store; None without a store."""
+    if not target.exists():
+        return None
+    try:
+        return str(json.loads((target / ".zattrs").read_bytes())[MADE_OF])
+    except (OSError, ValueError, LookupError, TypeError):  # treat it as another store
+        return ""
+
+
+# --- a long series --------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Series:
+    """A question with so many times that its answer is computed in blocks.
+
+    Attributes
+    ----------
+    question : Question
+        Question with a part that takes ``block``.
+    size, length : int
+        Number of times in total and in a block.
+    """
+
+    question: Question
+    size: int
+    length: int
+
+    @property
+    def what(self) -> str:
+        """Name of the series, which the progress bar shows."""
+        return f"{self.question.word} series"
+
+    @property
+    def layout(self) -> Layout:
+        """Division of the series into blocks of consecutive times."""
+        return Layout("time", self.size, self.length)
+
+    @cached_property
+    def _run(self) -> Run:
+        """Run that keeps the results which all blocks share."""
+        return Run(self.question, block=self._block(0))
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if name != "_run"}
+
+    def _block(self, number: int) -> Block:
+        return Block(*self.layout.bounds(number))
+
+    @cached_property
+    def request(self) -> Mapping[str, str]:
+        """Texts that identify the run: question, software versions and checksums of files."""
+        ends = [*self.question.graph.answer, NEGLECTED]
+        return request_of(self.question, self._run.provenance(ends, but=[BLOCK]))
+
+    def first(self) -> xr.Dataset:
+        """Compute the first block of times, with the attributes of the whole series."""
+        return self.make(0)
+
+    def make(self, number: int) -> xr.Dataset:
+        """Compute one block of consecutive times, by its number."""
+        return self._run.again(block=self._block(number)).answer()
+
+
+def request_of(question: Question, provenance: Mapping[str, str]) -> dict[str, str]:
+    """Texts that identify a run: the question and versions; an unfinished store must match.
+
+    Parameters
+    ----------
+    question : Question
+    provenance : mapping of str to str
+        Further versions, and checksums of the files that are read.
+    """
+    return {
+        "question": scene_text(question),
+        "version of earthspin": __version__,
+        "version of numpy": version("numpy"),
+    } | dict(provenance)

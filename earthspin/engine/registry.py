@@ -1,0 +1,19 @@
+"""Functions of the packages above the engine that answers call, registered by their names.
+
+``earthspin/__init__.py`` registers them. A module is imported when its function is first called.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+#: Modules of the registered functions, by the names of the functions.
+FUNCTIONS: dict[str, str] = {}
+#: Modules of the functions of an answer that are methods of its accessor, by their names.
+METHODS: dict[str, str] = {}
+
+
+def registered(name: str) -> Any:
+    """Return the function, or the function behind the method, that is registered by a name."""
+    return getattr(import_module((FUNCTIONS | METHODS)[name]), name)

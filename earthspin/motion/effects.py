@@ -1,0 +1,243 @@
+"""Effects on the axes besides the torque on the equatorial bulge, one section for each effect.
+
+An effect is a function that switches it on, registered with its name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from earthspin.constants import DAYS_PER_YEAR, MAS, SPEED_OF_LIGHT, UAS
+from earthspin.motion.forces import Forces, Places, RateLaw, Torque
+from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.polynomials import Windows
+from earthspin.torque.gravity import cross, dot
+
+# --- effects and their register -------------------------------------------------------------------
+
+
+class Numbers(Protocol):
+    """Interface to the fields of a body from which an effect takes its parameters."""
+
+    def number(self, name: str) -> float:
+        """Return a field of the body as a float."""
+
+
+@dataclass(frozen=True)
+class Effect:
+    """An effect on the axes, besides the torque on the bulge, that users can switch on.
+
+    Attributes
+    ----------
+    name : str
+        Name of the effect in scenes.
+    switch_on : callable
+        Function of the forces without the effect and the numbers of the body that returns the
+        forces with the effect.
+    coefficient : str
+        Field of the body to which the effect is proportional; empty if there is none.
+    """
+
+    name: str
+    switch_on: Callable[[Forces, Numbers], Forces]
+    coefficient: str = ""
+
+
+#: All effects by name.
+EFFECTS: dict[str, Effect] = {}
+
+
+def add(effect: Effect) -> Effect:
+    """Register an effect on the axes; it is switched off by default.
+
+    Returns
+    -------
+    Effect
+        The same effect.
+
+    Raises
+    ------
+    ValueError
+        If another effect has this name.
+    """
+    if EFFECTS.setdefault(effect.name, effect) is not effect:
+        raise ValueError(f"another effect has the name '{effect.name}'; choose a different one")
+    return effect
+
+
+# --- torques of the planets -----------------------------------------------------------------------
+# Torques of the planets on the equatorial bulge of a body.
+
+
+def _add_planets(forces: Forces, body: Numbers) -> Forces:
+    return replace(forces, gm={**forces.gm, **forces.far})
+
+
+PLANETS = add(Effect("planets", _add_planets))
+
+
+# --- J3 and J4 ------------------------------------------------------------------------------------
+# Torques of the nearest masses on the zonal harmonics J3 and J4 of the body.
+
+
+def _zonal_harmonic(degree: int) -> Effect:
+    def switch_on(forces: Forces, body: Numbers) -> Forces:
+        coefficient = body.number(f"j{degree}")
+        if not coefficient:
+            return forces
+        zonal = {**forces.figure.zonal, degree: coefficient}
+        return replace(forces, figure=replace(forces.figure, zonal=zonal))
+
+    return add(Effect(f"j{degree}", switch_on, coefficient=f"j{degree}"))
+
+
+J3 = _zonal_harmonic(3)
+J4 = _zonal_harmonic(4)
+
+
+# --- triaxiality ----------------------------------------------------------------------------------
+# Inequality of the equatorial moments A and B, which causes semidiurnal motion of the axes.
+
+
+def _set_triaxiality(forces: Forces, body: Numbers) -> Forces:
+    figure = forces.figure
+    over_c = figure.inverse_polar_moment * body.number("triaxiality")
+    return replace(forces, figure=replace(figure, triaxiality=over_c))
+
+
+TRIAXIALITY = add(Effect("triaxiality", _set_triaxiality, coefficient="triaxiality"))
+
+
+# --- geodesic precession and nutation -------------------------------------------------------------
+# Relativistic rotation of the local inertial frame.
+#
+# A gyroscope that orbits a mass precesses with respect to the stars (de Sitter 1916). For several
+# masses, with positions and velocities in the barycentric frame (Brumberg, Bretagnon & Francou
+# 1992; IERS Conventions 2010, eq. 10.12 for the same term in a satellite's motion),
+#
+#     \Omega_g = sum_A GM_A / (c2 r_A3) (x - x_A) x ((3/2) v - 2 v_A)
+#
+# It is 1.92 arcsec per century, prograde, with half a milliarcsecond from the Moon. The axes of the
+# GCRS do not rotate with the local frame, so that an angular momentum in the GCRS has the rate N +
+# Omega_g x L. The rotation is faster at perihelion, which causes geodesic nutation.
+
+
+def geodesic_rate(
+    gm: Mapping[str, float],
+    position: Mapping[str, FloatArray],
+    velocity: Mapping[str, FloatArray],
+    primary: str,
+) -> FloatArray:
+    """Angular velocity of the body's local inertial frame relative to the stars, rad/s.
+
+    Parameters
+    ----------
+    gm : mapping of str to float
+        GM of the masses, m3 s-2.
+    position, velocity : mapping of str to ndarray, shape (3, ...)
+        Positions (m) and velocities (m/s) of the masses relative to the body.
+    primary : str
+        Mass that is used as the barycentre: the Sun moves at 13 m/s, the Earth at 30 km/s.
+
+    Returns
+    -------
+    ndarray, shape (3, ...)
+    """
+    own = -velocity[primary]
+    total = np.zeros_like(own)
+    for name, mass in gm.items():
+        place = position[name]
+        distance = np.sqrt(dot(place, place))
+        scale = mass / (SPEED_OF_LIGHT.value**2 * distance**3)
+        its_own = velocity[name] + own
+        total += scale * cross(2 * its_own - 1.5 * own, -place)
+    return total
+
+
+def geodesic_torque(primary: str) -> Torque:
+    """Make a function that gives geodesic precession about a mass as an equivalent torque.
+
+    Parameters
+    ----------
+    primary : str
+        See `geodesic_rate`.
+    """
+
+    def over(forces: Forces, windows: Windows, place: Places) -> RateLaw:
+        near = {name: forces.gm[name] for name in {primary, *forces.near}}
+        velocity = {name: windows.derivative(place[name]) for name in near}
+        rate = geodesic_rate(near, place, velocity, primary)
+        return lambda axis, momentum: cross(rate, momentum)
+
+    return over
+
+
+def _add_geodesic(forces: Forces, body: Numbers) -> Forces:
+    # The effect needs the Sun among the perturbers.
+    if "sun" not in forces.gm:
+        return forces
+    return replace(forces, torques=(*forces.torques, geodesic_torque("sun")))
+
+
+GEODESIC = add(Effect("geodesic", _add_geodesic))
+
+
+# --- change of J2 ---------------------------------------------------------------------------------
+# Slow change of J2 due to post-glacial rebound of the mantle.
+
+
+def _set_j2_trend(forces: Forces, body: Numbers) -> Forces:
+    j2 = body.number("j2")
+    if not j2:
+        return forces
+    trend = body.number("j2_rate") / j2
+    return replace(forces, figure=replace(forces.figure, j2_trend=trend))
+
+
+J2_RATE = add(Effect("j2-rate", _set_j2_trend, coefficient="j2_rate"))
+
+
+# --- second-order effects -------------------------------------------------------------------------
+# Torques are computed for the nutating axis instead of the mean pole.
+
+
+def _follow_axis(forces: Forces, body: Numbers) -> Forces:
+    return replace(forces, mean_pole=None)
+
+
+SECOND_ORDER = add(Effect("second-order", _follow_axis))
+
+
+# --- response of the interior ---------------------------------------------------------------------
+# Nutation response of a body's non-rigid interior, added to the path of the rigid body.
+#
+# Its size includes the different initial axes: the rigid path starts at the true pole of IAU
+# 2006/2000A, the path with the response starts 30 mas away, such that the mean poles agree.
+
+
+class Growth(NamedTuple):
+    """Bound on an angle that grows in time: a + b |t|, t in years from J2000.0, in mas."""
+
+    swing: float
+    rate: float
+
+    def at(self, day: float) -> float:
+        """Bound at a time in days from J2000.0, rad."""
+        return MAS * (self.swing + self.rate * abs(day) / DAYS_PER_YEAR)
+
+
+NONRIGID = add(Effect("nonrigid", lambda forces, body: forces))
+
+#: Bound on the displacement of the figure axis of the Earth by the response of its interior,
+#: measured on DE421 from 1950 to 2050 with `python -m data_tools neglected`.
+RESPONSE = Growth(84.4, 0.116)
+#: Largest amplitude of the free core nutation in windows of three years from 1984 to 2026, rad, in
+#: the section `core_nutation` of `earthspin.pole_offsets`; no model predicts it.
+LARGEST_CORE_NUTATION = 290 * UAS
+
+#: Names of the effects on a rigid body.
+RIGID = tuple(name for name in EFFECTS if name != NONRIGID.name)

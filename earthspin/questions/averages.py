@@ -1,0 +1,435 @@
+"""Torques averaged over orbits, and the resulting precession rates."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from earthspin._version import version
+from earthspin.bodies import Body, Numeric, in_a_sentence
+from earthspin.bodies.checks import OF_AVERAGE, largest, refuse_fast_axis
+from earthspin.constants import DAY
+from earthspin.engine.part import part
+from earthspin.errors import UndefinedError
+from earthspin.mass.figure import moment_difference
+from earthspin.numerics.arrays import Estimate, FloatArray
+from earthspin.questions.elements import ellipse_chains, exact_means, no_exact_means
+from earthspin.questions.satellites import Carried, carried, without_swings
+from earthspin.questions.sky import Sky, Stretch
+from earthspin.sky.elements import Elements
+from earthspin.sky.poles import FixedPole, IAU2006Pole, MovingPole, angle, rotate
+from earthspin.torque import average, cassini, rates
+from earthspin.torque.average import Window, best_window, precessing_torque, window_mean_and_error
+from earthspin.torque.gravity import torque_from_declination
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+#: Time between samples. One day is enough, since torques have no strong period below four days:
+#: with two days the rate is the same to 1e-12, with four days it differs by 3e-6.
+SAMPLING = DAY  # s
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Torques divided by C - A at equally spaced times, and the weight function for their mean.
+
+    Attributes
+    ----------
+    times : ndarray, shape (n,)
+        Times, s from J2000.0 TDB.
+    precessing : ndarray, shape (n, perturber)
+        Precessing component of the torque per C - A, s-2.
+    torque : ndarray, shape (n, perturber, 3)
+        Torque per C - A in axes of equator and equinox of date, s-2.
+    window : Window
+        The window that converges fastest on this span, centred on the epoch.
+    obliquity : float
+        Obliquity of the axis to the orbit at the epoch, rad.
+    nearness : ndarray, shape (perturber,)
+        Mean of 1/r3 of each perturber, m-3.
+    unmeasured : tuple of str
+        Perturbers whose positions have no measured error.
+    no_error : str
+        Reason why errors are missing; empty if none is.
+    strength : DataArray or None
+        GM along `perturber` if any is an array, else None; the torques are then for GM = 1.
+    are_stored : bool
+        Whether the samples are stored for later runs.
+    """
+
+    times: FloatArray
+    precessing: FloatArray
+    torque: FloatArray
+    window: Window
+    obliquity: float
+    nearness: FloatArray
+    unmeasured: tuple[str, ...] = ()
+    no_error: str = ""
+    strength: xr.DataArray | None = None
+    are_stored: bool = False
+
+
+def _same_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]) -> Hashable:
+    """Inputs on which samples depend; None if they contain arrays or objects, which may change."""
+    bodies, places = (body, *perturbers), (sky.centre, *sky.targets.values())
+    if any(member.labelled for member in bodies):
+        return None
+    if not all(isinstance(place, int) for place in places):
+        return None
+    if not isinstance(body.pole, (FixedPole, IAU2006Pole, MovingPole)):
+        return None
+    return frozenset(sky.provenance.items()), places, stretch, bodies
+
+
+@part(unless=exact_means, same_for=_same_samples)
+def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]) -> Samples:
+    """Sample the torques of all perturbers, from their declinations, over the averaging time."""
+    body = without_swings(body)
+    pole, orbit = body.needed("pole"), body.orbit_pole
+    cycle = max(map(slowest_cycle, perturbers))
+    window = best_window(stretch.first * DAY, stretch.last * DAY, cycle)
+    times = window.sample_times(SAMPLING)
+    days = times / DAY
+
+    normal = pole.orbit_normal(orbit)
+    axis_at_epoch = sky.equator(body, np.array([window.centre / DAY]))[..., 2, :].reshape(3)
+    _refuse_locked(sky, body, window.centre, axis_at_epoch)
+    coordinates = sky.radec(body, days)
+    strength = _varying_masses(body, perturbers)
+    torques = [
+        torque_from_declination(
+            p.gm_on(body) if strength is None else 1.0, 1.0, *coordinates[p.name]
+        )
+        for p in perturbers
+    ]
+    # In axes of the equator of date, the figure axis is z and the orbit normal moves.
+    axis = np.array([0.0, 0.0, 1.0])
+    normals = rotate(sky.equator(body, days), np.broadcast_to(normal, (days.size, 3)))
+    return Samples(
+        times=times,
+        precessing=np.stack([precessing_torque(t, axis, normals) for t in torques], axis=1),
+        torque=np.stack(torques, axis=1),
+        window=window,
+        obliquity=angle(axis_at_epoch, normal),
+        nearness=np.array([np.mean(coordinates[p.name][2] ** -3.0) for p in perturbers]),
+        unmeasured=sky.unmeasured,
+        no_error=sky.no_error,
+        strength=strength,
+        are_stored=_same_samples(sky, stretch, body, perturbers) is not None,
+    )
+
+
+def _labels(perturbers: tuple[Body, ...]) -> list[str]:
+    """Labels of the dimension `perturber`: the names of the perturbers, followed by "total"."""
+    return [*(p.name for p in perturbers), "total"]
+
+
+def _varying_masses(body: Body, perturbers: tuple[Body, ...]) -> xr.DataArray | None:
+    """Values of GM of all perturbers in one array if any GM is an array; otherwise None."""
+    if not any(hasattr(p.gm, "dims") for p in perturbers):
+        return None
+    import xarray as xr
+
+    return xr.concat(xr.broadcast(*(xr.DataArray(p.gm_on(body)) for p in perturbers)), "perturber")
+
+
+def _cases(strength: xr.DataArray | None) -> dict[str, int]:
+    """Dimensions of arrays of masses with their lengths; empty without arrays."""
+    if strength is None:
+        return {}
+    return {str(dim): n for dim, n in strength.sizes.items() if dim != "perturber"}
+
+
+def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: FloatArray) -> None:
+    """Refuse a spin that is locked to an orbit, because averages over orbits do not apply."""
+    first, last = (DAY * day for day in sky.coverage())
+    for spin_period in np.ravel(body.needed("spin_period")):
+        if abs(spin_period) < cassini.SLOW:
+            continue
+        # Enough time for the slowest resonance, as far as the kernel covers it.
+        half = cassini.ORBITS * cassini.MOST_HALF_TURNS / 4 * abs(spin_period)
+        times = np.linspace(max(epoch - half, first), min(epoch + half, last), 4001)
+        spin_axis, spin_rate = np.sign(spin_period) * axis, 2 * np.pi / abs(spin_period)
+        for name, position in sky.positions(times / DAY).items():
+            turns = cassini.locked_ratio(times, position, spin_axis, spin_rate)
+            if turns is not None:
+                raise _locked_error(body, name, turns)
+
+
+def _locked_error(body: Body, perturber: str, turns: float) -> UndefinedError:
+    """Make the error for a spin that is locked to an orbit."""
+    return UndefinedError(
+        f"{in_a_sentence(body.name)} is locked to its orbit with '{perturber}' ({turns:g} "
+        f"rotation{'' if turns == 1 else 's'} per orbit), so averages over orbits do not apply; "
+        "use cassini_states for the position of its axis"
+    )
+
+
+def slowest_cycle(perturber: Body) -> float:
+    """Longest period in the torque of a perturber, s; an average must cover this period."""
+    node_period = perturber.orbit is not None and perturber.orbit.node_period
+    return max(perturber.cycle, abs(node_period or 0.0))
+
+
+@dataclass(frozen=True)
+class MeanTorques:
+    """Torques averaged over orbits and divided by C - A, for each perturber and in total.
+
+    Attributes
+    ----------
+    labels : list of str
+        Names of the perturbers, and "total" if there are several.
+    precessing, precessing_error : ndarray, shape (label,) or (label, m)
+        Precessing component and its half-width, s-2, for m cases if masses are arrays.
+    torque, torque_error : ndarray, shape (label, 3) or (label, 3, m)
+        Torque and its half-width in axes of equator and equinox of date, s-2.
+    epoch : float
+        Reference epoch, s from J2000.0 TDB.
+    obliquity : float
+        Obliquity of the axis to the orbit at the epoch, rad.
+    nearness : ndarray, shape (perturber,)
+        Mean of 1/r3 of each perturber, m-3.
+    over, method : str
+        Descriptions of the window, and of the window with the step.
+    evaluations : int
+        Number of epochs at which positions were evaluated.
+    no_error : str
+        Reason why errors are missing; empty if none is.
+    provenance : mapping of str to str
+        Attributes of the answer on the sources of the means, besides those of the sky.
+    cases : mapping of str to int
+        Dimensions of the m cases with their lengths; empty without arrays.
+    """
+
+    labels: list[str]
+    precessing: FloatArray
+    precessing_error: FloatArray
+    torque: FloatArray
+    torque_error: FloatArray
+    epoch: float
+    obliquity: float
+    nearness: FloatArray
+    over: str
+    method: str
+    evaluations: int
+    no_error: str = ""
+    provenance: Mapping[str, str] = field(default_factory=dict)
+    cases: Mapping[str, int] = field(default_factory=dict)
+
+
+def _same_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> Hashable:
+    """Samples from which means are computed; None if these samples are not stored."""
+    return torque_samples if torque_samples.are_stored else None
+
+
+@part(unless=exact_means, same_for=_same_means)
+def window_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> MeanTorques:
+    """Mean torques, computed as weighted means of samples in a time window, with errors.
+
+    The errors are estimates from neighbouring windows.
+    """
+    samples = torque_samples
+    window, times = samples.window, samples.times
+    swing = np.array([np.nan if p.name in samples.unmeasured else p.slow_swing for p in perturbers])
+    strength = samples.strength
+    many = None if strength is None else strength.values.reshape(len(perturbers), -1)
+    precessing, precessing_error = window_mean_and_error(
+        window, times, samples.precessing, swing, many
+    )
+    vector, vector_error = window_mean_and_error(window, times, samples.torque, swing, many)
+    spacing = np.median(np.diff(times)) / DAY
+    return MeanTorques(
+        labels=_labels(perturbers),
+        precessing=precessing,
+        precessing_error=precessing_error,
+        torque=vector,
+        torque_error=vector_error,
+        epoch=window.centre,
+        obliquity=samples.obliquity,
+        nearness=samples.nearness,
+        over=window_words(window),
+        method=f"{window_words(window)}, a sample each {spacing:g} d",
+        evaluations=times.size,
+        no_error=samples.no_error,
+        cases=_cases(strength),
+    )
+
+
+@part(unless=no_exact_means)
+def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
+    """Exact mean torques of bodies on precessing ellipses, for the spin axis at J2000.0.
+
+    Each mean is over the orbit and the precession of its node.
+    """
+    body = without_swings(body)
+    pole, now = body.needed("pole"), np.zeros(1)
+    equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
+    axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
+    by_name = ellipse_chains(body, perturbers)
+    strength = _varying_masses(body, perturbers)
+    torques, errors, nearness = [], [], []
+    for p in perturbers:
+        ((ellipse, _),) = by_name[p.name].ellipses
+        forward = ellipse.sidereal_motion * float(np.sign(ellipse.normal @ axis))
+        for spin_rate in np.ravel(body.spin_rate):
+            turns = cassini.locked_turns(float(spin_rate), forward)
+            if turns is not None:
+                raise _locked_error(body, p.name, turns)
+        square = (
+            average.mean_square_of_normal(ellipse.plane.matrix[2], ellipse.i)
+            if ellipse.node_rate
+            else average.square_of_normal(ellipse.normal)
+        )
+        gm = float(p.gm_on(body)) if strength is None else 1.0
+        tide = average.mean_tide(gm, ellipse.a, ellipse.e, square)
+        torques.append(average.mean_torque(tide, axis))
+        errors.append(average.rounding(tide))
+        nearness.append((ellipse.a**2 * (1 - ellipse.e**2)) ** -1.5)
+    vectors, error = np.stack(torques), np.array(errors)
+    if strength is not None:
+        factor = strength.values.reshape(len(perturbers), -1)
+        vectors = vectors[:, np.newaxis] * factor[..., np.newaxis]
+        error = error[:, np.newaxis] * factor
+    vectors = average.with_total(vectors[np.newaxis])[0]
+    error = average.with_total(error[np.newaxis])[0]
+    obliquity = angle(axis, normal)
+    return MeanTorques(
+        labels=_labels(perturbers),
+        precessing=average.precessing_torque(vectors, axis, normal),
+        precessing_error=average.rounding_of_precessing(error, obliquity),
+        torque=np.moveaxis(vectors @ equator.T, -1, 1),
+        torque_error=np.repeat(error[:, np.newaxis], 3, axis=1),
+        epoch=0.0,
+        obliquity=obliquity,
+        nearness=np.array(nearness),
+        over="all revolutions of each orbit by its elements",
+        method="exact means of orbits by their elements",
+        evaluations=len(perturbers),
+        provenance=Elements().provenance | {"pyerfa_version": version("pyerfa")},
+        cases=_cases(strength),
+    )
+
+
+@part
+def mean_torques(
+    window_means: MeanTorques | None = None, orbit_means: MeanTorques | None = None
+) -> MeanTorques:
+    """Mean torques divided by C - A: exact means for elliptic orbits, otherwise windowed means."""
+    means = orbit_means if window_means is None else window_means
+    assert means is not None  # a plan without both leaves this part out
+    return means
+
+
+@dataclass(frozen=True)
+class MeanRates:
+    """Precession rates and mean torques by perturber and in total.
+
+    The numbers are labelled arrays if a body or mass is an array, else plain arrays, which are
+    faster.
+
+    Attributes
+    ----------
+    means : MeanTorques
+        Mean torques, with the labels of the perturbers.
+    rate : Estimate
+        Precession rate, rad/s.
+    torque : Estimate
+        Magnitude of the mean torque, N m.
+    ratio : ndarray or DataArray
+        Rate relative to that of the first perturber.
+    second_order : float
+        Bound on the second-order part of the total rate, which the average neglects, rad/s; the
+        largest of an array.
+    pull : float or DataArray
+        Sum of GM <1/r3> of the perturbers, s-2.
+    carried : Carried
+        Contribution of the satellites of the body.
+    """
+
+    means: MeanTorques
+    rate: Estimate
+    torque: Estimate
+    ratio: Numeric
+    second_order: float
+    pull: Numeric
+    carried: Carried
+
+    def total(self) -> tuple[Numeric, Numeric]:
+        """Total rate of all perturbers and its error, rad/s."""
+        return of_perturber(self.rate.value), of_perturber(self.rate.error)
+
+
+def of_perturber(values: Numeric, index: int = -1) -> Numeric:
+    """Value of one perturber by its index along the dimension `perturber`; the total by default."""
+    if hasattr(values, "dims"):
+        return values.isel(perturber=index, drop=True)
+    return values[index]
+
+
+@part
+def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ...]) -> MeanRates:
+    """Precession rates and mean torques from averages over orbits, by perturber, with errors.
+
+    With satellites they are those of the body and its satellites together.
+    """
+    means = mean_torques
+    along = _labeller(means) if body.labelled or means.cases else np.asarray
+    uncertainties = [p.relative_uncertainty.get("gm", 0.0) for p in perturbers]
+    u_gm = along(rates.total_uncertainty(means.precessing, uncertainties))
+    pull = sum(p.gm_on(body) * near for p, near in zip(perturbers, means.nearness, strict=True))
+    moons = carried(body, pull, means.obliquity)
+    rate = rates.precession_estimate(
+        along(means.precessing),
+        along(means.precessing_error),
+        body.needed("dynamical_flattening") * moons.rate,
+        body.spin_rate,
+        # H = J2/C: satellites add to C, and their part of it has no uncertainty
+        body.relative_uncertainty.get("dynamical_flattening", 0.0) / moons.moment,
+        np.hypot(u_gm, moons.uncertainty),
+    )
+    by_orbit = sum(
+        abs(of_perturber(rate.value, index)) / ((body.gm_on(p) + p.gm_on(body)) * near) ** 0.5
+        for index, (p, near) in enumerate(zip(perturbers, means.nearness, strict=True))
+    )
+    total = abs(of_perturber(rate.value))
+    by_spin = abs(total / body.spin_rate)
+    refuse_fast_axis(by_orbit, by_spin)
+    torque = rates.torque_estimate(
+        along(np.linalg.norm(means.torque, axis=1)),
+        along(np.linalg.norm(means.torque_error, axis=1)),
+        moment_difference(body.needed("j2"), body.mass, body.needed("radius")) * moons.bulge,
+        body.relative_uncertainty_of_bulge(),
+        u_gm,
+    )
+    return MeanRates(
+        means=means,
+        rate=rate,
+        torque=torque,
+        ratio=along(rates.rate_ratio(means.precessing)),
+        second_order=largest(OF_AVERAGE * (by_orbit + by_spin) * total),
+        pull=pull,
+        carried=moons,
+    )
+
+
+def _labeller(means: MeanTorques) -> Callable[[FloatArray], xr.DataArray]:
+    """Return a function that labels the arrays of `means` by perturber and by case."""
+    import xarray as xr
+
+    dims, shape = ("perturber", *means.cases), (len(means.labels), *means.cases.values())
+    labels = {"perturber": means.labels}
+    return lambda values: xr.DataArray(np.reshape(values, shape), labels, dims)
+
+
+#: Parts that compute `mean_rates` from the sky, for questions that use them.
+MEANS = (torque_samples, window_means, orbit_means, mean_torques, mean_rates)
+
+
+def window_words(window: Window) -> str:
+    """Describe the time window of an average in words: taper, number of cycles, cycle length."""
+    return f"{window.taper} taper over {window.cycles:g} cycles of {window.cycle / DAY:.2f} d"

@@ -1,0 +1,208 @@
+"""Bodies with orbital elements: the chain of ellipses that leads to each body."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from earthspin.bodies import Body
+from earthspin.bodies.checks import extent, overlap
+from earthspin.errors import SceneError, nearest
+from earthspin.sky.elements import Ellipse, Plane
+
+#: Largest relative deviation of semi-major axis and period from Kepler's third law. The Sun makes
+#: the Moon's month 0.3 per cent longer than the law with its mean distance.
+THIRD_LAW = 0.01
+
+
+class EllipseChain(NamedTuple):
+    """Sequence of ellipses whose position vectors lead from one body to another.
+
+    Attributes
+    ----------
+    start : Body
+        Body at the start of the first ellipse.
+    ellipses : tuple of (Ellipse, int)
+        Ellipses in sequence, with -1 if the ellipse is taken from the moving body to its centre,
+        else 1.
+    """
+
+    start: Body
+    ellipses: tuple[tuple[Ellipse, int], ...] = ()
+
+
+def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, EllipseChain]:
+    """Chains of ellipses that lead to the perturbers with orbital elements, by perturber name.
+
+    A chain starts from the spinning body if possible, else from a body without elements.
+
+    Raises
+    ------
+    SceneError
+        If the centre of an orbit is unknown or the body itself, or if an orbit contradicts Kepler's
+        third law or passes through its central body.
+    UndefinedError
+        If the body has no reference plane of the kind that the elements use.
+    """
+    known = {member.name: member for member in (body, *perturbers)}
+    centres = {
+        name: centre
+        for name, member in known.items()
+        if member.orbit is not None and (centre := _centre(member, body, known))
+    }
+    _refuse_circles(centres)
+    links: dict[str, dict[str, tuple[Ellipse, int]]] = {name: {} for name in known}
+    for name, about in centres.items():
+        ellipse = _ellipse(known[name], known[about], body)
+        links[about][name], links[name][about] = (ellipse, 1), (ellipse, -1)
+    reached: dict[str, EllipseChain] = {}
+    for start in (body, *(member for member in perturbers if member.orbit is None)):
+        if start.name not in reached:
+            _add_chain(EllipseChain(start), start.name, links, reached)
+    return {name: chain for name, chain in reached.items() if chain.ellipses}
+
+
+def _add_chain(
+    chain: EllipseChain,
+    end: str,
+    links: Mapping[str, Mapping[str, tuple[Ellipse, int]]],
+    reached: dict[str, EllipseChain],
+) -> None:
+    """Store the chain of ellipses to one body, then the chains to the bodies linked to it."""
+    reached[end] = chain
+    for name, link in links[end].items():
+        if name not in reached:
+            _add_chain(EllipseChain(chain.start, (*chain.ellipses, link)), name, links, reached)
+
+
+def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
+    """Name of the body that `member` orbits; an empty text if that body is not in the list."""
+    assert member.orbit is not None
+    about = member.orbit.about
+    if about:
+        if about not in known or about == member.name:
+            others = [name for name in known if name != member.name]
+            raise SceneError(f"{member.name}.orbit.about", about, nearest(about, others))
+        return about
+    if member is not body:
+        return body.name
+    left = [name for name, other in known.items() if other.orbit is None and other is not body]
+    if len(left) > 1:
+        raise SceneError(f"{member.name}.orbit.about", "", f"give one of {', '.join(left)}")
+    return left[0] if left else ""
+
+
+def _refuse_circles(centres: Mapping[str, str]) -> None:
+    """Refuse central bodies that form a closed loop, such as two bodies that orbit each other."""
+    for name in centres:
+        current, visited = name, [name]
+        while current in centres:
+            current = centres[current]
+            if current in visited:
+                raise SceneError(
+                    f"{name}.orbit.about",
+                    centres[name],
+                    f"these bodies orbit one another: {', '.join(visited)}; remove one orbit",
+                )
+            visited.append(current)
+
+
+def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
+    """Ellipse of the orbit of `member` about the body `centre`, from its orbital elements."""
+    orbit = member.orbit
+    assert orbit is not None
+    a, motion = size_and_motion(member, centre)
+    refuse_overlap(member, centre, a)
+    node = 0.0 if orbit.node_period is None else 2 * math.pi / orbit.node_period
+    turn = 0.0 if orbit.pericentre_period is None else 2 * math.pi / orbit.pericentre_period
+    return Ellipse(
+        a=a,
+        e=orbit.e,
+        i=orbit.i,
+        node=orbit.node,
+        pericentre=orbit.pericentre,
+        mean_anomaly=orbit.mean_anomaly,
+        epoch=orbit.epoch,
+        motion=motion - node - turn,
+        node_rate=node,
+        pericentre_rate=turn,
+        plane=Plane.of(orbit.plane, body.pole, body.orbit_pole),
+    )
+
+
+def refuse_overlap(member: Body, centre: Body, a: float, advice: str = "") -> None:
+    """Refuse an orbit with semi-major axis `a` (m) at whose pericentre the bodies overlap.
+
+    Raises
+    ------
+    SceneError
+        If they do.
+    """
+    assert member.orbit is not None
+    reach, names = extent(member) + extent(centre), (f"'{member.name}'", f"'{centre.name}'")
+    if inside := overlap(a * (1 - member.orbit.e), reach, *names):
+        shown = f"a = {a:.6g} m, e = {member.orbit.e:g}"
+        raise SceneError(f"{member.name}.orbit", shown, f"{inside}{advice}")
+
+
+def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
+    """Semi-major axis (m) and mean motion (rad/s) of an orbit, which follow Kepler's third law.
+
+    Raises
+    ------
+    SceneError
+        If semi-major axis and period contradict each other, or one of them is missing and does not
+        follow from the masses.
+    """
+    orbit = member.orbit
+    assert orbit is not None
+    a, period = orbit.a, orbit.period
+    gm = member.gm_on(centre) + centre.gm_on(member)
+    many = hasattr(gm, "dims")
+    if many or not gm > 0:
+        if a is None or period is None:
+            array = "the masses are an array: give both a and period"
+            problem = array if many else "both masses are zero; give both a and period"
+            raise SceneError(f"{member.name}.orbit", str(orbit), problem)
+    elif a is None:
+        assert period is not None
+        a = math.cbrt(float(gm) * (period / (2 * math.pi)) ** 2)
+    else:
+        by_law = 2 * math.pi * math.sqrt(a / float(gm)) * a
+        period = by_law if period is None else period
+        if abs(period / by_law - 1) > THIRD_LAW:
+            raise SceneError(
+                f"{member.name}.orbit",
+                f"a = {a:.6g} m, period = {period:.6g} s",
+                f"they contradict each other: with GM = {float(gm):.6g} m3 s-2 the period for this "
+                f"a is {by_law:.6g} s; give either a or period",
+            )
+    return a, 2 * math.pi / period
+
+
+def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
+    """Return True if all perturber positions relative to the body follow from orbital elements."""
+    if not any(member.orbit is not None for member in (body, *perturbers)):
+        return False
+    by_name = ellipse_chains(body, perturbers)
+    return all(p.name in by_name and by_name[p.name].start is body for p in perturbers)
+
+
+def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
+    """Return the reason (text) to omit windowed means if exact means are possible, else None.
+
+    Exact means are possible if each perturber moves on an ellipse about the body.
+    """
+    by_name = ellipse_chains(body, perturbers)
+    single = all(chain.start is body and len(chain.ellipses) == 1 for chain in by_name.values())
+    if len(by_name) < len(perturbers) or not single:
+        return None
+    return "orbits by their elements have exact means"
+
+
+def no_exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
+    """Return the reason (text) to omit exact means if some orbits are not ellipses, else None."""
+    if exact_means(body, perturbers) is None:
+        return "not all perturbers move on ellipses about the body, so windowed averages are used"
+    return None

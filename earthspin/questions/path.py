@@ -1,0 +1,646 @@
+"""Paths of the angular momentum, rotation and figure axes, their errors, and IAU comparison."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.bodies import Body
+from earthspin.bodies.planets import LEFT_OUT_OF_RATES
+from earthspin.constants import (
+    ARCSEC,
+    ARCSEC_PER_YEAR,
+    DAY,
+    EPSILON_0,
+    JULIAN_YEAR,
+    NORMAL_95,
+)
+from earthspin.dates import Epochs, Span, Step
+from earthspin.engine.part import part
+from earthspin.engine.question import key
+from earthspin.errors import UndefinedError
+from earthspin.motion import axes
+from earthspin.motion.axes import AxisPath
+from earthspin.motion.effects import GEODESIC, NONRIGID
+from earthspin.motion.forces import fastest_sweep
+from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.nutation.analysis import followed, on_fixed_ecliptic
+from earthspin.nutation.budget import published_effects
+from earthspin.progress import progress
+from earthspin.questions.interiors import CHOSEN, Prediction, no_layers, prediction
+from earthspin.questions.pulls import AxisMotion, Pulls, forces_of, start_of
+from earthspin.questions.reasons import no_iau_model
+from earthspin.questions.satellites import drifts, obliquity_of, swings
+from earthspin.questions.times import days_of
+from earthspin.sky.kernel import DRIFT_FROM, growth
+
+if TYPE_CHECKING:
+    from earthspin.nutation.analysis import Circles, PoleAnalysis, Secular
+    from earthspin.nutation.response import Response
+
+
+#: Half of the span about J2000.0 that is analysed, as far as the kernel covers it: four periods of
+#: the node in each direction, over which slow changes are a short polynomial.
+HALF_SPAN = 27200.0  # d
+#: Shortest span that is analysed. Paths with the fitted response differ from IAU 2006/2000A by 0.7
+#: mas with 50 years of DE421, 1 to 3 mas with 45, 9 to 11 with 40 and 150 with 35.
+SHORTEST_SPAN = 45 * JULIAN_YEAR / DAY  # d
+SAMPLING = 4.0  # d
+#: Descriptions of amplitudes of terms that this span does not separate, in results.
+MERGED = "amplitude of IAU 2000A, together with that of the neighbour, which is no published term"
+NEIGHBOUR = "term that 150 years cannot separate from this one; empty if there is none"
+NEIGHBOUR_SHARE = "share of the neighbour in the amplitude of IAU 2000A"
+SERIES = "coefficients of the adopted series"
+
+
+@part
+def axis_path(
+    pulls: Pulls,
+    epochs: Epochs,
+    body: Body,
+    effects: tuple[str, ...],
+    interior_shift: Shift | None = None,
+) -> AxisPath:
+    """Integrate the axes of the body from J2000.0 to all dates, by Picard iteration.
+
+    With the response of the interior, the rigid axes start such that their mean pole agrees with
+    that of the IAU.
+    """
+    pulls.sky.check_times(epochs.span(), pulls.targets)
+    own, epoch = start_of(body, pulls)
+    axis = own if interior_shift is None else interior_shift.start
+    first, last = epochs.span()
+    span = first * DAY, last * DAY
+    forces = forces_of(body, pulls, effects)
+    with progress("pole", axes.window_count(epoch, span, axes.WINDOW)) as advance:
+        return axes.axis_path(forces, axis, epoch, span, limits=pulls.limits, advance=advance)
+
+
+@dataclass(frozen=True)
+class Errors:
+    """95 % half-widths of the directions of the axes at some times, by cause, rad.
+
+    Attributes
+    ----------
+    method, given, kernel, response, satellites : ndarray, shape (t,)
+        Errors from the integration, from the uncertainty of H, from the positions of the bodies,
+        from the response of the interior (0 for a rigid body), and from the nodes of the body's
+        satellites, which stay at their mean (0 without satellites).
+    """
+
+    method: FloatArray
+    given: FloatArray
+    kernel: FloatArray
+    response: FloatArray
+    satellites: FloatArray
+
+    @property
+    def total(self) -> FloatArray:
+        """Total error of the axis directions, rad: root sum of squares over all causes."""
+        return np.asarray(
+            np.sqrt(
+                self.method**2
+                + self.given**2
+                + self.kernel**2
+                + self.response**2
+                + self.satellites**2
+            )
+        )
+
+
+def direction_errors(
+    path: AxisPath,
+    figure: FloatArray,
+    days: FloatArray,
+    epochs: Epochs,
+    body: Body,
+    pulls: Pulls,
+    shift: Shift | None,
+) -> Errors:
+    """Errors of the directions of the axes along an integrated path, by cause.
+
+    Parameters
+    ----------
+    path : AxisPath
+    figure : ndarray, shape (t, 3)
+        Figure axes.
+    days : ndarray, shape (t,)
+        Their times, days from J2000.0.
+    epochs : TimeGrid or TimeList
+        All times of the series; the error of the positions depends on the most distant ones.
+    body : Body
+    pulls : Pulls
+    shift : Shift or None
+        Response of the interior; None for a rigid body.
+    """
+    _, epoch = start_of(body, pulls)
+    positions = pulls.sky.positions(np.array([epoch / DAY]))
+    distance = {name: float(np.linalg.norm(position)) for name, position in positions.items()}
+    drift = max(pulls.sky.drift(name, far) for name, far in distance.items())
+    nearest = [(pulls.gm[name], far) for name, far in distance.items()]
+    speed = fastest_sweep(body.number("dynamical_flattening"), float(body.spin_rate), nearest)
+    of_sky = axes.error_of_sky(path, figure, drift, speed, DRIFT_FROM)
+    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    return Errors(
+        method=np.full(len(figure), np.nan if pulls.sky.unmeasured else path.error),
+        given=axes.error_of_input(path, figure, u_h),
+        kernel=max(map(growth, epochs.span())) * of_sky,
+        response=np.zeros(len(figure)) if shift is None else shift.half_width(days),
+        satellites=drift_of_nodes(body, pulls, days * DAY - epoch),
+    )
+
+
+def drift_of_nodes(body: Body, pulls: Pulls, since: FloatArray) -> FloatArray:
+    """Largest displacement of the axis by the nodes of satellites, and by C if that is open, rad.
+
+    Parameters
+    ----------
+    body : Body
+    pulls : Pulls
+    since : ndarray, shape (t,)
+        Times from the start, s.
+    """
+    obliquity = obliquity_of(body) if body.satellites else None
+    if obliquity is None:
+        return np.zeros(since.size)
+    nutations = swings(body, pulls.mean_pull(body.orbital_period), obliquity)
+    total = np.sum([*drifts(nutations, since).values(), np.zeros(since.size)], axis=0)
+    published = LEFT_OUT_OF_RATES.get(body.name, {}) if body.is_as_named else {}
+    for rate in published.values():
+        total += abs(rate.value) * ARCSEC_PER_YEAR * math.sin(obliquity) * np.abs(since)
+    return np.asarray(total)
+
+
+@dataclass(frozen=True)
+class LongitudeCycles:
+    """Continuous longitude of an axis along a path, from which whole turns are restored.
+
+    Attributes
+    ----------
+    times : ndarray, shape (w,)
+        Start times of the windows, s.
+    psi : ndarray, shape (w,)
+        Continuous longitude at these times, rad.
+    """
+
+    times: FloatArray
+    psi: FloatArray
+
+    def unwrapped(self, psi: FloatArray, times: FloatArray) -> FloatArray:
+        """Add whole turns to longitudes, shape (t, k), so that they are continuous along the path.
+
+        `times` are in s, shape (t,).
+        """
+        return followed(psi, np.interp(times, self.times, self.psi)[:, np.newaxis])
+
+
+def longitude_cycles(path: AxisPath, first: float, ecliptic: FloatArray) -> LongitudeCycles:
+    """Compute the continuous longitude of the angular momentum along a path.
+
+    It equals the principal value at the time `first`, s.
+    """
+    psi = np.unwrap(on_fixed_ecliptic(path.at_starts(), ecliptic)[:, 0])
+    times = path.windows.edges[:-1]
+    principal = on_fixed_ecliptic(path.at(np.array([first]))["angular_momentum"], ecliptic)[0, 0]
+    difference = np.interp(first, times, psi) - principal
+    return LongitudeCycles(times, psi - 2 * np.pi * np.rint(difference / (2 * np.pi)))
+
+
+# --- comparison with the IAU ---------------------------------------------------------------------
+
+
+class Comparison(AxisMotion):
+    """Base class of questions that compare the computed pole with the IAU pole over time."""
+
+    span: Span = key(
+        ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),
+        doc="first and last date of the residuals, TDB",
+    )
+    step: Step = key("5 d", doc="interval between residuals")
+
+
+@dataclass(frozen=True)
+class PoleComparison:
+    """Computed pole and pole of IAU 2006/2000A, each separated into precession and nutation.
+
+    Attributes
+    ----------
+    days : ndarray, shape (t,)
+        Days from J2000.0.
+    start : ndarray, shape (3,)
+        Initial axis, for which the computed mean pole agrees with that of the IAU at the epoch.
+    epoch : float
+        J2000.0, or the nearest time with positions, s from J2000.0 TDB.
+    path : AxisPath
+        Rigid path with all effects that are switched on.
+    analysis : PoleAnalysis
+    ours, theirs : Secular
+        Secular motion of the computed pole, and of that of the IAU.
+    our_circles, their_circles : Circles
+        Circular nutations of the computed pole, and of that of the IAU.
+    difference : ndarray, shape (t,), complex
+        The computed rigid pole minus that of IAU 2006/2000A, dpsi sin(eps0) + i deps, rad.
+    """
+
+    days: FloatArray
+    start: FloatArray
+    epoch: float
+    path: AxisPath
+    analysis: PoleAnalysis
+    ours: Secular
+    theirs: Secular
+    our_circles: Circles
+    their_circles: Circles
+    difference: ComplexArray
+
+
+def steady_figure(path: AxisPath, days: FloatArray) -> FloatArray:
+    """Unit vectors of the figure axis without the semidiurnal motion, shape (t, 3)."""
+    return path.at(days * DAY, semidiurnal=False)["figure"]
+
+
+def path_over(
+    body: Body,
+    pulls: Pulls,
+    effects: Sequence[str],
+    start: FloatArray,
+    days: FloatArray,
+) -> AxisPath:
+    """Integrate the motion of the rigid body's axes over a range of days.
+
+    Positions of the perturbers are stored for the next run.
+    """
+    _, epoch = start_of(body, pulls)
+    forces = forces_of(body, pulls, rigid(effects), keep=True)
+    span = days[0] * DAY, days[-1] * DAY
+    return axes.axis_path(forces, start, epoch, span, limits=pulls.limits)
+
+
+def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, ComplexArray]:
+    """Nutation of IAU 2000A at the days of a series.
+
+    Returns
+    -------
+    days : ndarray, shape (t,)
+        Days from J2000.0.
+    ends : ndarray, shape (2,)
+        First and last day of an interval that includes the series and J2000.0.
+    eta : ndarray, shape (t,), complex
+        Nutation dpsi sin(eps0) + i deps, rad.
+
+    Raises
+    ------
+    EarthspinError
+        If the series does not fit into memory, or lies outside the source of positions.
+    """
+    from earthspin.nutation.analysis import complex_nutation
+    from earthspin.sky import iau
+
+    days = days_of(epochs)
+    first, last = epochs.span()
+    ends = np.array([min(first, 0.0), max(last, 0.0)])
+    pulls.sky.check_times(ends, pulls.targets)
+    angles = iau.at_days(lambda at: iau.nutation_of(iau.true_pole(at), at), days)
+    return days, ends, complex_nutation(angles)
+
+
+def residual_error(
+    analysed: PoleComparison, body: Body, eta: ComplexArray, days: FloatArray
+) -> float:
+    """95 % half-width of computed minus IAU nutation, the same for both nutation angles, rad.
+
+    It is due to the integration, the uncertainty of H, and interpolation.
+    """
+    from earthspin.sky.iau import node_error
+
+    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    error = math.hypot(analysed.path.error, NORMAL_95 * u_h * float(np.max(np.abs(eta))))
+    between_nodes = node_error(days)
+    return math.hypot(error, between_nodes) if between_nodes else error
+
+
+def rigid(effects: Sequence[str]) -> list[str]:
+    """Select the effects that apply to a rigid body: all except the non-rigid response."""
+    return [effect for effect in effects if effect != NONRIGID.name]
+
+
+@dataclass(frozen=True)
+class IAUPole:
+    """Pole of IAU 2006/2000A over the span that is analysed, and its analysis.
+
+    Attributes
+    ----------
+    days : ndarray, shape (t,)
+        Days from J2000.0.
+    nutation : ndarray, shape (t,), complex
+        Nutation of the pole of IAU 2006/2000A, dpsi sin(eps0) + i deps, rad.
+    analysis : PoleAnalysis
+        Analysis for these days.
+    secular : Secular
+        Secular motion of the pole of IAU 2006/2000A.
+    circles : Circles
+        Circular terms of the original IAU 2000A.
+    """
+
+    days: FloatArray
+    nutation: ComplexArray
+    analysis: PoleAnalysis
+    secular: Secular
+    circles: Circles
+
+
+def analysed_days(limits: tuple[float, float]) -> tuple[FloatArray, float]:
+    """Days on which nutation is analysed, and their span in days, where positions are known.
+
+    Parameters
+    ----------
+    limits : tuple of float
+        First and last day from J2000.0 with known positions.
+    """
+    days = np.arange(max(limits[0], -HALF_SPAN), min(limits[1], HALF_SPAN), SAMPLING)
+    return days, days.size * SAMPLING
+
+
+@part(unless=no_iau_model, same_for=lambda pulls: pulls.limits)
+def iau_pole(pulls: Pulls) -> IAUPole:
+    """Analyse pole and nutation of the IAU over 150 years, as far as positions are known."""
+    from earthspin.nutation.analysis import PoleAnalysis, complex_nutation
+    from earthspin.sky import iau
+
+    days, covered = analysed_days((pulls.limits[0] / DAY, pulls.limits[1] / DAY))
+    if covered < SHORTEST_SPAN:
+        raise UndefinedError(
+            f"the positions cover {covered * DAY / JULIAN_YEAR:.1f} years near J2000.0, and the "
+            f"analysis of nutation needs {SHORTEST_SPAN * DAY / JULIAN_YEAR:.0f}; give a longer "
+            "ephemeris, or remove the effect nonrigid"
+        )
+    analysis = PoleAnalysis(
+        days, iau.delaunay_arguments(days), iau.delaunay_rates(), iau.fixed_ecliptic()
+    )
+    pole, original = iau.pole_and_nutation(days)
+    return IAUPole(
+        days,
+        complex_nutation(iau.nutation_of(pole, days)),
+        analysis,
+        analysis.secular(pole),
+        analysis.circles(complex_nutation(original)),
+    )
+
+
+@part(unless=no_iau_model)
+def pole_analysis(
+    body: Body, pulls: Pulls, effects: tuple[str, ...], iau_pole: IAUPole
+) -> PoleComparison:
+    """Separate the computed pole over 150 years into precession and circular terms, as the IAU's.
+
+    The initial axis is corrected so that the mean poles agree at the start.
+    """
+    from earthspin.nutation.analysis import CENTURY, complex_nutation, shifted_start
+    from earthspin.sky import iau
+
+    days, analysis = iau_pole.days, iau_pole.analysis
+    start, epoch = start_of(body, pulls)
+
+    def integrate(start: FloatArray) -> tuple[AxisPath, FloatArray]:
+        path = path_over(body, pulls, effects, start, days)
+        return path, steady_figure(path, days)
+
+    with progress("analysis", 2) as advance:
+        _, pole = integrate(start)
+        advance(1)
+        start = shifted_start(
+            start, analysis.secular(pole), iau_pole.secular, analysis.ecliptic, epoch / CENTURY
+        )
+        path, pole = integrate(start)
+        advance(1)
+    eta = complex_nutation(iau.nutation_of(pole, days))
+    return PoleComparison(
+        days=days,
+        start=start,
+        epoch=epoch,
+        path=path,
+        analysis=analysis,
+        ours=analysis.secular(pole),
+        theirs=iau_pole.secular,
+        our_circles=analysis.circles(eta),
+        their_circles=iau_pole.circles,
+        difference=eta - iau_pole.nutation,
+    )
+
+
+def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp], dict[str, Any]]:
+    """Largest circular nutations of the computed pole, beside the same ones of IAU 2000A.
+
+    Returns
+    -------
+    order : ndarray, shape (count,)
+        Their places among the circles.
+    columns : dict of str
+        Variables of a table of terms: periods, amplitudes of IAU 2000A with their half-widths, and
+        the neighbours that this span does not separate from them.
+    """
+    from earthspin.nutation.analysis import amplitude_error, neighbours_of, phases, term_names
+    from earthspin.sky import iau
+
+    ours = analysed.our_circles
+    order = np.argsort(-np.abs(ours.amplitude))[:count]
+    at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
+    near = neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
+    neighbour_in, neighbour_out = phases(near.amplitude[order])
+    return order, {
+        "period": 2 * np.pi / ours.frequency[order],
+        "iau": phases(analysed.their_circles.amplitude[order]),
+        "amplitude_error": amplitude_error(ours.frequency[order]),
+        "neighbour": [near.names[row] for row in order],
+        "neighbour_in_phase": neighbour_in,
+        "neighbour_out_of_phase": neighbour_out,
+        "term": term_names(ours.multiples[order]),
+    }
+
+
+@part
+def core_response(pole_analysis: PoleComparison, body: Body) -> Response:
+    """Fit the resonance formula to the ratios of IAU 2000A amplitudes to computed rigid ones."""
+    ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
+    return _response_between(ours, ours.amplitude, theirs.amplitude, body)
+
+
+def _response_between(
+    circles: Circles, rigid: ComplexArray, other: ComplexArray, body: Body
+) -> Response:
+    """Fit the transfer function that relates rigid to non-rigid amplitudes of nutation terms."""
+    from earthspin.nutation.response import fit_response
+
+    used = _circles_for_fit(circles)
+    return fit_response(
+        circles.frequency[used],
+        rigid[used],
+        other[used],
+        body.number("dynamical_flattening"),
+        float(body.spin_rate),
+    )
+
+
+def _circles_for_fit(circles: Circles) -> NDArray[np.bool_]:
+    """Select the circular nutation terms that the fit of the transfer function uses (mask).
+
+    These are all except the prograde annual term.
+    """
+    from earthspin.nutation.response import SUN_SYNCHRONOUS
+
+    return np.asarray(np.any(circles.multiples != SUN_SYNCHRONOUS, axis=1))
+
+
+@dataclass(frozen=True)
+class ResponseFit:
+    """Interior response fitted to IAU 2000A after removal of terms not caused by the interior.
+
+    Attributes
+    ----------
+    response : Response
+        Response fitted to IAU 2000A without `added` and geodesic nutation.
+    used : ndarray, shape (k,), bool
+        Circles in the fit: all except the prograde annual term, whose published addition in IAU
+        2000A is not exact.
+    rigid : ndarray, shape (k,), complex
+        Rigid amplitude of each circle from torques, without geodesic nutation, rad.
+    left : ndarray, shape (k,), complex
+        Residual of each circle of IAU 2000A, without geodesic nutation, rad.
+    added : ndarray, shape (k,), complex
+        Published additive term of each circle, rad; 0 for most circles.
+    """
+
+    response: Response
+    used: NDArray[np.bool_]
+    rigid: ComplexArray
+    left: ComplexArray
+    added: ComplexArray
+
+
+@part
+def response_apart(
+    pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
+) -> ResponseFit:
+    """Fit the resonance formula to IAU 2000A without its geodesic nutation and added terms."""
+    from earthspin.nutation.analysis import complex_nutation
+    from earthspin.nutation.response import added_to
+    from earthspin.sky import iau
+
+    ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles.amplitude
+    torques = ours.amplitude
+    if GEODESIC.name in effects:
+        # The interior does not respond to a rotation of the frame, which is no torque.
+        rest = [effect for effect in effects if effect != GEODESIC.name]
+        path = path_over(body, pulls, rest, pole_analysis.start, pole_analysis.days)
+        pole = steady_figure(path, pole_analysis.days)
+        eta = complex_nutation(iau.nutation_of(pole, pole_analysis.days))
+        torques = pole_analysis.analysis.circles(eta).amplitude
+    theirs = theirs - (ours.amplitude - torques)
+    added = added_to(ours.multiples)
+    response = _response_between(ours, torques, theirs - added, body)
+    left = theirs - response.transfer(ours.frequency) * torques
+    return ResponseFit(response, _circles_for_fit(ours), torques, left, added)
+
+
+@dataclass(frozen=True)
+class Shift:
+    """Displacement of the axes due to the non-rigid interior, to be added to the rigid solution.
+
+    Attributes
+    ----------
+    start : ndarray, shape (3,)
+        Initial axis of the rigid path, for which its mean pole agrees with that of the IAU.
+    epoch : float
+        Epoch of the initial axis, s from J2000.0 TDB.
+    circles : Circles
+        Non-rigid minus rigid nutation, as a sum of circles.
+    rate : float
+        Published contribution to the precession rate, times sin(eps0), rad/s.
+    closure : float
+        Rate of the difference between the path and IAU 2006/2000A, rad/s.
+    residual : float
+        Half-width that, combined with the closure, contains 95 % of the differences from IAU
+        2006/2000A, rad.
+    """
+
+    start: FloatArray
+    epoch: float
+    circles: Circles
+    rate: float
+    closure: float
+    residual: float
+
+    def apply(self, directions: dict[str, FloatArray], days: FloatArray) -> None:
+        """Move the axes in place by the precession and nutation of the non-rigid interior.
+
+        Nutation does not move the angular momentum.
+        """
+        from earthspin.sky import iau
+
+        precession = self.rate * (days * DAY - self.epoch)
+        nutation = self.circles.at(iau.delaunay_arguments(days))
+        for name, axis in directions.items():
+            nutates = 0.0 if name == "angular_momentum" else 1.0
+            shift = precession + nutates * nutation
+            directions[name] = iau.moved_by_nutation(axis, shift, days)
+
+    def half_width(self, days: FloatArray) -> FloatArray:
+        """95 % half-width of axis directions due to errors of the response and rates, rad."""
+        return np.hypot(self.residual, self.closure * (days * DAY - self.epoch))
+
+
+def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[str]) -> Shift:
+    """Build the axis displacement (`Shift`) from the amplitudes of non-rigid minus rigid nutation.
+
+    Its errors follow from the difference from the IAU pole.
+    """
+    from earthspin.sky import iau
+
+    circles = replace(analysed.our_circles, amplitude=amplitude)
+    published, sine = published_effects(), np.sin(EPSILON_0.value * ARCSEC)
+    # The published rate of the response is applied. The rates of effects that are switched off are
+    # listed as neglected, and are not part of the error.
+    missing = sum(rate for name, rate in published.items() if name not in rigid(effects))
+    since = analysed.days * DAY - analysed.epoch
+    difference = analysed.difference + circles.at(iau.delaunay_arguments(analysed.days))
+    difference += missing * sine * since
+    pair = np.stack([difference.real, difference.imag], axis=1)
+    closure = float(np.linalg.norm(np.polynomial.polynomial.polyfit(since, pair, 1)[1]))
+    remainder = np.abs(difference) ** 2 - (closure * since) ** 2
+    return Shift(
+        analysed.start,
+        analysed.epoch,
+        circles,
+        rate=published[NONRIGID.name] * sine,
+        closure=closure,
+        residual=math.sqrt(max(0.0, float(np.quantile(remainder, 0.95)))),
+    )
+
+
+@part
+def nonrigid_shift(
+    pole_analysis: PoleComparison, response_apart: ResponseFit, effects: tuple[str, ...]
+) -> Shift:
+    """Axis displacement due to core, mantle, oceans and atmosphere, fitted to IAU 2000A."""
+    factor = response_apart.response.transfer(pole_analysis.our_circles.frequency) - 1
+    amplitude = response_apart.rigid * factor + response_apart.added
+    return _shift(pole_analysis, amplitude, effects)
+
+
+@part(unless=no_layers)
+def predicted_shift(
+    pole_analysis: PoleComparison, prediction: Prediction, effects: tuple[str, ...]
+) -> Shift:
+    """Axis displacement due to the non-rigid interior, predicted from its layers."""
+    circles = pole_analysis.our_circles
+    factor = prediction.transfer(CHOSEN, circles.frequency) - 1
+    return _shift(pole_analysis, circles.amplitude * factor, effects)
+
+
+#: Parts that compute the shift due to the interior, for questions that use them.
+INTERIOR = (iau_pole, pole_analysis, response_apart, nonrigid_shift, prediction, predicted_shift)

@@ -1,0 +1,432 @@
+"""Perturbers, effects and custom torques that move the axes of a body, for the solvers."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from earthspin import bodies
+from earthspin.bodies import BODIES, SUN, Body
+from earthspin.bodies import PLANETS as PLANET_NAMES
+from earthspin.constants import ARCSEC, DAY, NORMAL_95
+from earthspin.engine.part import part
+from earthspin.engine.question import key
+from earthspin.errors import EarthspinError, KernelError, UndefinedError, Where, one_line
+from earthspin.mass.figure import inverse_polar_moment
+from earthspin.motion.effects import EFFECTS, GEODESIC, NONRIGID, PLANETS, RIGID
+from earthspin.motion.forces import Figure, Forces, Places, RateLaw, Torque
+from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.polynomials import Windows
+from earthspin.questions.elements import all_by_elements
+from earthspin.questions.satellites import carried, common_turn, obliquity_of
+from earthspin.questions.sky import KernelName, Sky, places, sky
+from earthspin.questions.times import Series, epochs
+from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
+from earthspin.sky.protocol import Place
+from earthspin.torque.gravity import cross
+from earthspin.units import Plain, Several, Word, real_numbers
+
+#: Samples of an orbit for its mean pull; the mean over an ellipse converges exponentially.
+PULL_SAMPLES = 400
+#: Words for effects that depend on the body; the question replaces them by names.
+KNOWN, WITHOUT_INTERIOR = "known", "rigid"
+
+
+class EffectNames(Several):
+    """Kind of input: names of effects, or one word for several: "known", "rigid" or "all"."""
+
+    @property
+    def hint(self) -> str:
+        """Type hint of the allowed value, as code editors show it."""
+        return f"Literal['known', 'rigid', 'all'] | {super().hint}"
+
+    @property
+    def words(self) -> str:
+        """Text for error messages that describes the allowed values."""
+        return f'{super().words}; or "known", "rigid" or "all"'
+
+    def read(self, value: object, where: Where) -> tuple[str, ...]:
+        """Return the names of the effects that one word stands for; otherwise check the names."""
+        if isinstance(value, str) and value in (KNOWN, WITHOUT_INTERIOR, "all"):
+            return tuple(EFFECTS) if value == "all" else (value,)
+        return super().read(value, where)
+
+
+#: Names of effects, as an input.
+Effects = Annotated[tuple[str, ...], EffectNames(Word(EFFECTS))]
+EFFECTS_DOC = (
+    "effects besides the torque of the perturbers on the bulge: names, or one word: known (all "
+    "that are known for the body), rigid (without the response of the interior), all"
+)
+
+
+class AxisMotion(Series):
+    """Base class of questions about the motion of a body's axes under torques."""
+
+    by_body = ("effects",)
+
+    effects: Effects = key("rigid", doc=EFFECTS_DOC)
+
+    def check(self) -> None:
+        """Replace words by the names of effects; refuse `planets` without a kernel."""
+        super().check()
+        words = {KNOWN: self.known_effects, WITHOUT_INTERIOR: self.rigid_effects}
+        if self.effects and self.effects[0] in words:
+            object.__setattr__(self, "effects", words[self.effects[0]]())
+        elif PLANETS.name in self.effects and all_by_elements(self.body, self.perturbers):
+            raise self.error(
+                "effects",
+                PLANETS.name,
+                "all orbits are given by elements, and this effect needs a kernel: remove it, or "
+                "list the planets as perturbers",
+            )
+
+    def known_effects(self) -> tuple[str, ...]:
+        """Names of the effects that are known for this body, its perturbers and its kernel."""
+        return self.rigid_effects()
+
+    def rigid_effects(self) -> tuple[str, ...]:
+        """Names of the effects on a rigid body, without `planets` if no kernel holds them."""
+        kernel = own_kernel(self.ephemeris)
+        no_planets = all_by_elements(self.body, self.perturbers) or (
+            kernel is not None and not kernel.holds(BODIES[name].naif for name in bodies.PLANETS)
+        )
+        return tuple(name for name in RIGID if not (no_planets and name == PLANETS.name))
+
+
+def own_kernel(ephemeris: str) -> Ephemeris | None:
+    """Open a kernel that is given by its path; None for a named one, and for a faulty file.
+
+    Named kernels hold all planets for a century and more; a faulty file is refused by the run.
+    """
+    if not KernelName().is_path(ephemeris):
+        return None
+    try:
+        return open_ephemeris(ephemeris)
+    except KernelError:
+        return None
+
+
+@dataclass(frozen=True)
+class Pulls:
+    """GM and positions of all perturbers, and the time range in which the positions are known.
+
+    Attributes
+    ----------
+    sky : Sky
+    gm : dict of str to float
+        GM, m3 s-2, of the question's perturbers, followed by the planets.
+    targets : dict of str to Place
+        Place of each perturber in the source.
+    limits : tuple of float
+        First and last time for which all positions are available, s from J2000.0 TDB.
+    """
+
+    sky: Sky
+    gm: dict[str, float]
+    targets: dict[str, Place]
+    limits: tuple[float, float]
+    _stored: dict[tuple[float, float, int], dict[str, FloatArray]] = field(
+        default_factory=dict, repr=False
+    )
+
+    def positions(
+        self, names: Sequence[str], times: FloatArray, keep: bool
+    ) -> dict[str, FloatArray]:
+        """Positions of perturbers from the body, m, at times in s; stored for reuse if `keep`."""
+        at = (float(times[0]), float(times[-1]), times.size)
+        known = self._stored.setdefault(at, {}) if keep else {}
+        missing = {name: self.targets[name] for name in names if name not in known}
+        if missing:
+            known |= self.sky.positions(times / DAY, missing)
+        return known
+
+    def mean_pull(self, period: float | None) -> float:
+        """Sum of GM <1/r3> of the perturbers over a period about J2000.0, in s, s-2.
+
+        Without a period it is that at J2000.0. The period is cut to the times that are covered.
+        """
+        half = (period or 0.0) / 2
+        first, last = (min(max(end, self.limits[0]), self.limits[1]) for end in (-half, half))
+        times = np.linspace(first, last, PULL_SAMPLES, endpoint=False)
+        positions = self.sky.positions(times / DAY)
+        return sum(
+            self.gm[name] * float(np.mean(np.linalg.norm(position, axis=1) ** -3))
+            for name, position in positions.items()
+        )
+
+
+@part
+def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]) -> Pulls:
+    """Collect GM and positions of the perturbers; include the planets if that effect is on."""
+    masses = {p.name: float(p.gm_on(body)) for p in perturbers}
+    targets = dict(sky.targets)
+    if PLANETS.name in effects:
+        named = {code for member in (body, *perturbers) for code in member.naif}
+        for name in bodies.PLANETS:
+            if name not in masses and name != body.name and named.isdisjoint(BODIES[name].naif):
+                masses[name] = float(BODIES[name].gm_on(body))
+                targets[name] = sky.place(BODIES[name])
+    start, end = sky.coverage(targets)
+    return Pulls(sky, masses, targets, (start * DAY, end * DAY))
+
+
+def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = False) -> Forces:
+    """Build the forces that move the axes of a body, including only the given effects."""
+    near = tuple(pulls.sky.targets)
+    forces = Forces(
+        figure=figure_of(body, 2 * math.pi / body.number("spin_period")),
+        gm={name: pulls.gm[name] for name in near},
+        far={name: gm for name, gm in pulls.gm.items() if name not in near},
+        positions=lambda times: {},
+        near=near,
+        mean_pole=lambda times: body.needed("pole").mean(times / DAY),
+    )
+    forces = switched_on(forces, body, effects)
+    turn = common_turn(body, pulls.mean_pull(body.orbital_period)) if body.satellites else None
+    if turn is not None:
+        forces = replace(forces, torques=(*forces.torques, turning(turn)))
+    names = tuple(forces.gm)
+    return replace(forces, positions=lambda times: pulls.positions(names, times, keep))
+
+
+def turning(rate: FloatArray) -> Torque:
+    """Make a function that gives a constant angular velocity as an equivalent torque.
+
+    Parameters
+    ----------
+    rate : ndarray, shape (3,)
+        rad/s.
+    """
+    column = rate.reshape(3, 1, 1)
+
+    def over(forces: Forces, windows: Windows, place: Places) -> RateLaw:
+        return lambda axis, momentum: cross(column, momentum)
+
+    return over
+
+
+def figure_of(body: Body, spin_rate: float) -> Figure:
+    """Flattening, spin rate and radius of a body, which determine its motion under torque."""
+    h = body.number("dynamical_flattening")
+    return Figure(
+        h=h,
+        spin_rate=spin_rate,
+        inverse_polar_moment=inverse_polar_moment(body.number("j2"), h),
+        radius=body.number("radius"),
+        meridian=body.number("meridian"),
+    )
+
+
+def switched_on(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:
+    """Add the effects with the given names to the forces, and return the new forces."""
+    for name, effect in EFFECTS.items():
+        if name in effects:
+            forces = effect.switch_on(forces, body)
+    return forces
+
+
+def start_of(body: Body, pulls: Pulls) -> tuple[FloatArray, float]:
+    """Figure axis at the start of the integration, and the time of the start, s from J2000.0.
+
+    The epoch is J2000.0, or the nearest time that the kernel covers.
+    """
+    epoch = min(max(0.0, pulls.limits[0]), pulls.limits[1])
+    return body.needed("pole").true(epoch / DAY), epoch
+
+
+def start_note(body: Body) -> dict[str, str]:
+    """Note for the attributes of a result: its errors do not include that of the initial pole.
+
+    Empty if the pole follows the models of the IAU.
+    """
+    if body.needed("pole").of_the_iau:
+        return {}
+    half = start_error(body)
+    size = "is not known" if half is None else f"is {half / ARCSEC:.2g} arcsec (95 % half-width)"
+    name = bodies.in_a_sentence(body.name)
+    return {"start": f"taken as exact; the uncertainty of the pole of {name} at J2000.0 {size}"}
+
+
+def idle_note(body: Body, effects: Sequence[str]) -> dict[str, str]:
+    """Note for the attributes of a result: the effects that do nothing, with the reason."""
+    fields = {name: EFFECTS[name].coefficient for name in effects}
+    idle = [
+        f"{name} ({field} of {bodies.in_a_sentence(body.name)} is 0)"
+        for name, field in fields.items()
+        if field and body.number(field) == 0
+    ]
+    return {"effects_that_do_nothing": ", ".join(idle)} if idle else {}
+
+
+def start_error(body: Body) -> float | None:
+    """95 % half-width of the pole's direction at J2000.0, rad; None if it is not known."""
+    if body.pole_uncertainty is None:
+        return None
+    return NORMAL_95 * body.number("pole_uncertainty")
+
+
+#: Parts that compute `pulls` and `epochs`, for questions that use them.
+PULLS = (places, sky, pulls, epochs)
+
+
+# --- effects that are switched off ---------------------------------------------------------------
+
+
+def switched_off(
+    body: Body, perturbers: tuple[Body, ...], effects: Sequence[str]
+) -> tuple[str, ...]:
+    """Names of the effects on the rigid body that are switched off although they would act.
+
+    An effect does not act if its coefficient is zero or its perturbers are not there.
+    """
+    idle = {
+        name
+        for name, effect in EFFECTS.items()
+        if effect.coefficient and body.number(effect.coefficient) == 0
+    }
+    if body.name not in BODIES and all_by_elements(body, perturbers):
+        idle.add(PLANETS.name)  # the body is not in the solar system
+    if "sun" not in {perturber.name for perturber in perturbers}:
+        idle.add(GEODESIC.name)
+    off = (name for name in EFFECTS if name not in {*effects, *idle, NONRIGID.name})
+    return tuple(off) if perturbers else ()
+
+
+def each_added(
+    sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: Sequence[str], off: Sequence[str]
+) -> tuple[Forces, dict[str, Forces]]:
+    """Forces of the given effects, and the same forces with one more effect each.
+
+    The planets are omitted if their positions are not known (`drift_by_planets`).
+    """
+    on = tuple(effects)
+    try:
+        pulling = pulls(sky, body, perturbers, (*on, *off))
+    except EarthspinError:
+        off = [name for name in off if name != PLANETS.name]
+        pulling = pulls(sky, body, perturbers, on)
+    added = {name: forces_of(body, pulling, (*on, name), keep=True) for name in off}
+    return forces_of(body, pulling, on, keep=True), added
+
+
+#: Samples of half a synodic orbit; the mean over it converges exponentially.
+_SAMPLES = 1000
+
+
+def drift_by_planets(body: Body, seconds: float) -> dict[str, float]:
+    """Displacement of the axis of a planet by the other planets after some time, rad, by effect.
+
+    It follows from their mean torque on circular orbits in one plane, without their positions:
+    within 10 % for the Earth and Mars over ten years. Empty for a body that is not a planet of the
+    Sun, or whose obliquity is not known.
+    """
+    obliquity = obliquity_of(body)
+    if body.name not in PLANET_NAMES or body.orbital_period is None or obliquity is None:
+        return {}
+    phases = math.pi * (np.arange(_SAMPLES) + 0.5) / _SAMPLES
+    own, pull = _orbit_radius(body), 0.0
+    for name in PLANET_NAMES:
+        if name != body.name:
+            other = _orbit_radius(BODIES[name])
+            square = own**2 + other**2 - 2 * own * other * np.cos(phases)
+            pull += BODIES[name].number("gm") * float(np.mean(square**-1.5))
+    speed = 0.75 * body.number("dynamical_flattening") / float(body.spin_rate) * pull
+    factor = float(carried(body, pull, obliquity).rate)
+    return {PLANETS.name: abs(speed * math.sin(2 * obliquity) * factor * seconds)}
+
+
+def _orbit_radius(planet: Body) -> float:
+    """Mean radius of the orbit about the Sun, m, from its period."""
+    return math.cbrt(SUN.number("gm") * (planet.number("orbital_period") / (2 * math.pi)) ** 2)
+
+
+# --- torques given by the user -------------------------------------------------------------------
+
+
+#: Key in a scene for a function, which a scene cannot hold.
+_FUNCTION = "live"
+
+
+@dataclass(frozen=True)
+class CustomTorque:
+    """Torque on a body that the user defines by a Python function.
+
+    Attributes
+    ----------
+    law : callable
+        ``torque(t, q, omega)`` that takes times from the start (s), shape (n,), attitudes, shape
+        (n, 4), and angular velocities along the body's axes (rad/s), shape (n, 3), and returns the
+        torque along the body's axes (N m), shape (n, 3).
+    """
+
+    law: Callable[[FloatArray, FloatArray, FloatArray], ArrayLike]
+
+    words = "a function torque(t, q, omega) -> N m, in Python"
+    hint = "Callable[[np.ndarray, np.ndarray, np.ndarray], ArrayLike]"
+
+    @classmethod
+    def read(cls, value: object, where: Where) -> CustomTorque:
+        """Accept a Python function as the torque; its results are checked whenever it is called."""
+        if isinstance(value, CustomTorque):
+            return value
+        if isinstance(value, Mapping) and _FUNCTION in value:
+            raise where.error(
+                value[_FUNCTION],
+                "it was a function, which no scene can hold; give it again in Python",
+            )
+        if not callable(value):
+            raise where.error(value, f"give {cls.words}")
+        return cls(value)
+
+    def write(self) -> Plain:
+        """Form stored in scene files: the name of the function; its code is not stored."""
+        name = getattr(self.law, "__qualname__", None) or repr(self.law)
+        return {_FUNCTION: re.sub(r" at 0x[0-9a-fA-F]+", "", str(name))}
+
+    def over(
+        self, polar_moment: float
+    ) -> Callable[[FloatArray, FloatArray, FloatArray], FloatArray]:
+        """Wrap the user's function: divide its torque by the polar moment, and check every result.
+
+        Parameters
+        ----------
+        polar_moment : float
+            C, kg m2.
+
+        Raises
+        ------
+        UndefinedError
+            If the function fails, or does not return a finite torque for each time.
+        """
+
+        def torque(times: FloatArray, q: FloatArray, omega: FloatArray) -> FloatArray:
+            try:
+                returned: Any = self.law(times, q, omega)
+                if hasattr(returned, "to_value"):  # a Quantity
+                    returned = returned.to_value("N m")
+                values = np.broadcast_to(real_numbers(returned), omega.shape)
+            except EarthspinError:
+                raise
+            except Exception as error:  # any error of the user's function
+                reason = one_line(error) or type(error).__name__
+                raise UndefinedError(
+                    f"the custom torque failed for {times.size} times: {reason}; it must take "
+                    f"arrays of shapes ({times.size},), ({times.size}, 4) and ({times.size}, 3) "
+                    "and return N m with the last shape"
+                ) from None
+            finite = np.isfinite(values).all(axis=1)
+            if not finite.all():
+                raise UndefinedError(
+                    f"the custom torque is not finite {float(times[~finite][0]):.6g} s from the "
+                    "start; return a finite torque for each time"
+                )
+            return np.asarray(values / polar_moment)
+
+        return torque

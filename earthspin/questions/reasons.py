@@ -1,0 +1,126 @@
+"""Conditions under which results are left out, and published numbers beside results."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+
+import numpy as np
+
+from earthspin.bodies import Body, in_a_sentence, proper
+from earthspin.constants import DAY, NORMAL_95, PUBLISHED_EFFECTS
+from earthspin.engine.neglected import Neglected
+from earthspin.engine.part import part
+from earthspin.engine.variables import Pair, Variables, measured
+from earthspin.nutation.budget import published_effects
+
+
+def no_iau_model(body: Body) -> str | None:
+    """Return the reason (text) to omit IAU results if the body has no IAU model, else None.
+
+    The model is that of its precession.
+    """
+    described = body.pole is not None and body.pole.of_the_iau
+    return None if described else f"the IAU has no precession model for {in_a_sentence(body.name)}"
+
+
+def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
+    """Return the reason (text) to omit IAU comparisons if they do not apply, else None.
+
+    These need a body with an IAU precession model and only the Sun and the Moon as perturbers.
+    """
+    if reason := no_iau_model(body):
+        return reason
+    names = {p.name for p in perturbers}
+    missing = [name for name in ("sun", "moon") if name not in names]
+    if missing:
+        return f"the {missing[0]} is not among the perturbers"
+    return "the comparison is for Sun and Moon only" if len(names) > 2 else None
+
+
+def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
+    """Return the reason (text) to omit IAU numbers if the Earth is modified, else None.
+
+    These need the unmodified Earth, with only the Sun and the Moon as perturbers.
+    """
+    if reason := not_sun_and_moon(body, perturbers):
+        return reason
+    if body.is_as_named:
+        return None
+    return f"the IAU's numbers do not apply to a modified {proper(body.name)}: {body.changes}"
+
+
+def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
+    """Return the reason (text) to omit lunar results if the Moon is no perturber, else None."""
+    if reason := no_iau_model(body):
+        return reason
+    has_moon = "moon" in {p.name for p in perturbers}
+    return None if has_moon else "the moon is not among the perturbers"
+
+
+def many_pulls(perturbers: tuple[Body, ...]) -> str | None:
+    """Return the reason (text) to omit results if a perturber's mass is an array, else None.
+
+    These are results that need one number for each mass.
+    """
+    arrays = [p.name for p in perturbers if hasattr(p.gm, "dims")]
+    return f"the mass of '{arrays[0]}' is an array" if arrays else None
+
+
+def north_note(body: Body, obliquity: float | None = None) -> dict[str, str]:
+    """Note for the attributes of an obliquity: which pole it belongs to, if that is not the spin.
+
+    Parameters
+    ----------
+    body : Body
+    obliquity : float, optional
+        rad; None if it changes in time.
+    """
+    period = body.spin_period
+    if period is None or not bool(np.any(np.asarray(period) < 0)):
+        return {}
+    note = {
+        "north": f"the pole of {in_a_sentence(body.name)}, about which it spins backwards; "
+        "the angle of the spin vector is 180 deg minus this"
+    }
+    if obliquity is not None:
+        note["spin_obliquity"] = f"{180 - math.degrees(obliquity):.2f} deg"
+    return note
+
+
+def neglected_rates(modelled: Collection[str] = ()) -> Neglected:
+    """Published contributions to the rate of psi_A of the effects that are not modelled."""
+    return Neglected(
+        {name: size for name, size in published_effects().items() if name not in modelled},
+        "arcsec/yr",
+        "published contribution to the rate of an effect that is not modelled",
+        next(iter(PUBLISHED_EFFECTS.values())).source,
+    )
+
+
+# --- observed wobble -----------------------------------------------------------------------------
+
+
+class ObservedWobble(Variables):
+    """Observed period of the free wobble, as a variable of a result (Dataset)."""
+
+    observed_period: Pair = measured("d", "observed period of the free wobble")
+
+
+def not_observed(body: Body) -> str | None:
+    """Return the reason (text) to omit the observed period if no wobble was observed, else None."""
+    if body.observed_wobble:
+        return None
+    return f"no observed wobble of this {proper(body.name)} is known"
+
+
+@part(unless=not_observed)
+def observed_wobble(body: Body) -> ObservedWobble:
+    """Observed period of the free wobble from the literature."""
+    observed = body.observed_wobble
+    assert observed is not None
+    period = observed.value * DAY
+    half_width = NORMAL_95 * period * observed.relative_uncertainty
+    return ObservedWobble(observed_period=(period, half_width)).with_attributes(
+        observed_period={"references": observed.source}
+    )

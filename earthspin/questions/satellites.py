@@ -1,0 +1,284 @@
+"""Satellites of a body in its precession: the common rate, and the nutation by their nodes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from earthspin.bodies import Body, Numeric, all_of, in_a_sentence
+from earthspin.constants import JULIAN_YEAR, NORMAL_95
+from earthspin.errors import BodyError
+from earthspin.numerics.arrays import FloatArray
+from earthspin.sky.poles import angle
+from earthspin.torque.laplace import Node, Planet, Satellites, laplace_tilts, nodes, shares
+
+#: Relative half-width of the contribution of satellites, 95 %: eccentricities, and differences from
+#: an integration of spin and orbit normals (0.13 % for Saturn over 60,000 years).
+UNMODELLED = 2e-3
+
+#: Relative bound on the error of the nutations by nodes: the terms of the IAU's pole of Jupiter
+#: differ by up to 22 %, that of Neptune by 10 % for C/(M R2) = 0.23.
+SWING_SHARE = 0.25
+
+
+@dataclass(frozen=True)
+class Carried:
+    """Precession of a body with its satellites, relative to that of the body alone.
+
+    Attributes
+    ----------
+    bulge : float or DataArray
+        J2'/J2: factor on the torque.
+    moment : float or DataArray
+        C'/C.
+    uncertainty : float or DataArray
+        Relative standard uncertainty of the rate, due to the masses of the satellites and to what
+        the model leaves out.
+    """
+
+    bulge: Numeric = 1.0
+    moment: Numeric = 1.0
+    uncertainty: Numeric = 0.0
+
+    @property
+    def rate(self) -> Numeric:
+        """Factor on the precession rate."""
+        return self.bulge / self.moment
+
+
+def no_satellites(body: Body) -> str | None:
+    """Return the reason (text) to omit the motion of satellites if there are none, else None."""
+    return None if body.satellites else f"{in_a_sentence(body.name)} has no satellites here"
+
+
+def without_swings(body: Body) -> Body:
+    """Replace the pole of a body with satellites by its mean over the nodes of the satellites."""
+    if not body.satellites:
+        return body
+    return body.replace(
+        pole=body.needed("pole").without_nutation(), pole_uncertainty=body.pole_uncertainty
+    )
+
+
+def mean_pole_error(body: Body, half: float | None, pull: Numeric) -> float | None:
+    """95 % half-width of the direction of the mean pole at J2000.0, rad; None if it is not known.
+
+    The pole of a planet without periodic terms of its satellites' nodes may be anywhere on the
+    circles that these describe about the mean.
+
+    Parameters
+    ----------
+    body : Body
+    half : float or None
+        Half-width of the direction of the body's pole, rad.
+    pull : float or DataArray
+        Sum of GM <1/r3> of the perturbers, s-2.
+    """
+    obliquity = obliquity_of(body) if body.satellites else None
+    pole = body.needed("pole")
+    if half is None or obliquity is None or pole.without_nutation() != pole:
+        return half
+    return math.hypot(half, *(swing.angle for swing in swings(body, pull, obliquity).values()))
+
+
+def describe_pole(body: Body) -> str:
+    """Describe the pole of a precession rate: with satellites, its mean over their nodes."""
+    if not body.satellites:
+        return str(body.needed("pole"))
+    names = ", ".join(satellite.name for satellite in body.satellites)
+    return f"mean over the nodes of {names}"
+
+
+def carried(body: Body, pull: Numeric, obliquity: float) -> Carried:
+    """Compute how satellites change the precession of a body; without satellites, not at all.
+
+    Parameters
+    ----------
+    body : Body
+        Its numbers may be labelled arrays.
+    pull : float or DataArray
+        Sum of GM <1/r3> of the perturbers, s-2.
+    obliquity : float
+        rad.
+
+    Raises
+    ------
+    BodyError
+        If the polar moment does not follow from J2 and H.
+    """
+    if not body.satellites:
+        return Carried()
+    import xarray as xr
+
+    _refuse_sphere(body)
+    names = ("gm", "radius", "j2", "dynamical_flattening", "spin_rate")
+    numbers = xr.broadcast(
+        *(xr.DataArray(getattr(body, name)) for name in names), xr.DataArray(pull)
+    )
+    template = numbers[0]
+    columns = [array.values.reshape(-1, 1) for array in numbers]
+    planet = _planet(columns, obliquity)
+
+    def factors(satellites: Satellites) -> tuple[FloatArray, FloatArray]:
+        q, moment = (share.sum(1) for share in shares(planet, satellites))
+        return 1 + q / planet.j2[:, 0], 1 + moment / planet.polar_moment[:, 0]
+
+    satellites = _satellites(body)
+    bulge, moment = factors(satellites)
+    variance = (UNMODELLED / NORMAL_95 * (1 - 1 / bulge)) ** 2
+    for place, satellite in enumerate(body.satellites):
+        if satellite.gm_uncertainty:
+            gm = satellites.gm.copy()
+            gm[place] += satellite.gm_uncertainty
+            heavier, more = factors(replace(satellites, gm=gm))
+            variance += (heavier / more * (moment / bulge) - 1) ** 2
+
+    def labelled(values: FloatArray) -> Numeric:
+        if not template.dims:
+            return float(values[0])
+        return xr.DataArray(values.reshape(template.shape), template.coords, template.dims)
+
+    return Carried(labelled(bulge), labelled(moment), labelled(np.sqrt(variance)))
+
+
+@dataclass(frozen=True)
+class Swing:
+    """Nutation of a body by the node of one of its satellites.
+
+    Attributes
+    ----------
+    rate : float
+        Rate of precession in longitude that it adds and takes away, rad/s.
+    angle : float
+        Radius of the circle of the pole, rad.
+    node_rate : float
+        rad/s.
+    """
+
+    rate: float
+    angle: float
+    node_rate: float
+
+    @property
+    def years(self) -> str:
+        """Period of the node in words."""
+        return f"{float(f'{2 * np.pi / self.node_rate / JULIAN_YEAR:.3g}'):,g} years"
+
+
+def swings(body: Body, pull: Numeric, obliquity: float) -> dict[str, Swing]:
+    """Nutations of a body by the nodes of its satellites, by name.
+
+    Parameters are those of `carried`; of labelled arrays the means are used.
+    """
+    if not body.satellites:
+        return {}
+    _refuse_sphere(body)
+    names = ("gm", "radius", "j2", "dynamical_flattening")
+    numbers = [*(body.needed(name) for name in names), body.spin_rate, pull]
+    planet = _planet([np.full((1, 1), float(np.mean(number))) for number in numbers], obliquity)
+    sine = math.sin(obliquity)
+    nutations = {}
+    for satellite, node in zip(body.satellites, nodes(planet, _satellites(body)), strict=True):
+        if node.swing:
+            rate = _rate(node, sine)
+            nutations[f"node of {satellite.name}"] = Swing(rate, node.swing, node.rate)
+    return nutations
+
+
+def largest_torques_of_satellites(body: Body, pull: float) -> dict[str, float]:
+    """Largest torques of the satellites on the bulge of their planet, N m, by name.
+
+    They are those at the largest distance of each from the equator. `pull` is the sum of GM/r3 of
+    the perturbers, s-2, which tilts the Laplace planes.
+    """
+    obliquity = obliquity_of(body) if body.satellites else None
+    if obliquity is None:
+        return {}
+    moment = body.number("j2") * float(body.mass) * body.number("radius") ** 2
+    # tilts do not depend on H and spin
+    numbers = [body.gm, body.number("radius"), body.number("j2"), 1.0, 1.0, pull]
+    planet = _planet([np.full((1, 1), float(number)) for number in numbers], obliquity)
+    tilts = laplace_tilts(planet, _satellites(body))[0]
+    return {
+        f"pull of {moon.name}": 1.5
+        * moon.gm
+        / moon.a**3
+        * abs(moment)
+        * math.sin(min(2 * (abs(tilt) + min(moon.i, math.pi - moon.i)), math.pi / 2))
+        for moon, tilt in zip(body.satellites, tilts, strict=True)
+    }
+
+
+def largest_drifts(nutations: Mapping[str, Swing], span: float) -> dict[str, float]:
+    """Largest displacements of the pole by the nodes of satellites within a span of s, rad."""
+    return {
+        name: 2 * swing.angle * math.sin(min(swing.node_rate * span, math.pi) / 2)
+        for name, swing in nutations.items()
+    }
+
+
+def drifts(nutations: Mapping[str, Swing], times: FloatArray) -> dict[str, FloatArray]:
+    """Displacements of the pole by the nodes of satellites since the epoch, rad, shape (t,) each.
+
+    They are chords of the circles that the pole describes, larger by `SWING_SHARE`; `times` are s
+    from the epoch.
+    """
+    return {
+        name: 2 * (1 + SWING_SHARE) * swing.angle * np.abs(np.sin(swing.node_rate * times / 2))
+        for name, swing in nutations.items()
+    }
+
+
+def obliquity_of(body: Body) -> float | None:
+    """Obliquity of the mean pole at J2000.0 to the orbit, rad; None without a pole or an orbit."""
+    if body.pole is None or (body.orbit_pole is None and not body.pole.of_the_iau):
+        return None
+    pole = body.pole.without_nutation()
+    axis = pole.mean(np.zeros(1))[0]
+    return angle(axis, pole.orbit_normal(body.orbit_pole))
+
+
+def common_turn(body: Body, pull: float) -> FloatArray | None:
+    """Angular velocity that satellites add to the precession of their planet, rad/s, shape (3,).
+
+    The torque of the perturbers on the bulge turns the planet as if it were alone. Its satellites,
+    each near its Laplace plane, make planet and satellites precess together about the normal of
+    the orbit. None without satellites or without an orbit.
+    """
+    obliquity = obliquity_of(body) if body.satellites else None
+    if obliquity is None:
+        return None
+    alone = 1.5 * pull * math.cos(obliquity) * body.number("dynamical_flattening") / body.spin_rate
+    more = alone * (carried(body, pull, obliquity).rate - 1)
+    return np.asarray(-more * body.needed("pole").orbit_normal(body.orbit_pole))
+
+
+def _rate(node: Node, sine: float) -> float:
+    """Largest rate in longitude of the motion on a circle about the mean pole, rad/s.
+
+    It is infinite for an upright pole, whose longitude is not defined.
+    """
+    return node.rate * math.sin(node.swing) / sine if sine else math.inf
+
+
+def _planet(columns: list[Any], obliquity: float) -> Planet:
+    """Make a `Planet` from columns of GM, radius, J2, H, spin rate and pull."""
+    gm, radius, j2, h, spin_rate, pull = columns
+    return Planet(gm, radius, j2, j2 / h, np.abs(spin_rate), pull, obliquity)
+
+
+def _satellites(body: Body) -> Satellites:
+    """Masses and orbits of the satellites of a body as arrays."""
+    gm, a, i = np.array([(s.gm, s.a, s.i) for s in body.satellites]).T
+    return Satellites(gm, a, i)
+
+
+def _refuse_sphere(body: Body) -> None:
+    """Raise an error if the polar moment of a body with satellites is not known."""
+    if not all_of(body.needed("dynamical_flattening") != 0):
+        allowed = "with satellites C must follow from J2 and H; give another H, or satellites = []"
+        raise BodyError(body.name, "dynamical_flattening", 0.0, allowed)

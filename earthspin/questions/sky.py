@@ -1,0 +1,412 @@
+"""The body of a question, its perturbers, and the source of their positions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+import numpy as np
+
+from earthspin._version import version
+from earthspin.bodies import EARTH, MOON, SUN, Body, all_of
+from earthspin.bodies.checks import extent, overlap, refuse_break_up
+from earthspin.bodies.planets import on_its_orbit, pulled_by
+from earthspin.dates import Span
+from earthspin.engine.part import part
+from earthspin.engine.question import Question, key
+from earthspin.errors import SceneError, UndefinedError, Where
+from earthspin.numerics.arrays import FloatArray
+from earthspin.questions.elements import EllipseChain, all_by_elements, ellipse_chains
+from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
+from earthspin.sky.ephemeris import NAMED_KERNELS
+from earthspin.sky.poles import Pole, rotate, spherical
+from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
+from earthspin.sky.sources import (
+    SourceName,
+    describe_position,
+    describe_source,
+    is_measured,
+    is_vector_function,
+    open_source,
+    place_of,
+)
+from earthspin.units import FileName
+
+if TYPE_CHECKING:
+    from earthspin.sky.iau import Nutation
+
+
+class KernelName(FileName):
+    """Kind of input: an ephemeris, as a kernel name, the path of a file, or a Skyfield kernel."""
+
+    words = '"de421", "de440", or the path of a .bsp file'
+    hint = "str | PathLike[str] | SpiceKernel"
+    expected = "a name, a path, or a Skyfield kernel"
+    content = "an SPK kernel"
+
+    def read(self, value: object, where: Where) -> Any:
+        """Read an ephemeris, given by name, by path, or as a Skyfield kernel."""
+        if hasattr(value, "spk") and hasattr(value, "path"):
+            value = value.path
+        if is_vector_function(value):
+            raise where.error(
+                value,
+                "it is the position of one body; give it to a perturber, like "
+                "SUN.replace(position=...), and give a kernel here",
+            )
+        return super().read(value, where)
+
+    def is_path(self, value: object) -> bool:
+        """Return True if a value is a path and not the name of a known kernel."""
+        return isinstance(value, str) and value.lower() not in NAMED_KERNELS
+
+    def begins(self, head: bytes) -> bool:
+        """Return True if the first bytes of a file are those of an SPK kernel."""
+        return head.startswith((b"DAF/SPK", b"NAIF/DAF"))
+
+
+SOURCE_DOC = (
+    "library that reads the positions: jplephem, which is fast, or Skyfield by its public calls"
+)
+
+
+class PerturbedBody(Question):
+    """Base class of questions about a rotating body and its perturbers."""
+
+    body: Body = key(EARTH, doc="rotating body; its numbers may be labelled arrays")
+    perturbers: tuple[Body, ...] = key(
+        (SUN, MOON),
+        doc="bodies that exert torques on the body; for planets other than the Earth, the default "
+        "is the Sun",
+    )
+    ephemeris: Annotated[str, KernelName()] = key(
+        "de421", doc="kernel with the positions of the bodies"
+    )
+    source: SourceName = key("jplephem", doc=SOURCE_DOC)
+
+    #: Fields of the body that the question needs, besides its mass.
+    needs: ClassVar[tuple[str, ...]] = (
+        "radius",
+        "j2",
+        "dynamical_flattening",
+        "spin_period",
+        "pole",
+    )
+    #: Whether a body may have no perturbers.
+    may_be_alone: ClassVar[bool] = False
+    #: Whether masses of perturbers may be labelled arrays.
+    many_pulls: ClassVar[bool] = False
+
+    def check(self) -> None:
+        """Set default perturbers, and refuse a body or perturbers without required properties."""
+        if "perturbers" not in self.given:
+            object.__setattr__(self, "perturbers", pulled_by(self.body))
+            object.__setattr__(self, "body", on_its_orbit(self.body))
+        if not all_of(self.body.gm > 0):
+            raise self.error("body", self.body.name, "the mass of the body must not be zero")
+        self.body.require(self.needed())
+        self.check_spin()
+        names = [p.name for p in self.perturbers]
+        if not names and not self.may_be_alone:
+            raise self.error("perturbers", names, "give at least one, like ['sun', 'moon']")
+        for p in self.perturbers:
+            if p.labelled_field is not None and not (self.many_pulls and p.labelled_field == "gm"):
+                raise self.error(
+                    f"perturbers.{p.name}.{p.labelled_field}",
+                    "an array",
+                    "a perturber takes single numbers; run the question for each value",
+                )
+            if names.count(p.name) > 1:
+                raise self.error("perturbers", names, f"'{p.name}' is named twice")
+        if "total" in names:
+            raise self.error("perturbers", names, "'total' is the label of the sum; rename it")
+        if self.body.name in names:
+            raise self.error("perturbers", names, "a body does not pull on itself")
+        carried = {satellite.name.casefold() for satellite in self.body.satellites}
+        if twice := [name for name in names if name.casefold() in carried]:
+            problem = f"it is among the satellites of {self.body.name}, which act already: "
+            raise self.error("perturbers", twice[0], f"{problem}remove it, or set satellites = []")
+        all_by_elements(self.body, self.perturbers)  # refuses inconsistent elements
+
+    def needed(self) -> tuple[str, ...]:
+        """Names of the body's properties that the question needs."""
+        return self.needs
+
+    def check_spin(self) -> None:
+        """Refuse a spin so fast that the body would break up, if the question needs the spin."""
+        if "spin_period" in self.needed():
+            refuse_break_up(self.body)
+
+
+def unmeasured(body: Body) -> bool:
+    """Return True if `body.position` is set but not from a kernel, so its error is unknown."""
+    return body.position is not None and not is_measured(body.position)
+
+
+@dataclass(frozen=True)
+class Places:
+    """Way to find the position of each body: kernel, own trajectory or orbital elements.
+
+    Attributes
+    ----------
+    body : Body
+        The rotating body.
+    targets : dict of str to EllipseChain
+        Chain of ellipses to each perturber; without ellipses, the perturber itself.
+    reach : dict of str to float
+        Smallest allowed distance of each perturber, m: the sum of the largest radii.
+    by_elements : bool
+        True if all positions follow from elements, so that no kernel is needed.
+    """
+
+    body: Body
+    targets: dict[str, EllipseChain]
+    reach: dict[str, float]
+    by_elements: bool = False
+
+
+@dataclass(frozen=True)
+class Sky:
+    """Source of positions that has been opened, and the key by which it finds each body.
+
+    Attributes
+    ----------
+    source : Source
+    centre : Place
+        Place of the rotating body: a NAIF code, or its own trajectory.
+    targets : dict of str to Place
+        Place of each perturber.
+    reach : dict of str to float
+        Smallest allowed distance of each perturber, m.
+    """
+
+    source: Source
+    centre: Place
+    targets: dict[str, Place]
+    reach: dict[str, float]
+
+    @cached_property
+    def provenance(self) -> dict[str, str]:
+        """Name of the ephemeris and versions of the libraries that read it, by attribute name."""
+        own = {
+            name: words(place)
+            for name, place in self.targets.items()
+            if not isinstance(place, int) and self.source.name != BY_ELEMENTS
+        }
+        attributes = self.source.provenance | {"pyerfa_version": version("pyerfa")}
+        if own:
+            attributes["own_positions"] = "; ".join(f"{name}: {text}" for name, text in own.items())
+        return attributes
+
+    def error(self, target: Place, days: Iterable[float] = (0.0,)) -> tuple[float, float]:
+        """Largest error of a body's position over given days: angle (rad) and distance (m)."""
+        angles, distances = zip(
+            *(self.source.error(target, self.centre, day) for day in days), strict=True
+        )
+        return max(angles), max(distances)
+
+    def drift(self, name: str, distance: float) -> float:
+        """Relative error of the spin axis motion due to the position error of one perturber."""
+        return self.source.drift(self.targets[name], self.centre, distance)
+
+    @property
+    def unmeasured(self) -> tuple[str, ...]:
+        """Names of the perturbers whose position error is unknown, as it was not measured."""
+        return tuple(n for n, place in self.targets.items() if math.isnan(self.error(place)[0]))
+
+    @property
+    def no_error(self) -> str:
+        """Return the reason (text) why some errors are NaN; an empty text if none is NaN."""
+        if not self.unmeasured:
+            return ""
+        return (
+            f"NaN for {', '.join(self.unmeasured)} and dependent numbers: the errors of these "
+            "positions were not measured"
+        )
+
+    def place(self, body: Body) -> Place:
+        """NAIF code or trajectory by which the position of an additional body can be found."""
+        return _place(self.source, body.name, EllipseChain(body))
+
+    def coverage(self, targets: Mapping[str, Place] | None = None) -> tuple[float, float]:
+        """First and last day on which the positions of all targets are known.
+
+        The targets are the perturbers by default.
+        """
+        return self.source.coverage(self._all(targets))
+
+    def check_times(
+        self, days: Iterable[float], targets: Mapping[str, Place] | None = None
+    ) -> None:
+        """Raise an error if the position of any target is missing on one of the given days.
+
+        By default the targets are the perturbers.
+        """
+        self.source.check_times(np.array(list(days)), self._all(targets))
+
+    def _all(self, targets: Mapping[str, Place] | None) -> set[Place]:
+        return {*(self.targets if targets is None else targets).values(), self.centre}
+
+    def positions(
+        self, days: FloatArray, targets: Mapping[str, Place] | None = None
+    ) -> dict[str, FloatArray]:
+        """Positions of perturbers relative to the body, m, (n, 3) each, at days from J2000.0 TDB.
+
+        Parameters
+        ----------
+        days : ndarray, shape (n,)
+        targets : mapping of str to Place, optional
+            The perturbers by default.
+
+        Raises
+        ------
+        UndefinedError
+            If a perturber overlaps the body; the formula of the torque is valid only outside.
+        """
+        targets = self.targets if targets is None else targets
+        positions = self.source.positions(targets, self.centre, days)
+        for name, position in positions.items():
+            self._refuse_inside(name, np.einsum("ti,ti->t", position, position))
+        return positions
+
+    def equator(self, body: Body, days: FloatArray) -> FloatArray:
+        """Matrices from the ICRF to the body's mean equator of date, shape (n, 3, 3) or (3, 3).
+
+        For the Earth, they are those of the source if it has its own equator.
+        """
+        pole: Pole = body.needed("pole")
+        if isinstance(self.source, OfDate) and pole.of_the_iau:
+            return self.source.equator(days)
+        return pole.equator(body.orbit_pole, days)
+
+    def radec(
+        self,
+        body: Body,
+        days: FloatArray,
+        targets: Mapping[str, Place] | None = None,
+        *,
+        true: bool = False,
+        nutation: Nutation | None = None,
+    ) -> dict[str, tuple[FloatArray, FloatArray, FloatArray]]:
+        """Right ascension, declination (rad) and distance (m) of perturbers, equator of date.
+
+        Parameters
+        ----------
+        body : Body
+            Body that defines the equator.
+        days : ndarray, shape (n,)
+            Days from J2000.0 TDB.
+        targets : mapping of str to Place, optional
+            The perturbers by default.
+        true : bool
+            Use the true equator instead of the mean equator.
+        nutation : Nutation, optional
+            Interpolated nutation, for the source jplephem.
+        """
+        pole: Pole = body.needed("pole")
+
+        def equator(days: FloatArray) -> FloatArray:
+            return pole.equator(body.orbit_pole, days, nutation)
+
+        if isinstance(self.source, OfDate):
+            from earthspin.sky.iau import true_equator
+
+            targets = self.targets if targets is None else targets
+            earth_equator = true_equator if true else None
+            frame = earth_equator if pole.of_the_iau else equator
+            coordinates = self.source.radec(targets, self.centre, days, frame)
+            for name, (_, _, distance) in coordinates.items():
+                self._refuse_inside(name, distance * distance)
+            return coordinates
+        axes = equator(days)
+        positions = self.positions(days, targets)
+        return {name: spherical(rotate(axes, position)) for name, position in positions.items()}
+
+    def _refuse_inside(self, name: str, squares: FloatArray) -> None:
+        nearest = float(np.sqrt(np.min(squares, initial=np.inf)))
+        # Planets from the effect of that name have no reach, since they are far away.
+        if inside := overlap(nearest, self.reach.get(name, 0.0), f"'{name}'", "the body"):
+            raise UndefinedError(f"{inside}; the formula of the torque is valid only outside")
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """First and last day of the time span of an average, days from J2000.0 TDB."""
+
+    first: float
+    last: float
+
+
+def _place(source: Source, name: str, chain: EllipseChain) -> Place:
+    """NAIF code, trajectory or ellipses with which a source of positions finds a body."""
+    if chain.ellipses:
+        return ByElements(chain.ellipses, source.code(chain.start.naif, name))
+    return place_of(source, name, chain.start.naif, chain.start.position)
+
+
+@part
+def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
+    """Determine for each body how its position is found: kernel, own trajectory or elements."""
+    targets = {p.name: EllipseChain(p) for p in perturbers} | ellipse_chains(body, perturbers)
+    for p in perturbers:
+        start = targets[p.name].start
+        if targets[p.name].ellipses and start.position is not None:
+            problem = f"'{start.name}' has no NAIF code, but a position"
+            raise SceneError(f"{p.name}.orbit", str(p.orbit), problem)
+    return Places(
+        body,
+        targets,
+        {p.name: extent(body) + extent(p) for p in perturbers},
+        all_by_elements(body, perturbers),
+    )
+
+
+def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple[Body, ...]) -> str:
+    """Describe in words where the positions of the body and its perturbers come from."""
+    if all_by_elements(body, perturbers):
+        return "positions from orbital elements; no kernel is opened"
+    phrases = [f"positions {describe_source(source, ephemeris)}"]
+    phrases += [f"{name} by the elements of its orbit" for name in ellipse_chains(body, perturbers)]
+    phrases += [
+        f"{member.name} by {describe_position(member.position)}"
+        for member in (body, *perturbers)
+        if member.position is not None
+    ]
+    return "; ".join(phrases)
+
+
+@part(describe=from_where)
+def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
+    """Open the source of positions, and look up the bodies in it."""
+    if places.by_elements:
+        ellipses: dict[str, Place] = {
+            name: ByElements(chain.ellipses, CENTRE) for name, chain in places.targets.items()
+        }
+        return Sky(Elements(), CENTRE, ellipses, places.reach)
+    opened = open_source(source, ephemeris)
+    centre = _place(opened, places.body.name, EllipseChain(places.body))
+    targets = {name: _place(opened, name, chain) for name, chain in places.targets.items()}
+    for name, place in targets.items():
+        if place == centre:
+            raise SceneError("perturbers", name, "a body does not pull on itself")
+    return Sky(opened, centre, targets, places.reach)
+
+
+@part
+def stretch(sky: Sky, span: Span | None) -> Stretch:
+    """Time span of an average: the requested span, or by default the span with known positions.
+
+    For orbits by elements, which have no limits, a usual length is taken.
+    """
+    if span is not None:
+        sky.check_times(span.days)
+        return Stretch(*span.days)
+    if isinstance(sky.source, Elements):
+        return Stretch(-USUAL_REACH, USUAL_REACH)
+    first, last = sky.coverage()
+    if not math.isfinite(last - first):
+        raise SceneError("span", None, "these positions have no time limits; give a span")
+    return Stretch(first, last)

@@ -1,0 +1,168 @@
+"""Times of a series: dates, or seconds from the start of a motion; numbers side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Annotated, Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from earthspin.bodies import Body
+from earthspin.bodies.body import members
+from earthspin.dates import Epochs, Span, Step, TimeGrid, TimeList
+from earthspin.engine.part import Block, part
+from earthspin.engine.question import key
+from earthspin.engine.variables import Labels, Variables, labels
+from earthspin.errors import SceneError, in_bytes
+from earthspin.numerics.arrays import FloatArray
+from earthspin.questions.sky import PerturbedBody
+from earthspin.units import LONGEST_IN_MEMORY as LONGEST_IN_MEMORY
+from earthspin.units import Numbers
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Seconds from the start of a motion.
+Seconds = Annotated[FloatArray, Numbers("s", "1 s", (None,))]
+
+#: Descriptions of keys that several questions declare with different defaults.
+SPAN_DOC = "first and last date, TDB; the last is included if the step meets it"
+
+
+class Series(PerturbedBody):
+    """Base class of questions whose results are time series at given dates."""
+
+    exclusive = (("times",), ("span", "step"))
+
+    span: Span = key(doc=SPAN_DOC)
+    step: Step = key(doc="time between two dates")
+    times: TimeList | None = key(None, doc="list of dates, instead of span and step")
+
+
+class Dated(Variables, along=("time",)):
+    """Base class of results given at the dates of a time series."""
+
+    time: Labels = labels("time (TDB)", standard_name="time", axis="T")
+
+
+class FromStart(Variables, along=("time",)):
+    """Base class of results given at times from the start of a motion, in axes of the body."""
+
+    time: Labels = labels("time from the start", "s")
+    component: Labels = labels(default=["x", "y", "z"])
+
+
+@part
+def epochs(span: Span, step: float, times: TimeList | None) -> Epochs:
+    """Dates of a time series, from its span and step or from a list of dates."""
+    return TimeGrid.over(span, step) if times is None else times
+
+
+@part
+def instants(duration: float, points: int, times: FloatArray | None) -> FloatArray:
+    """Times at which a motion is computed, s from its start."""
+    return np.linspace(0.0, duration, points) if times is None else times
+
+
+#: Approximate memory of a series for each of its times, bytes.
+BYTES_PER_TIME = 128
+
+
+def days_of(
+    epochs: Epochs,
+    block: Block | None = None,
+    store: str = "",
+    bodies: Iterable[Body] = (),
+) -> FloatArray:
+    """Days from J2000.0 TDB of one block of a time series, or of the whole series.
+
+    Parameters
+    ----------
+    epochs : TimeGrid or TimeList
+    block : Block, optional
+    store : str
+        Name of a store, for the advice to write a series by region that does not fit into memory.
+    bodies : iterable of Body
+        Bodies whose labelled arrays multiply the size of the series.
+
+    Raises
+    ------
+    SceneError
+        If no block is given, and the series is too long for memory.
+    """
+    if block is not None:
+        return epochs.days(block.first, block.last)
+    count = members(bodies)
+    size = epochs.size * count
+    if size > LONGEST_IN_MEMORY:
+        remedy = "choose a longer step or a shorter span"
+        if store:
+            remedy = f"write them by region with write_series(scene, '{store}') or run --out"
+        times = f"{epochs.size} times" + (f" of {count} members" if count > 1 else "")
+        raise SceneError(
+            "step",
+            None if isinstance(epochs, TimeList) else f"{epochs.step * 1e-6:g} s",
+            f"{times} take {in_bytes(size * BYTES_PER_TIME)} and do not fit into memory "
+            f"(up to {LONGEST_IN_MEMORY}); {remedy}",
+        )
+    return epochs.days()
+
+
+# --- numbers side by side ------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class SideBySide:
+    """Numbers and arrays with names, broadcast to common dimensions.
+
+    Attributes
+    ----------
+    numbers : mapping of str to float or ndarray
+        Numbers, all with the dimensions `dims`.
+    dims : tuple of str
+        Common dimensions; empty if all are plain numbers.
+    labels : mapping
+        Coordinates along the dimensions.
+    """
+
+    numbers: Mapping[str, Any]
+    dims: tuple[str, ...] = ()
+    labels: Mapping[Any, Any] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, **values: Any) -> Self:
+        """Broadcast named numbers and labelled arrays to common dimensions."""
+        arrays = {name: value for name, value in values.items() if hasattr(value, "dims")}
+        if not arrays:
+            return cls(values)
+        import xarray as xr
+
+        joint = dict(zip(arrays, xr.broadcast(*arrays.values()), strict=True))
+        first = next(iter(joint.values()))
+        numbers = {
+            name: np.broadcast_to(joint[name].values if name in joint else value, first.shape)
+            for name, value in values.items()
+        }
+        return cls(numbers, tuple(map(str, first.dims)), first.coords)
+
+    def columns(self, *names: str) -> tuple[Any, ...]:
+        """Return the numbers with the given names; arrays get a new last axis of length 1."""
+        index = (..., np.newaxis) if self.dims else ...
+        return tuple(np.asarray(self.numbers[name])[index] for name in names)
+
+    def lay(self, values: NDArray[Any], *dims: str) -> xr.DataArray:
+        """Build a DataArray of the values, with the common dimensions followed by `dims`."""
+        import xarray as xr
+
+        if values.ndim < len(self.dims) + len(dims):
+            many = np.shape(next(iter(self.numbers.values())))
+            values = np.broadcast_to(values, (*many, *values.shape))
+        return xr.DataArray(values, self.labels, (*self.dims, *dims))
+
+    def lay_pair(
+        self, value: NDArray[Any], error: NDArray[Any], *dims: str
+    ) -> tuple[xr.DataArray, xr.DataArray]:
+        """Build two DataArrays: one of a quantity, and one of its half-width."""
+        return self.lay(value, *dims), self.lay(error, *dims)

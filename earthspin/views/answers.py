@@ -1,0 +1,365 @@
+"""Tables, figures, pages and JSON text of a result, with what its question adds to the usual."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from datetime import datetime
+from typing import TYPE_CHECKING, Any, TextIO
+
+import numpy as np
+import xarray as xr
+
+from earthspin.engine.plan import NOT_REQUESTED, REUSED
+from earthspin.engine.spread import is_ensemble
+from earthspin.errors import SceneError
+from earthspin.scenes import plan, run_tree
+from earthspin.views import (
+    ensemble,
+    long_term,
+    observed_pole,
+    pole,
+    precession,
+    rotors,
+    tables,
+    torque,
+    wobble,
+)
+from earthspin.views.drawing import Drawing, Figure, T, Views, style
+from earthspin.views.reading import Result, answer_of, changes_of, question_of, section
+from earthspin.views.solids import Solid
+from earthspin.views.tables import BRACKETS, Table, along
+
+if TYPE_CHECKING:
+    from earthspin.engine.accessor import Answer
+
+#: Figures, pictures and special tables of the answers to each question.
+VIEWS = {
+    **precession.VIEWS,
+    **torque.VIEWS,
+    **pole.VIEWS,
+    **rotors.VIEWS,
+    **long_term.VIEWS,
+    **observed_pole.VIEWS,
+    **wobble.VIEWS,
+}
+
+#: Titles of the pages of the documentation that explain the method of a question, by their files.
+PAGES = {
+    "theory": "Precession, from the torque to the period",
+    "pole": "The path of the pole, and its comparison with the IAU",
+    "wobble": "From 304 to 433 days: the free wobble",
+    "rotors": "Rotors and tops, from the tensor to the torque",
+    "long_term": "Over millennia and millions of years",
+    "rotation": "The whole attitude",
+    "nutation": "From a rigid Earth to half a milliarcsecond",
+    "frames": "Which model, which time, which frame",
+    "pole_offsets": "Celestial pole offsets and the free core nutation",
+    "forecast": "Forecast of the pole",
+}
+ERRORS = ("work_precision", "Error against run time")
+
+
+def tables_for(tree: Result) -> list[Table]:
+    """Tables of a result and its sections, in reading order.
+
+    Parameters
+    ----------
+    tree : Dataset or DataTree
+        As `run` or `run_tree` give it; sections that it does not hold are not shown.
+
+    Returns
+    -------
+    list of Table
+        Those of the question's own views, then one or more for the answer and for each
+        section that these do not show. What the model leaves out stands below the errors that do
+        not hold it, or else below the first table.
+    """
+    answer = answer_of(tree)
+    first, *others = ensemble.tables(tree) if is_ensemble(tree) else _tables(tree)
+    left_out = f"Left out: {answer.attrs['neglected']}."
+    said = any(left_out in table.note.split("\n") for table in (first, *others))
+    note = [*changes_of(answer), first.note, "" if said else left_out]
+    return tables.numbered([replace(first, note="\n".join(filter(None, note))), *others])
+
+
+def _tables(tree: Result) -> list[Table]:
+    """Special tables of the question, and those of the sections that these do not show."""
+    special = _views(tree).tables
+    shown = {name for sections, _ in special for name in sections.split() or [""]}
+    made = [table for table in _made(tree, special) if table.rows]
+    return [*made, *tables.tables(tree, without=shown)]
+
+
+def drawings_for(tree: Result) -> list[Drawing]:
+    """Draw all figures of a result and of its sections, with captions."""
+    return [figure.drawn(tree) for figure in _views(tree).figures if figure.is_there(tree)]
+
+
+def solids_for(tree: Result) -> list[Solid]:
+    """Three-dimensional pictures of a result, some of which are animated."""
+    return _made(tree, _views(tree).solids)
+
+
+def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> list[T]:
+    """Make those tables or pictures for which the result has all required sections."""
+    return [
+        make(tree)
+        for sections, make in makers
+        if all(section(tree, name) is not None for name in sections.split())
+    ]
+
+
+def _views(tree: Result) -> Views:
+    """Figures, pictures and special tables of a result, or of an ensemble."""
+    return ensemble.VIEWS if is_ensemble(tree) else VIEWS.get(tree.attrs["compute"], Views())
+
+
+def figures_of(answer: xr.Dataset) -> list[Figure]:
+    """Draw the figures of a result, as the view module of its question defines them.
+
+    Parameters
+    ----------
+    answer : Dataset
+        The sections that its figures need are run for it.
+
+    Raises
+    ------
+    SceneError
+        If the answer has no scene, as a section of it.
+    """
+    if "scene" not in answer.attrs:
+        problem = "a section or an edited dataset has no scene; plot the whole answer or its tree"
+        raise SceneError("plot", answer.attrs.get("title", "a dataset"), problem)
+    there = plan(answer, "all").sections
+    needed = {name for figure in _views(answer).figures for name in (figure.section, *figure.uses)}
+    nodes = {"/": answer}
+    if names := [name for name in there if name in needed]:
+        sections = run_tree(answer, names)
+        for name in names:  # with the labels of the answer, which may be a slice
+            node = sections[name].to_dataset()
+            shared = {dim: answer[dim] for dim in node.indexes if dim in answer.indexes}
+            nodes[name] = node.sel(shared)
+    return [drawing.figure for drawing in drawings_for(xr.DataTree.from_dict(nodes))]
+
+
+def plot(answer: Answer) -> list[Figure]:
+    """Draw the standard figures of a result.
+
+    Parameters
+    ----------
+    answer : Answer
+        Accessor of the result, of which this is a method.
+
+    Returns
+    -------
+    list of Figure
+
+    Raises
+    ------
+    SceneError
+        If this is a selection of an answer that cannot be drawn.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> year = earthspin.torque_series("2026-01-01", "2027-01-01", "6 h")
+    >>> year.earthspin.plot()[0].savefig("torque.png")
+    """
+    data = answer.dataset
+    if "scene" not in data.attrs and {"time", "chandler_amplitude"} <= set(data.variables):
+        with style():  # a result of `fit_chandler`
+            return [observed_pole.plot_amplitude_and_phase(data)]
+    question = answer.scene
+    try:
+        return figures_of(data)
+    except (AttributeError, KeyError, ValueError):
+        selection = f"a selection of the answer to '{question.word}'"
+        remedy = "plot the full result, which earthspin.run(ds) computes again"
+        raise SceneError("plot", selection, remedy) from None
+
+
+def print_tables(tree: Result, *, with_plan: bool = False) -> None:
+    """Print the tables of a result and, if `with_plan`, its computations."""
+    from earthspin.views.terminal import Terminal
+
+    console = Terminal()
+    for table in [*tables_for(tree), *(what_ran(tree) if with_plan else ())]:
+        console.print_table(table)
+        console.print()
+    console.print(BRACKETS, style="dim")
+
+
+def scene_page(tree: Result) -> str:
+    """HTML page of one result: tables, figures, 3-D pictures, and the computations that ran.
+
+    Returns
+    -------
+    str
+        HTML, self-contained.
+    """
+    return page_of(tree, title=answer_of(tree).attrs["title"])
+
+
+def page_of(
+    *trees: Result,
+    title: str,
+    lead: str | None = None,
+    drawings: Sequence[Drawing] | None = None,
+    links: Sequence[tuple[str, str]] = (),
+) -> str:
+    """HTML page of one or more results.
+
+    Parameters
+    ----------
+    *trees : Dataset or DataTree
+    title : str
+    lead : str, optional
+        A sentence at the head; that of the first question by default.
+    drawings : sequence of Drawing, optional
+        Those of the answers by default.
+    links : sequence of (str, str)
+        Words and addresses of other pages, relative to this one.
+
+    Returns
+    -------
+    str
+        HTML, self-contained.
+    """
+    from earthspin.views.page import page
+
+    if lead is None:
+        says = _views(trees[0]).lead
+        lead = says(trees[0]) if says else " ".join(changes_of(answer_of(trees[0])))
+    return page(
+        title,
+        tables.numbered(table for tree in trees for table in tables_for(tree)),
+        [d for tree in trees for d in drawings_for(tree)] if drawings is None else drawings,
+        [solid for tree in trees for solid in solids_for(tree)],
+        lead=lead,
+        note=f"{BRACKETS}\n{_explained(trees[0])}",
+        links=links,
+        last=what_ran(*trees),
+        footer=_footer(answer_of(trees[0])),
+    )
+
+
+def what_ran(*trees: Result) -> list[Table]:
+    """Table of the computations that ran for the results, with run times.
+
+    For a single result it also lists the computations that were left out, with reasons.
+
+    Returns
+    -------
+    list of Table
+        One, or none if the answers do not carry their plans.
+    """
+    plans = [parts for tree in trees if (parts := section(tree, "plan")) is not None]
+    rows = []
+    for part, row in (row for parts in plans for row in along(parts, "part")):
+        reason = row.reason.item()
+        status = row.status.item()
+        if status in ("ran", REUSED):
+            run_time = REUSED if status == REUSED else f"{float(row.run_time) * 1e3:.1f}"
+            rows.append((part, reason, run_time))
+        elif len(trees) == 1 and reason != NOT_REQUESTED:
+            rows.append((part, f"left out: {reason}", ""))
+    title = "Parts that ran, and parts left out" if len(trees) == 1 else "Parts that ran"
+    headers = "part", "what it computes", "ms"
+    cost = f"{sum(float(parts.run_time.sum()) for parts in plans):.2f} s in total"
+    return [Table(title, headers, rows, words=(0, 1), cost=cost)] if plans else []
+
+
+def _explained(tree: Result) -> str:
+    """Sentence that names the documentation pages on the method and the errors of a result."""
+    page = question.page if (question := question_of(tree)) else ""
+    method = f'the method under "{PAGES[page]}" (docs/{page}.md), ' if page else ""
+    return f'In the documentation: {method}the errors under "{ERRORS[1]}" (docs/{ERRORS[0]}.md).'
+
+
+def _footer(answer: xr.Dataset) -> str:
+    """Sentence that gives the program version, kernel and sources of a result."""
+    attrs = answer.attrs
+    words = f"{attrs['source']}."
+    if "ephemeris" in attrs:
+        words += f" Kernel {attrs['ephemeris']}, SHA-256 {attrs['ephemeris_sha256']}."
+    if attrs["references"]:
+        words += f" Sources of the bodies' numbers: {attrs['references']}."
+    return words
+
+
+# --- result as JSON ------------------------------------------------------------------------------
+
+
+#: Numbers that become text at once.
+AT_ONCE = 1 << 16
+
+
+def write_json(tree: xr.DataTree, stream: TextIO) -> None:
+    """Write a result and its sections as JSON, in the layout of `Dataset.to_dict`.
+
+    Dates are text in ISO 8601, and so are infinity and what is no number, for which JSON has none.
+
+    Parameters
+    ----------
+    tree : DataTree
+    stream : text file
+    """
+    _write_node(tree, stream)
+    sections = {name: node for name, node in tree.children.items() if name != "plan"}
+    if sections:
+        _write_members("sections", sections, _write_node, stream)
+    stream.write("}\n")
+
+
+def _write_members(
+    title: str, members: Mapping[Any, T], write: Callable[[T, TextIO], None], stream: TextIO
+) -> None:
+    """Write several named items as one JSON object; `write` writes each of the items."""
+    stream.write(f',\n"{title}": {{')
+    for number, (name, member) in enumerate(members.items()):
+        stream.write(f"{',' if number else ''}\n{json.dumps(str(name))}: ")
+        write(member, stream)
+        stream.write("}")
+    stream.write("\n}")
+
+
+def _write_node(node: xr.DataTree, stream: TextIO) -> None:
+    data = node.to_dataset()
+    stream.write(f'{{"attrs": {_text(data.attrs)},\n"dims": {_text(data.sizes)}')
+    _write_members("coords", data.coords, _write_array, stream)
+    _write_members("data_vars", data.data_vars, _write_array, stream)
+
+
+def _write_array(array: xr.DataArray, stream: TextIO) -> None:
+    values = array.values
+    stream.write(f'{_text({"dims": array.dims, "attrs": array.attrs})[:-1]}, "data": ')
+    if values.ndim == 0:
+        stream.write(_text(values))
+        return
+    rows = max(1, AT_ONCE * values.shape[0] // max(1, values.size))
+    stream.write("[")
+    for first in range(0, values.shape[0], rows):
+        stream.write(("," if first else "") + _text(values[first : first + rows])[1:-1])
+    stream.write("]")
+
+
+def _text(value: Any) -> str:
+    return json.dumps(_plain(value), default=str)
+
+
+def _plain(value: Any) -> Any:
+    """Convert arrays, dates and infinite numbers to types that JSON can represent."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(inner) for key, inner in value.items()}
+    if isinstance(value, (np.ndarray, np.generic)):
+        if value.dtype.kind == "f" and np.isfinite(value).all():
+            return value.tolist()
+        value = value.astype("M8[us]").tolist() if value.dtype.kind == "M" else value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [_plain(inner) for inner in value]
+    if isinstance(value, datetime):
+        return value.isoformat()
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else value

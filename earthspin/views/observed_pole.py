@@ -1,0 +1,457 @@
+"""Figures of the observed pole: polar motion, celestial pole offsets, and the forecast."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from earthspin.constants import DAYS_PER_YEAR, MAS
+from earthspin.numerics.arrays import FloatArray
+from earthspin.views import drawing
+from earthspin.views.drawing import Axes, Figure, PageFigure, Views, axes, note
+from earthspin.views.reading import Result, answer_of, needed, section
+from earthspin.views.tables import date
+from earthspin.wobble.record import NEAR, YEAR
+
+
+def _metres(answer: xr.Dataset) -> float:
+    """Distance on the ground, m, that corresponds to 1 mas of polar motion; 0 if not known."""
+    return float(answer.polar_radius) * MAS if "polar_radius" in answer else 0.0
+
+
+def plot_amplitude_and_phase(tree: Result) -> Figure:
+    """Draw amplitude and phase of the free wobble and amplitude of the annual wobble over time.
+
+    Parameters
+    ----------
+    tree : Dataset or DataTree
+        As of `plot_amplitude`.
+    """
+    figure, (upper, lower) = drawing.stacked(2, 5.2, width=7.5, height_ratios=[3, 2])
+    plot_amplitude(tree, ax=upper)
+    plot_phase(tree, ax=lower)
+    return figure
+
+
+def _caption_of_amplitude(tree: Result) -> str:
+    first, last = needed(tree, "chandler").middle.values[[0, -1]]
+    words = (
+        "Amplitude and phase of the free wobble, fitted in sliding windows of one beat of the free "
+        "and the annual wobble."
+    )
+    if first < np.datetime64("2018-01-01") < last:
+        words += " The free wobble almost vanished near 2018 and returned with a different phase."
+    return words
+
+
+def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None = None) -> Axes:
+    """Draw the path of the pole, with scales in milliarcseconds and in metres.
+
+    The prime meridian points up and 90 degrees west to the right: the ground as seen from
+    above, where the spin and the free wobble turn counter-clockwise.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        `x`, `y` over `time`; `polar_radius` for metres.
+    years : float, optional
+        How many years to draw, up to the last date; all with None. For other years, select them:
+        ``result.sel(time=slice("1990", "1996"))``.
+    ax : Axes, optional
+    """
+    from matplotlib.ticker import MaxNLocator
+
+    ax = axes(ax, 6.6, 7.4)
+    answer = answer_of(result)
+    if years is not None:
+        first = answer.time.values[-1] - np.timedelta64(round(years * DAYS_PER_YEAR), "D")
+        answer = answer.sel(time=slice(first, None))
+    scale = 1e3 if answer.x.attrs.get("units") == "arcsec" else 1.0
+    x, y = answer.x.values * scale, answer.y.values * scale
+    when = 1970 + (answer.time.values - np.datetime64("1970-01-01")) / np.timedelta64(1, "D") / YEAR
+    ax.plot(y, x, color="0.8", lw=0.6, zorder=1)
+    dots = ax.scatter(y, x, c=when, s=3, cmap="viridis", zorder=2)
+    ax.plot(y[-1], x[-1], "o", color=drawing.RED, ms=6, zorder=3)
+    note(ax, date(answer.time[-1]), (y[-1], x[-1]), (7, 0), color=drawing.RED)
+    ax.set(aspect="equal", ylabel="x, towards the prime meridian (mas)")
+    ax.set_xlabel("y, towards 90° west (mas)")
+    if metres := _metres(answer):
+        ax.secondary_xaxis("top", functions=_scaling(metres)).set_xlabel("y (m)")
+        ax.secondary_yaxis("right", functions=_scaling(metres)).set_ylabel("x (m)")
+    bar = ax.figure.colorbar(
+        dots, ax=ax, location="bottom", shrink=0.8, aspect=40, format="%.0f", label="time (years)"
+    )
+    bar.locator = MaxNLocator(8, integer=True)
+    return ax
+
+
+def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Draw the prograde and retrograde amplitude spectra of polar motion.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``polar-motion``, which is run again without its section ``spectrum``.
+    ax : Axes, optional
+    """
+    ax = axes(ax, 7.5, 3.8)
+    spectrum = needed(result, "spectrum").spectral_amplitude
+    frequency, amplitude = spectrum.frequency.values * DAYS_PER_YEAR, spectrum.values
+    for sign, colour, words in ((1, drawing.BLUE, "prograde"), (-1, drawing.RED, "retrograde")):
+        inside = (sign * frequency > 0.2) & (sign * frequency < 2.6)
+        ax.semilogy(sign * frequency[inside], amplitude[inside], color=colour, lw=1, label=words)
+    marks = (NEAR, "free wobble", "right", -4), (YEAR, "year", "left", 4)
+    for period, words, side, by in (*marks, (YEAR / 2, "half a year", "left", 4)):
+        at = DAYS_PER_YEAR / period
+        ax.axvline(at, color="0.7", lw=0.7, zorder=0)
+        where = {"xycoords": ("data", "axes fraction"), "ha": side, "va": "top"}
+        note(ax, words, (at, 0.97), (by, 0), color=drawing.GREY, **where)
+    ax.set(xlabel="frequency (cycles per year)", ylabel="amplitude (mas)", ylim=(0.05, None))
+    ax.legend(loc="upper right", bbox_to_anchor=(1, 0.9))
+    return ax
+
+
+def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Draw the amplitude of the free wobble with its 95 % band, and that of the annual wobble.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``polar-motion``, which is run again without its section ``chandler``, or
+        of `fit_chandler`.
+    ax : Axes, optional
+    """
+    ax = axes(ax, 7.5, 3.4)
+    fit, time = _plot_free_wobble(ax, result, drawing.BLUE, "free")
+    ax.plot(time, fit.annual_amplitude, color=drawing.GREEN, lw=1, label="annual")
+    ax.axhline(200, color=drawing.GREY, lw=0.8, ls="--")
+    note(ax, '0.2", the text', (time[0], 200), (2, 3), color=drawing.GREY)
+    ax.set(ylim=(0, 235), ylabel="amplitude (mas)")
+    if metres := _metres(answer_of(result)):
+        ax.secondary_yaxis("right", functions=_scaling(metres)).set_ylabel("amplitude (m)")
+    ax.legend(loc="lower left", ncols=2)
+    return ax
+
+
+def plot_modelled(observed: xr.Dataset, modelled: xr.Dataset, *, ax: Axes | None = None) -> Axes:
+    """Draw the observed amplitude of the free wobble, and the amplitude driven by an excitation.
+
+    Parameters
+    ----------
+    observed, modelled : Dataset
+        As `fit_chandler` gives them, of an observed pole and of one of `polar_motion_from`; the
+        attribute ``source`` of the second says what drove it.
+    ax : Axes, optional
+    """
+    ax = axes(ax, 7.5, 3.4)
+    _plot_free_wobble(ax, observed, drawing.BLUE, "observed")
+    driver = modelled.attrs.get("source", "driven by a given excitation")
+    _plot_free_wobble(ax, modelled, drawing.RED, driver)
+    ax.set(ylim=(0, None), ylabel="amplitude (mas)")
+    ax.legend(loc="best")
+    return ax
+
+
+def plot_phase(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Draw the phase of the free wobble relative to a sinusoid of the fitted period, over time.
+
+    Where the amplitude is below twice its error the phase is drawn faintly.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        As of `plot_amplitude`.
+    ax : Axes, optional
+    """
+    ax = axes(ax, 7.5, 2.6)
+    fit, time = _fit(result)
+    phase = fit.chandler_phase.values
+    known = fit.chandler_amplitude.values > 2 * fit.chandler_amplitude_error.values
+    ax.plot(time, phase, color=drawing.BLUE, lw=1, alpha=0.35)
+    ax.plot(time, np.where(known, phase, np.nan), color=drawing.BLUE, lw=1.6)
+    ax.set_ylabel("phase (deg)")
+    return ax
+
+
+def _fit(result: Result) -> tuple[xr.Dataset, FloatArray]:
+    """Return the Dataset of the fitted free wobble, and the mid-times of the sliding windows."""
+    fit = result if "chandler_amplitude" in result else needed(result, "chandler")
+    assert isinstance(fit, xr.Dataset)
+    return fit, fit[fit.chandler_amplitude.dims[0]].values
+
+
+def _plot_free_wobble(
+    ax: Axes, result: Result, colour: str, words: str
+) -> tuple[xr.Dataset, FloatArray]:
+    """Draw the amplitude of the free wobble over time, with its 95 % band."""
+    fit, time = _fit(result)
+    size, error = fit.chandler_amplitude.values, fit.chandler_amplitude_error.values
+    drawing.band(ax, time, size, error, colour, alpha=0.2, lowest=0.0, lw=1.4, label=words)
+    return fit, time
+
+
+def _scaling(factor: float) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
+    """Return functions that multiply and divide by a factor, for a second axis in other units."""
+    return lambda v: v * factor, lambda v: v / factor
+
+
+MOTION_FIGURES = [
+    PageFigure(
+        "Amplitude and phase in time",
+        _caption_of_amplitude,
+        plot_amplitude_and_phase,
+        section="chandler",
+    ),
+    PageFigure(
+        "Prograde and retrograde spectra",
+        "Amplitude spectra of polar motion. The free wobble is prograde only, in the sense of the "
+        "spin; the annual wobble is mostly prograde.",
+        plot_spectra,
+        section="spectrum",
+    ),
+    PageFigure(
+        "The path of the pole",
+        "Path of the pole over the ground. The annual and the free wobble beat with a period of "
+        "6.4 years, and the mean position drifts.",
+        plot_polhode,
+        phone=5.4,
+    ),
+]
+
+
+# --- celestial pole offsets ----------------------------------------------------------------------
+
+
+#: Largest offset that is drawn, mas: the noise of the first years is larger.
+LARGEST_OFFSET = 1.5
+
+
+def plot_offsets(result: Result, *, figure: Figure | None = None) -> Figure:
+    """Draw the observed celestial pole offsets dX and dY over time, with 95 % error bands.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        `dX`, `dY` over `time`.
+    figure : Figure, optional
+    """
+    answer = answer_of(result)
+    figure, panels = drawing.stacked(2, 4.8, figure, width=7.5, sharey=True)
+    for ax, name, colour in zip(panels, ("dX", "dY"), (drawing.BLUE, drawing.RED), strict=True):
+        value, error = answer[name].values, answer[f"{name}_error"].values
+        ax.fill_between(answer.time.values, value - error, value + error, color="0.85", lw=0)
+        ax.plot(answer.time.values, value, color=colour, lw=0.5)
+        ax.set(ylabel=f"{name} (mas)", ylim=(-LARGEST_OFFSET, LARGEST_OFFSET))
+    return figure
+
+
+def plot_core_nutation(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Draw the amplitude of the free core nutation over time, with 95 % band and detection limit.
+
+    The line is faint where nothing is detected.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``pole-offsets``, which is run again without its section
+        ``core_nutation``.
+    ax : Axes, optional
+    """
+    ax = axes(ax, 7.5, 3.6)
+    fit = needed(result, "core_nutation")
+    time, size = fit.middle.values, fit.core_nutation_amplitude.values
+    detected = fit.detected.values.astype(bool)
+    error = fit.core_nutation_amplitude_error.values
+    drawing.band(
+        ax, time, size, error, drawing.BLUE, alpha=0.2, lowest=0.0, lw=0.8, ls=":", zorder=2
+    )
+    label = "amplitude, detected"
+    for run in np.split(np.arange(time.size), np.flatnonzero(np.diff(detected)) + 1):
+        if detected[run[0]]:
+            ax.plot(time[run], size[run], color=drawing.BLUE, lw=1.8, label=label)
+            label = "_repeated"
+    ax.plot(time, fit.detection_limit, color=drawing.GREY, lw=1, ls="--", label="detection limit")
+    if not detected[-1]:
+        last = time[detected][-1] if detected.any() else time[0]
+        ax.axvspan(last, time[-1], color="0.93", lw=0, zorder=0)
+        where = {"xycoords": ("data", "axes fraction"), "ha": "right", "va": "top"}
+        words = f"not detected\nafter {date(last)}"
+        note(ax, words, (time[-1], 0.96), (-2, 0), color=drawing.GREY, **where)
+    highest = 1.1 * float(np.max(size + np.minimum(error, size)))
+    ax.set(ylim=(0, highest), ylabel="amplitude (µas)")
+    ax.legend(loc="upper left", ncols=2)
+    return ax
+
+
+def _caption_of_core_nutation(tree: Result) -> str:
+    fit: xr.Dataset = needed(tree, "core_nutation")
+    words = (
+        "Amplitude of the free core nutation in sliding windows, with its 95 % band. Noise alone "
+        "exceeds the dashed limit in 1 % of the windows."
+    )
+    if not bool(fit.detected[-1]):
+        words += " In the last windows, which are shaded, it is not detected."
+    return words
+
+
+OFFSET_FIGURES = [
+    PageFigure(
+        "Observed offsets in time",
+        "Observed celestial pole minus that of IAU 2006/2000A, with the 95 % half-widths of the "
+        "table in grey.",
+        plot_offsets,
+    ),
+    PageFigure(
+        "Free core nutation", _caption_of_core_nutation, plot_core_nutation, section="core_nutation"
+    ),
+]
+
+
+# --- forecast ------------------------------------------------------------------------------------
+
+
+#: Days after the origin that the axis of the skill names, and at which the path has an ellipse.
+TICKS, ELLIPSES = (1, 3, 10, 30, 90, 180, 365, 730), (30, 90, 365)
+#: Half-width of an interval over the standard deviation, and the same of an ellipse of 95 %.
+ONE_COORDINATE, BOTH = 1.959964, float(np.sqrt(-2 * np.log(0.05)))
+#: Sets of origins whose skill is drawn, with their colours and the forecast beside ours: those that
+#: no parameter was chosen on.
+SKILL_SETS = {
+    "C04 2014-2025": (drawing.BLUE, "least squares with autoregression"),
+    "releases": (drawing.RED, "Bulletin A"),
+}
+
+
+def _days(answer: xr.Dataset) -> FloatArray:
+    """Times of a forecast, in days after the last observation that the forecast uses."""
+    origin = np.datetime64(answer.x.attrs["origin"])
+    days: FloatArray = (answer.time.values - origin) / np.timedelta64(1, "D")
+    return days
+
+
+def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
+    """Draw the forecast coordinates x and y of the pole over time, with 95 % bands.
+
+    The prediction of Bulletin A is added if the answer has it.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``forecast``.
+    figure : Figure, optional
+        Drawn on one of its own by default.
+    """
+    answer, bulletin = answer_of(result), section(result, "bulletin_a")
+    figure, panels = drawing.stacked(2, 5.2, figure, width=7.5)
+    for ax, name, colour in zip(panels, ("x", "y"), (drawing.BLUE, drawing.GREEN), strict=True):
+        value, error = answer[name].values * 1e3, answer[f"{name}_error"].values * 1e3
+        drawing.band(ax, answer.time.values, value, error, colour, label=f"{name}, 95 %")
+        if bulletin is not None:
+            predicted = bulletin[f"bulletin_a_{name}"] * 1e3
+            words = "Bulletin A"
+            ax.plot(bulletin.time, predicted, color=drawing.RED, lw=1, ls="--", label=words)
+        ax.set_ylabel(f"{name} (mas)")
+        ax.legend(loc="best")
+    return figure
+
+
+def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Draw the forecast path of the pole, with 95 % ellipses after 30, 90 and 365 days.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``forecast``.
+    ax : Axes, optional
+    """
+    from matplotlib.patches import Ellipse
+
+    ax = axes(ax, 6.0, 6.0)
+    answer = answer_of(result)
+    x, y = answer.x.values * 1e3, answer.y.values * 1e3
+    ax.plot(y, x, color=drawing.BLUE, lw=1.4)
+    ax.plot(y[0], x[0], "o", color=drawing.BLUE, ms=4)
+    note(ax, date(answer.time[0]), (y[0], x[0]), (5, 4), color=drawing.BLUE)
+    for day in ELLIPSES:
+        near = np.flatnonzero(abs(_days(answer) - day) < 0.5)
+        if near.size == 0:
+            continue
+        row = answer.isel(time=int(near[0]))
+        sx, sy = (1e3 * float(row[name]) / ONE_COORDINATE for name in ("x_error", "y_error"))
+        across = float(row.correlation_xy) * sx * sy
+        values, vectors = np.linalg.eigh([[sy**2, across], [across, sx**2]])
+        width, height = 2 * BOTH * np.sqrt(values)
+        turn = np.degrees(np.arctan2(vectors[1, 0], vectors[0, 0]))
+        centre = float(row.y) * 1e3, float(row.x) * 1e3
+        ax.add_patch(Ellipse(centre, width, height, angle=turn, fc="none", ec=drawing.RED, lw=1))
+        ax.plot(*centre, "o", color=drawing.RED, ms=4)
+        clear = {"fc": "white", "ec": "none", "alpha": 0.7, "pad": 0.5}
+        note(ax, f"{day} d", centre, (6, 5), color=drawing.RED, bbox=clear)
+    ax.set(aspect="equal", ylabel="x, towards the prime meridian (mas)")
+    ax.set_xlabel("y, towards 90° west (mas)")
+    return ax
+
+
+def plot_skill(result: Result, *, figure: Figure | None = None) -> Figure:
+    """Draw the measured error of past forecasts, and the coverage of their 95 % intervals.
+
+    The origins were not used to choose parameters.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``forecast``.
+    figure : Figure, optional
+    """
+    data = needed(result, "skill").mean("coordinate")
+    figure, (errors, shares) = drawing.stacked(2, 5.6, figure, width=7.0, height_ratios=(2, 1))
+    for name, (colour, other) in SKILL_SETS.items():
+        rows = data.sel(case=data.skill_set == name)
+        days = rows.horizon.values
+        how: dict[str, Any] = {"color": colour, "lw": 1.4, "marker": "o", "ms": 4}
+        errors.plot(days, rows.mean_absolute_error, label=f"forecast, {name}", **how)
+        beside = how | {"ls": "--", "mfc": "white"}
+        errors.plot(days, rows.other_mean_absolute_error, label=f"{other}, {name}", **beside)
+        shares.plot(days, 100 * rows.coverage, **how)
+    shares.axhline(95, color=drawing.GREY, lw=1, ls=":")
+    errors.set(xscale="log", yscale="log", ylabel="mean absolute error (mas)")
+    errors.set_yticks([0.1, 1, 10], ["0.1", "1", "10"])
+    errors.legend(loc="lower right")
+    shares.set(xlabel="time after the origin (days)", ylabel="coverage (%)", ylim=(80, 101))
+    shares.set_xticks(TICKS, [str(day) for day in TICKS])
+    shares.minorticks_off()
+    return figure
+
+
+FORECAST_FIGURES = [
+    PageFigure(
+        "Forecast of both coordinates",
+        "Forecast of x and y with 95 % intervals; dashed, the prediction of Bulletin A where the "
+        "table has one from the same day.",
+        plot_coordinates,
+        uses=("bulletin_a",),
+    ),
+    PageFigure(
+        "Path of the pole",
+        "Forecast path of the pole over the ground; ellipses hold it in 95 % of cases.",
+        plot_path,
+    ),
+    PageFigure(
+        "Error and coverage by horizon",
+        "Mean absolute error of one coordinate and share of 95 % intervals that hold the observed "
+        "pole, in hindcasts with C04 and on releases of finals2000A; dashed, the other forecast "
+        "from the same origins.",
+        plot_skill,
+        section="skill",
+    ),
+]
+
+
+VIEWS = {
+    "polar-motion": Views(MOTION_FIGURES),
+    "pole-offsets": Views(OFFSET_FIGURES),
+    "forecast": Views(FORECAST_FIGURES),
+}

@@ -1,0 +1,208 @@
+"""Equation that relates polar motion to its excitation, exact for mean excitation per step.
+
+    p + (i/s) dp/dt = chi,    p = x - i y,    s = (2 pi/T)(1 + i/(2 Q))
+
+(Barnes, Hide, White & Wilson 1983, Proc. R. Soc. A 387, 31; for the reported pole: Gross 1992,
+Geophys. J. Int. 109, 162). Where
+chi is constant over a step D, or stands for its mean weighted with the decaying response,
+the solution is p1 = a p0 + (1 - a) chi with a = exp(i s D), and either follows from the
+other without error. The other schemes are here to show how they fail.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from earthspin.errors import UndefinedError
+from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.wobble.record import known_terms, least_squares
+
+# --- the equation and its schemes -----------------------------------------------------------------
+
+#: Share of a steady excitation's effect that must be left at the end of a step.
+_LEAST_TRACE = 1e-10
+
+
+def pole_of(x: FloatArray | float, y: FloatArray | float) -> ComplexArray:
+    """Complex polar motion p = x - i y from the coordinates x and y."""
+    return np.asarray(x - 1j * y)
+
+
+def coordinates_of(p: ComplexArray) -> tuple[FloatArray, FloatArray]:
+    """Coordinates x and y from the complex polar motion p = x - i y."""
+    return p.real, -p.imag
+
+
+def excitation_of(chi1: FloatArray, chi2: FloatArray) -> ComplexArray:
+    """Complex excitation chi1 + i chi2 from its two components."""
+    return np.asarray(chi1 + 1j * chi2)
+
+
+def middles_of_steps(ends: FloatArray) -> FloatArray:
+    """Middles of the steps between consecutive times, shape (n - 1,)."""
+    return np.asarray((ends[:-1] + ends[1:]) / 2)
+
+
+def ends_of_steps(middles: FloatArray, step: float) -> FloatArray:
+    """Start and end times of equal steps, from the middles of the steps, shape (n + 1,)."""
+    return np.asarray(middles[0] - step / 2 + step * np.arange(middles.size + 1))
+
+
+def chandler_frequency(period: float, quality_factor: float) -> complex:
+    """Complex frequency of the free wobble, (2 pi/T)(1 + i/(2 Q)), from its period T and Q.
+
+    Parameters
+    ----------
+    period : float
+        T, in any unit of time.
+    quality_factor : float
+        Q; infinite without loss.
+
+    Raises
+    ------
+    UndefinedError
+        If T or Q is not greater than zero.
+    """
+    if not (period > 0 and np.isfinite(period)):
+        raise UndefinedError(f"the period of the wobble is {period!r}; it is greater than zero")
+    if not quality_factor > 0:
+        raise UndefinedError(f"the quality factor is {quality_factor!r}; it is greater than zero")
+    return complex(2 * np.pi / period * (1 + 0.5j / quality_factor))
+
+
+def excitation(p: ComplexArray, step: float, s: complex) -> ComplexArray:
+    """Mean excitation in each time step of a polar motion series, by an exact formula.
+
+    Parameters
+    ----------
+    p : complex array, shape (n,)
+        x - i y, evenly spaced.
+    step : float
+        D, in the unit of time of `s`.
+    s : complex
+        As `chandler_frequency` gives it.
+
+    Returns
+    -------
+    complex array, shape (n - 1,)
+        In the unit of p.
+
+    Raises
+    ------
+    UndefinedError
+        For a step that is not greater than zero, or one of whole free periods without loss, at
+        whose end nothing tells what drove it.
+    """
+    decay, rise = _response(step, s)
+    if abs(rise) <= _LEAST_TRACE * abs(s.real * step):
+        raise UndefinedError(
+            f"a step of {s.real * step / (2 * np.pi):.6g} free periods without loss: what drives "
+            f"the pole leaves no trace at its end; choose another step"
+        )
+    return np.asarray((p[1:] - decay * p[:-1]) / rise)
+
+
+def polar_motion_from(
+    chi: ComplexArray, step: float, s: complex, start: complex = 0j
+) -> ComplexArray:
+    """Polar motion driven by a series of mean excitations, by an exact formula.
+
+    Parameters
+    ----------
+    chi : complex array, shape (n,)
+        Means over consecutive steps.
+    step, s
+        As of `excitation`.
+    start : complex
+        Polar motion at the start of the first step.
+
+    Returns
+    -------
+    complex array, shape (n + 1,)
+        Polar motion at the ends of the steps, the start included.
+    """
+    from scipy.signal import lfilter
+
+    decay, rise = _response(step, s)
+    driven = lfilter([rise], [1.0, -decay], chi, zi=np.array([decay * start]))[0]
+    return np.concatenate([[start], driven])
+
+
+def _response(step: float, s: complex) -> tuple[complex, complex]:
+    """Factors exp(i s D) and 1 - exp(i s D) of a wobble of complex frequency s, over a step D.
+
+    They are computed without cancellation.
+    """
+    if not step > 0:
+        raise UndefinedError(f"a step of {step:g} is not possible: time runs forwards")
+    return complex(np.exp(1j * s * step)), complex(-np.expm1(1j * s * step))
+
+
+# --- schemes that are only near ----------------------------------------------------------------
+
+
+def central_difference(p: ComplexArray, step: float, s: complex) -> ComplexArray:
+    """Excitation at inner samples of polar motion, by central differences, shape (n - 2,)."""
+    return np.asarray(p[1:-1] + 1j / s * (p[2:] - p[:-2]) / (2 * step))
+
+
+def wilson_filter(p: ComplexArray, step: float, s: complex) -> ComplexArray:
+    """Excitation midway between samples of polar motion, by Wilson's filter, shape (n - 1,).
+
+    chi = i e^(-i pi F D)/(s D) (p1 - e^(i s D) p0) (Wilson 1985, Geophys. J. R. astr. Soc.
+    80, 551): the exact relation but for terms of second order in s D.
+    """
+    shift = np.exp(-0.5j * s.real * step)
+    return np.asarray(1j * shift / (s * step) * (p[1:] - np.exp(1j * s * step) * p[:-1]))
+
+
+def euler_forward(chi: ComplexArray, step: float, s: complex, start: complex = 0j) -> ComplexArray:
+    """Polar motion driven by an excitation, in explicit Euler steps, shape (n + 1,).
+
+    The method is unstable; it serves for comparison.
+    """
+    from scipy.signal import lfilter
+
+    growth = 1 + 1j * s * step
+    driven = lfilter([1 - growth], [1.0, -growth], chi, zi=np.array([growth * start]))[0]
+    return np.concatenate([[start], driven])
+
+
+#: Ways from polar motion to excitation, and from excitation to polar motion, by name.
+TO_EXCITATION: dict[str, Callable[[ComplexArray, float, complex], ComplexArray]] = {
+    "exact": excitation,
+    "central difference": central_difference,
+    "wilson": wilson_filter,
+}
+FROM_EXCITATION: dict[str, Callable[..., ComplexArray]] = {
+    "exact": polar_motion_from,
+    "explicit euler": euler_forward,
+}
+
+
+# --- polar motion driven by a known excitation ----------------------------------------------------
+
+
+def fitted_start(time: FloatArray, p: ComplexArray, chi: ComplexArray, s: complex) -> complex:
+    """Fit the initial pole position of driven polar motion to observations, by least squares.
+
+    Drift and seasonal terms, which are the least accurate part of excitation models, are fitted at
+    the same time and are not part of the result.
+
+    Parameters
+    ----------
+    time : array, shape (n,)
+        Even steps.
+    p : complex array, shape (n,)
+        Observed, x - i y.
+    chi : complex array, shape (n - 1,)
+        Means over the steps, in the unit of p.
+    s : complex
+        As `chandler_frequency` gives it.
+    """
+    step = float((time[-1] - time[0]) / (time.size - 1))
+    left = p - polar_motion_from(chi, step, s)
+    free = np.exp(1j * s * (time - time[0]))
+    return complex(least_squares(np.column_stack([known_terms(time), free]), left)[-1])
