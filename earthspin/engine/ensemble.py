@@ -140,8 +140,8 @@ class Ensemble:
         )
         if days > LONGEST_IN_MEMORY:
             problem = (
-                f"they take about {days:.2g} days, and a run in memory {LONGEST_IN_MEMORY} at "
-                "most; give a path to write them to a store, which an interrupted run continues"
+                f"they take about {days:.2g} days, and {LONGEST_IN_MEMORY} is allowed in memory; "
+                "give a path to write them to a store, which an interrupted run continues"
             )
             raise self.question.error("members", self.which.size, problem)
 
@@ -354,11 +354,9 @@ class Ensemble:
             with suppress(ApartError):
                 filled = np.pad(indices, (0, -indices.size % ROW), mode="edge")
                 answer = self._answer(names, self._together(filled), indices)
-                if names:
-                    answer = _along_all_members(answer, filled.size)
                 if MEMBER in answer.dims:
                     answer = answer.isel({MEMBER: slice(indices.size)})
-                return [(indices, answer)]
+                return [(indices, _along_all_members(answer, indices.size) if names else answer)]
         return [
             (index, _along_all_members(self._answer(names, self._alone(index[0]), index), 1))
             for index in indices[:, np.newaxis]
