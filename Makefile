@@ -63,10 +63,7 @@ extreme: $(VENV)/.test
 
 bench: $(VENV)/.test
 	$(BIN)/python tests/benchmarks/chebyshev.py
-	$(BIN)/python tests/benchmarks/pole.py
-	$(BIN)/python tests/benchmarks/many_bodies.py
 	$(BIN)/python tests/benchmarks/side_by_side.py
-	$(BIN)/python tests/benchmarks/leaving_out.py
 	$(BIN)/python tests/benchmarks/call_overhead.py
 	$(BIN)/python tests/benchmarks/ensemble.py
 

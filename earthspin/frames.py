@@ -31,8 +31,8 @@ from astropy.time import Time
 from earthspin.bodies import in_a_sentence
 from earthspin.constants import DAY, J2000_JD
 from earthspin.dates import datetime64, days
-from earthspin.engine.labels import si
 from earthspin.engine.question import Question, scene_of
+from earthspin.engine.variables import si
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.times import epochs

@@ -11,7 +11,7 @@ import xarray as xr
 
 from earthspin.bodies import BODIES, SUN, Numeric, in_a_sentence
 from earthspin.constants import AU, DAY, JULIAN_YEAR, SOLAR_CONSTANT
-from earthspin.engine.labels import si
+from earthspin.engine.variables import si
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.secular.budget import Quantiles, draws
 from earthspin.secular.insolation import Season, daily, over_days, true_longitude

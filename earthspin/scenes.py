@@ -15,7 +15,7 @@ import numpy as np
 
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
-from earthspin.engine import answering, blocks
+from earthspin.engine import answers, blocks
 from earthspin.engine.blocks import Series
 from earthspin.engine.members import TWICE
 from earthspin.engine.part import BLOCK as BY_BLOCK
@@ -314,7 +314,7 @@ def run(scene: Any) -> xr.Dataset:
     >>> print(earthspin.run(answer).identical(answer))
     True
     """
-    answer = answering.answer(load_scene(scene))
+    answer = answers.answer(load_scene(scene))
     warn_of_versions(_attributes(scene), answer)
     return answer
 
@@ -348,7 +348,7 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
     >>> print(tree["seasons"].time_per_degree.round(2).values)
     71.59
     """
-    tree = answering.answer_tree(load_scene(scene), sections)
+    tree = answers.answer_tree(load_scene(scene), sections)
     warn_of_versions(_attributes(scene), tree)
     return tree
 

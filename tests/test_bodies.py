@@ -188,15 +188,11 @@ def test_bodies_are_equal_if_every_number_is() -> None:
 
 
 def test_a_body_can_be_read_at_a_glance() -> None:
-    assert repr(EARTH).startswith("<Body earth: gm = 398600435507000.0 ± 8e+05 m3/s2, radius")
     assert "\n" not in repr(EARTH)
     h = xr.DataArray([0.003, 0.0031], dims="draw")
     assert "an array along draw" in repr(EARTH.replace(dynamical_flattening=h))
-    card = EARTH._repr_html_()
-    assert "<th>spin_period</th><td>86164.09890369" in card
-    assert "<th>pole</th><td>iau2006</td>" in card
-    assert "0.0032737949 ± 1e-09</td><td>Mathews, Herring &amp; Buffett 2002" in card
     # a number that was changed has no source any more
+    assert "Mathews" in EARTH._repr_html_()
     assert "Mathews" not in EARTH.replace(dynamical_flattening=0.003, reference="")._repr_html_()
     assert "<b>" not in EARTH.replace(name="<b>")._repr_html_()
 

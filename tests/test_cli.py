@@ -15,7 +15,7 @@ import xarray as xr
 import earthspin
 from earthspin.cli import PAGES, _parser, main
 from earthspin.engine import store
-from earthspin.engine.run import scene_text
+from earthspin.engine.question import scene_text
 from earthspin.scenes import QUESTIONS, shipped_scenes
 from earthspin.sky.ephemeris import find_kernel
 from earthspin.views.play import PLAYS
@@ -88,12 +88,6 @@ def test_a_page_is_opened_when_asked(
     assert err.startswith(said)
     status, _, _ = run(capsys, "report", "--no-figures", "--out", str(tmp_path), "--open")
     assert (status, opened[1:]) == (0, [(tmp_path / "index.html").as_uri()])
-
-
-def test_report_without_figures(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    status, _out, _ = run(capsys, "report", "--no-figures", "--out", str(tmp_path))
-    assert status == 0
-    assert "<svg" not in (tmp_path / "index.html").read_text()
 
 
 @pytest.mark.parametrize("command", [["scenes"], ["run", "wobble"]])
@@ -257,17 +251,6 @@ def test_completion_for_shells(capsys: pytest.CaptureFixture[str], shell: str) -
     assert status == 0
     assert "earthspin" in out
     assert "_ARGCOMPLETE" in out
-
-
-def test_as_a_module() -> None:
-    out = subprocess.run(
-        [sys.executable, "-m", "earthspin", "run", "wobble"],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert "303.62" in out.stdout
-    assert out.stderr == ""
 
 
 def wrong_commands(folder: Path) -> list[tuple[list[str], str]]:

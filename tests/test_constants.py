@@ -16,7 +16,7 @@ from earthspin import constants as c
 from earthspin.bodies import BODIES
 from earthspin.bodies.moons import TITAN_MOMENT
 from earthspin.bodies.planets import PRECESSING_ORBITS
-from earthspin.engine.labels import FROM_SI
+from earthspin.engine.variables import FROM_SI
 from earthspin.interior import mars
 from earthspin.interior.love import elastic
 from earthspin.interior.named import MARS_K2

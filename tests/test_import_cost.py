@@ -61,7 +61,6 @@ USED = {
     "iau": KERNEL | LEAST_SQUARES,
     "nutation": {*KERNEL, *LEAST_SQUARES, "scipy.special"},
     "rotation": {*KERNEL, *LEAST_SQUARES, "scipy.spatial", "scipy.special"},
-    "polar-motion": {"scipy.special"},
     "forecast": {"scipy.linalg"},
     "free-rotor": {"scipy.special"},
     "top": {"scipy.special"},
@@ -110,6 +109,36 @@ def test_a_question_loads_the_heavy_modules_that_it_uses() -> None:
     brought = dict(zip(imports, loaded, strict=False))
     for (scene, names), found in zip(used.items(), loaded[len(imports) :], strict=True):
         assert names <= found <= names | brought[names], scene
+
+
+#: Runs a scene, and leaves in `sys.modules` only what was imported while a part ran.
+DURING_PARTS = """
+from earthspin.engine.part import Part
+from earthspin.engine.run import Run
+from earthspin.scenes import load_scene
+during = set()
+original = Part.stored_or_computed
+def watched(part, inputs):
+    before = set(sys.modules)
+    result = original(part, inputs)
+    during.update(set(sys.modules) - before)
+    return result
+Part.stored_or_computed = watched
+Run(load_scene({!r})).tree("all")
+for name in set(sys.modules) - during:
+    del sys.modules[name]
+"""
+
+
+@pytest.mark.slow
+def test_run_times_of_parts_contain_no_import_of_a_large_library() -> None:
+    """The row of imports has them; a kernel is opened, with its reader, by the part of the sky."""
+    scenes = [*shipped_scenes()]
+    loaded = watched_after([DURING_PARTS.format(scene) for scene in scenes])
+    light = {"jplephem", "erfa", "skyfield"}  # 1, 7 and 24 ms
+    assert {scene: found - light for scene, found in zip(scenes, loaded, strict=True)} == {
+        scene: set() for scene in scenes
+    }
 
 
 def test_skyfield_is_loaded_where_it_is_asked_for() -> None:

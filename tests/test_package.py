@@ -62,31 +62,6 @@ def test_no_modules_import_one_another_in_a_circle_late_imports_included() -> No
     assert before == {}
 
 
-def test_nothing_but_bodies_and_scenes_knows_the_earth() -> None:
-    """Comments and docstrings may; code may not, save the defaults of questions."""
-    word = re.compile(r"[\"'](the )?earth[\"']|\bEARTH\b|\bEarth\b|\b399\b")
-    allowed = {
-        *("bodies/body.py", "bodies/earth_moon_sun.py", "bodies/__init__.py"),
-        "bodies/planets.py",  # mean orbits of Sun and Moon, sizes of neglected effects by body
-        *("__init__.py", "__init__.pyi"),
-        *("questions/sky.py", "questions/observed_pole.py"),
-        "views/play.py",  # pages to play with start from the Earth
-        "views/answers.py",  # by the titles of pages of the documentation
-        "sky/kernel.py",  # differences of kernels, by the codes of the bodies
-        "sky/orbit_files.py",  # whose orbit a file holds if none is named, and the check of it
-        "sky/orbit_table.py",  # what was measured of the orbits that are shipped
-    }
-    paths = {str(path.relative_to(PACKAGE)): path for path in PACKAGE.rglob("*.py*")}
-    assert allowed <= set(paths)
-    for name, path in paths.items():
-        if name in allowed or path.suffix not in {".py", ".pyi"}:
-            continue
-        code = re.sub(r'""".*?"""|#[^\n]*', "", path.read_text(), flags=re.DOTALL)
-        if name.startswith("questions/"):  # whose bodies have a default
-            code = re.sub(r"from earthspin\.bodies import .*|\bkey\(EARTH\b", "", code)
-        assert not word.search(code), path
-
-
 def test_the_project_speaks_of_itself_alone() -> None:
     files = subprocess.run(
         ["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=False

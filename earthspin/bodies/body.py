@@ -19,7 +19,7 @@ import numpy as np
 
 from earthspin import constants as c
 from earthspin.bodies import checks
-from earthspin.bodies.checks import Numeric, all_of, are_close, is_close, is_same
+from earthspin.bodies.checks import all_of, are_close, is_close, is_same
 from earthspin.bodies.kinds import (
     CitedPeriod,
     Codes,
@@ -34,6 +34,7 @@ from earthspin.bodies.shapes import FromMass, figure_of, moments_of
 from earthspin.card import card
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
 from earthspin.interior.layers import LayeredBody
+from earthspin.numerics.arrays import Numeric
 from earthspin.sky.elements import Plane
 from earthspin.sky.poles import Angles, Direction, FixedPole, Pole, pole_of
 from earthspin.sky.sources import describe_position, read_position
@@ -581,8 +582,6 @@ class Body(FromMass):
         """Return True if the changes are so large that the observed wobble no longer applies.
 
         This is so if a field that affects the wobble differs by more than 1 % from this body.
-
-        The observed wobble then does not apply to the body.
         """
         changed = _OF_THE_WOBBLE & set(changes)
         return not all(is_close(changes[name], getattr(self, name)) for name in changed)

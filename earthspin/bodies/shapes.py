@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies.checks import Numeric, all_of
+from earthspin.bodies.checks import all_of
 from earthspin.bodies.kinds import Layers
 from earthspin.constants import Constant, G
 from earthspin.errors import (
@@ -24,8 +23,7 @@ from earthspin.errors import (
     one_line,
 )
 from earthspin.interior.equilibrium import equilibrium, figure
-from earthspin.interior.layers import LayeredBody
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import FloatArray, Numeric
 from earthspin.units import is_masked, quantity
 
 if TYPE_CHECKING:
@@ -97,49 +95,11 @@ def figure_of(
     }
 
 
-# --- fields of a body from its mass distribution --------------------------------------------------
-
-#: Numbers of a body by field, SI.
-Fields = dict[str, Any]
+# --- bodies from their mass distribution ----------------------------------------------------------
 
 
-def of_masses(masses: Any, positions: Any, radius: Any) -> Fields:
-    """Compute mass and figure of a body that consists of point masses (kg) at positions (m)."""
-    from earthspin.mass.shape import Shape
-
-    return _fields_of(
-        Shape.of_masses(
-            _si(masses, "kg", "masses", "1e12 kg"),
-            _si(positions, "m", "positions", "500 m"),
-            _optional(radius, "m", "radius", "1 km"),
-        )
-    )
-
-
-def of_density(density: Any, edges: tuple[Any, Any, Any], radius: Any) -> Fields:
-    """Compute mass and figure of a body from densities (kg m-3) of grid cells with edges (m)."""
-    from earthspin.mass.shape import Shape
-
-    x, y, z = (_si(edge, "m", axis, "1 km") for axis, edge in zip("xyz", edges, strict=True))
-    rho = _si(density, "kg/m3", "density", "2000 kg/m3")
-    return _fields_of(Shape.of_density(rho, x, y, z, _optional(radius, "m", "radius", "1 km")))
-
-
-def of_mesh(mesh: Any, unit: str, density: Any, mass: Any, radius: Any) -> Fields:
-    """Compute mass and figure of a homogeneous body bounded by triangles in the given unit."""
-    from earthspin.mass.shape import Shape
-
-    return _fields_of(
-        Shape.of_mesh(
-            *_mesh(mesh, unit),
-            density=_optional(density, "kg/m3", "density", "2000 kg/m3"),
-            mass=_optional(mass, "kg", "mass", "1e12 kg"),
-            radius=_optional(radius, "m", "radius", "1 km"),
-        )
-    )
-
-
-def _fields_of(shape: Shape) -> Fields:
+def _numbers_of(shape: Shape) -> dict[str, Any]:
+    """Mass, radius and figure of a shape, by field of `Body`."""
     return {
         "gm": G.value * shape.mass,
         "radius": shape.radius,
@@ -152,14 +112,9 @@ def _fields_of(shape: Shape) -> Fields:
     }
 
 
-def _si(value: Any, unit: str, name: str, example: str) -> Any:
-    """Convert plain numbers, Quantities, or text with units to numbers in SI units."""
-    return quantity(value, unit, Where(name), example)
-
-
 def _single(value: Any, unit: str, name: str, example: str) -> float:
     """Convert one nonzero number to SI units; refuse zero and arrays."""
-    number = _si(value, unit, name, example)
+    number = quantity(value, unit, Where(name), example)
     if not isinstance(number, float) or number == 0:
         raise Where(name).error(value, f"give one number other than zero, like '{example}'")
     return number
@@ -217,44 +172,6 @@ def _read(file: Path) -> Any:
     return mesh
 
 
-def of_layers(layers: LayeredBody | str | Mapping[str, Any], spin_period: Any) -> Fields:
-    """Compute mass and figure of layers in hydrostatic equilibrium, to first order in flattening.
-
-    Parameters
-    ----------
-    layers : LayeredBody, str or mapping
-        Layers, the name of an interior with layers, or a table of layers or samples.
-    spin_period : float, str or Quantity
-        Rotation period, s.
-
-    Raises
-    ------
-    SceneError
-        If there is no such interior, or it has no layers.
-    """
-    layers = Layers().read(layers, Where("layers"))
-    spin = 2 * math.pi / _single(spin_period, "s", "spin_period", "23.93 h")
-    gm, mean, k = G.value * layers.mass, layers.radius, equilibrium(layers).k
-    ellipticity = figure(layers, spin).e
-    # the surface is an equipotential: f = (k + 1) q/2
-    pull = spin**2 * mean**3 / gm
-    flattening = (k + 1) * pull / 2
-    radius = mean * (1 + flattening / 3)
-    return {
-        "gm": gm,
-        "radius": radius,
-        "j2": k * pull / 3 * (mean / radius) ** 2,
-        "dynamical_flattening": ellipticity / (1 + ellipticity),
-        "flattening": flattening,
-        "spin_period": 2 * math.pi / spin,
-        "interior": layers,
-        "reference": f"hydrostatic equilibrium of {layers.reference}",
-    }
-
-
-# --- constructors of `Body` -----------------------------------------------------------------------
-
-
 class FromMass:
     """Constructors of a body from point masses, a density, a mesh or layers.
 
@@ -305,7 +222,14 @@ class FromMass:
         >>> print(dumbbell.moments.round(3))
         [0.e+00 5.e+17 5.e+17]
         """
-        return cls(name=name, **of_masses(masses, positions, radius)).replace(**fields)
+        from earthspin.mass.shape import Shape
+
+        shape = Shape.of_masses(
+            quantity(masses, "kg", Where("masses"), "1e12 kg"),
+            quantity(positions, "m", Where("positions"), "500 m"),
+            _optional(radius, "m", "radius", "1 km"),
+        )
+        return cls(name=name, **_numbers_of(shape)).replace(**fields)
 
     @classmethod
     def from_density(
@@ -342,7 +266,15 @@ class FromMass:
         >>> print(brick.moments.round(6))
         [ 5000. 10000. 13000.]
         """
-        return cls(name=name, **of_density(density, (x, y, z), radius)).replace(**fields)
+        from earthspin.mass.shape import Shape
+
+        x, y, z = (
+            quantity(edge, "m", Where(axis), "1 km")
+            for axis, edge in zip("xyz", (x, y, z), strict=True)
+        )
+        rho = quantity(density, "kg/m3", Where("density"), "2000 kg/m3")
+        shape = Shape.of_density(rho, x, y, z, _optional(radius, "m", "radius", "1 km"))
+        return cls(name=name, **_numbers_of(shape)).replace(**fields)
 
     @classmethod
     def from_mesh(
@@ -388,7 +320,15 @@ class FromMass:
         >>> print(f"{rock.mass:.6e} kg")
         5.000000e+11 kg
         """
-        return cls(name=name, **of_mesh(mesh, unit, density, mass, radius)).replace(**fields)
+        from earthspin.mass.shape import Shape
+
+        shape = Shape.of_mesh(
+            *_mesh(mesh, unit),
+            density=_optional(density, "kg/m3", "density", "2000 kg/m3"),
+            mass=_optional(mass, "kg", "mass", "1e12 kg"),
+            radius=_optional(radius, "m", "radius", "1 km"),
+        )
+        return cls(name=name, **_numbers_of(shape)).replace(**fields)
 
     @classmethod
     def from_layers(
@@ -420,4 +360,23 @@ class FromMass:
         >>> print(f"1/{1 / slow.flattening:.0f}")
         1/1206
         """
-        return cls(name=name, **of_layers(layers, spin_period)).replace(**fields)
+        layers = Layers().read(layers, Where("layers"))
+        spin = 2 * math.pi / _single(spin_period, "s", "spin_period", "23.93 h")
+        gm, mean, k = G.value * layers.mass, layers.radius, equilibrium(layers).k
+        ellipticity = figure(layers, spin).e
+        # the surface is an equipotential: f = (k + 1) q/2
+        pull = spin**2 * mean**3 / gm
+        flattening = (k + 1) * pull / 2
+        equatorial = mean * (1 + flattening / 3)
+        body = cls(
+            name=name,
+            gm=gm,
+            radius=equatorial,
+            j2=k * pull / 3 * (mean / equatorial) ** 2,
+            dynamical_flattening=ellipticity / (1 + ellipticity),
+            flattening=flattening,
+            spin_period=2 * math.pi / spin,
+            interior=layers,
+            reference=f"hydrostatic equilibrium of {layers.reference}",
+        )
+        return body.replace(**fields)

@@ -13,11 +13,9 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, Self
 
 from earthspin._version import __version__, version
-from earthspin.engine.labels import CONVENTIONS
-from earthspin.engine.neglected import Neglected, error_of
 from earthspin.engine.plan import IMPORTS, NOT_REQUESTED, Plan
 from earthspin.engine.question import NEGLECTED, SCENE, Question, scene_text
-from earthspin.engine.variables import Variables
+from earthspin.engine.variables import CONVENTIONS, Neglected, Variables, error_of
 from earthspin.errors import SceneError, UndefinedError, nearest
 
 if TYPE_CHECKING:

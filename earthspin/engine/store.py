@@ -24,8 +24,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from earthspin.engine.drafts import as_path, check_identity, identity, mismatch_error, replacing
-from earthspin.engine.labels import IN_FILES
 from earthspin.engine.question import SCENE, scene_of
+from earthspin.engine.variables import IN_FILES
 from earthspin.errors import MissingExtraError, OutputError, in_bytes, one_line
 
 if TYPE_CHECKING:

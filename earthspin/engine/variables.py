@@ -1,24 +1,92 @@
-"""Classes that declare the variables of results, with unit, meaning, dimensions and error.
+"""Variables of results: how classes declare them, their units, and what a model neglects.
 
-A part returns an instance with values in SI units. `dataset` converts them to the units of the
-class and adds the attributes of the CF conventions. Values are plain floats, because a Quantity
-would lose its unit in a file.
+A part returns an instance of a class of `Variables` with values in SI units. `dataset` converts
+them to the units of the class and adds the attributes of the CF conventions. Values are plain
+floats, because a Quantity would lose its unit in a file.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import MISSING, dataclass, replace
+import math
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import MISSING, dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Self, dataclass_transform
 
 import numpy as np
 
-from earthspin.engine.labels import from_si
-from earthspin.errors import UndefinedError
+from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, MAS, Constant
+from earthspin.errors import SceneError, UndefinedError, nearest
 from earthspin.numerics.arrays import Estimate
 
 if TYPE_CHECKING:
     import xarray as xr
+
+# --- units ----------------------------------------------------------------------------------------
+
+CONVENTIONS = "CF-1.11"
+
+#: Units that are SI themselves; "1" for pure numbers, "" for text and dates.
+_SI = (
+    "", "1", "m", "s", "J", "rad", "N m", "kg m2", "kg m2 / s", "rad/s", "rad2 / s2", "1/s",
+    "m/s2", "J/kg",
+)  # fmt: skip
+
+#: Factor from SI to each unit of results.
+FROM_SI: dict[str, float] = {
+    "arcsec/yr": 1 / ARCSEC_PER_YEAR,
+    "arcsec": 1 / ARCSEC,
+    "mas": 1 / MAS,
+    "deg": 180 / math.pi,
+    "uas": 1e6 / ARCSEC,
+    "d": 1 / DAY,
+    "yr": 1 / JULIAN_YEAR,
+    **dict.fromkeys(_SI, 1.0),
+}
+
+
+#: Spelling of units in files, which UDUNITS and astropy read as the same number. UDUNITS reads `a`
+#: as the are, and its `yr` is 2e-5 shorter than the Julian year.
+IN_FILES: dict[str, str] = {
+    "arcsec/yr": f"{1 / JULIAN_YEAR!r} arcsec s-1",
+    "yr": "365.25 d",
+    "deg": "degree",
+    "mas": "marcsec",
+    "uas": "uarcsec",
+    "kg m2 / s": "kg m2 s-1",
+    "rad/s": "rad s-1",
+    "rad2 / s2": "rad2 s-2",
+    "1/s": "s-1",
+    "m/s2": "m s-2",
+    "J/kg": "J kg-1",
+}
+
+
+def from_si(unit: str) -> float:
+    """Return the factor that converts a value from SI to a given unit.
+
+    Raises
+    ------
+    SceneError
+        If the unit is not among those of results.
+    """
+    if unit not in FROM_SI:
+        raise SceneError("units", unit, nearest(unit, [u for u in FROM_SI if u]))
+    return FROM_SI[unit]
+
+
+def si(array: xr.DataArray) -> xr.DataArray:
+    """Convert a variable of a result from its unit to SI.
+
+    Raises
+    ------
+    SceneError
+        If its unit is not among those of results.
+    """
+    return array / from_si(array.attrs.get("units", ""))
+
+
+# --- declarations ---------------------------------------------------------------------------------
 
 #: A number, an array along the declared dimensions, a labelled array, or text.
 Value = Any
@@ -215,13 +283,13 @@ class Variables:
     ) -> None:
         """Collect the fields that a subclass declares."""
         cls.dims = cls.dims if along is None else along
-        own = {name: field for name, field in vars(cls).items() if isinstance(field, Field)}
+        own = {name: entry for name, entry in vars(cls).items() if isinstance(entry, Field)}
         cls.fields, schema = {**cls.fields, **own}, dict(cls.schema)
-        for name, field in own.items():
-            dims = cls.dims if field.along is None else field.along
-            variable = replace(field.variable, dims=dims)
+        for name, entry in own.items():
+            dims = cls.dims if entry.along is None else entry.along
+            variable = replace(entry.variable, dims=dims)
             half_width = Variable(dims, variable.units, "")
-            for ending, meaning in field.endings.items():
+            for ending, meaning in entry.endings.items():
                 declared = half_width if ending.startswith("_error") else variable
                 long_name = meaning.format(variable.long_name)
                 schema[name + ending] = replace(declared, long_name=long_name)
@@ -233,11 +301,11 @@ class Variables:
 
     def __init__(self, **values: Any) -> None:
         unknown = values.keys() - self.fields.keys()
-        missing = {n for n, field in self.fields.items() if field.default is MISSING} - {*values}
+        missing = {n for n, entry in self.fields.items() if entry.default is MISSING} - {*values}
         if unknown or missing:
             problem = f"{type(self).__name__}: unknown {sorted(unknown)}, missing {sorted(missing)}"
             raise SchemaError(problem)
-        self._values = {n: values.get(n, field.default) for n, field in self.fields.items()}
+        self._values = {n: values.get(n, entry.default) for n, entry in self.fields.items()}
         self._attributes: dict[str, Mapping[str, object]] = {}
         self._no_error = ""
 
@@ -301,23 +369,130 @@ class Variables:
         """Values by variable name, and coordinate labels by dimension, as two dicts."""
         values: dict[str, Any] = {}
         coords: dict[Any, Any] = {}
-        for name, field in self.fields.items():
+        for name, entry in self.fields.items():
             value = self._values[name]
             if value is None:
                 continue
-            if len(field.endings) == 1:
+            if len(entry.endings) == 1:
                 values[name] = value
-            elif field.endings:
+            elif entry.endings:
                 if isinstance(value, Estimate):
                     shares = (value.value, value.error, value.method, value.given)
-                    value = shares[: len(field.endings)]
-                names = (name + ending for ending in field.endings)
+                    value = shares[: len(entry.endings)]
+                names = (name + ending for ending in entry.endings)
                 values |= dict(zip(names, value, strict=True))
             elif hasattr(value, "dims"):  # labelled arrays keep their own attributes
                 coords[name] = value
             else:
-                label = field.variable
+                label = entry.variable
                 attrs = {"units": label.units} if label.units else {}
                 attrs |= {"long_name": label.long_name} if label.long_name else {}
                 coords[name] = (name, value, attrs | dict(label.attrs))
         return values, coords
+
+
+# --- neglected effects: they are not part of the errors of results -------------------------------
+
+
+def largest_of(text: str) -> tuple[str, float, str] | None:
+    """Read name, size and unit of the largest effect from the text that `Neglected.largest` writes.
+
+    The result is None if the text gives no size.
+    """
+    written = re.match(r"([^:]+): ([-+.e\d]+) ([^(]+) \(", text)
+    return None if written is None else (written[1], float(written[2]), written[3])
+
+
+def error_of(answer: xr.Dataset, headline: str) -> str:
+    """Name of the variable with the error of the headline number; empty if it has no error."""
+    if headline.endswith("_error") or headline not in answer:
+        return headline
+    return str(answer[headline].attrs.get("ancillary_variables", "")).split(" ")[0]
+
+
+BOUND = "this is a bound on a neglected effect, or its published size"
+
+
+@dataclass(frozen=True)
+class Neglected:
+    """Sizes of the effects that a model neglects, with their source.
+
+    Attributes
+    ----------
+    sizes : mapping of str to float
+        Size of each effect, SI.
+    unit : str
+        Unit of the sizes in results.
+    what : str
+        Meaning of the sizes in plain words; without sizes, the neglected effect.
+    source : str
+        Source of the sizes.
+    unknown : str
+        Further neglected effects of unknown size.
+    periodic : tuple of str
+        Effects with a size that vanish in the mean over their period, which the answer gives.
+    """
+
+    sizes: Mapping[str, float] = field(default_factory=dict)
+    unit: str = "1"
+    what: str = "nothing that has a known size"
+    source: str = ""
+    unknown: str = ""
+    periodic: tuple[str, ...] = ()
+
+    @classmethod
+    def cited(cls, sizes: Mapping[str, Constant], what: str) -> Self:
+        """Make a `Neglected` from sizes given as constants, each with its own source."""
+        (unit,) = {size.unit for size in sizes.values()}
+        return cls(
+            {name: size.value / from_si(unit) for name, size in sizes.items()},
+            unit,
+            what,
+            "; ".join(f"{name}: {size.source}" for name, size in sizes.items()),
+        )
+
+    def also(self, effect: str) -> Self:
+        """Add a neglected effect of unknown size; an empty text adds nothing."""
+        if not effect:
+            return self
+        # without sizes, `what` names the neglected effect
+        known = self.what if not self.sizes and self.what != Neglected.what else ""
+        unknown = ", ".join(filter(None, (self.unknown or known, effect)))
+        return replace(self, unknown=unknown)
+
+    @property
+    def largest(self) -> str:
+        """Describe the largest neglected effect, with its size, for the attributes of a result."""
+        unknown = f"of unknown size: {self.unknown}" if self.unknown else ""
+        if not self.sizes:
+            return unknown or self.what
+        name = max(self.sizes, key=lambda effect: abs(self.sizes[effect]))
+        shown = self.sizes[name] * from_si(self.unit)
+        known = f"{name}: {shown:.3g} {self.unit} ({self.what})"
+        return f"{known}; {unknown}" if unknown else known
+
+    def dataset(self, effects: Sequence[str] = ()) -> xr.Dataset:
+        """Return the sizes as a Dataset along `effect`, with the largest effect first.
+
+        Parameters
+        ----------
+        effects : sequence of str
+            Labels that the answer has along `effect`; included effects have size 0.
+        """
+        names = list(effects) or sorted(self.sizes, key=lambda effect: -abs(self.sizes[effect]))
+        notes = {
+            "references": self.source,
+            "of_unknown_size": self.unknown,
+            "zero_in_the_mean": "; ".join(self.periodic),
+        }
+        attrs = {name: words for name, words in notes.items() if words}
+
+        class Effects(Variables, along=("effect",), no_error=BOUND):
+            """Variables of the dataset of neglected effects."""
+
+            neglected_effect: Value = number(self.unit, self.what)
+            effect: Labels = labels()
+
+        sizes = [float(self.sizes.get(name, 0.0)) for name in names]
+        laid = Effects(neglected_effect=sizes, effect=np.array(names, dtype=str))
+        return laid.with_attributes(neglected_effect=attrs).dataset()

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from earthspin.constants import ARCSEC, IERS, Constant, Tabulated
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import elastic
-from earthspin.numerics.arrays import Array
+from earthspin.numerics.arrays import Array, Numeric
 
 # --- anelastic softening of the mantle ------------------------------------------------------------
 
-Numeric = Any
 
 #: Period up to which the quality factor does not depend on frequency, s.
 ABSORPTION_BAND = 200.0
@@ -83,8 +82,6 @@ SEA_WATER = Constant(
 def ocean_matrix() -> tuple[tuple[float, float], tuple[float, float]]:
     """Products of inertia c13 and c23 of the Earth's ocean per radian of wobble, over M a2.
 
-    The products are divided by M a2.
-
     Only the symmetric part of the published response is used; the antisymmetric part is due to the
     delay of the mantle's response.
     """
@@ -111,8 +108,8 @@ def global_ocean(layers: LayeredBody, density: float = SEA_WATER.value) -> float
 
 # --- diurnal ocean tides --------------------------------------------------------------------------
 # A tide model gives the contribution of the ocean to the potential of degree 2 and order 1 for
-# single waves; divided by the potential of the same wave, it is a change of the Love number, \Delta
-# k (IERS Conventions 2010, eq. 6.6 to 6.15). K1 is at rest in space; O1 and Q1 correspond to
+# single waves; divided by the potential of the same wave, it is a change of the Love number k2
+# (IERS Conventions 2010, eq. 6.6 to 6.15). K1 is at rest in space; O1 and Q1 correspond to
 # retrograde nutations of 13.7 and 9.1 days.
 
 FES2004_SOURCE = (
@@ -131,8 +128,7 @@ PER_METRE = Constant(
     -3.1274e-8, "m-1", None, IERS + ", eq. 6.8d", "codes of the equation in public repositories"
 )
 #: Unit of the coefficients below. The file stated 1e-12 until the Conventions Centre corrected it
-#: on
-#: 23 September 2011 (maia.usno.navy.mil/conv2010/convupdt/convupdt_c6.html).
+#: on 23 September 2011 (maia.usno.navy.mil/conv2010/convupdt/convupdt_c6.html).
 _UNIT = 1e-11
 
 

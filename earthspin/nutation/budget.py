@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from earthspin.constants import (
     ARCSEC,
@@ -23,13 +23,12 @@ from earthspin.constants import (
     TIDES_IN_OBLIQUITY,
 )
 from earthspin.mass.figure import polar_moment_factor
+from earthspin.numerics.arrays import Numeric
 
 if TYPE_CHECKING:
     from earthspin.nutation.analysis import Secular
 
 # --- contributions to the precession rate ---------------------------------------------------------
-
-Numeric = Any
 
 
 def published_effects() -> dict[str, float]:
@@ -86,19 +85,6 @@ def published_contributions(effects: Sequence[str]) -> dict[str, float]:
         * ARCSEC_PER_YEAR
     }
     return {effect: published.get(effect, 0.0) for effect in effects}
-
-
-def full_closure(rate: float, iau_rate: float) -> float:
-    """Unexplained rate of psi_A: rate computed with all effects minus that of IAU 2006, rad/s.
-
-    The published non-linear term is added to the computed rate.
-    """
-    return rate + published_effects()["nonrigid"] - iau_rate
-
-
-def iau_omega_rate() -> float:
-    """Rate of omega_A at J2000.0 in IAU 2006, rad/s."""
-    return OMEGA_A_RATE.value * ARCSEC_PER_YEAR
 
 
 @dataclass(frozen=True)
@@ -174,12 +160,14 @@ def budget_of(
         Relative standard uncertainty of H.
     """
     none = dict.fromkeys(off, 0.0)
+    omega_iau = OMEGA_A_RATE.value * ARCSEC_PER_YEAR
+    tides = TIDES_IN_OBLIQUITY.value * ARCSEC_PER_YEAR
     psi = contributions(ours.psi_rate, {e: path.psi_rate for e, path in without.items()}) | none
     omega = (
         contributions(ours.omega_rate, {e: path.omega_rate for e, path in without.items()}) | none
     )
     psi_missed = abs(theirs.psi_rate - psi_iau)
-    omega_missed = abs(theirs.omega_rate - iau_omega_rate())
+    omega_missed = abs(theirs.omega_rate - omega_iau)
 
     def errors(shares: Mapping[str, float], missed: float) -> dict[str, float]:
         of_h = {FIRST_ORDER: NORMAL_95 * u_h * abs(shares[FIRST_ORDER])}
@@ -197,12 +185,10 @@ def budget_of(
         psi_total_error=psi_error[FIRST_ORDER],
         omega_total_error=omega_error[FIRST_ORDER],
         psi_iau=psi_iau,
-        omega_iau=iau_omega_rate(),
-        closure=full_closure(ours.psi_rate, psi_iau),
-        omega_closure=ours.omega_rate - iau_omega_rate(),
-        omega_closure_with_tides=ours.omega_rate
-        + TIDES_IN_OBLIQUITY.value * ARCSEC_PER_YEAR
-        - iau_omega_rate(),
+        omega_iau=omega_iau,
+        closure=ours.psi_rate + published_effects()["nonrigid"] - psi_iau,
+        omega_closure=ours.omega_rate - omega_iau,
+        omega_closure_with_tides=ours.omega_rate + tides - omega_iau,
         psi_from_h=u_h * abs(psi[FIRST_ORDER]),
         psi_analysis_error=psi_missed,
         omega_analysis_error=omega_missed,
@@ -270,11 +256,6 @@ def prem_polar_moment(radius: Numeric, j2: Numeric) -> Numeric:
     return polar_moment_from_mean(PREM_MEAN_MOMENT.value, PREM_RADIUS.value, radius, j2)
 
 
-def polar_moment_from_h(j2: float, h: float) -> float:
-    """Polar moment factor C/(M a2) = J2/H, from J2 and the dynamical flattening H."""
-    return float(polar_moment_factor(j2, h))
-
-
 class Flattening(NamedTuple):
     """Values of H and C/(M a2) from one source, with their standard uncertainties.
 
@@ -326,7 +307,7 @@ def compared_flattenings(
     """
 
     def from_h(value: float, uncertainty: float) -> Flattening:
-        moment = polar_moment_from_h(j2, value)
+        moment = float(polar_moment_factor(j2, value))
         return Flattening(
             value, uncertainty, moment, moment * math.hypot(uncertainty / value, u_j2)
         )

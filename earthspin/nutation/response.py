@@ -115,8 +115,6 @@ def _form(
     """Non-resonant part of the transfer function, and the factors that multiply the resonances.
 
     Each factor is multiplied by the strength of its resonance.
-
-    The strengths are those of the resonances.
     """
     in_space = frequency / spin_rate
     sigma = in_space - 1

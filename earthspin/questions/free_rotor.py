@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, setting
-from earthspin.engine.variables import Labels, Value, labels, number
+from earthspin.engine.variables import Labels, Neglected, Value, labels, number
 from earthspin.errors import Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.times import FromStart, Seconds, instants

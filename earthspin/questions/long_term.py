@@ -10,11 +10,19 @@ import numpy as np
 
 from earthspin.bodies import MOON, SUN, Body, in_a_sentence
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, key
-from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
+from earthspin.engine.variables import (
+    Labels,
+    Neglected,
+    Pair,
+    Value,
+    Variables,
+    labels,
+    measured,
+    number,
+)
 from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, of_perturber

@@ -9,11 +9,10 @@ import numpy as np
 from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY, JULIAN_YEAR
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key
-from earthspin.engine.variables import Labels, Value, Variables, labels, number
+from earthspin.engine.variables import Labels, Neglected, Value, Variables, labels, number
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import Yielding, elastic, yielding
 from earthspin.interior.modes import free_modes, mode_period, numbers_of, parts_of

@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, J2000_JD, MAS
 from earthspin.dates import Epochs, Span, days
-from earthspin.engine.labels import si
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, setting
-from earthspin.engine.variables import Labels, Value, Variables, labels, number
+from earthspin.engine.variables import Labels, Value, Variables, labels, number, si
 from earthspin.errors import SceneError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.questions.reasons import no_iau_model

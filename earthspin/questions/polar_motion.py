@@ -11,12 +11,20 @@ import numpy as np
 from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_YEAR, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, setting
 from earthspin.engine.run import in_range
-from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
+from earthspin.engine.variables import (
+    Labels,
+    Neglected,
+    Pair,
+    Value,
+    Variables,
+    labels,
+    measured,
+    number,
+)
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.questions.observed_pole import (

@@ -8,11 +8,19 @@ import numpy as np
 
 from earthspin.constants import DAY, DAYS_PER_YEAR, NORMAL_95
 from earthspin.dates import Span, datetime64
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, setting
-from earthspin.engine.variables import Labels, Pair, Value, Variables, labels, measured, number
+from earthspin.engine.variables import (
+    Labels,
+    Neglected,
+    Pair,
+    Value,
+    Variables,
+    labels,
+    measured,
+    number,
+)
 from earthspin.errors import UndefinedError
 from earthspin.interior.named import OBSERVED_CORE_NUTATION
 from earthspin.nutation import core_nutation as core

@@ -9,9 +9,8 @@ import numpy as np
 
 from earthspin.bodies import Body, in_a_sentence, proper
 from earthspin.constants import DAY, NORMAL_95, PUBLISHED_EFFECTS
-from earthspin.engine.neglected import Neglected
 from earthspin.engine.part import part
-from earthspin.engine.variables import Pair, Variables, measured
+from earthspin.engine.variables import Neglected, Pair, Variables, measured
 from earthspin.nutation.budget import published_effects
 
 

@@ -12,11 +12,10 @@ from earthspin.bodies.checks import refuse_break_up
 from earthspin.bodies.planets import BEYOND_RIGID, pulled_by
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import define_parts, key
-from earthspin.engine.variables import Labels, Value, labels, number, words
+from earthspin.engine.variables import Labels, Neglected, Value, labels, number, words
 from earthspin.errors import SceneError
 from earthspin.mass.figure import polar_moment
 from earthspin.motion.effect_sizes import attitude_displacements

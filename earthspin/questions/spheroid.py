@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from earthspin.bodies import EARTH, Body, all_of, proper
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key, setting
-from earthspin.engine.variables import Labels, Value, Variables, labels, number
+from earthspin.engine.variables import Labels, Neglected, Value, Variables, labels, number
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.times import SideBySide
 from earthspin.units import Number, Numbers

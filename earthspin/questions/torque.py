@@ -9,11 +9,10 @@ import numpy as np
 
 from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.dates import Epochs, Span, Step, datetime64
-from earthspin.engine.asking import public_call
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.answers import public_call
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import define_parts, key
-from earthspin.engine.variables import Labels, Pair, Value, labels, measured, number
+from earthspin.engine.variables import Labels, Neglected, Pair, Value, labels, measured, number
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.reasons import no_iau_model

@@ -124,13 +124,13 @@ def read_angular_momentum(
     joined = [_joined(group) for group in files.values()]
     parts = [part.daily() for part in joined] if daily else joined
     first, last = max(p.mjd[0] for p in parts), min(p.mjd[-1] for p in parts)
-    together = [_between(part, first, last) for part in parts]
-    mjd, names = together[0].mjd, ", ".join(str(group[0]) for group in files.values())
-    if any(p.mjd.size != mjd.size or np.any(abs(p.mjd - mjd) > SAME_TIME) for p in together):
+    common = [_between(part, first, last) for part in parts]
+    mjd, names = common[0].mjd, ", ".join(str(group[0]) for group in files.values())
+    if any(p.mjd.size != mjd.size or np.any(abs(p.mjd - mjd) > SAME_TIME) for p in common):
         raise SeriesError(names, "the components have different dates", "average them: daily=True")
     if mjd.size < 2:
         raise SeriesError(names, "there is no span of two steps that all components cover")
-    mass, motion = (np.sum([getattr(p, term) for p in together], axis=0) for term in TERMS)
+    mass, motion = (np.sum([getattr(p, term) for p in common], axis=0) for term in TERMS)
     return AngularMomentum(mjd, mass, motion)
 
 

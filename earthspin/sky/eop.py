@@ -173,8 +173,8 @@ class PoleSeries:
         """
         inside = (self.mjd >= first) & (self.mjd <= last)
         if np.count_nonzero(inside) < 2:
-            start, end, *asked = (day_of(mjd) for mjd in (*self.mjd[[0, -1]], first, last))
-            problem = f"it covers {start} to {end}; {asked[0]} to {asked[1]} was asked for"
+            start, end, from_day, to_day = map(day_of, (*self.mjd[[0, -1]], first, last))
+            problem = f"it covers {start} to {end}; {from_day} to {to_day} was asked for"
             raise SeriesError(self.name, problem, "choose a span inside it")
         return replace(
             self, **{name: getattr(self, name)[inside] for name in ("mjd", "x", "y", *_ERRORS)}

@@ -9,8 +9,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
-from earthspin.engine.labels import si
-from earthspin.engine.neglected import largest_of
+from earthspin.engine.variables import largest_of, si
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing, reading, stars, tables, torque
 from earthspin.views.drawing import Axes, Figure, PageFigure, Views, axes, note

@@ -12,8 +12,7 @@ from typing import Any, Literal, SupportsFloat
 import numpy as np
 import xarray as xr
 
-from earthspin.engine.labels import from_si
-from earthspin.engine.neglected import error_of
+from earthspin.engine.variables import error_of, from_si
 from earthspin.views.reading import Result, answer_of, needed
 
 MAS_PER_CENTURY = 1e5  # of an arcsec/yr

@@ -3,15 +3,12 @@
     p + (i/s) dp/dt = chi,    p = x - i y,    s = (2 pi/T)(1 + i/(2 Q))
 
 (Barnes, Hide, White & Wilson 1983, Proc. R. Soc. A 387, 31; for the reported pole: Gross 1992,
-Geophys. J. Int. 109, 162). Where
-chi is constant over a step D, or stands for its mean weighted with the decaying response,
-the solution is p1 = a p0 + (1 - a) chi with a = exp(i s D), and either follows from the
-other without error. The other schemes are here to show how they fail.
+Geophys. J. Int. 109, 162). Where chi is constant over a step D, or stands for its mean weighted
+with the decaying response, the solution is p1 = a p0 + (1 - a) chi with a = exp(i s D), and either
+follows from the other without error.
 """
 
 from __future__ import annotations
-
-from collections.abc import Callable
 
 import numpy as np
 
@@ -19,7 +16,7 @@ from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.wobble.record import known_terms, least_squares
 
-# --- the equation and its schemes -----------------------------------------------------------------
+# --- the equation ---------------------------------------------------------------------------------
 
 #: Share of a steady excitation's effect that must be left at the end of a step.
 _LEAST_TRACE = 1e-10
@@ -138,48 +135,6 @@ def _response(step: float, s: complex) -> tuple[complex, complex]:
     if not step > 0:
         raise UndefinedError(f"a step of {step:g} is not possible: time runs forwards")
     return complex(np.exp(1j * s * step)), complex(-np.expm1(1j * s * step))
-
-
-# --- schemes that are only near ----------------------------------------------------------------
-
-
-def central_difference(p: ComplexArray, step: float, s: complex) -> ComplexArray:
-    """Excitation at inner samples of polar motion, by central differences, shape (n - 2,)."""
-    return np.asarray(p[1:-1] + 1j / s * (p[2:] - p[:-2]) / (2 * step))
-
-
-def wilson_filter(p: ComplexArray, step: float, s: complex) -> ComplexArray:
-    """Excitation midway between samples of polar motion, by Wilson's filter, shape (n - 1,).
-
-    chi = i e^(-i pi F D)/(s D) (p1 - e^(i s D) p0) (Wilson 1985, Geophys. J. R. astr. Soc.
-    80, 551): the exact relation but for terms of second order in s D.
-    """
-    shift = np.exp(-0.5j * s.real * step)
-    return np.asarray(1j * shift / (s * step) * (p[1:] - np.exp(1j * s * step) * p[:-1]))
-
-
-def euler_forward(chi: ComplexArray, step: float, s: complex, start: complex = 0j) -> ComplexArray:
-    """Polar motion driven by an excitation, in explicit Euler steps, shape (n + 1,).
-
-    The method is unstable; it serves for comparison.
-    """
-    from scipy.signal import lfilter
-
-    growth = 1 + 1j * s * step
-    driven = lfilter([1 - growth], [1.0, -growth], chi, zi=np.array([growth * start]))[0]
-    return np.concatenate([[start], driven])
-
-
-#: Ways from polar motion to excitation, and from excitation to polar motion, by name.
-TO_EXCITATION: dict[str, Callable[[ComplexArray, float, complex], ComplexArray]] = {
-    "exact": excitation,
-    "central difference": central_difference,
-    "wilson": wilson_filter,
-}
-FROM_EXCITATION: dict[str, Callable[..., ComplexArray]] = {
-    "exact": polar_motion_from,
-    "explicit euler": euler_forward,
-}
 
 
 # --- polar motion driven by a known excitation ----------------------------------------------------

@@ -21,7 +21,7 @@ from earthspin.interior.love import elastic, softening
 from earthspin.interior.named import ANELASTIC_EXPONENT, Interior
 from earthspin.interior.ocean_and_anelasticity import anelastic_strain, global_ocean
 from earthspin.mass.figure import ellipticity_from_h, polar_moment_factor
-from earthspin.numerics.arrays import Array
+from earthspin.numerics.arrays import Array, Numeric
 
 # --- elastic mantle with a fluid core -------------------------------------------------------------
 # Liouville's equation of the whole body and Sasao's of its core (Sasao, Okubo & Saito 1980, IAU
@@ -43,8 +43,6 @@ from earthspin.numerics.arrays import Array
 #     (f^2 - b^2 y)(|D| - y |M|) + X a y [(f - b y) tr M + (f - b) tr D] - X^2 a^2 y (1 - y) = 0.
 #
 # Fifty products a body, in the place of a matrix of four by four and its eigenvalues.
-
-Numeric = Any
 
 
 def over(numerator: Numeric, denominator: Numeric) -> Numeric:
@@ -184,19 +182,8 @@ FORMULAS = {
 }
 
 
-def turns_from_flattening(flattening: Numeric) -> Numeric:
-    """Wobble period in rotations: 1/f from the flattening f, by McCullough's formula.
-
-    See the source text, I.9.52.
-    """
-    return over(1.0, flattening)
-
-
 def turns_rigid(h: Numeric) -> Numeric:
-    """Wobble period in rotations of a rigid axisymmetric body: A/(C - A).
-
-    See the source text, I.6.7.
-    """
+    """Wobble period in rotations of a rigid axisymmetric body: A/(C - A) (I.6.7)."""
     return np.abs(over(1.0, ellipticity_from_h(h)))
 
 
@@ -241,7 +228,7 @@ def rigid_turns(
 ) -> dict[str, Numeric]:
     """Wobble periods in rotations from the three rigid models of the ladder, by model name."""
     return {
-        "flattening": turns_from_flattening(flattening),
+        "flattening": over(1.0, flattening),  # McCullough's formula (I.9.52)
         "rigid": turns_rigid(h),
         "triaxial": turns_triaxial(h, j2, triaxiality),
     }
@@ -308,12 +295,7 @@ class Spin:
     period: Numeric
 
     def centrifugal(self, love_radius: Numeric) -> Numeric:
-        """Product of inertia from centrifugal deformation, per radian of wobble and per unit k2.
-
-        It is divided by M a2.
-
-        They are Omega2 R5/(3 G M a2).
-        """
+        """Product of inertia over M a2 per radian of wobble, for k2 = 1: Omega2 R5/(3 G M a2)."""
         rate = 2 * np.pi / self.period
         return rate**2 * love_radius**5 / (3 * self.gm * self.radius**2)
 
@@ -458,7 +440,7 @@ def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -
             "wobble forwards; take a body with a larger H, or set its interior to 'none'"
         )
     water = _water(interior, inputs, unit, ocean)
-    found = {
+    models = {
         "elastic": roots(replace(inputs, core_fraction=0.0), unit, compliance),
         "fluid-core": roots(inputs, unit, compliance),
     }
@@ -466,19 +448,19 @@ def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -
     if water is None:
         left_out["ocean"] = f"interior '{interior.name}' has no ocean"
     else:
-        found["ocean"] = roots(inputs, unit, compliance, water)
+        models["ocean"] = roots(inputs, unit, compliance, water)
     if interior.layers is None:
         left_out["anelastic"] = (
             f"interior '{interior.name}' has no layers; its k2, as observed, has anelasticity in it"
         )
     else:
-        elastic_turns = list(found.values())[-1].turns
-        found["anelastic"] = _soften(inputs, spin, interior, unit, water, elastic_turns)
+        elastic_turns = list(models.values())[-1].turns
+        models["anelastic"] = _soften(inputs, spin, interior, unit, water, elastic_turns)
     return Ladder(
-        turns={name: root.turns for name, root in found.items()},
-        quality_factor={name: root.quality_factor for name, root in found.items()},
+        turns={name: root.turns for name, root in models.items()},
+        quality_factor={name: root.quality_factor for name, root in models.items()},
         core_turns={
-            name: root.core_turns_in_space for name, root in found.items() if name != "elastic"
+            name: root.core_turns_in_space for name, root in models.items() if name != "elastic"
         },
         left_out=left_out,
     )

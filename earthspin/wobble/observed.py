@@ -307,18 +307,18 @@ def _minus_twice_log(data: ComplexArray, factors: ComplexArray, lags: ComplexArr
     lags : complex array, shape (3,)
         Covariance at lags of none, one and two.
     """
-    none, one, two = lags
+    lag_0, lag_1, lag_2 = lags
     first, second = -factors.sum(), factors.prod()
     # Covariance of a shortened mean with the mean itself, the last, and the last but one.
-    with_two = two + first * one + second * none
-    with_one = one + first * none + second * np.conj(one)
-    with_none = none + first * np.conj(one) + second * np.conj(two)
+    with_lag_2 = lag_2 + first * lag_1 + second * lag_0
+    with_lag_1 = lag_1 + first * lag_0 + second * np.conj(lag_1)
+    with_lag_0 = lag_0 + first * np.conj(lag_1) + second * np.conj(lag_2)
     diagonals = np.zeros((3, len(data)), dtype=complex)
-    diagonals[0, :2] = none
-    diagonals[0, 2:] = with_none + np.conj(first) * with_one + np.conj(second) * with_two
-    diagonals[1, :2] = one, with_one
-    diagonals[1, 2:] = with_one + np.conj(first) * with_two
-    diagonals[2] = with_two
+    diagonals[0, :2] = lag_0
+    diagonals[0, 2:] = with_lag_0 + np.conj(first) * with_lag_1 + np.conj(second) * with_lag_2
+    diagonals[1, :2] = lag_1, with_lag_1
+    diagonals[1, 2:] = with_lag_1 + np.conj(first) * with_lag_2
+    diagonals[2] = with_lag_2
     try:
         lower = cholesky_banded(diagonals, lower=True, check_finite=False)
     except LinAlgError:
@@ -378,8 +378,8 @@ def largest(likelihood: Likelihood, method: str, widening: float = 1.0) -> Wobbl
     widening : float
         Factor by which the intervals are made wider than those of the profile.
     """
-    at, least = lowest(likelihood)
-    period = 2 * np.pi / (MIDDLE + at[0])
+    best, least = lowest(likelihood)
+    period = 2 * np.pi / (MIDDLE + best[0])
     if min(abs(period - end) for end in BAND) < EDGE:
         raise UndefinedError(
             f"no free wobble: the likelihood is largest at the edge of what is looked through, "
@@ -387,43 +387,43 @@ def largest(likelihood: Likelihood, method: str, widening: float = 1.0) -> Wobbl
         )
 
     # The best possible scatter of the rate is sqrt(decay/span); that of the decay is as large.
-    scatter = NORMAL_95 * np.exp(-at[1] / 2) / np.sqrt(likelihood.span)
+    scatter = NORMAL_95 * np.exp(-best[1] / 2) / np.sqrt(likelihood.span)
 
-    def ends(of: int, reach: float) -> tuple[float, float]:
+    def ends(parameter: int, reach: float) -> tuple[float, float]:
         """Ends of the 95 % interval of one parameter, from the profile of the likelihood."""
-        nearby = at.copy()
+        nearby = best.copy()
 
         def profile(value: float) -> float:
             """Square root of the increase of -2 log(likelihood) if one parameter is fixed."""
             nonlocal nearby
-            starts = [nearby.copy(), at.copy()]
+            starts = [nearby.copy(), best.copy()]
             for start in starts:
-                start[of] = value
+                start[parameter] = value
             # the last search may have ended far from this value
             start = min(starts, key=lambda z: likelihood(*z))
-            nearby, height = lowest(likelihood, start, fixed=of)
+            nearby, height = lowest(likelihood, start, fixed=parameter)
             return float(np.sqrt(max(height - least, 0.0)))
 
         def side(limit: float) -> float:
             nonlocal nearby
-            nearby = at.copy()
-            return _risen(profile, float(at[of]), limit, reach, widening * NORMAL_95)
+            nearby = best.copy()
+            return _risen(profile, float(best[parameter]), limit, reach, widening * NORMAL_95)
 
-        return side(LOWEST[of]), side(HIGHEST[of])
+        return side(LOWEST[parameter]), side(HIGHEST[parameter])
 
-    slow, fast = (2 * np.pi / (MIDDLE + rate) for rate in ends(0, np.exp(at[1]) * scatter))
+    slow, fast = (2 * np.pi / (MIDDLE + rate) for rate in ends(0, np.exp(best[1]) * scatter))
     decays = np.exp(ends(1, min(scatter, 1.0)))
     slowest, fastest = decays
     if slowest == np.exp(LOWEST[1]):  # even a wobble without any loss is likely enough
         slowest = 0.0
     with np.errstate(divide="ignore"):
-        quality = np.pi / period / np.array([np.exp(at[1]), fastest, slowest])
-    best, low, high = map(float, quality)
-    return WobbleFit(method, float(period), float((slow - fast) / 2), best, (low, high))
+        quality = np.pi / period / np.array([np.exp(best[1]), fastest, slowest])
+    quality_factor, low, high = map(float, quality)
+    return WobbleFit(method, float(period), float((slow - fast) / 2), quality_factor, (low, high))
 
 
 def _risen(
-    of: Callable[[float], float], best: float, limit: float, reach: float, target: float
+    function: Callable[[float], float], best: float, limit: float, reach: float, target: float
 ) -> float:
     """Find where a function that increases from zero at `best` reaches a target value.
 
@@ -434,7 +434,7 @@ def _risen(
     def height(value: float) -> float:
         # A new search at the same value may end at another maximum, so none is repeated; the
         # height at the best value is zero by definition.
-        return 0.0 if value == best else of(value)
+        return 0.0 if value == best else function(value)
 
     room, sign, tolerance = abs(limit - best), np.sign(limit - best), 1e-2 * reach
     near = best

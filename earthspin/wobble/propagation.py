@@ -11,17 +11,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
-from typing import Any
 
 import numpy as np
 
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.interior.named import EXPONENT_RANGE, Interior
-from earthspin.numerics.arrays import Array
+from earthspin.numerics.arrays import Array, Numeric
 from earthspin.numerics.polynomials import lagrange
 from earthspin.wobble.ladder import Inputs, Spin, climb
-
-Numeric = Any
 
 #: How often the inputs of each body are drawn, and from which seed.
 DRAWS, SEED = 1000, 1
@@ -105,18 +102,20 @@ def sampled_half_widths(
         As for `climb`.
     """
     drawn = draw(uncertainty)
-    bodies = [getattr(of, one.name) for of in (inputs, spin) for one in fields(of)]
+    bodies = [getattr(record, item.name) for record in (inputs, spin) for item in fields(record)]
     values = np.broadcast_arrays(*bodies)
     shape, flat = values[0].shape, [np.ravel(v) for v in values]
     inputs_count = len(fields(Inputs))
-    found: dict[str, list[Array]] = {}
+    widths: dict[str, list[Array]] = {}
     for start in range(0, flat[0].size, _BODIES_AT_ONCE):
         block = [v[start : start + _BODIES_AT_ONCE] for v in flat]
-        some, turning = Inputs(*block[:inputs_count]), Spin(*block[inputs_count:])
-        for name, change in _sampled(some, uncertainty, drawn, turning, interior, ocean).items():
+        block_inputs, block_spin = Inputs(*block[:inputs_count]), Spin(*block[inputs_count:])
+        for name, change in _sampled(
+            block_inputs, uncertainty, drawn, block_spin, interior, ocean
+        ).items():
             # the period is not in the middle of the draws, nor its exponent in that of its range
-            found.setdefault(name, []).append(np.quantile(np.abs(change), 0.95, axis=-1))
-    return {name: np.concatenate(parts).reshape(shape) for name, parts in found.items()}
+            widths.setdefault(name, []).append(np.quantile(np.abs(change), 0.95, axis=-1))
+    return {name: np.concatenate(parts).reshape(shape) for name, parts in widths.items()}
 
 
 def _sampled(
@@ -131,7 +130,9 @@ def _sampled(
 
     The shape is (bodies, draws). The period is interpolated quadratically.
     """
-    nodes = _exponent_nodes()
+    # Chebyshev nodes over the published range of the anelastic exponent
+    low, high = EXPONENT_RANGE
+    nodes = (low + high) / 2 + (high - low) / 2 * np.polynomial.chebyshev.chebpts1(_EXPONENTS)
     points = _points(inputs, list(drawn.normal), uncertainty, nodes)
     # basis[i] stands on the turns at points[i]: the mean, each input below and above, the nodes.
     basis = [-sum((z**2 / 3 for z in drawn.normal.values()), np.zeros(drawn.exponent.size))]
@@ -168,13 +169,6 @@ def _points(
     return replace(inputs, **changed, anelastic_exponent=exponent)
 
 
-def _exponent_nodes() -> Array:
-    """Chebyshev nodes over the published range of the anelastic exponent."""
-    low, high = EXPONENT_RANGE
-    points = np.polynomial.chebyshev.chebpts1(_EXPONENTS)
-    return np.asarray((low + high) / 2 + (high - low) / 2 * points)
-
-
 def _column(values: Array, ndim: int) -> Array:
     """Reshape a one-dimensional array so that it lies along the first of several axes."""
     return values.reshape(-1, *(1,) * ndim)
@@ -194,11 +188,13 @@ def half_widths(
         Whether the ladder reaches the rung where the exponent matters.
     """
     low, high = EXPONENT_RANGE
-    found = {
-        one.name: 1.96 * uncertainty.get(one.name, 0.0) * abs(np.asarray(getattr(inputs, one.name)))
-        for one in fields(Inputs)
+    widths = {
+        item.name: 1.96
+        * uncertainty.get(item.name, 0.0)
+        * abs(np.asarray(getattr(inputs, item.name)))
+        for item in fields(Inputs)
     }
-    return found | ({"anelastic_exponent": np.asarray((high - low) / 2)} if anelastic else {})
+    return widths | ({"anelastic_exponent": np.asarray((high - low) / 2)} if anelastic else {})
 
 
 def core_nutation_half_width(
@@ -224,7 +220,8 @@ def core_nutation_half_width(
         changed = replace(inputs, **{name: (1 + share) * getattr(inputs, name)})
         return climb(changed, spin, interior, ocean).core_turns["fluid-core"]
 
-    shares = {one.name: NORMAL_95 * uncertainty.get(one.name, 0.0) for one in fields(Inputs)}
+    names = [item.name for item in fields(Inputs)]
+    shares = {name: NORMAL_95 * uncertainty.get(name, 0.0) for name in names}
     squares = [
         (turns(name, share) - turns(name, -share)) ** 2 / 4
         for name, share in shares.items()
@@ -249,15 +246,15 @@ def sensitivities(
     ocean : str
     """
 
-    def last(changed: Inputs) -> Numeric:
+    def last_turns(changed: Inputs) -> Numeric:
         return list(climb(changed, spin, interior, ocean).turns.values())[-1]
 
-    found = {}
+    slopes = {}
     for name in (f.name for f in fields(Inputs)):
         value = getattr(inputs, name)
         step = 1e-3 * np.where(np.equal(value, 0), 1.0, value)
-        difference = last(replace(inputs, **{name: value + step})) - last(
+        difference = last_turns(replace(inputs, **{name: value + step})) - last_turns(
             replace(inputs, **{name: value - step})
         )
-        found[name] = difference / (2 * step) * abs(spin.period) / DAY
-    return found
+        slopes[name] = difference / (2 * step) * abs(spin.period) / DAY
+    return slopes

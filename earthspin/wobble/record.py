@@ -115,8 +115,8 @@ def least_squares(columns: ComplexArray, values: ComplexArray) -> ComplexArray:
 def without_known_terms(time: FloatArray, p: ComplexArray, period: float = NEAR) -> ComplexArray:
     """Subtract drift and seasonal terms from polar motion; the fit includes the free wobble."""
     columns = known_terms(time)
-    found = least_squares(np.column_stack([columns, turning(time, period)]), p)
-    return np.asarray(p - columns @ found[:-1])
+    sizes = least_squares(np.column_stack([columns, turning(time, period)]), p)
+    return np.asarray(p - columns @ sizes[:-1])
 
 
 @dataclass(frozen=True)
@@ -220,32 +220,32 @@ def envelope(
     starts = np.arange(0, time.size - size + 1, max(1, round(step / spacing)))
     series = np.lib.stride_tricks.sliding_window_view(p, size)[starts]
     # Plain sums: a BLAS rounds otherwise with another number of threads.
-    found = np.einsum("ws,ks->wk", series, solver)
+    sizes = np.einsum("ws,ks->wk", series, solver)
     middle = time[starts] + local[-1]
-    left = series - np.einsum("wk,sk->ws", found, columns)
-    back = np.exp(-2j * np.pi * middle[:, None] / np.array(terms[:3]))
-    turned = found[:, 2:5] * back
+    residuals = series - np.einsum("wk,sk->ws", sizes, columns)
+    to_time_zero = np.exp(-2j * np.pi * middle[:, None] / np.array(terms[:3]))
+    turned = sizes[:, 2:5] * to_time_zero
     return Envelope(
         middle,
         turned[:, 0],
         turned[:, 1],
         turned[:, 2],
-        found[:, 0],
-        _amplitude_error(left, spacing, 2 * np.pi / period),
+        sizes[:, 0],
+        _amplitude_error(residuals, spacing, 2 * np.pi / period),
     )
 
 
-def _amplitude_error(left: ComplexArray, spacing: float, rate: float) -> FloatArray:
+def _amplitude_error(residuals: ComplexArray, spacing: float, rate: float) -> FloatArray:
     """95 % half-width of wobble amplitudes in time windows, from residuals with correlated noise.
 
     Neighbouring months err alike: the noise is taken for an autoregressive one of first
     order, and its spectrum read off at the wobble's frequency.
     """
-    power = np.mean(abs(left) ** 2, axis=1)
-    alike = np.mean(left[:, 1:] * left[:, :-1].conj(), axis=1) / power
-    turned = abs(1 - alike * np.exp(-1j * rate * spacing)) ** 2
-    density = power * (1 - abs(alike) ** 2) / turned
-    return np.asarray(AMPLITUDE_EXCESS * NORMAL_95 * np.sqrt(density / (2 * left.shape[1])))
+    power = np.mean(abs(residuals) ** 2, axis=1)
+    correlation = np.mean(residuals[:, 1:] * residuals[:, :-1].conj(), axis=1) / power
+    turned = abs(1 - correlation * np.exp(-1j * rate * spacing)) ** 2
+    density = power * (1 - abs(correlation) ** 2) / turned
+    return np.asarray(AMPLITUDE_EXCESS * NORMAL_95 * np.sqrt(density / (2 * residuals.shape[1])))
 
 
 # --- amplitude spectra ----------------------------------------------------------------------------

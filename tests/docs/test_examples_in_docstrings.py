@@ -16,7 +16,6 @@ import earthspin
 from earthspin.bodies import Body
 from earthspin.engine.accessor import Answer
 from earthspin.engine.registry import METHODS, registered
-from earthspin.scenes import QUESTIONS
 
 
 def public() -> Iterator[tuple[str, Any]]:
@@ -57,14 +56,3 @@ def test_it_has_an_example_that_prints_what_it_says(
     assert re.search(rf"\b{last.lower()}\b", shown.lower()) or last in ("Answer", "VersionWarning")
     seen = any(example.want for example in test.examples) or list(tmp_path.iterdir())
     assert seen, "an example prints or writes something"
-
-
-@pytest.mark.parametrize("word", QUESTIONS)
-def test_the_example_of_a_question_stands_in_its_class(word: str) -> None:
-    question = QUESTIONS[word]
-    text = inspect.getdoc(getattr(earthspin, question.call)) or ""
-    assert inspect.cleandoc(question.__doc__ or "").split("Examples")[1].strip() in text
-
-
-def test_a_wrong_example_is_seen() -> None:
-    assert "Expected" in run("sum", ">>> 1 + 1\n3\n")[1]

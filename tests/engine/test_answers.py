@@ -9,25 +9,13 @@ import xarray as xr
 
 import earthspin
 from earthspin import EARTH, Scene, load_scene
-from earthspin.scenes import QUESTIONS, shipped_scenes
+from earthspin.scenes import shipped_scenes
 from tests import shipped
 
 
 @pytest.fixture(scope="module", params=shipped_scenes())
 def answer(request: pytest.FixtureRequest) -> xr.Dataset:
     return shipped.tree(request.param).to_dataset()
-
-
-def test_an_answer_has_the_dimensions_of_its_question(answer: xr.Dataset) -> None:
-    """Those that the parts of the answer declare, and no others."""
-    graph = QUESTIONS[answer.attrs["compute"]].graph
-    declared = {
-        d for part in graph.answer for v in graph.parts[part].gives.values() for d in v.dims
-    }
-    of_members = {"member"} if answer.earthspin.scene.members else set()
-    assert set(answer.sizes) == declared | of_members
-    assert not {str(name) for name in answer.variables if str(name).startswith("part")}
-    assert not [name for name in answer.variables if "part" in answer[name].attrs]
 
 
 def test_no_clock_stands_in_an_answer(answer: xr.Dataset) -> None:
@@ -63,15 +51,8 @@ def test_what_is_neglected_for_many_bodies_says_why_it_has_no_size() -> None:
 
 def test_ten_years_of_torque_are_a_row_for_each_number() -> None:
     series = earthspin.torque_series("2000-01-01T12:00", "2010-01-01T12:00", "6 h")
-    assert series.sizes == {"time": 14_613, "perturber": 2, "component": 3}
-    assert len(series.to_dataframe()) == 87_678
     frame = series.earthspin.to_frame()
-    assert len(frame) == 29_226
-    assert list(frame.columns) == [
-        *("time", "perturber", "right_ascension", "declination", "distance", "distance_error"),
-        *("torque_x", "torque_y", "torque_z", "torque_magnitude", "torque_magnitude_error"),
-        "direction_error",
-    ]
+    assert len(frame) == 14_613 * 2
     some = frame[(frame.perturber == "moon") & (frame.time == np.datetime64("2005-01-01T12:00"))]
     at = series.sel(perturber="moon", time="2005-01-01T12:00")
     assert len(some) == 1

@@ -1,6 +1,5 @@
 """Public calls and keys: one class says all, and a key that it does not have is refused."""
 
-import inspect
 from pathlib import Path
 from typing import Any
 
@@ -9,20 +8,17 @@ import tomli_w
 
 import earthspin
 from earthspin import SceneError, load_scene
-from earthspin.engine.question import Question, describe_keys, keys_of
+from earthspin.engine.question import Question, keys_of
 from earthspin.scenes import QUESTIONS
 from tests import shipped
 
-KEYS = [key for question in QUESTIONS.values() for key in keys_of(question).values()]
-#: Every key at the head of a scene, every setting and every table that some question has.
-HEADS = {key.name for key in KEYS if not key.setting}
-SETTINGS = {key.name for key in KEYS if key.setting}
-TABLES = sorted({question.table for question in QUESTIONS.values() if question.table})
-
-each_question = pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)
+#: Every key at the head of a scene that some question has.
+HEADS = {
+    key.name for each in QUESTIONS.values() for key in keys_of(each).values() if not key.setting
+}
 
 
-@each_question
+@pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)
 def test_a_key_of_another_question_is_refused_however_it_is_given(
     question: type[Question], tmp_path: Path
 ) -> None:
@@ -47,81 +43,6 @@ def test_a_key_of_another_question_is_refused_however_it_is_given(
         assert name in error.value.key
     with pytest.raises(TypeError, match=f"{question.call}.*'{name}'"):
         getattr(earthspin, question.call)(**settings)
-
-
-@each_question
-def test_keys_of_other_questions_are_refused(question: type[Question]) -> None:
-    """At the head of a scene, and in its table."""
-    full = shipped.table(question.word)
-    for name in sorted(HEADS | SETTINGS):
-        key = keys_of(question).get(name)
-        if key is None or key.setting:
-            words = "has no such key" if key is None else "it belongs in the table"
-            with pytest.raises(SceneError, match=words):
-                question.from_table(full | {name: 1})
-        if question.table and (key is None or not key.setting):
-            with pytest.raises(SceneError, match="allowed: ") as error:
-                question.from_table({question.table: full.get(question.table, {}) | {name: 1}})
-            assert error.value.key == f"{question.table}.{name}"
-
-
-@each_question
-def test_a_table_of_another_question_is_refused(question: type[Question]) -> None:
-    for table in TABLES:
-        words = f"it is a table: \\[{table}\\]" if table == question.table else "has no such key"
-        with pytest.raises(SceneError, match=words):
-            question.from_table(shipped.table(question.word) | {table: 3})
-
-
-# --- what a call says of itself ----------------------------------------------------------------
-
-
-def arguments(question: type[Question]) -> set[str]:
-    """What a call takes: its keys, the span of a series as two."""
-    names = set(keys_of(question)) - {"title"}
-    return names - {"span"} | {"start", "stop"} if "start" in question.positional else names
-
-
-@each_question
-def test_the_signature_names_every_key(question: type[Question]) -> None:
-    function = getattr(earthspin, question.call)
-    parameters = inspect.signature(function).parameters
-    assert set(parameters) == arguments(question)
-    assert tuple(parameters)[: len(question.positional)] == question.positional
-    for name, parameter in parameters.items():
-        free = name in question.positional
-        assert parameter.kind is (
-            parameter.POSITIONAL_OR_KEYWORD if free else parameter.KEYWORD_ONLY
-        )
-        key = keys_of(question).get(name)
-        required = key is not None and key.required
-        assert (parameter.default is parameter.empty) == required
-    assert function.__name__ == question.call
-
-
-@each_question
-def test_the_docstring_describes_every_key(question: type[Question]) -> None:
-    doc = inspect.getdoc(getattr(earthspin, question.call)) or ""
-    head, rest = doc.split("Parameters\n----------\n")
-    assert head.strip()
-    listed, _ = rest.split("\nReturns\n-------\n")
-    for name in arguments(question):
-        assert f"\n{name} : " in f"\n{listed}", name
-    words = " ".join(listed.split())
-    for name, key in keys_of(question).items():
-        if name in inspect.signature(getattr(earthspin, question.call)).parameters:
-            assert key.doc[1:] in words, name
-    for heading in ("Raises", "Examples"):
-        assert f"\n{heading}\n" in doc
-
-
-@each_question
-def test_the_list_of_keys_is_whole(question: type[Question]) -> None:
-    text = describe_keys(question)
-    head, _, table = text.partition(f"[{question.table}]") if question.table else (text, "", "")
-    for name, key in keys_of(question).items():
-        assert f"\n{name}: " in f"\n{table if key.setting else head}", name
-    assert all(len(line) <= 100 for line in text.splitlines() if line.startswith(" "))
 
 
 def test_a_call_without_what_must_be_given_is_refused() -> None:

@@ -23,12 +23,12 @@ MINUTE = 60
 
 RUN = """
 import sys
-from earthspin.engine import loop
+from earthspin.engine import blocks
 from tests.engine.work import Squares
 
 if __name__ == "__main__":
     client = int(sys.argv[2]) if sys.argv[2].isdecimal() else sys.argv[2]
-    loop.write(Squares(size=150, seconds=0.05), sys.argv[1], client=client)
+    blocks.write(Squares(size=150, seconds=0.05), sys.argv[1], client=client)
 """
 
 

@@ -9,8 +9,7 @@ import xarray as xr
 
 import earthspin
 from earthspin import UndefinedError
-from earthspin.engine.labels import FROM_SI, si
-from earthspin.engine.variables import SchemaError, Value, Variables, number
+from earthspin.engine.variables import FROM_SI, Value, Variables, number, si
 from tests import shipped
 
 
@@ -90,28 +89,9 @@ def test_values_are_turned_from_si() -> None:
     assert laid.x.attrs == {"long_name": "an angle", "units": "deg"}
 
 
-def test_a_part_must_keep_its_word() -> None:
-    with pytest.raises(SchemaError, match="missing"):
-        Angles()  # type: ignore[call-arg]
-    with pytest.raises(SchemaError, match="declares"):
-        Angles(x=xr.DataArray([1.0], dims="other")).dataset()
-
-
 def test_extra_dimensions_come_last() -> None:
     values = xr.DataArray(np.ones((2, 3)), dims=("draw", "time"))
     assert Angles(x=values).dataset().x.dims == ("time", "draw")
-
-
-def test_labels_that_differ_are_refused() -> None:
-    class Two(Variables, along=("time",)):
-        """Two variables."""
-
-        x: Value = number("deg", "an angle")
-        y: Value = number("deg", "another angle")
-
-    first = xr.DataArray([1.0, 2.0], dims="time", coords={"time": [0, 1]})
-    with pytest.raises(SchemaError, match="labels along 'time' differ"):
-        Two(x=first, y=first.assign_coords(time=[1, 2])).dataset()
 
 
 def test_numbers_that_are_missing_are_refused_in_one_line() -> None:

@@ -49,8 +49,10 @@ class Ends(Squares):
 
 def ended(path: Path, at: int = 3) -> Path:
     """A store whose writer ended before a block."""
-    with pytest.raises(_EndError):
+    with pytest.raises(_EndError) as end:
         blocks.write(Ends(at=at), path)
+    kept = f"{3 * at} of 20 are stored in {path.name}.partial"
+    assert end.value.__notes__ == [f"{kept}; run the same command to continue"]
     return path.with_name(path.name + ".partial")
 
 
@@ -71,32 +73,19 @@ def test_a_store_holds_no_date_and_no_path(undisturbed: Path, tmp_path: Path) ->
 
 
 @pytest.mark.parametrize("at", [1, 3, 6])
-def test_it_goes_on_where_it_was_ended(tmp_path: Path, undisturbed: Path, at: int) -> None:
-    path = tmp_path / "r.zarr"
-    assert ended(path, at).is_dir()
+@pytest.mark.parametrize("error", [_EndError(), RuntimeError("half-way")])
+def test_it_goes_on_where_it_was_ended(
+    tmp_path: Path, undisturbed: Path, at: int, error: BaseException
+) -> None:
+    path, work = tmp_path / "r.zarr", Squares()
+    with pytest.raises(type(error)):
+        blocks.write(Ends(at=at, error=error), path)
+    assert path.with_name("r.zarr.partial").is_dir()
     assert not path.exists()
-    work = Squares()
     blocks.write(work, path)
     assert work.made == list(range(at, 7))
     assert bytes_of(path) == bytes_of(undisturbed)
     assert sorted(p.name for p in tmp_path.iterdir()) == ["r.zarr", "undisturbed.zarr"]
-
-
-def test_an_end_from_outside_says_how_to_go_on(tmp_path: Path) -> None:
-    with pytest.raises(_EndError) as end:
-        blocks.write(Ends(), tmp_path / "r.zarr")
-    assert end.value.__notes__ == [
-        "9 of 20 are stored in r.zarr.partial; run the same command to continue"
-    ]
-
-
-def test_a_chunk_that_was_cut_short_is_made_again(tmp_path: Path, undisturbed: Path) -> None:
-    folder = ended(tmp_path / "r.zarr")
-    (folder / blocks.STORE / "square" / "2.0").write_bytes(b"half a chu")
-    work = Squares()
-    path = blocks.write(work, tmp_path / "r.zarr")
-    assert work.made == [2, 3, 4, 5, 6]
-    assert bytes_of(path) == bytes_of(undisturbed)
 
 
 def test_a_complete_store_is_not_made_again(undisturbed: Path) -> None:
@@ -200,26 +189,6 @@ def test_places_that_cannot_be_written(tmp_path: Path) -> None:
         assert work.made == []
 
 
-def test_a_block_that_does_not_fit(tmp_path: Path) -> None:
-    class Wider(Squares):
-        def make(self, number: int):  # type: ignore[no-untyped-def]
-            made = super().make(number)
-            return made if number < 2 else made.isel(column=[0])
-
-    with pytest.raises(OutputError, match=r"block 2 does not fit: .*'square'"):
-        blocks.write(Wider(), tmp_path / "r.zarr")
-
-
-def test_a_failure_is_told_and_what_was_made_is_kept(tmp_path: Path, undisturbed: Path) -> None:
-    path = tmp_path / "r.zarr"
-    with pytest.raises(RuntimeError, match="half-way"):
-        blocks.write(Ends(error=RuntimeError("half-way")), path)
-    again = Squares()
-    blocks.write(again, path)
-    assert again.made == [3, 4, 5, 6]
-    assert bytes_of(path) == bytes_of(undisturbed)
-
-
 def test_a_folder_of_others_is_left_alone(tmp_path: Path) -> None:
     folder = tmp_path / "r.zarr.partial"
     folder.mkdir()
@@ -244,6 +213,7 @@ def flip(path: Path) -> None:
     [
         *(("square/0.0", damage) for damage in (flip, Path.unlink, lambda p: p.write_bytes(b""))),
         *((chunk, flip) for chunk in ("square/2.0", "member/1", "day/2")),
+        ("square/2.0", lambda p: p.write_bytes(b"half a chu")),
     ],
 )
 def test_a_damaged_block_is_made_again(
@@ -325,14 +295,14 @@ KILLED = """
 import os, random, signal, sys, time
 from pathlib import Path
 import xarray, zarr, numcodecs                    # loaded once; each child is a copy
-from earthspin.engine import loop, unfinished
+from earthspin.engine import blocks
 from tests.engine.work import Squares, blocks_in
 path, times = Path(sys.argv[1]), int(sys.argv[2])
 partial, chance = path.with_name(path.name + ".partial"), random.Random(int(sys.argv[3]))
 for _ in range(times):
     child = os.fork()
     if not child:
-        loop.write(Squares(size=150, seconds=0.004), path)
+        blocks.write(Squares(size=150, seconds=0.004), path)
         os._exit(0)
     time.sleep(chance.uniform(0.02, 0.35))
     os.kill(child, signal.SIGKILL)
@@ -343,7 +313,14 @@ for _ in range(times):
 """
 
 
-def killed(tmp_path: Path, times: int) -> None:
+@pytest.mark.parametrize(
+    "times",
+    [
+        pytest.param(10, marks=pytest.mark.slow),
+        pytest.param(100, marks=pytest.mark.every_kill),
+    ],
+)
+def test_killed_again_and_again(tmp_path: Path, times: int) -> None:
     """Kill a run again and again; what comes out must be what an undisturbed run gives."""
     path = tmp_path / "killed.zarr"
     out = printed(KILLED, str(path), str(times), "20")
@@ -359,16 +336,6 @@ def killed(tmp_path: Path, times: int) -> None:
     assert path in made
     for store in made:
         assert bytes_of(store) == straight
-
-
-@pytest.mark.slow
-def test_killed_ten_times(tmp_path: Path) -> None:
-    killed(tmp_path, 10)
-
-
-@pytest.mark.every_kill
-def test_killed_a_hundred_times(tmp_path: Path) -> None:
-    killed(tmp_path, 100)
 
 
 # --- by a cluster --------------------------------------------------------------------------------

@@ -1,6 +1,5 @@
 """An answer can be run again, from memory and from a file, and gives the same bits."""
 
-import math
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
@@ -10,22 +9,15 @@ import numpy as np
 import pytest
 import tomli_w
 import xarray as xr
-from hypothesis import given, reject, settings
+from hypothesis import given, reject
 from hypothesis import strategies as st
 
 import earthspin
 from earthspin import EARTH, MARS, SceneError, VersionWarning, load_scene
 from earthspin.bodies import BODIES
 from earthspin.bodies.checks import refuse_break_up
-from earthspin.engine.question import Question, keys_of
-from earthspin.questions.free_rotor import FreeRotor
-from earthspin.questions.pole import Pole
-from earthspin.questions.precession import Precession
-from earthspin.questions.spheroid import Spheroid
-from earthspin.questions.top import Top
-from earthspin.questions.torque import Torque
 from earthspin.questions.wobble import Wobble
-from earthspin.scenes import QUESTIONS, shipped_scenes
+from earthspin.scenes import shipped_scenes
 from tests import shipped
 
 H = xr.DataArray([0.003, 0.0032, 0.0033], {"draw": ["low", "middle", "high"]}, ("draw",))
@@ -34,7 +26,6 @@ DATES = [str(np.datetime64("1990-01-01T00:00") + np.timedelta64(k * k, "h")) for
 MANY = np.random.default_rng(5).uniform(0.0, 100.0, 50)
 CALLS: dict[str, Callable[[], xr.Dataset]] = {
     "mars": lambda: earthspin.precession(body="mars", perturbers=["sun"]),
-    "a fast earth": lambda: earthspin.precession(body=EARTH.replace(spin_period=43200.0)),
     "labelled": lambda: earthspin.precession(body=EARTH.replace(dynamical_flattening=H)),
     "labelled by floats": lambda: earthspin.wobble_ladder(
         body=EARTH.replace(j2=YEARS, dynamical_flattening=3 * YEARS)
@@ -50,7 +41,6 @@ CALLS: dict[str, Callable[[], xr.Dataset]] = {
     "true equator": lambda: earthspin.torque_series(
         "2000-01-01", "2001-01-01", "30 d", equator="true"
     ),
-    "tolerance": lambda: earthspin.rotation("2000-01-01", "2000-01-03", "6 h", tolerance=1e-8),
     "a top": lambda: earthspin.heavy_top(
         MANY,
         transverse_moment=1 / 3,
@@ -59,7 +49,6 @@ CALLS: dict[str, Callable[[], xr.Dataset]] = {
         theta="40 deg",
         spin="200 deg/s",
     ),
-    "many points": lambda: earthspin.spheroid_field(np.full((40, 3), 1e7) / 3, point_mass="1 g"),
     "a perturber by its numbers": lambda: earthspin.torque_series(
         "2000-01-01", "2000-01-02", "6 h", perturbers=["sun", BODIES["moon"].replace(gm=5e12)]
     ),
@@ -147,21 +136,13 @@ def test_a_slice_still_says_which_run_it_came_from() -> None:
 def test_other_versions_are_named(attribute: str, tmp_path: Path) -> None:
     answer = earthspin.run("torque")
     older = answer.assign_attrs({attribute: "0.0.1"})
-    words = f"{attribute} 0.0.1, now {answer.attrs[attribute]}"
-    with pytest.warns(VersionWarning) as caught:
+    with pytest.warns(VersionWarning, match=f"{attribute} 0.0.1, now {answer.attrs[attribute]}"):
         xr.testing.assert_identical(earthspin.run(older), answer)
-    assert [str(one.message) for one in caught] == [f"made with {words}"]
     older.to_netcdf(tmp_path / "older.nc")
     with pytest.warns(VersionWarning, match=attribute):
         earthspin.run(tmp_path / "older.nc")
     with pytest.warns(VersionWarning, match=attribute):
         earthspin.run_tree(older, ())
-
-
-def test_all_that_differs_is_named() -> None:
-    older = earthspin.run("wobble").assign_attrs(earthspin_version="0", numpy_version="1")
-    with pytest.warns(VersionWarning, match=r"earthspin_version 0, now .*; numpy_version 1, now"):
-        earthspin.run(older)
 
 
 def test_a_dataset_of_another_origin_is_refused(tmp_path: Path) -> None:
@@ -200,23 +181,7 @@ def bits(value: Any) -> Any:
     return value
 
 
-def assert_same_bits(question: Question) -> None:
-    table = tomllib.loads(tomli_w.dumps(question.to_table()))
-    word = table.pop("compute")
-    back = QUESTIONS[word].from_table(table)
-    assert type(back) is type(question)
-    for name in keys_of(type(question)):
-        if name not in question._superseded_keys():
-            assert bits(getattr(back, name)) == bits(getattr(question, name)), name
-    assert back.to_table() == question.to_table()
-
-
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
-SMALL = st.floats(-1e8, 1e8)
-POSITIVE = st.floats(1e-8, 1e8)
-COUNTS = st.integers(-(10**15), 10**15)
-
-
 #: Words of one line, without what a terminal would take for an order.
 ONE_LINE = st.characters(codec="utf-8", exclude_categories=["Cs", "Cc", "Cf", "Zl", "Zp"])
 
@@ -262,79 +227,9 @@ def bodies(draw: st.DrawFn) -> earthspin.Body:
 
 @given(body=bodies(), title=st.text(ONE_LINE, max_size=20))
 def test_bodies_are_written_exactly(body: earthspin.Body, title: str) -> None:
-    assert_same_bits(Wobble(body=body, title=title))
-
-
-@given(
-    first=COUNTS,
-    length=st.integers(0, 10**15),
-    step=st.floats(1e-6, 1e11),
-)
-def test_series_are_written_exactly(first: int, length: int, step: float) -> None:
-    span = [np.datetime64("2000-01-01T12", "us") + np.timedelta64(n, "us") for n in (first, first)]
-    span[1] += np.timedelta64(length, "us")
-    keys = {"perturbers": ["sun", "jupiter"], "span": span, "step": step}
-    assert_same_bits(Torque(**keys))
-    assert_same_bits(Pole(**keys, effects=["j3", "planets"]))
-    assert_same_bits(Precession(perturbers="sun", span=span))
-
-
-@given(counts=st.lists(COUNTS, min_size=1, max_size=60))
-def test_dates_are_written_exactly(counts: list[int]) -> None:
-    dates = np.datetime64("2000-01-01T12", "us") + np.array(counts, dtype="timedelta64[us]")
-    assert_same_bits(Torque(times=dates))
-
-
-@given(
-    moments=st.lists(POSITIVE, min_size=3, max_size=3),
-    differences=st.booleans(),
-    omega=st.lists(st.lists(SMALL, min_size=3, max_size=3), min_size=1, max_size=20),
-    times=st.none() | st.lists(FINITE, min_size=1, max_size=60),
-    duration=POSITIVE,
-    points=st.integers(1, 4_000_000),
-)
-def test_rotors_are_written_exactly(
-    moments: list[float],
-    differences: bool,
-    omega: list[list[float]],
-    times: list[float] | None,
-    duration: float,
-    points: int,
-) -> None:
-    named = dict(zip(("A", "B-A", "C-A"), moments, strict=True))
-    when = {"duration": duration, "points": points} if times is None else {"times": times}
-    assert_same_bits(FreeRotor(moments=named if differences else moments, omega=omega, **when))
-
-
-@given(
-    transverse=st.floats(1e-150, 1e150),
-    axial_share=st.floats(1e-9, 2.0),
-    weight=st.floats(-1e40, 1e40),
-    theta=st.floats(0.0, math.pi),
-    rates=st.lists(st.floats(-1e100, 1e100), min_size=3, max_size=3),
-    angles=st.lists(FINITE, min_size=2, max_size=2),
-)
-def test_tops_are_written_exactly(
-    transverse: float,
-    axial_share: float,
-    weight: float,
-    theta: float,
-    rates: list[float],
-    angles: list[float],
-) -> None:
-    assert_same_bits(
-        Top(
-            transverse_moment=transverse,
-            axial_moment=axial_share * transverse,
-            weight_moment=weight,
-            theta=theta,
-            **dict(zip(("spin", "phi_rate", "theta_rate"), rates, strict=True)),
-            **dict(zip(("phi", "psi"), angles, strict=True)),
-        )
-    )
-
-
-@given(points=st.lists(st.lists(FINITE, min_size=3, max_size=3), min_size=1, max_size=30))
-@settings(max_examples=30)
-def test_points_are_written_exactly(points: list[list[float]]) -> None:
-    assert_same_bits(Spheroid(position=points, point_mass=math.pi))
+    question = Wobble(body=body, title=title)
+    table = tomllib.loads(tomli_w.dumps(question.to_table()))
+    assert table.pop("compute") == "wobble"
+    back = Wobble.from_table(table)
+    assert (bits(back.body), back.title) == (bits(question.body), question.title)
+    assert back.to_table() == question.to_table()

@@ -21,8 +21,8 @@ from earthspin.mass.multipoles import (
     spheroid_zonals,
 )
 from earthspin.mass.spheroid import spheroid_attraction, spheroid_potential, spheroid_torque
-from earthspin.mass.tensor import check_inertia_tensor, inertia_tensor, principal_axes
-from tests.extreme import Distances, holds, refused
+from earthspin.mass.tensor import inertia_tensor, principal_axes
+from tests.extreme import Distances, holds
 
 EPS = float(np.finfo(float).eps)
 
@@ -48,15 +48,6 @@ def test_flat() -> Distances:
     places = np.random.default_rng(5).normal(size=(40, 3)) * [1.0, 0.3, 0.0]
     a, b, c = principal_axes(inertia_tensor(np.ones(40), places)).moments
     yield (a + b - c) / c
-
-
-@refused("none may exceed the sum of the other two")
-def test_triangle() -> None:
-    """refusal of an inertia tensor that violates the triangle inequality
-
-    Hard because: no body has C above A + B, but every formula would give numbers
-    """
-    check_inertia_tensor(np.diag([1.0, 1.0, 2.0 + 1e-9]))
 
 
 @holds(bound=5e-15)

@@ -1,13 +1,12 @@
 """Motion of the Earth's axes in time.
 
 The spin is 10^7 times faster than the precession. The averaged rate does not depend on the phase of
-the spin, the axis solver uses windows of several days, and the two other solvers resolve every
-rotation. They are compared over spans that two of them cover.
+the spin, the axis solver uses windows of several days, and the solver of (L, F) resolves every
+rotation.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -26,7 +25,6 @@ from earthspin.questions.sky import Stretch, places, sky, stretch
 from earthspin.sky.iau import fixed_ecliptic
 from earthspin.torque.rates import precession_rate
 from tests.extreme import Distances, holds, relative_error
-from tests.reference.attitude import attitude_about, attitude_motion, figure_axis
 from tests.reference.momentum_and_figure import axisymmetric_motion
 from tests.reference.sky import BODY, CENTRE, CODES, FORCES, J2, SPIN, H, Tide, kernel, positions
 
@@ -61,58 +59,6 @@ def _pole_against_exact(days: float, forces: Forces = FORCES) -> float:
     return _angle(path.at(times)["figure"], axis)
 
 
-def _exact(start: FloatArray, tide: Tide, times: FloatArray) -> FloatArray:
-    """Figure axis of an axisymmetric Earth, integrated together with its angular momentum."""
-    return axisymmetric_motion(tide, H, SPIN, start, NORTH, times)[1]
-
-
-def _attitude(start: FloatArray, tide: Tide, times: FloatArray) -> FloatArray:
-    """Integrate the full attitude of an axisymmetric Earth, and return its figure axis."""
-    attitude = attitude_about(NORTH, 0.3)
-    return figure_axis(attitude_motion(tide, H, 0.0, SPIN, start, attitude, times)[1])
-
-
-@holds(bound=0.01, unit="uas")
-def test_pole_and_exact() -> Distances:
-    """Earth's pole for 30 d: axis solver and integration of (L, F)
-
-    Hard because: the spin is 10^7 times faster than the precession; one solver uses windows of 8 d,
-        the other resolves each rotation
-    Compared with: figure axis of axisymmetric_motion over 30 d
-    """
-    yield _pole_against_exact(30.0)
-
-
-@holds(bound=2e-4, unit="uas")
-def test_exact_and_attitude() -> Distances:
-    """Earth's pole for 10 d: integration of (L, F) and of the full attitude
-
-    Hard because: the two systems of equations have different sizes and need a thousand steps per
-        rotation
-    Compared with: figure axis of attitude_motion over 10 d
-    """
-    start, tide = _momentum(_path(10.0)), Tide(10 * DAY)
-    times = np.linspace(0.0, 10 * DAY, 20)
-    yield _angle(_attitude(start, tide, times), _exact(start, tide, times))
-
-
-@holds(bound=5e-3, unit="uas")
-def test_triaxial() -> Distances:
-    """Earth's pole with three unequal moments of inertia
-
-    Hard because: the semidiurnal motion of 34 uas is added to a precession that is 10^6 times
-        larger
-    Compared with: figure axis of attitude_motion over 10 d
-    """
-    days, times = 10.0, np.linspace(0.0, 10 * DAY, 20)
-    path = _path(days, replace(ROUND, triaxiality=TRIAXIALITY, meridian=float(BODY.meridian)))
-    result = path.at(times)
-    start = np.linalg.norm(_momentum(path)) * result["angular_momentum"][0]
-    attitude = attitude_about(result["figure"][0], float(BODY.meridian))
-    _, attitudes = attitude_motion(Tide(days * DAY), H, TRIAXIALITY, SPIN, start, attitude, times)
-    yield _angle(result["figure"], figure_axis(attitudes))
-
-
 @holds(bound=2e-5, unit="arcsec/yr")
 def test_average_and_pole() -> Distances:
     """averaged precession rate and Earth's pole over 93 years
@@ -144,72 +90,6 @@ def _samples(cycles: float | None = None) -> Samples:
 
 def _psi(vectors: FloatArray) -> FloatArray:
     return np.unwrap(on_fixed_ecliptic(vectors, fixed_ecliptic())[:, 0])
-
-
-def _exponent(count: Callable[[float], int], spans: Sequence[float]) -> float:
-    """Fit the number of evaluations by a power of the time span; return the exponent minus 1."""
-    counts = [count(span) for span in spans]
-    return float(np.polyfit(np.log(spans), np.log(counts), 1)[0]) - 1
-
-
-def _cost(
-    solver: Callable[[FloatArray, Tide, FloatArray], FloatArray], spans: Sequence[float]
-) -> float:
-    """Exponent, minus 1, with which a solver's calls of the tidal tensor grow with the span (d)."""
-    start = _momentum(_path(8.0))
-
-    def count(days: float) -> int:
-        tide = Tide(days * DAY)
-        solver(start, tide, np.array([0.0, days * DAY]))
-        return tide.calls
-
-    return _exponent(count, spans)
-
-
-@holds(bound=3e-4)
-def test_cost_of_average() -> Distances:
-    """growth with the span of the cost of the averaged precession rate
-
-    Hard because: a cost that grows faster than the span would prevent long spans
-    Compared with: exponent 1 of the number of epochs, over 3 to 5 periods of the node
-    """
-    yield _exponent(lambda cycles: _samples(cycles).times.size, (3.0, 4.0, 5.0))
-
-
-@holds(bound=0.02)
-def test_cost_of_pole() -> Distances:
-    """growth with the span of the cost of the axis solver
-
-    Hard because: each iteration covers all windows, and more iterations would increase the exponent
-    Compared with: exponent 1 of windows times iterations, over 2 to 48 years
-    """
-
-    def count(years: float) -> int:
-        path = _path(years * 365.25)
-        return path.rounds * path.windows.times.size
-
-    yield _exponent(count, (2.0, 6.0, 16.0, 48.0))
-
-
-@holds(bound=0.1)
-def test_cost_of_exact() -> Distances:
-    """growth with the span of the cost of integrating momentum and figure axis
-
-    Hard because: the step is limited by the rotation of the body
-    Compared with: exponent 1 of the number of evaluations, over 8 to 64 d
-    """
-    yield _cost(_exact, (8.0, 16.0, 32.0, 64.0))
-
-
-@pytest.mark.slow
-@holds(bound=0.1)
-def test_cost_of_attitude() -> Distances:
-    """growth with the span of the cost of integrating the full attitude
-
-    Hard because: the step is limited by the rotation of the body
-    Compared with: exponent 1 of the number of evaluations, over 8 to 32 d
-    """
-    yield _cost(_attitude, (8.0, 16.0, 32.0))
 
 
 @holds(bound=0.01, unit="uas")
@@ -373,23 +253,6 @@ def test_geodesic_alone() -> Distances:
     path = pole("2000-01-01T12:00", "2030-01-01", "3652.5 d", body=body, effects=["geodesic"])
     precession = float((path.psi[-1] - path.psi[0]).sel(axis="figure"))  # arcsec
     yield precession / (PUBLISHED_EFFECTS["geodesic"].value * years) - 1
-
-
-@holds(bound=4e-18)
-def test_three_axes() -> Distances:
-    """position of the rotation axis between the figure axis and the angular momentum
-
-    Hard because: the three axes are a few milliarcseconds apart on one great circle
-    Compared with: L = A w + (C - A)(w . F) F: component of L perpendicular to (1 - H) w + H F
-    """
-    result = pole("2010-01-01", "2010-03-01", "1 d", effects=[])
-    momentum, rotation, figure = (
-        np.stack([result[c].sel(axis=axis).values for c in "XYZ"], axis=-1)
-        for axis in ("angular_momentum", "rotation", "figure")
-    )
-    # w . F differs from 1 by only 1e-15
-    across = np.cross(momentum, (1 - H) * rotation + H * figure)
-    yield np.linalg.norm(across, axis=-1)
 
 
 @holds(bound=0.03)

@@ -7,11 +7,8 @@ import pytest
 
 from earthspin.questions.free_rotor import free_rotor
 from earthspin.questions.top import heavy_top
-from earthspin.questions.torque import torque_series
-from earthspin.scenes import Scene
-from tests.extreme import Distances, holds, refused
+from tests.extreme import Distances, holds
 from tests.processes import printed
-from tests.reference.sky import BODY
 
 #: Program for a new process that prints the extra memory (MB) of a long series.
 _GROWTH = """
@@ -47,17 +44,6 @@ def _memory_growth(span: tuple[str, str], step: str) -> float:
 
 @pytest.mark.slow
 @holds(bound=80.0, unit="MB")
-def test_million() -> Distances:
-    """memory needed for a torque series of 10^6 epochs
-
-    Hard because: they would take 120 MB if all were stored
-    Compared with: peak of resident memory with 10^5 epochs, in a separate process
-    """
-    yield _memory_growth(("1980-01-01", "2020-01-01"), "21 min")
-
-
-@pytest.mark.slow
-@holds(bound=80.0, unit="MB")
 def test_hundred_million() -> Distances:
     """memory needed for a torque series of 10^8 epochs
 
@@ -65,20 +51,6 @@ def test_hundred_million() -> Distances:
     Compared with: peak of resident memory with 10^5 epochs, in a separate process
     """
     yield _memory_growth(("1900-01-01", "2053-01-01"), "48 s")
-
-
-@holds(bound=0.0)
-def test_twice() -> Distances:
-    """torque series computed twice, and with its times in reverse order
-
-    Hard because: effects of caches, orders of summation and shared arrays would become visible
-    Compared with: the same numbers, bit for bit
-    """
-    dates = ["2000-01-01", "2003-07-01T06:00", "1999-05-05", "2000-01-01"]
-    one, two = torque_series(times=dates), torque_series(times=dates)
-    back = torque_series(times=dates[::-1])
-    yield one.torque.values - two.torque.values
-    yield one.torque.values - back.torque.values[::-1]
 
 
 @holds(bound=1e-14)
@@ -109,21 +81,3 @@ def test_still_top() -> Distances:
         result = heavy_top([0.0, 1e6], **moments, theta=theta, spin=0.0)
         yield result.theta - theta
         yield result.phi
-
-
-@refused("did you mean 'torque'")
-def test_unknown_question() -> None:
-    """refusal of a scene (input file) that asks for an unknown quantity
-
-    Hard because: a misspelled name must not select the nearest one
-    """
-    Scene(compute="torqe")
-
-
-@refused("at most 0.5")
-def test_too_flat() -> None:
-    """refusal of a dynamical flattening larger than that of a disc
-
-    Hard because: no body has C above A + B, but all formulas give numbers
-    """
-    BODY.replace(dynamical_flattening=0.5 + 1e-9, j2=0.1)

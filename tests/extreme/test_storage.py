@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
-
 import numpy as np
 import xarray as xr
 
-from earthspin.engine import drafts, store
+from earthspin.engine import store
 from tests.extreme import Distances, holds, temporary
 
 TIMES = np.array(
@@ -21,10 +19,6 @@ def _small(value: float = 1.0) -> xr.Dataset:
     )
 
 
-class _InterruptionError(Exception):
-    """Error raised by a test case to interrupt the writing of a file."""
-
-
 @holds(bound=0.0)
 def test_odd_numbers() -> Distances:
     """writing and reading of infinity and extreme floats
@@ -36,37 +30,3 @@ def test_odd_numbers() -> Distances:
         with temporary("r.nc") as path:
             back = store.read(store.write(_small(value), path))
         yield back.x.values != value
-
-
-@holds(bound=0.0)
-def test_half_netcdf() -> Distances:
-    """writing of a netCDF file that fails halfway
-
-    Hard because: half a file looks like a file
-    Compared with: the complete old result, and no other file in the folder
-    """
-    with temporary("r.nc") as path:
-        store.write(_small(1.0), path)
-        with suppress(_InterruptionError), drafts.replacing(path) as draft:
-            draft.write_bytes(path.read_bytes()[:100])
-            raise _InterruptionError
-        yield len({path} ^ set(path.parent.iterdir()))
-        yield store.read(path).x.values != 1.0
-
-
-@holds(bound=0.0)
-def test_half_zarr() -> Distances:
-    """writing of a Zarr store that fails halfway
-
-    Hard because: a store consists of many files, which are replaced together
-    Compared with: the old files, and no other file in the folder
-    """
-    with temporary("r.zarr") as old:
-        old.mkdir()
-        (old / ".zgroup").write_text("old")
-        with suppress(_InterruptionError), drafts.replacing(old) as draft:
-            draft.mkdir()
-            (draft / ".zgroup").write_text("new")
-            raise _InterruptionError
-        yield len({old} ^ set(old.parent.iterdir()))
-        yield (old / ".zgroup").read_text() != "old"

@@ -14,7 +14,7 @@ from earthspin.top.height import nutation_period, turning_angles
 from earthspin.top.motion import heavy_top_motion
 from earthspin.top.patterns import nutation_pattern, pattern_limits, sleeping_top, steady_precession
 from earthspin.top.start import HeavyTop
-from tests.extreme import Distances, holds, refused
+from tests.extreme import Distances, holds
 
 #: I1 = 2, I3 = 1, m g r = 2: the critical spin is 4 rad/s exactly.
 CRITICAL = 4.0
@@ -210,12 +210,3 @@ def test_shapes() -> Distances:
     for axial, spin in ((2e-12, 1e13), (4.0, 3.0)):
         top = _top(axial_moment=axial, spin=spin, theta=1.1)
         yield _energy_drift(top, np.linspace(0.0, 100.0, 500))
-
-
-@refused("no body has more than twice its transverse moment")
-def test_impossible() -> None:
-    """refusal of a top with a moment I3 above 2 I1
-
-    Hard because: no such body exists, but all formulas give numbers
-    """
-    _top(axial_moment=4.0 + 1e-9)

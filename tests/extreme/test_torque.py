@@ -10,16 +10,13 @@ import xarray as xr
 from scipy.special import eval_legendre
 
 from earthspin.bodies import MOON, SUN, Body
-from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, G
-from earthspin.questions.pole import pole
+from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR
 from earthspin.questions.precession import precession
 from earthspin.questions.torque import torque_series
 from earthspin.sky.iau import ecliptic_pole
-from earthspin.sky.poles import direction, spherical
+from earthspin.sky.poles import spherical
 from earthspin.torque.average import TAPERS, Window, best_window, precessing_torque
 from earthspin.torque.gravity import (
-    quadrupole_torque,
-    tidal_tensor,
     torque_from_declination,
     torque_from_position,
     zonal_torque,
@@ -120,44 +117,6 @@ def test_inside_a_series() -> None:
     torque_series(times=["2000-01-01"], body=BODY.replace(radius=SWOLLEN))
 
 
-@refused("valid only outside")
-def test_inside_an_average() -> None:
-    """refusal of an averaged torque of a perturber inside the body
-
-    Hard because: the formula gives a plausible wrong number inside the body
-    """
-    _rate(BODY.replace(radius=SWOLLEN), MOON)
-
-
-@refused("valid only outside")
-def test_inside_the_pole() -> None:
-    """refusal of pole motion of a body with a perturber inside it
-
-    Hard because: the formula gives a plausible wrong number inside the body
-    """
-    pole("2000-01-01", "2000-01-11", "1 d", body=BODY.replace(radius=SWOLLEN))
-
-
-@holds(bound=5e-15)
-def test_three_forms() -> Distances:
-    """torque by three formulas, with perturbers of 1e-30 kg and 1e40 kg
-
-    Hard because: one tensor sums terms that differ by seventy orders of magnitude
-    Compared with: formulas with declination, position and tidal tensor with one another, relative
-        to the largest torque
-    """
-    rng = np.random.default_rng(7)
-    r = rng.normal(size=(500, 3)) * 10.0 ** rng.uniform(7, 13, (500, 1))
-    for mass in (1e-30, 1e40):
-        gm = G.value * mass
-        one = torque_from_position(gm, 1.0, r, NORTH)
-        other = torque_from_declination(gm, 1.0, *spherical(r))
-        tide = quadrupole_torque(tidal_tensor([(gm, r.T)]), np.broadcast_to(NORTH, r.shape).T).T
-        size = 3 * gm / np.linalg.norm(r, axis=1) ** 3
-        yield np.max(np.abs(other - one), axis=1) / size
-        yield np.max(np.abs(tide - one), axis=1) / size
-
-
 @holds(bound=1e-13)
 def test_harmonics() -> Distances:
     """torque on a zonal harmonic of degree 30 by a mass on the surface
@@ -196,15 +155,6 @@ def test_too_short() -> None:
     best_window(0.0, 2.99 * 18.6 * JULIAN_YEAR, 18.6 * JULIAN_YEAR, 0.0)
 
 
-@refused("needs three turns of the slowest cycle")
-def test_short_span() -> None:
-    """refusal of an averaged precession rate over a span of only 30 years
-
-    Hard because: the span covers only one and a half periods of the Moon's node
-    """
-    precession(span=("1985-01-01", "2015-01-01"))
-
-
 @pytest.mark.slow
 @holds(bound=0.0)
 def test_ten_thousand() -> Distances:
@@ -226,17 +176,6 @@ def test_ten_thousand() -> Distances:
         one = precession(body=BODY.replace(**alone))
         for name in ("precession_rate", "precession_rate_error", "mean_torque"):
             yield whole[name].isel(body=n).values - one[name].values
-
-
-@holds(bound=5e-15)
-def test_sky_poles() -> Distances:
-    """unit vectors to the celestial poles
-
-    Hard because: at a declination of exactly 90 degrees the cosine is 6e-17
-    Compared with: unit vectors along the third axis
-    """
-    yield direction(1.0, math.pi / 2) - NORTH
-    yield -direction(1.0, -math.pi / 2) - NORTH
 
 
 @holds(bound=1e-14)

@@ -4,20 +4,14 @@ from __future__ import annotations
 
 import datetime as dt
 
-import astropy.units as u
 import numpy as np
-import xarray as xr
 from astropy.time import Time
 
 from earthspin import dates
 from earthspin.constants import DAY
 from earthspin.errors import Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.questions.free_rotor import free_rotor
-from earthspin.questions.polar_motion import excitation, polar_motion, polar_motion_from
-from earthspin.scenes import Scene
-from tests.extreme import Distances, holds, refused
-from tests.reference.sky import BODY
+from tests.extreme import Distances, holds
 
 
 def _days(times: object) -> FloatArray:
@@ -83,24 +77,6 @@ def test_leap_day() -> Distances:
         yield np.diff(around) - 1
 
 
-@refused("there is no such date")
-def test_no_leap_day() -> None:
-    """refusal of the date 29 February 1900
-
-    Hard because: the day does not exist; date arithmetic would make it 1 March
-    """
-    _days(["1900-02-29"])
-
-
-@refused("years run from 1 to 9999")
-def test_year_zero() -> None:
-    """refusal of a date in the year 0
-
-    Hard because: astronomers use the year 0, but calendars do not have it and files cannot hold it
-    """
-    _days(["0000-06-01"])
-
-
 @holds(bound=0.0)
 def test_one_time() -> Distances:
     """evenly spaced times over a span of zero length, or with a step longer than the span
@@ -112,55 +88,3 @@ def test_one_time() -> Distances:
         grid = _grid("2000-01-01", end, step)
         yield grid.size - 1
         yield grid.days()[0] + 0.5
-
-
-# --- times and numbers of a motion ---------------------------------------------------------------
-
-_RACKET = {"moments": [1.0, 2.0, 2.5], "omega": [0.1, 1.0, 0.1]}
-
-
-@holds(bound=0.0)
-def test_hours() -> Distances:
-    """times of a free rotor given in hours
-
-    Hard because: an array with a unit is also an array, so 1 h might be read as 1 s
-    Compared with: the same times in seconds, bit for bit
-    """
-    hours, seconds = (
-        free_rotor(**_RACKET, times=times) for times in ([0.0, 1.0] * u.hour, [0.0, 3600.0])
-    )
-    for name in (*seconds.data_vars, "time"):
-        yield hours[name].values - seconds[name].values
-
-
-@holds(bound=0.0, unit="arcsec")
-def test_years() -> Distances:
-    """wobble period given as 1.2 years
-
-    Hard because: the value is plausible, but a number without unit means days
-    Compared with: wobble of 438.3 d over five years, bit for bit
-    """
-    chi = excitation(polar_motion(span=("1990-01-01", "1995-01-01")))
-    result, same = (polar_motion_from(chi, period=period) for period in (1.2 * u.yr, 438.3))
-    for name in ("x", "y"):
-        yield result[name].values - same[name].values
-
-
-@refused("required: ")
-def test_no_top() -> None:
-    """refusal of a heavy top without its required numbers
-
-    Hard because: a default value would give an answer to a different question
-    """
-    Scene(compute="top", top={"times": [0.0, 1.0]})
-
-
-@refused("they differ from those of j2")
-def test_not_aligned() -> None:
-    """refusal of body fields whose labels along `member` differ
-
-    Hard because: arrays without a common label multiply to an empty array, after all checks
-    """
-    j2 = xr.DataArray([1.0e-3, 1.1e-3], {"member": ["a", "b"]}, ("member",))
-    h = xr.DataArray([3.0e-3, 3.1e-3], {"member": ["b", "c"]}, ("member",))
-    BODY.replace(j2=j2, dynamical_flattening=h)

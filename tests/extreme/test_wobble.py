@@ -8,12 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import UAS
-from earthspin.questions.polar_motion import excitation, polar_motion
 from earthspin.rotor.axisymmetric import free_wobble_period
-from earthspin.sky.eop import c04_path, read_polar_motion
 from earthspin.wobble import excitation as equation
 from earthspin.wobble.ladder import turns_rigid
-from tests.extreme import Distances, holds, refused, relative_error, temporary
+from tests.extreme import Distances, holds, relative_error
 
 PERIOD = 433.0
 DAYS = 64 * 365 + 16
@@ -75,29 +73,6 @@ def test_tiny_steps() -> Distances:
         times 6e6
     """
     yield from _round_trip(100.0, step=1 / 86400, size=5000)
-
-
-@refused("a gap of 21.0 d")
-def test_gap() -> None:
-    """refusal of observed polar motion with a gap of twenty days
-
-    Hard because: interpolated values in the gap would be mistaken for data
-    """
-    lines = c04_path().read_text(encoding="ascii", errors="replace").splitlines(keepends=True)
-    rows = [n for n, line in enumerate(lines) if line[:1].isdigit() or line[:5].strip().isdigit()]
-    cut = set(rows[5000:5020])
-    with temporary("gap") as file:
-        file.write_text("".join(line for n, line in enumerate(lines) if n not in cut))
-        read_polar_motion(file)
-
-
-@refused("even")
-def test_uneven() -> None:
-    """refusal of excitation from polar motion at unevenly spaced times
-
-    Hard because: each step has its own response; a common one would be wrong by per cents
-    """
-    excitation(polar_motion().isel(time=[0, 1, 2, 4, 5]))
 
 
 @holds(bound=0.0)

@@ -35,6 +35,12 @@ def earthspin_says(
     )
 
 
+def ended(program: str, *words: str, **env: str) -> subprocess.CompletedProcess[bytes]:
+    """Run Python code as a process."""
+    command = [sys.executable, "-c", program, *words]
+    return subprocess.run(command, capture_output=True, cwd=ROOT, env=os.environ | env)
+
+
 def test_no_style_of_the_readers_own_reaches_a_figure(tmp_path: Path) -> None:
     """No TeX, no colours, and no default of any kind; the figure is the same to the bit."""
     (tmp_path / "matplotlibrc").write_text(
@@ -45,13 +51,7 @@ def test_no_style_of_the_readers_own_reaches_a_figure(tmp_path: Path) -> None:
         "sys.stdout.write(scene_page(earthspin.run_tree('torque')))"
     )
     pages = [
-        subprocess.run(
-            [sys.executable, "-c", program],
-            env={**os.environ, "SOURCE_DATE_EPOCH": "0", **more},
-            capture_output=True,
-            check=True,
-            cwd=ROOT,
-        ).stdout
+        ended(program, SOURCE_DATE_EPOCH="0", **more).stdout
         for more in ({}, {"MATPLOTLIBRC": str(tmp_path / "matplotlibrc")}, {"MPLBACKEND": "none"})
     ]
     pictures = [re.findall(rb"<svg.*?</svg>", page, re.DOTALL) for page in pages]
@@ -171,7 +171,7 @@ def test_a_program_under_nohup_goes_on() -> None:
         cli._scenes = lambda given: (os.kill(os.getpid(), signal.SIGHUP), real(given))[1]
         sys.exit(cli.main(["scenes"]))
     """
-    found = subprocess.run([sys.executable, "-c", program], capture_output=True, cwd=ROOT)
+    found = ended(program)
     assert (found.returncode, found.stderr) == (0, b"")
 
 
@@ -194,14 +194,8 @@ def test_a_defect_is_told_as_one(tmp_path: Path) -> None:
     """
 
     def run(*words: str, **env: str) -> tuple[int, list[str]]:
-        found = subprocess.run(
-            [sys.executable, "-c", program, *words],
-            capture_output=True,
-            text=True,
-            cwd=ROOT,
-            env=os.environ | env,
-        )
-        return found.returncode, found.stderr.splitlines()
+        found = ended(program, *words, **env)
+        return found.returncode, found.stderr.decode().splitlines()
 
     status, lines = run()
     assert (status, len(lines)) == (70, 1)
@@ -227,9 +221,7 @@ def test_a_warning_comes_after_success_and_never_before_a_message() -> None:
         sys.exit(cli.main(["scenes"]))
     """
     for words, said, status in (([], b"on the way", 0), (["x"], b"no value", 2)):
-        found = subprocess.run(
-            [sys.executable, "-c", program, *words], capture_output=True, cwd=ROOT
-        )
+        found = ended(program, *words)
         assert (found.returncode, found.stderr) == (status, b"earthspin: " + said + b"\n")
 
 
@@ -291,11 +283,11 @@ def test_a_file_larger_than_the_system_allows_is_an_output_error(
     before = store.write(earthspin.run(scene), path).read_bytes()
     blocks = int(share * (len(before) - 1)) // 512
     limited = ["sh", "-c", f'ulimit -f {blocks}; exec "$@"', "sh", sys.executable, "-m"]
-    ended = subprocess.run(
+    found = subprocess.run(
         [*limited, "earthspin", *words], capture_output=True, cwd=ROOT, timeout=120
     )
-    complaint = ended.stderr.decode()
-    assert ended.returncode == 2, complaint
+    complaint = found.stderr.decode()
+    assert found.returncode == 2, complaint
     assert complaint.count("\n") == 1
     assert f"output '{path}': it cannot be written" in complaint
     assert path.read_bytes() == before

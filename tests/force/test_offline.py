@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
-from pathlib import Path
-
 import pytest
+
+from tests.processes import printed
 
 #: Each starts a process.
 pytestmark = pytest.mark.slow
-ROOT = Path(__file__).parents[2]
 
 #: A process without a network, whose clock is ten years on for those who look after tables.
 WITHOUT_NETWORK = """
@@ -43,13 +40,7 @@ def ask(*times, scale):
 
 
 def without_network(program: str) -> str:
-    return subprocess.run(
-        [sys.executable, "-c", WITHOUT_NETWORK + program],
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        check=True,
-    ).stdout
+    return printed(WITHOUT_NETWORK + program)
 
 
 def test_old_tables_do_where_they_reach_and_settings_stay() -> None:

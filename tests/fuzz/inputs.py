@@ -18,7 +18,7 @@ from astropy import units as u
 from astropy.time import Time
 
 import earthspin
-from earthspin.engine.asking import arguments_of
+from earthspin.engine.answers import arguments_of
 from earthspin.engine.question import Question, keys_of
 from earthspin.scenes import QUESTIONS, shipped_scenes
 from tests import shipped

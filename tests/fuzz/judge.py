@@ -22,7 +22,7 @@ import numpy as np
 import earthspin
 from earthspin import EarthspinError, UndefinedError, process
 from earthspin.cli import main
-from earthspin.engine import answering, asking, run
+from earthspin.engine import answers, run
 from earthspin.views.answers import scene_page, tables_for
 from tests.fuzz import inputs, requests
 
@@ -58,9 +58,8 @@ def only_planned() -> Iterator[None]:
     planned = mock.Mock(side_effect=lambda question, *_: run.Run(question).plan())
     with (
         elsewhere(),
-        mock.patch.object(asking, "answer", planned),
-        mock.patch.object(answering, "answer", planned),
-        mock.patch.object(answering, "answer_tree", planned),
+        mock.patch.object(answers, "answer", planned),
+        mock.patch.object(answers, "answer_tree", planned),
         mock.patch("earthspin.scenes.warn_of_versions"),
         mock.patch.object(run.Run, "__getitem__", side_effect=UndefinedError("not tried")),
     ):

@@ -193,7 +193,7 @@ def command(rng: Random, folder: Path) -> list[str]:
 
 #: Options that keep a command cheap, always given.
 LIMITS = {
-    "accuracy": ("quantity",), "ensemble": ("members",),
+    "ensemble": ("members",),
     "report": ("no_figures",),
 }  # fmt: skip
 

@@ -1,13 +1,10 @@
-"""Accuracy of the closed forms: ``python -m tests.mass.accuracy [cases]``.
+"""Accuracy of the closed forms.
 
 Relative errors against fifty digits and more, of numbers taken as exact.
 """
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable
-from functools import partial
 from typing import NamedTuple
 
 import mpmath as mp
@@ -16,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from earthspin.mass import figure, multipoles, spheroid
-from earthspin.mass.tensor import PrincipalAxes, change_frame, principal_axes
+from earthspin.mass.tensor import PrincipalAxes, change_frame
 from tests.mass.spheroid_reference import FAMILIES, PLACES, draw, one_ulp, textbook
 
 DIGITS = 50
@@ -59,11 +56,6 @@ def spheroid_errors(family: str, place: str, count: int) -> Errors:
     return Errors(worst, ulps)
 
 
-def family_of_spheroids(family: str, count: int) -> float:
-    """Worst error at all places together."""
-    return max(spheroid_errors(family, place, count // len(PLACES)).error for place in PLACES)
-
-
 def random_tensor(rng: np.random.Generator) -> NDArray[np.float64]:
     """A body whose moments differ by 1 to 1e-9 of themselves, turned at random."""
     b, c = 1 + 10 ** rng.uniform(-9, -0.3, size=2)
@@ -100,16 +92,6 @@ def axes_errors(tensor: NDArray[np.float64], result: PrincipalAxes) -> Axes:
                 ]
         estimate = result.angle_error + 1e-15
         return Axes(float(max(moments)), float(max(differences)), float(max(sines) / estimate))
-
-
-def principal_moments(count: int) -> float:
-    """Worst of moments and differences."""
-    rng = np.random.default_rng(1)
-    worst = 0.0
-    for _ in range(count):
-        tensor = random_tensor(rng)
-        worst = max(worst, *axes_errors(tensor, principal_axes(tensor))[:2])
-    return worst
 
 
 def inverse_distance(count: int, degree: int = 180) -> float:
@@ -151,27 +133,3 @@ def maccullagh_torque(count: int) -> float:
             ]
             worst = max(worst, float(max(off)))
     return worst
-
-
-#: Worst error of each family, in the words of docs/rotors.md.
-ROWS: dict[str, Callable[[int], float]] = {
-    "spheroid, oblate": partial(family_of_spheroids, "oblate"),
-    "spheroid, prolate": partial(family_of_spheroids, "prolate"),
-    "spheroid, near the sphere (flattening to 1e-13)": partial(family_of_spheroids, "near-sphere"),
-    "spheroid, near the disc": partial(family_of_spheroids, "near-disc"),
-    "spheroid, needle": partial(family_of_spheroids, "needle"),
-    "principal moments and their differences": principal_moments,
-    "1/R to a ratio of 0.8, degree 180": inverse_distance,
-    "MacCullagh's torque, differences of 1e-3 to 1e-9": maccullagh_torque,
-}
-
-
-def main() -> None:
-    """Print the table."""
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 600
-    for family, worst in ROWS.items():
-        print(f"{family:50} {count:6} {worst(count):10.1e}")
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,4 @@
-"""Each effect against something that does not know its formula; off means not evaluated."""
+"""Each effect against something that does not know its formula."""
 
 import math
 from typing import Any
@@ -13,7 +13,6 @@ import earthspin
 from earthspin import MARS, SUN
 from earthspin.bodies import EARTH
 from earthspin.constants import DAY
-from earthspin.motion import forces as forces_module
 from earthspin.motion.axes import axis_path
 from earthspin.motion.effects import geodesic_rate, geodesic_torque
 from earthspin.numerics.polynomials import Windows
@@ -100,19 +99,6 @@ def test_a_sphere_turns_with_the_geodesic_frame_alone(de421: Ephemeris) -> None:
     moved = path.at(np.array([span]))["figure"][0] - NORTH
     # 19.19 mas a year about the ecliptic's pole, 23.4 degrees away: towards -x
     assert abs(-moved[0] / UAS - 19194 * math.sin(math.radians(23.44))) < 9
-
-
-def test_off_is_not_evaluated(de421: Ephemeris, monkeypatch: pytest.MonkeyPatch) -> None:
-    def never(*args: object) -> None:
-        raise AssertionError("this effect is switched off")
-
-    monkeypatch.setattr(forces_module, "zonal_law", never)
-    monkeypatch.setattr("earthspin.motion.effects.geodesic_rate", never)
-    monkeypatch.setattr("earthspin.motion.axes.semidiurnal_amplitudes", never)
-    axis_path(forces(de421, near=("sun", "moon")), NORTH, 0.0, (0.0, 8 * DAY))
-    zonal = figure(zonal={3: EARTH.j3})  # type: ignore[arg-type]
-    with pytest.raises(AssertionError):
-        axis_path(forces(de421, zonal, near=("moon",)), NORTH, 0.0, (0.0, 8 * DAY))
 
 
 def test_torque_at_a_mean_pole_does_not_hear_of_the_axis(de421: Ephemeris) -> None:

@@ -9,7 +9,7 @@ from data_tools.worlds import CIRCULAR, OBSERVED, PUBLISHED, locked, worlds
 from earthspin import MARS, MOON
 from earthspin.bodies.earth_moon_sun import MOON_OBLIQUITY
 from earthspin.bodies.moons import TITAN_OBLIQUITY
-from earthspin.engine.neglected import Neglected
+from earthspin.engine.variables import Neglected
 from earthspin.questions.cassini_states import CassiniStates
 from earthspin.questions.precession import Precession
 from earthspin.views.answers import tables_for

@@ -17,15 +17,6 @@ def past() -> xr.Dataset:
     return shipped.answer("long-term")
 
 
-def test_the_example_prints_what_it_says() -> None:
-    import doctest
-
-    test = doctest.DocTestParser().get_doctest(
-        daily_insolation.__doc__ or "", {}, "daily_insolation", None, None
-    )
-    assert doctest.DocTestRunner().run(test).failed == 0
-
-
 def test_65_north_at_the_june_solstice(past: xr.Dataset) -> None:
     """The closed form at 90 degrees from the rows of La2004, with 1365 W/m2: 479.3 today."""
     found = daily_insolation(past, "65 deg", "90 deg", solar_constant=1365.0)

@@ -9,16 +9,7 @@ from earthspin.torque.average import precessing_torque
 from earthspin.torque.gravity import tidal_tensor, torque_from_position
 from tests.reference import model_sky
 from tests.reference.equator import true_equator
-from tests.reference.sky import GM, Tide, chebyshev_pieces, positions
-
-
-def test_pieces_of_a_polynomial_are_its_chebyshev_series() -> None:
-    # t = 1 + 2 (k + (x + 1)/2) = 2 + 2 k + x in piece k, and x^2 = (T0 + T2)/2
-    found = chebyshev_pieces(lambda t: np.stack([t, t * t], axis=1), 1.0, 2.0, 3, 4)
-    for k, series in enumerate(found):
-        middle = 2.0 + 2 * k
-        assert np.allclose(series[:, 0], [middle, 1, 0, 0], rtol=0, atol=1e-14)
-        assert np.allclose(series[:, 1], [middle**2 + 0.5, 2 * middle, 0.5, 0], rtol=0, atol=1e-13)
+from tests.reference.sky import GM, Tide, positions
 
 
 def test_the_tide_is_that_of_the_kernel_between_its_nodes() -> None:

@@ -1,4 +1,4 @@
-"""Accuracy and run time of the closed form: ``python -m tests.rotor.accuracy [cases]``.
+"""Accuracy of the closed form.
 
 Errors are against the textbook's form at eighty digits: of each component of omega
 relative to its own largest value in the motion, and of the elements of the attitude matrix.
@@ -6,15 +6,13 @@ relative to its own largest value in the motion, and of the elements of the atti
 
 from __future__ import annotations
 
-import sys
-import time
 from typing import Any
 
 import mpmath as mp
 import numpy as np
 
 from earthspin.rotor.triaxial import free_rotation
-from tests.rotor.families import FAMILIES, Case, cases
+from tests.rotor.families import Case
 from tests.rotor.textbook import DIGITS, Textbook
 
 #: Times in periods: within a few, and after ten thousand. Next to the sphere, where a period
@@ -52,7 +50,7 @@ def errors(case: Case) -> tuple[float, float]:
 
 def matrix(q: Any) -> Any:
     """Rotation matrix of a unit quaternion."""
-    w, x, y, z = q
+    w, x, y, z = map(float, q)
     return np.array(
         [
             [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
@@ -60,31 +58,3 @@ def matrix(q: Any) -> Any:
             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
         ]
     )
-
-
-def microseconds(family: str) -> float:
-    """Run time per body and time, for a hundred bodies at a thousand times."""
-    bodies = list(cases(family, 100))
-    omega = np.array([case.omega for case in bodies])
-    if isinstance(bodies[0].moments, dict):
-        moments: Any = {k: np.array([b.moments[k] for b in bodies]) for k in bodies[0].moments}
-    else:
-        moments = np.array([case.moments for case in bodies])
-    times = np.linspace(0, 1e3, 1000) / np.max(np.abs(omega))
-    begin = time.perf_counter()
-    free_rotation(moments, omega, times)
-    return (time.perf_counter() - begin) / (len(bodies) * len(times)) * 1e6
-
-
-def main() -> None:
-    """Print the table."""
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 500
-    print(f"{'family':22} {'cases':>6} {'few periods':>12} {'10^4 periods':>13} {'us':>6}")
-    for family in FAMILIES:
-        found = np.array([errors(case) for case in cases(family, count)])
-        few, late = found.max(axis=0)
-        print(f"{family:22} {count:6} {few:12.2e} {late:13.2e} {microseconds(family):6.2f}")
-
-
-if __name__ == "__main__":
-    main()

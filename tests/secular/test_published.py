@@ -11,14 +11,6 @@ from tests.secular.setting import EARTHS, KYR, POLE, arcsec, earths
 
 #: Years, and how far the pole was found from that of IAU 2006, arcsec.
 IAU_2006 = [(-2000, 0.075), (-1000, 0.014), (1000, 0.042), (2000, 0.028)]
-#: La2004 (Laskar et al. 2004, A&A 428, 261; file INSOLN.LA2004.BTL.ASC): kyr, obliquity (rad),
-#: e sin(perihelion), and how far both were found from them (arcsec; 1).
-LA2004 = [
-    (-1000, 0.4123891471500025, -0.033760490135305736, 29.0, 1.6e-4),
-    (-200, 0.4037251011418818, -0.03833572638169867, 1.9, 1.6e-4),
-    (-100, 0.4130265591582125, -0.0006501053038830341, 1.2, 1.6e-4),
-    (0, 0.4090928042223415, 0.01627964595166013, 0.15, 3e-5),
-]
 
 
 @pytest.mark.parametrize(("years", "measured"), IAU_2006)
@@ -40,18 +32,6 @@ def test_the_rate_at_j2000_beside_iau_2006() -> None:
     psi = np.arctan2(x, y)  # the pole goes back in longitude from 90 degrees
     rate = np.diff(psi)[0] / 2 / ARCSEC
     assert rate == pytest.approx(50.38481507, rel=1e-5, abs=0)
-
-
-@pytest.mark.parametrize(("kyr", "obliquity", "precession", "seconds", "off"), LA2004)
-def test_obliquity_and_climatic_precession_beside_la2004(
-    kyr: int, obliquity: float, precession: float, seconds: float, off: float
-) -> None:
-    time = np.array([kyr * KYR])
-    path = solve(earths(), EARTHS, POLE, (min(time[0], -KYR), 0.0), pieces=2)
-    normal, eccentricity, _ = EARTHS.at(time)
-    found = seasons(path.at(time), normal, eccentricity)
-    assert abs(found.obliquity[0] - obliquity) / ARCSEC < 1.3 * seconds
-    assert abs(found.climatic_precession[0] - precession) < 1.3 * off
 
 
 def test_the_obliquity_beside_iau_2006_and_la2004_over_ten_thousand_years() -> None:

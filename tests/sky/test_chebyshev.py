@@ -8,9 +8,8 @@ from jplephem.spk import SPK
 from numpy.polynomial.chebyshev import chebval
 
 from earthspin.constants import J2000_JD
-from earthspin.sky import kernel
 from earthspin.sky.ephemeris import find_kernel
-from earthspin.sky.kernel import BLOCK, Records, Table
+from earthspin.sky.kernel import Records, Table
 
 RECORDS, DAYS_EACH = 40, 4.0
 
@@ -79,23 +78,6 @@ def test_a_time_has_the_same_bits_in_any_company(
     some = np.sort(order[: size // 2 + 1])
     np.testing.assert_array_equal(tables.positions(days[some]), together[:, some])
     np.testing.assert_array_equal(tables.positions(days[:1]), together[:, :1])
-
-
-def test_each_way_of_laying_out_is_used(monkeypatch: pytest.MonkeyPatch) -> None:
-    """In order by rows; uneven or turned round by coefficients for each."""
-    used: list[str] = []
-    rows = kernel._InOrder.sums
-    monkeypatch.setattr(
-        kernel._InOrder, "sums", lambda *of: (used.append("rows"), rows(*of))[1], raising=True
-    )
-    tables = table(13)
-    dense = np.arange(0.0, 100.0, 0.01)
-    crowd = np.concatenate([np.full(500, 0.5), np.arange(1.0, 100.0, 1.0)])
-    for days, ways in ((dense, 2), (dense[::-1], 0), (np.arange(0.0, 100.0), 1), (crowd, 0)):
-        used.clear()
-        tables.positions(days)
-        assert len(used) == ways
-    assert dense.size > BLOCK == kernel.BLOCK
 
 
 def test_no_times_have_no_positions() -> None:

@@ -13,7 +13,7 @@ from skyfield.api import load, load_file
 
 import earthspin
 from earthspin import CoverageError, KernelError, SceneError
-from earthspin.sky.ephemeris import Ephemeris, describe_kernel, find_kernel, open_ephemeris
+from earthspin.sky.ephemeris import Ephemeris, find_kernel, open_ephemeris
 from tests.sky.kernel_files import from_de421, write_kernel
 
 SECOND = 1 / 86400
@@ -30,13 +30,6 @@ def test_positions_are_skyfields(de421: Ephemeris) -> None:
         off = np.abs(position - theirs).max()
         assert off < 1e-3, name  # m; measured: 2e-4 for the Sun at 1.5e11 m
     kernel.close()
-
-
-def test_what_two_bodies_share_is_evaluated_once(de421: Ephemeris) -> None:
-    before = de421.evaluations.copy()
-    de421.positions({"sun": 10, "moon": 301}, 399, np.linspace(0, 10, 7))
-    used = de421.evaluations - before
-    assert used == {(0, 10): 7, (0, 3): 7, (3, 399): 7, (3, 301): 7}
 
 
 def test_the_first_and_the_last_second(de421: Ephemeris) -> None:
@@ -111,10 +104,6 @@ def test_a_kernel_by_path_name_and_skyfield_object(tmp_path: Path) -> None:
     assert len({s.attrs["ephemeris_sha256"] for s in series}) == 1
     for one in series[1:]:
         assert np.array_equal(one.torque, series[0].torque)
-
-
-def test_coverage_in_words() -> None:
-    assert describe_kernel("de421").startswith("1899-07-29 to 2053-10-09 TDB")
 
 
 def test_the_stated_error_is_in_radians_and_metres(de421: Ephemeris) -> None:

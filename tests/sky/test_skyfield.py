@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
-
 import erfa
 import numpy as np
 import pytest
@@ -12,7 +10,6 @@ from skyfield.api import load, load_file
 
 import earthspin
 from earthspin.engine.question import keys_of
-from earthspin.questions.averages import torque_samples
 from earthspin.sky import iau
 from earthspin.sky.ephemeris import Ephemeris, find_kernel, open_ephemeris
 from earthspin.sky.skyfield import Skyfield
@@ -66,15 +63,6 @@ def test_standstills_are_those_of_the_fast_reader(precession_tree: xr.DataTree) 
     assert abs(ours.standstill.values - theirs.standstill.values).max() <= np.timedelta64(10, "us")
 
 
-def test_the_pole_is_that_of_the_fast_reader() -> None:
-    fast, slow = (
-        earthspin.pole("2000-01-01", "2001-01-01", "30 d", source=source, effects="rigid")
-        for source in ("jplephem", "skyfield")
-    )
-    for name in ("X", "Y", "Z"):
-        assert apart(fast[name], slow[name]) < 1e-13  # measured: 2e-15
-
-
 def test_no_position_comes_from_the_fast_reader(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object) -> None:
         raise AssertionError("the fast reader was asked")
@@ -118,30 +106,6 @@ def test_equator_and_declination_are_one(skyfield: Skyfield) -> None:
     x, y, z = np.einsum("tij,tj->it", skyfield.equator(days), place)
     _, dec, _ = skyfield.radec(TARGETS, 399, days, None)["moon"]
     assert np.allclose(np.arctan2(z, np.hypot(x, y)), dec, rtol=0, atol=1e-15)
-
-
-def test_precession_asks_skyfield_for_declinations(monkeypatch: pytest.MonkeyPatch) -> None:
-    """By default, of each perturber, at the mean equator of date."""
-    from skyfield.framelib import mean_equator_and_equinox_of_date
-    from skyfield.positionlib import ICRF
-
-    frames = []
-    real = ICRF.frame_latlon
-
-    def watched(self: ICRF, frame: object) -> object:
-        frames.append(frame)
-        return real(self, frame)
-
-    monkeypatch.setattr(ICRF, "frame_latlon", watched)
-    monkeypatch.setattr(torque_samples, "_stored", OrderedDict())  # those of earlier tests
-    answer = earthspin.precession()
-    assert frames
-    assert all(frame is mean_equator_and_equinox_of_date for frame in frames)
-    assert answer.attrs["ephemeris_reader"] == "Skyfield"
-    frames.clear()
-    assert earthspin.precession(source="jplephem").attrs["ephemeris_reader"] == "jplephem"
-    earthspin.torque_series("2000-01-01", "2000-02-01", "1 d")
-    assert not frames
 
 
 @pytest.mark.slow

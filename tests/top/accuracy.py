@@ -1,4 +1,4 @@
-"""Accuracy and run time of the closed form: ``python -m tests.top.accuracy [cases]``.
+"""Accuracy of the closed form.
 
 Errors are against the textbook's form at eighty digits: of theta relative to itself, of phi
 and psi relative to how far they have gone, of the transverse angular velocity relative to its
@@ -8,8 +8,6 @@ set against what one unit in the last place of each input does to the same numbe
 
 from __future__ import annotations
 
-import sys
-import time
 from typing import Any, NamedTuple
 
 import mpmath as mp
@@ -17,7 +15,8 @@ import numpy as np
 
 from earthspin.top.motion import HeavyTopMotion, heavy_top_motion
 from earthspin.top.start import HeavyTop
-from tests.top.families import FAMILIES, Start, cases
+from tests.rotor.accuracy import matrix
+from tests.top.families import Start
 from tests.top.textbook import DIGITS, State, Textbook
 
 #: Times in nutation periods: within a few, and after ten thousand.
@@ -110,52 +109,3 @@ def _ulp_effect(start: Start, moment: float, state: State, scales: list[Any]) ->
             moved = Textbook(start | {name: step}).at(moment)
         total += _differences(_numbers(moved), _numbers(state), scales)
     return total
-
-
-def matrix(q: Any) -> Any:
-    """Rotation matrix of a unit quaternion."""
-    w, x, y, z = map(float, q)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-
-
-def microseconds(family: str) -> float:
-    """Run time per top and time, for a hundred tops at a thousand times."""
-    starts = list(cases(family, 100))
-    names = {name for start in starts for name in start}
-    fields = {name: np.array([start.get(name, 0.0) for start in starts]) for name in names}
-    top = HeavyTop(**fields)
-    rate = np.sqrt(np.abs(top.weight_moment / top.transverse_moment)).max()
-    times = np.linspace(0, 1e3, 1000) / (rate or 1.0)
-    begin = time.perf_counter()
-    heavy_top_motion(top, times)
-    return (time.perf_counter() - begin) / (len(starts) * len(times)) * 1e6
-
-
-def main() -> None:
-    """Print the table."""
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 500
-    wanted = sys.argv[2:] or list(FAMILIES)
-    print("| family | cases | worst, 3 periods | ulps | worst, 10^4 periods | ulps | us |")
-    print("|---|---|---|---|---|---|---|")
-    for family in wanted:
-        early, late = [], []
-        for start in cases(family, count):
-            early.append(errors(start, FRACTIONS))
-            late.append(errors(start, (LATE,)))
-        row = [
-            f"{max(e.error for e in es):.1e} | {max(e.ulps for e in es):.2f}"
-            for es in (early, late)
-        ]
-        print(
-            f"| {family} | {count} | {' | '.join(row)} | {microseconds(family):.2f} |", flush=True
-        )
-
-
-if __name__ == "__main__":
-    main()

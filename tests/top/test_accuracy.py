@@ -5,7 +5,7 @@ import pytest
 from tests.top.accuracy import FRACTIONS, GOOD, LATE, errors
 from tests.top.families import FAMILIES, cases
 
-#: Tops per family; ``python -m tests.top.accuracy`` runs 500 and prints the table.
+#: Tops per family; 500 of each were tried once.
 CASES = 4
 #: Tops per family after ten thousand nutations, where every input of every case is moved.
 LATE_CASES = 1

@@ -9,7 +9,7 @@ import xarray as xr
 
 import earthspin
 from earthspin import EARTH, cli
-from earthspin.engine.neglected import largest_of
+from earthspin.engine.variables import largest_of
 from earthspin.scenes import QUESTIONS
 from earthspin.views.reading import closing_line
 from tests import shipped

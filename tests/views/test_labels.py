@@ -13,9 +13,8 @@ from matplotlib.text import Annotation, Text
 from matplotlib.transforms import Bbox
 
 from earthspin.views.answers import drawings_for
-from earthspin.views.drawing import BLUE, CYCLE, axes, empty, style
+from earthspin.views.drawing import empty, style
 from earthspin.views.pole import plot_pole_residuals
-from earthspin.views.precession import plot_pole_circle
 from tests import shipped
 
 SCENES = ("precession", "torque", "pole", "iau", "wobble", "polar-motion", "free-rotor", "top-loop")
@@ -45,22 +44,6 @@ def test_every_label_is_a_quantity_and_its_unit_in_brackets(scene: str) -> None:
         figure.draw_without_rendering()
         for label in labels(figure):
             assert LABEL.fullmatch(label), label
-
-
-def test_the_rule_tells_labels_apart() -> None:
-    assert LABEL.fullmatch("psi sin(eps), straight line removed (arcsec)")
-    assert LABEL.fullmatch("torque towards\nthe equinox (10²² N m)")
-    assert LABEL.fullmatch("relative error")
-    for poor in ("mas", "degrees", "eps, arcsec", "psi sin(eps), arcsec", "rad/s", "(mas)"):
-        assert not LABEL.fullmatch(poor), poor
-
-
-def test_colours_follow_one_cycle() -> None:
-    with style():
-        ax = axes(None)
-        drawn = [ax.plot([0, 1])[0].get_color() for _ in CYCLE]
-    assert drawn == list(CYCLE)
-    assert drawn[0] == BLUE
 
 
 def words(figure: Figure) -> Iterator[tuple[str, Bbox]]:
@@ -95,23 +78,8 @@ def collisions(figure: Figure) -> list[tuple[str, str]]:
     ]
 
 
-@pytest.mark.parametrize("width", [6.4, 8.0])
-def test_words_on_the_circle_of_the_pole_keep_apart(width: float) -> None:
-    with style():
-        ax = empty(width, width).add_subplot()
-        plot_pole_circle(shipped.answer("precession"), ax=ax)
-    assert collisions(ax.figure) == []
-
-
 @pytest.mark.parametrize("width", [5.5, 6.4, 8.0])
 def test_words_above_the_residuals_keep_apart(width: float) -> None:
     with style():
         ax = plot_pole_residuals(shipped.tree("iau"), ax=empty(width, 3).add_subplot())
     assert collisions(ax.figure) == []
-
-
-def test_words_that_collide_are_seen() -> None:
-    figure = empty(4, 3)
-    figure.text(0.5, 0.5, "one")
-    figure.text(0.51, 0.5, "other")
-    assert collisions(figure) == [("one", "other")]

@@ -16,7 +16,7 @@ import earthspin
 from earthspin.errors import UndefinedError
 from earthspin.views import long_term, precession
 from earthspin.views.answers import drawings_for, tables_for
-from earthspin.views.stars import STARS, on_the_chart, star_vectors, year_words
+from earthspin.views.stars import year_words
 from tests import shipped
 
 
@@ -60,24 +60,6 @@ def test_the_line_of_the_path_is_the_path(about_now: xr.Dataset) -> None:
     fine = drawn_path(long_term.plot_pole(earthspin.long_term("-13 kyr", "13 kyr", "50 yr")))
     assert coarse.shape == fine.shape
     assert np.max(np.abs(coarse - fine)) < 4e-3  # degrees; measured 2.2e-3, at the ends
-
-
-def test_the_path_passes_thuban_when_it_did(about_now: xr.Dataset) -> None:
-    """Thuban was nearest to the pole about 2800 BC, at less than 10' (Meeus 1983)."""
-    names = [name for name, *_ in STARS]
-    obliquity = np.radians(84381.406 / 3600)
-    thuban = on_the_chart(star_vectors(), obliquity)[names.index("Thuban")]
-    path = drawn_path(long_term.plot_pole(about_now))
-    away = np.hypot(*(path - thuban).T)
-    years = np.linspace(-13_000, 13_000, len(path)) + 2000
-    assert -2900 < years[np.argmin(away)] < -2650
-    assert np.min(away) < 0.2
-
-
-def test_the_path_does_not_close(about_now: xr.Dataset) -> None:
-    """In opposite directions from the present it lies at other distances from the middle."""
-    path = drawn_path(long_term.plot_pole(about_now))
-    assert abs(np.hypot(*path[0]) - np.hypot(*path[-1])) > 1.0
 
 
 def test_a_path_that_cannot_be_joined_is_left_out() -> None:

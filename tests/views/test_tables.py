@@ -6,10 +6,8 @@ import xarray as xr
 
 import earthspin
 from earthspin import EARTH
-from earthspin.questions.precession import Rates
 from earthspin.scenes import QUESTIONS
-from earthspin.views.answers import VIEWS, drawings_for, scene_page, tables_for, what_ran
-from earthspin.views.drawing import Views
+from earthspin.views.answers import drawings_for, scene_page, tables_for, what_ran
 from earthspin.views.reading import answer_of, needed
 from earthspin.views.tables import (
     MOST_ROWS,
@@ -122,24 +120,6 @@ def test_headers_are_the_declared_labels_with_their_units() -> None:
     assert table.headers == ("planet", "rate of the axis, arcsec/yr", "mean ratio")
     assert table.rows == [("earth", "1.00(10)", "1.0e-5"), ("mars", "2.00(20)", "2.0e-5")]
     assert quantities(data.isel(planet=0), "rate") == [("rate of the axis, arcsec/yr", "1.00(10)")]
-
-
-def test_a_view_reads_declared_labels_and_leaves_the_answer_as_it_is(
-    precession_tree: xr.DataTree,
-) -> None:
-    declared = Rates.schema["precession_rate"].short
-    assert answer_of(precession_tree).precession_rate.attrs["short"] == declared != ""
-    assert "short" not in precession_tree.precession_rate.attrs
-
-
-@pytest.mark.parametrize("word", QUESTIONS)
-def test_views_need_sections_of_their_question(word: str) -> None:
-    sections = QUESTIONS[word].graph.sections
-    views = VIEWS.get(word, Views())
-    needed = {name for figure in views.figures for name in (figure.section, *figure.uses)}
-    for names in [names for names, _ in views.tables] + [names for names, _ in views.solids]:
-        needed |= set(names.split())
-    assert needed - {""} <= set(sections)
 
 
 @pytest.mark.parametrize("scene", shipped.SCENES.values())

@@ -99,13 +99,6 @@ def test_an_unstable_axis_is_refused() -> None:
         ladder.turns_triaxial(0.0, 0.0, 1e-6)
 
 
-def test_many_bodies_at_once() -> None:
-    h = xr.DataArray([0.003, 0.0033], dims="draw")
-    result = earthspin.wobble_ladder(body=EARTH.replace(dynamical_flattening=h))
-    assert result.period_solar.dims == ("rung", "draw")
-    assert result.factor.dims == ("rung", "draw")
-
-
 # --- a body that yields ------------------------------------------------------------------------
 
 

@@ -115,16 +115,6 @@ def test_red_excitation_biases_no_period() -> None:
     assert abs(np.mean(red) - 433) < 1.0
 
 
-@pytest.mark.parametrize("memory", [100.0, 500.0, 1826.0])
-def test_size_of_the_red_excitation(memory: float) -> None:
-    """Spectral densities of the two excitations at the free frequency, by hand."""
-    s = excitation.chandler_frequency(433.0, 100.0)
-    size = simulation.red_size(433.0, 100.0, 0.3, memory)
-    white = 2 * s.imag * 128**2 / abs(s) ** 2
-    red = 2 * memory * size**2 / (1 + (s.real * memory) ** 2)
-    assert red / (red + white) == pytest.approx(0.3, rel=1e-14, abs=0)
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("memory", [100.0, 1826.0])
 def test_intervals_hold_for_other_memories(memory: float) -> None:

@@ -1,4 +1,4 @@
-"""Excitation: the exact pair, and how other schemes fail."""
+"""Excitation and polar motion, an exact pair."""
 
 import numpy as np
 import pytest
@@ -78,31 +78,12 @@ def test_a_step_of_zero_loss_is_allowed() -> None:
     assert abs(abs(ex.polar_motion_from(np.zeros(5, complex), 1.0, s, 1j)[-1]) - 1) < 1e-14
 
 
-@pytest.mark.parametrize(("step", "exact", "central"), [(1, 1.5e-4, 0.011), (10, 0.015, 1.1)])
-def test_how_near_other_schemes_come(step: int, exact: float, central: float) -> None:
-    """Largest error on a smooth motion, mas; the exact pair misses by the mean over a step."""
+@pytest.mark.parametrize(("step", "error"), [(1, 1.5e-4), (10, 0.015)])
+def test_a_smooth_motion(step: int, error: float) -> None:
+    """Largest error, mas, by the mean of the excitation over a step."""
     p = forced()[::step]
     t = step * np.arange(p.size - 1.0)
-    middle = annual(t + step / 2)
-    assert np.max(abs(ex.excitation(p, step, S) - middle)) < exact
-    assert 0.9 * central < np.max(abs(ex.central_difference(p, step, S) - annual(t[1:]))) < central
-    assert np.max(abs(ex.wilson_filter(p, step, S) - middle)) < central
-
-
-def test_central_differences_lose_a_rough_excitation() -> None:
-    """Where excitation changes from day to day, half of it is averaged away."""
-    chi = 30 * (np.random.default_rng(1).standard_normal((DAYS, 2)) @ [1, 1j])
-    p = ex.polar_motion_from(chi, 1.0, S)
-    lost = ex.central_difference(p, 1.0, S) - chi[:-1]
-    assert 0.6 < np.std(lost) / np.std(chi) < 0.8  # sqrt(1/2)
-    assert np.max(abs(ex.excitation(p, 1.0, S) - chi)) < 3e-11
-
-
-def test_explicit_euler_inflates_the_wobble_tenfold() -> None:
-    lossless = ex.chandler_frequency(433.0, np.inf)
-    p = ex.euler_forward(np.zeros(DAYS, complex), 1.0, lossless, 1 + 0j)
-    assert abs(p[-1]) == pytest.approx(10, rel=0.05, abs=0)
-    assert abs(p[-1]) == pytest.approx((1 + abs(lossless) ** 2) ** (DAYS / 2), rel=1e-11, abs=0)
+    assert np.max(abs(ex.excitation(p, step, S) - annual(t + step / 2))) < error
 
 
 @pytest.mark.parametrize(("period", "q"), [(0.0, 100.0), (-433.0, 100.0), (433.0, 0.0)])

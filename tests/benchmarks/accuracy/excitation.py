@@ -9,10 +9,13 @@ and a step of size c at time u gives c [1 - exp(i s (t - u))] after u. The steps
 every series, so that they are constant within each interval.
 """
 
+from collections.abc import Callable
+
 import numpy as np
+from scipy.signal import lfilter
 
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.wobble.excitation import FROM_EXCITATION, TO_EXCITATION, chandler_frequency
+from earthspin.wobble.excitation import chandler_frequency, excitation, polar_motion_from
 from tests.benchmarks.accuracy.ladder import Ladder, Run
 
 #: Period (d) and quality factor of the free wobble, and length of the series (d).
@@ -25,6 +28,43 @@ WAVES = ((15.0, 365.25), (6.0, -365.25), (4.0, 182.6), (3.0, -61.0), (2.0, 27.6)
 JUMPS = ((8.0 - 3.0j, 360.0), (-5.0 + 2.0j, 1080.0))
 START = 60.0 + 40.0j  # mas
 STEPS = (20.0, 10.0, 5.0, 2.0, 1.0, 0.5)
+
+
+def central_difference(p: ComplexArray, step: float, s: complex) -> ComplexArray:
+    """Excitation at inner samples of polar motion, by central differences, shape (n - 2,)."""
+    return np.asarray(p[1:-1] + 1j / s * (p[2:] - p[:-2]) / (2 * step))
+
+
+def wilson_filter(p: ComplexArray, step: float, s: complex) -> ComplexArray:
+    """Excitation midway between samples of polar motion, by Wilson's filter, shape (n - 1,).
+
+    chi = i e^(-i pi F D)/(s D) (p1 - e^(i s D) p0) (Wilson 1985, Geophys. J. R. astr. Soc.
+    80, 551): the exact relation but for terms of second order in s D.
+    """
+    shift = np.exp(-0.5j * s.real * step)
+    return np.asarray(1j * shift / (s * step) * (p[1:] - np.exp(1j * s * step) * p[:-1]))
+
+
+def euler_forward(chi: ComplexArray, step: float, s: complex, start: complex = 0j) -> ComplexArray:
+    """Polar motion driven by an excitation, in explicit Euler steps, shape (n + 1,).
+
+    The method is unstable; it serves for comparison.
+    """
+    growth = 1 + 1j * s * step
+    driven = lfilter([1 - growth], [1.0, -growth], chi, zi=np.array([growth * start]))[0]
+    return np.concatenate([[start], driven])
+
+
+#: Ways from polar motion to excitation, and from excitation to polar motion, by name.
+TO_EXCITATION: dict[str, Callable[[ComplexArray, float, complex], ComplexArray]] = {
+    "exact": excitation,
+    "central difference": central_difference,
+    "wilson": wilson_filter,
+}
+FROM_EXCITATION: dict[str, Callable[..., ComplexArray]] = {
+    "exact": polar_motion_from,
+    "explicit euler": euler_forward,
+}
 
 
 def to_excitation() -> Ladder:

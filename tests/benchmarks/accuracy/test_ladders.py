@@ -5,12 +5,8 @@ import pytest
 
 from tests.benchmarks.accuracy import (
     LADDERS,
-    chandler,
-    ensemble,
     excitation,
-    spheroid,
 )
-from tests.reference.stored import load
 
 #: Ladders whose errors are taken from many records, seeds or epochs.
 SLOW = {"chandler", "ensemble", "forecast-30", "forecast-90", "precession", "torque"}
@@ -48,26 +44,3 @@ def test_exact_pair_on_steps_alone_is_exact(monkeypatch: pytest.MonkeyPatch) -> 
     ):
         for method in exact.bounds:
             assert exact.error_of(exact.runs[method]["10 d"]) < bound
-
-
-def test_best_scatter_is_that_of_the_page() -> None:
-    assert chandler.best_scatter(65.0) == pytest.approx(1.65, abs=0.005)
-
-
-def test_drawn_half_widths_scatter_as_expected() -> None:
-    """400 draws of numpy's own: 0.0351 measured at 1000 members, of 0.0348."""
-    drawn = np.random.default_rng(5).normal(1.0, ensemble.UNCERTAINTY, (400, 1000))
-    low, high = np.quantile(1 / drawn, ensemble.ENDS, axis=1)
-    scatter = np.sqrt(np.mean(((high - low) / 2 / ensemble.HALF_WIDTH - 1) ** 2))
-    assert scatter == pytest.approx(ensemble.expected_scatter(1000), rel=0.1, abs=0)
-
-
-def test_arctangents_lose_their_digits_with_distance() -> None:
-    place = spheroid.points()
-    true = load("spheroid", spheroid.inputs())
-    errors = spheroid.errors(spheroid.arctangents(place), true)["torque"]
-    worst = np.log10(errors.reshape(len(spheroid.DISTANCES), -1).max(axis=1))
-    powers = dict(zip(spheroid.DISTANCES, worst, strict=True))
-    assert -12 < powers[1.05] < -9
-    assert -5 < powers[60.0] < -2
-    assert powers[1e4] > 1
