@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -9,7 +10,9 @@ import numpy as np
 import xarray as xr
 
 from earthspin.engine.drafts import as_path
-from earthspin.engine.ensemble import Ensemble, with_members
+from earthspin.engine.ensemble import Ensemble
+from earthspin.engine.members import Members
+from earthspin.engine.question import Question
 from earthspin.engine.store import open as open_store
 from earthspin.errors import OutputError, SceneError
 from earthspin.scenes import load_scene
@@ -82,16 +85,30 @@ def ensemble(
         if seed is not None:
             raise loaded.error("rng", rng, "give either seed or rng")
         seed = _seed_from(rng)
-    request = with_members(loaded, members, seed, impossible=impossible)
+    request = _with_members(loaded, members, {"seed": seed, "impossible": impossible})
     if block is not None and (isinstance(block, bool) or not isinstance(block, int) or block < 1):  # type: ignore[redundant-expr]
         raise request.error("block", block, "give a whole number, 1 or more")
     if path is not None and as_path(path).suffix != ".zarr":
         raise OutputError(path, "its name does not end in .zarr", "an ensemble goes to Zarr")
-    work = Ensemble(request, block=block)
+    work = Ensemble(request, block=block, in_memory=path is None)
     if path is None:
         return work.hold(client)
     answer = open_store(work.write(path, client))
     return answer.to_dataset() if isinstance(answer, xr.DataTree) else answer
+
+
+def _with_members(question: Question, members: object, settings: dict[str, Any]) -> Question:
+    """Return a question with changed members; a whole number changes only how many there are."""
+    own, where = question.members, question.where("members")
+    request: Members | None = own if members is None else Members.read(members, where)
+    if request is None:
+        raise where.error(None, "give the number of members, a file or a table")
+    if own is not None and isinstance(members, (int, np.integer)):
+        request = replace(own, n=request.n)
+    changes = {name: value for name, value in settings.items() if value is not None}
+    checked = Members.read(changes, where)
+    changes = {name: getattr(checked, name) for name in changes}
+    return question.replace(members=replace(request, **changes))
 
 
 def _seed_from(rng: int | np.random.Generator | np.random.SeedSequence) -> int:

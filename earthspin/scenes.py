@@ -536,7 +536,7 @@ def files_of(question: Question, but: Iterable[str] = ()) -> list[tuple[str, Pat
         if members is not None and name in members.distributions:
             values = [*members.distributions[name].numbers]
         elif members is not None and name in members.values:
-            values = np.unique(members.values[name]).tolist()
+            values = np.unique(members.values[name].values).tolist()
         files += [(dotted, Path(v).absolute(), kind) for v in values if kind.is_path(v)]
     return files
 

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from earthspin.engine.ensemble import Ensemble
-from earthspin.engine.member_values import MEMBER
-from earthspin.engine.members import Members
+from earthspin.engine.members import MEMBER, Members
 from earthspin.engine.question import NEGLECTED, Key, Question, keys_of
 from earthspin.engine.run import ALL, Run
 from earthspin.errors import SceneError
@@ -48,7 +47,7 @@ def answer(question: Question) -> xr.Dataset:
         If the question cannot be answered; the message is one line.
     """
     if question.members is not None:
-        return Ensemble(question).hold()
+        return Ensemble(question, in_memory=True).hold()
     result = Run(question).answer()
     return _with_sample(question, result) if question.uncertainty == "sample" else result
 
@@ -76,11 +75,10 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
         if not {*named} <= {ALL, NEGLECTED}:
             problem = f"an ensemble has only the section '{NEGLECTED}'; request that or none"
             raise SceneError("sections", sections, problem)
-        work = Ensemble(question)
-        nodes = {"/": work.hold(), "plan": work.plan_data()}
+        work = Ensemble(question, in_memory=True)
+        nodes = {"/": work.hold(), "plan": work.nominal_run.plan().dataset()}
         if named:
-            single = work.variants.question(work.names(0))
-            nodes[NEGLECTED] = answer_tree(single, NEGLECTED)[NEGLECTED].to_dataset()
+            nodes[NEGLECTED] = work.nominal_run.tree(NEGLECTED)[NEGLECTED].to_dataset()
         return xr.DataTree.from_dict(nodes)
     tree = Run(question).tree(sections)
     if question.uncertainty == "sample":
@@ -122,7 +120,8 @@ def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
         raise question.error("uncertainty", "sample", _NO_ERROR)
     plain = question.replace(uncertainty=None, n=None)
     count = MEMBERS if question.n is None else question.n
-    sample = Ensemble(plain.replace(members=Members(n=count, published=True))).hold()
+    members = Members(n=count, published=True)
+    sample = Ensemble(plain.replace(members=members), in_memory=True).hold()
     sampled: dict[str, Any] = {}
     for name, linear in linear_errors.items():
         values = sample[name]

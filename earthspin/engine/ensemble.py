@@ -1,56 +1,55 @@
 """Ensembles: answer one question for many sets of inputs (members), block by block.
 
-If the parts of a question take arrays (`define_parts`, `together`), its members are computed
-together; otherwise separately. Members that are computed together are arranged in rows of `ROW`,
-each at the index of its number. A BLAS, which sums products by row, then rounds in the same way
-for any number of members, and a member has the same bits alone. Only members with the same names
-in all inputs that are names are computed together.
+Members with the same names (orbits, kernels, interiors) share one run, of which only the parts that
+depend on the numbers of members are repeated. If the parts take arrays (`define_parts`,
+`together`), such members are computed together; otherwise separately. Arrays are filled up to a
+multiple of `ROW` members: a BLAS, which sums products by row, then rounds in the same way for any
+number of members, and a member has the same bits alone.
 """
 
 from __future__ import annotations
 
+import time
+from collections import OrderedDict
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
-from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from earthspin.engine import blocks
 from earthspin.engine.blocks import Layout, request_of
-from earthspin.engine.inputs import (
-    Input,
-    along_members,
-    inputs_of,
-    one_member,
-    published,
-    with_values,
-)
-from earthspin.engine.member_values import MEMBER
-from earthspin.engine.members import TWICE, Members, count_of, draw
-from earthspin.engine.question import SCENE, Question, scene_text
-from earthspin.engine.variants import Names, Variants
-from earthspin.errors import ApartError, EarthspinError
+from earthspin.engine.inputs import along_members, inputs_of, published, with_values
+from earthspin.engine.members import MEMBER, TWICE, IntArray, Members, draw
+from earthspin.engine.question import NEGLECTED, SCENE, Question, scene_text
+from earthspin.engine.run import Run
+from earthspin.errors import ApartError, EarthspinError, SceneError
 
 if TYPE_CHECKING:
     import xarray as xr
 
-IntArray = NDArray[np.int64]
-
-#: Number of members in a row.
+#: Names of a member in all inputs that take names, in the order of these inputs.
+Names = tuple[str, ...]
+#: Arrays of members are filled up to a multiple of this number.
 ROW = 64
 #: Intended size of a block in bytes, and the largest number of members in a block.
 BLOCK_BYTES, LONGEST_BLOCK = 8_000_000, 16_384
 #: Largest block of members that are computed separately; a killed run loses at most one block.
 SEPARATE_BLOCK = 16
-#: Largest size of an ensemble in memory, bytes.
-LARGEST_IN_MEMORY = 4_000_000_000
+#: Largest memory, bytes, and run time, days, of an ensemble that is not written to a store.
+LARGEST_IN_MEMORY, LONGEST_IN_MEMORY = 4_000_000_000, 1
+#: Number of members that are drawn in a second; of more, memory and run time are estimated before.
+MANY = 100_000
+#: Combinations of names whose results are kept at a time.
+LARGEST_NUMBER_OF_RUNS = 16
 #: Largest number of members that a message lists.
 LISTED = 5
+#: Names in a description besides those of variables: the attributes of the whole, and the versions
+#: and checksums of files.
+_WHOLE, _SOURCES = "/", "/sources"
 
 
 class Ensemble:
@@ -62,6 +61,8 @@ class Ensemble:
         Question with members.
     block : int, optional
         Number of members in a block; chosen from their size by default.
+    in_memory : bool
+        Whether the answers will be held in memory, so that their size and run time are limited.
 
     Attributes
     ----------
@@ -77,14 +78,17 @@ class Ensemble:
     Raises
     ------
     SceneError
-        If the members have no varying input, or some cannot exist.
+        If the members have no varying input, are too many, or some cannot exist.
     """
 
-    def __init__(self, question: Question, *, block: int | None = None) -> None:
+    def __init__(
+        self, question: Question, *, block: int | None = None, in_memory: bool = False
+    ) -> None:
         nominal = {name: getattr(question, name) for name in question.by_body}
         self.full_question, self.question = question, question.replace(members=None, **nominal)
-        members = question.members or Members()
-        where = question.where("members")
+        self._length = block
+        self._runs: OrderedDict[Names, Run] = OrderedDict()
+        members, where = question.members or Members(), question.where("members")
         for name in members.distributions.keys() & members.values.keys():
             raise where.at(name).error("...", TWICE)
         distributions = published(self.question) if members.published else {}
@@ -95,28 +99,169 @@ class Ensemble:
                 "no input of this question has a published uncertainty; name the inputs to vary"
             )
             raise where.error(None, problem)
-        n = count_of(members, distributions, where)
-        self.which = np.array(members.only or range(n))
+        self.named = {name: entry for name, entry in self.inputs.items() if entry.named}
+        self.numbers = {name: entry for name, entry in self.inputs.items() if not entry.named}
+        n = members.count(where)
+        self.which = np.array(members.only) if members.only else np.arange(n)
+        if in_memory and self.which.size > MANY:
+            self._refuse_what_does_not_fit(members)
         drawn = {
             name: distribution.checked(self.inputs[name].kind, where.at(name))
             for name, distribution in distributions.items()
         }
         self.values = draw(members, drawn, self.which, where)
-        self.values |= {
-            name: self.inputs[name].checked(values, members.units.get(name), where.at(name))[
-                self.which
-            ]
-            for name, values in members.values.items()
-        }
+        for name, listed in members.values.items():
+            values = listed.checked(self.inputs[name].kind, where.at(name))
+            self.values[name] = values[self.which]
         self.dropped: list[int] = []
         self._drop_impossible_members(members.impossible == "drop", n)
-        self._length = block
 
     def __getstate__(self) -> dict[str, Any]:
         _ = self.layout, self.width  # computed once, before workers receive copies
-        return {n: value for n, value in vars(self).items() if n not in ("variants", "nominal")}
+        state = vars(self) | {"_runs": OrderedDict()}
+        return {n: value for n, value in state.items() if n not in ("nominal", "descriptions")}
 
-    # --- work of `loop` --------------------------------------------------------------------------
+    # --- size and run time -----------------------------------------------------------------------
+
+    def _refuse_what_does_not_fit(self, members: Members) -> None:
+        """Raise an error if the answers are too large or take too long, judged from one of them."""
+        first = replace(members, only=tuple(self.which[:ROW].tolist()))
+        try:
+            few = Ensemble(self.full_question.replace(members=first), block=1)
+        except SceneError:  # the first members cannot exist; the others are checked after drawing
+            return
+        self._runs = few._runs  # for the same questions
+        together = ROW if few.width > 1 else 1
+        begun = time.perf_counter()
+        answer = few.make(0)
+        days = (time.perf_counter() - begun) / together * self.which.size / 86_400
+        self._refuse_size(
+            sum(array.nbytes for array in answer.variables.values() if MEMBER in array.dims)
+        )
+        if days > LONGEST_IN_MEMORY:
+            problem = (
+                f"they take about {days:.2g} days, and {LONGEST_IN_MEMORY} is allowed in memory; "
+                "give a path to write them to a store, which an interrupted run continues"
+            )
+            raise self.question.error("members", self.which.size, problem)
+
+    def _refuse_size(self, member: int) -> None:
+        """Raise an error if the answers, each of so many bytes, are too large for memory."""
+        size = 2 * member * self.which.size  # of all blocks, and of the whole made of them
+        if size > LARGEST_IN_MEMORY:
+            problem = (
+                f"they need about {size / 1e9:.3g} GB of memory, and {LARGEST_IN_MEMORY / 1e9:g} "
+                "are allowed; give a path to write them to a store"
+            )
+            raise self.question.error("members", self.which.size, problem)
+
+    # --- members that cannot exist ---------------------------------------------------------------
+
+    def _drop_impossible_members(self, drop: bool, n: int) -> None:
+        """Omit members with impossible inputs if the user allowed it; else raise an error."""
+        impossible = dict(self._impossible_members())
+        if not impossible:
+            return
+        indices = sorted(impossible)
+        numbers = self.which[indices].tolist()
+        if not drop or len(numbers) == len(self.which):
+            count = f"{len(numbers)} of {n} members cannot exist"
+            problem = f"{count}: {impossible[indices[0]]}"
+            remedy = "" if drop else "; change the distributions, or set impossible = 'drop'"
+            raise self.question.error("members", _list_of_numbers(numbers), problem + remedy)
+        possible = np.delete(np.arange(len(self.which)), indices)
+        self.which, self.dropped = self.which[possible], numbers
+        self.values = {name: values[possible] for name, values in self.values.items()}
+        del self.groups
+
+    def _impossible_members(self) -> Iterator[tuple[int, EarthspinError]]:
+        """Yield the index and the error of each member whose inputs are impossible."""
+        arrays = all(entry.field and entry.labelled for entry in self.numbers.values())
+        for names, indices in self.groups.items():
+            try:
+                question = self.variant(names)
+            except EarthspinError as error:
+                yield from ((int(index), error) for index in indices)
+                continue
+            if arrays:
+                with suppress(EarthspinError):
+                    with_values(question, self.numbers, self._together(indices))
+                    continue
+            for index in indices.tolist():
+                try:
+                    with_values(question, self.numbers, self._alone(index))
+                except EarthspinError as error:
+                    yield index, error
+
+    # --- groups of members, and runs for the names of each ---------------------------------------
+
+    @cached_property
+    def groups(self) -> dict[Names, IntArray]:
+        """Indices of members with equal inputs by name (such as files), by the tuple of names."""
+        if not self.named:
+            return {(): np.arange(len(self.which))}
+        columns = [self.values[name].tolist() for name in self.named]
+        indices: dict[Names, list[int]] = {}
+        for index, names in enumerate(zip(*columns, strict=True)):
+            indices.setdefault(names, []).append(index)
+        return {names: np.array(group) for names, group in indices.items()}
+
+    def variant(self, names: Names) -> Question:
+        """Return the question with the given names (such as file names) as inputs.
+
+        Raises
+        ------
+        EarthspinError
+            If the names do not fit the other keys of the question.
+        """
+        if not names:
+            return self.question
+        keys = (entry.key for entry in self.named.values())
+        return self.question.replace(**dict(zip(keys, names, strict=True)))
+
+    def run(self, names: Names) -> Run:
+        """Run of the question with the given names and its own numbers, kept for its results."""
+        if names not in self._runs:
+            self._runs[names] = Run(self.variant(names))
+            if len(self._runs) > LARGEST_NUMBER_OF_RUNS:
+                self._runs.popitem(last=False)
+        self._runs.move_to_end(names)
+        return self._runs[names]
+
+    def _changed(self, names: Names, values: Mapping[str, Any]) -> xr.Dataset:
+        """Numbers of the answer for other inputs; only what depends on these is computed again."""
+        run = self.run(names)
+        return run.again(with_values(run.question, self.numbers, values)).numbers()
+
+    @property
+    def nominal_run(self) -> Run:
+        """Run for the nominal numbers; inputs given by name are those of the first member."""
+        return self.run(next(iter(self.groups)))
+
+    @cached_property
+    def nominal(self) -> xr.Dataset:
+        """Answer for the nominal numbers; inputs given by name are those of the first member."""
+        return self.nominal_run.answer()
+
+    @cached_property
+    def descriptions(self) -> dict[Names, dict[str, Mapping[str, Any]]]:
+        """Attributes by the names of each group: of variables, of the whole answer, and sources."""
+        descriptions: dict[Names, dict[str, Mapping[str, Any]]] = {}
+        for names in self.groups:
+            run = self.run(names)
+            answer = run.answer()
+            descriptions[names] = {
+                _WHOLE: answer.attrs,
+                _SOURCES: run.provenance([*run.graph.answer, NEGLECTED]),
+                **{str(name): array.attrs for name, array in answer.variables.items()},
+            }
+        return descriptions
+
+    def _described(self, name: str) -> dict[Names, Mapping[str, Any]]:
+        """Attributes of one variable, or of the whole answer, in those groups that have it."""
+        return {names: each[name] for names, each in self.descriptions.items() if name in each}
+
+    # --- work of `blocks` ------------------------------------------------------------------------
 
     @property
     def what(self) -> str:
@@ -124,47 +269,15 @@ class Ensemble:
         return f"{self.question.word} members"
 
     @cached_property
-    def numbers(self) -> dict[str, Input]:
-        """Inputs of the ensemble that are numbers; other inputs are names, such as files."""
-        return {name: entry for name, entry in self.inputs.items() if not entry.named}
-
-    @cached_property
-    def variants(self) -> Variants:
-        """Copies of the question, one for each combination of inputs by name (such as files)."""
-        keys = tuple(entry.key for entry in self.inputs.values() if entry.named)
-        return Variants(self.question, keys)
-
-    def names(self, index: int) -> Names:
-        """Inputs of one member that are given by name, such as files, as a tuple of names."""
-        inputs = (name for name, entry in self.inputs.items() if entry.named)
-        return tuple(str(self.values[name][index]) for name in inputs)
-
-    @cached_property
-    def groups(self) -> dict[Names, IntArray]:
-        """Indices of members with equal inputs by name (such as files), by the tuple of names."""
-        if len(self.numbers) == len(self.inputs):
-            return {(): np.arange(len(self.which))}
-        indices: dict[Names, list[int]] = {}
-        for index in range(len(self.which)):
-            indices.setdefault(self.names(index), []).append(index)
-        return {names: np.array(group) for names, group in indices.items()}
-
-    @cached_property
-    def nominal(self) -> xr.Dataset:
-        """Answer with the question's own numbers and with the first member's inputs by name."""
-        return self.variants.nominal(next(iter(self.groups)))
-
-    @cached_property
     def width(self) -> int:
         """Number of members that are computed together as arrays; 1 if each is computed alone."""
-        rows = BLOCK_BYTES * 4 // (self.nominal.nbytes * ROW)
-        if not self.numbers:
-            return rows * ROW or 1  # one answer for each combination of names is computed
-        together = self.question.graph.together
-        fit = all(entry.key in together and entry.labelled for entry in self.numbers.values())
-        if not fit:
-            return 1
-        return min(rows * ROW, self.question.graph.widest) or 1
+        graph = self.question.graph
+        widest = BLOCK_BYTES * 4 // (self.nominal.nbytes * ROW) * ROW
+        if self.numbers:  # otherwise one answer for each combination of names is computed
+            entries = self.numbers.values()
+            fit = all(entry.key in graph.together and entry.labelled for entry in entries)
+            widest = min(widest, graph.widest) if fit else 1
+        return widest or 1
 
     @cached_property
     def layout(self) -> Layout:
@@ -179,11 +292,12 @@ class Ensemble:
     @cached_property
     def request(self) -> Mapping[str, str]:
         """Texts that identify the run: question, software versions and checksums of files."""
-        return request_of(self.full_question, self.variants.provenance(self.groups))
-
-    def plan_data(self) -> xr.Dataset:
-        """Plan of the computation for the first member, as a Dataset."""
-        return self.variants[self.names(0)].plan().dataset()
+        sources = {
+            f"{name} of {', '.join(names)}" if names else name: source
+            for names, provenance in self._described(_SOURCES).items()
+            for name, source in provenance.items()
+        }
+        return request_of(self.full_question, sources)
 
     def hold(self, client: object = None) -> xr.Dataset:
         """Compute the ensemble and return it in memory.
@@ -193,117 +307,75 @@ class Ensemble:
         SceneError
             If the result is too large for memory.
         """
-        size = self.nominal.nbytes * self.layout.size
-        if size > LARGEST_IN_MEMORY:
-            problem = f"they need about {size / 1e9:.3g} GB; give a path to write them to a store"
-            raise self.question.error("members", self.layout.size, problem)
+        if self.which.size <= MANY:  # more are estimated before they are drawn
+            self._refuse_size(self.nominal.nbytes)
         return blocks.hold(self, client=client)
 
     def write(self, path: str | Path, client: object = None) -> Path:
         """Compute the ensemble into a Zarr store, or continue an unfinished store."""
         return blocks.write(self, path, client=client)
 
-    # --- the members -----------------------------------------------------------------------------
-
-    def _drop_impossible_members(self, drop: bool, n: int) -> None:
-        """Omit members with impossible inputs if the user allowed it; else raise an error."""
-        impossible = dict(sorted(self._impossible_members(), key=itemgetter(0)))
-        if not impossible:
-            return
-        numbers = [int(self.which[index]) for index in impossible]
-        if not drop or len(numbers) == len(self.which):
-            count = f"{len(numbers)} of {n} members cannot exist"
-            problem = f"{count}: {next(iter(impossible.values()))}"
-            remedy = "" if drop else "; change the distributions, or set impossible = 'drop'"
-            raise self.question.error("members", _list_of_numbers(numbers), problem + remedy)
-        possible = np.delete(np.arange(len(self.which)), list(impossible))
-        self.which, self.dropped = self.which[possible], numbers
-        self.values = {name: values[possible] for name, values in self.values.items()}
-        del self.groups
-
-    def _impossible_members(self) -> Iterator[tuple[int, EarthspinError]]:
-        """Yield the index and the error of each member whose inputs are impossible."""
-        arrays = all(entry.field and entry.labelled for entry in self.numbers.values())
-        for names, indices in self.groups.items():
-            try:
-                question = self.variants.question(names)
-            except EarthspinError as error:
-                yield from ((int(index), error) for index in indices)
-                continue
-            if arrays:
-                with suppress(EarthspinError):
-                    with_values(question, self.numbers, along_members(self._number_values, indices))
-                    continue
-            for index in indices.tolist():
-                try:
-                    with_values(question, self.numbers, one_member(self._number_values, index))
-                except EarthspinError as error:
-                    yield index, error
-
-    # --- blocks ----------------------------------------------------------------------------------
-
     def first(self) -> xr.Dataset:
-        """Compute the first block of members, with the global attributes of the whole ensemble."""
+        """Compute the first block of members, with the attributes of the whole ensemble.
+
+        Texts that differ between names are listed with the names.
+        """
+        block = self.make(0).assign_attrs(_joined(self._described(_WHOLE)))
+        for name in block.variables:
+            attributes = self._described(str(name))
+            if len(attributes) > 1:
+                block[name].attrs = _joined(attributes)
         question = self.full_question
-        attributes = {"title": question.title, SCENE: scene_text(question)}
+        attrs = {"title": question.title, SCENE: scene_text(question)}
         if self.dropped:
             count = f"{len(self.dropped)} that cannot exist: {_list_of_numbers(self.dropped)}"
-            attributes["members_dropped"] = count
-        return self.variants.describe(self.make(0), self.groups).assign_attrs(attributes)
+            attrs["members_dropped"] = count
+        return block.assign_attrs(attrs)
 
     def make(self, number: int) -> xr.Dataset:
         """Compute one block of members, by its number."""
         first, last = self.layout.bounds(number)
-        if self.width == 1:
-            indices = [np.array([index]) for index in range(first, last)]
-            pieces = [self._single(index) for index in range(first, last)]
-        else:
-            indices, pieces = map(list, zip(*self._together(first, last), strict=True))
-        block = _concatenated(pieces)
-        order = np.argsort(np.concatenate(indices))
+        pieces: list[tuple[IntArray, xr.Dataset]] = []
+        for names, group in self.groups.items():
+            begin, end = np.searchsorted(group, (first, last)).tolist()
+            for start in range(begin, end, self.width):
+                pieces += self._pieces(names, group[start : min(start + self.width, end)])
+        block = _concatenated([answer for _, answer in pieces])
+        order = np.argsort(np.concatenate([indices for indices, _ in pieces]))
         if (np.diff(order) != 1).any():
             block = block.isel({MEMBER: order} if MEMBER in block.dims else {})
         return block.assign_coords(self._labels(slice(first, last), block))
 
-    def _together(self, first: int, last: int) -> Iterator[tuple[IntArray, xr.Dataset]]:
-        """Compute members `first` to `last` - 1, in groups with equal inputs by name.
+    # --- members of a block ----------------------------------------------------------------------
 
-        Yield their indices and answers.
-
-        Columns of other members hold a copy of a wanted one, so that a row is always complete.
-        """
-        for begin in range(first - first % ROW, last, self.width):
-            end = min(begin + self.width, -(-last // ROW) * ROW)
-            row = np.arange(begin, end)
-            for names, group in self.groups.items():
-                indices = group[np.searchsorted(group, max(begin, first)) :]
-                indices = indices[: np.searchsorted(indices, min(end, last))]
-                if not indices.size:
-                    continue
-                columns = np.where(np.isin(row, indices), row, indices[0])
-                values = along_members(self._number_values, columns)
-                which = _list_of_numbers(self.which[indices].tolist())
-                try:
-                    answer = self._answer(names, values, which)
-                except ApartError:
-                    yield from ((np.array([index]), self._single(index)) for index in indices)
-                    continue
-                if names:
-                    answer = _along_all_members(answer, len(row))
+    def _pieces(self, names: Names, indices: IntArray) -> list[tuple[IntArray, xr.Dataset]]:
+        """Compute members with equal names, together if possible; return indices and answers."""
+        if self.width > 1:
+            with suppress(ApartError):
+                filled = np.pad(indices, (0, -indices.size % ROW), mode="edge")
+                answer = self._answer(names, self._together(filled), indices)
                 if MEMBER in answer.dims:
-                    answer = answer.isel({MEMBER: _as_slice(indices - begin)})
-                yield indices, answer
+                    answer = answer.isel({MEMBER: slice(indices.size)})
+                return [(indices, _along_all_members(answer, indices.size) if names else answer)]
+        return [
+            (index, _along_all_members(self._answer(names, self._alone(index[0]), index), 1))
+            for index in indices[:, np.newaxis]
+        ]
 
-    def _single(self, index: int) -> xr.Dataset:
-        values, which = one_member(self._number_values, index), str(self.which[index])
-        return _along_all_members(self._answer(self.names(index), values, which), 1)
+    def _together(self, indices: IntArray) -> dict[str, xr.DataArray]:
+        """Values of the inputs that are numbers, as arrays along `member`."""
+        return {name: along_members(self.values[name][indices]) for name in self.numbers}
 
-    def _answer(self, names: Names, values: Mapping[str, Any], which: str) -> xr.Dataset:
-        """Compute the answer for one member, or for several members with equal inputs by name."""
+    def _alone(self, index: int) -> dict[str, Any]:
+        """Values of the inputs that are numbers, of one member."""
+        values = {name: self.values[name][index] for name in self.numbers}
+        return {name: value if np.ndim(value) else value.item() for name, value in values.items()}
+
+    def _answer(self, names: Names, values: Mapping[str, Any], indices: IntArray) -> xr.Dataset:
+        """Compute the answer for one member, or for several members with equal names."""
+        which = _list_of_numbers(self.which[indices].tolist())
         try:
-            nominal = self.variants[names]
-            changed = with_values(nominal.question, self.numbers, values)
-            answer = nominal.again(changed).numbers()
+            answer = self._changed(names, values)
         except EarthspinError as error:
             error.args = (f"member {which}: {error}",)
             raise
@@ -312,11 +384,6 @@ class Ensemble:
                 problem = f"member {which} has other labels along '{name}'"
                 raise self.question.error("members", list(self.inputs), problem)
         return answer
-
-    @property
-    def _number_values(self) -> dict[str, NDArray[Any]]:
-        """Values of all members for each input that is a number, by input name."""
-        return {name: self.values[name] for name in self.numbers}
 
     def _labels(self, which: slice, block: xr.Dataset) -> dict[str, Any]:
         """Make the coordinates along `member`: member numbers and input values.
@@ -327,13 +394,11 @@ class Ensemble:
             MEMBER: (MEMBER, self.which[which], {"long_name": "number of the member"})
         }
         for name, entry in self.inputs.items():
-            values = self.values[name][which]
-            dims = (MEMBER, *(f"{entry.label}_{k}" for k in range(values.ndim - 1)))
-            attrs = {"long_name": f"{name} of the member"}
-            attrs |= {} if entry.named else {"units": entry.unit or "1"}
-            attrs |= {"input": name}
-            label = f"{entry.label}_given" if entry.label in block.variables else entry.label
-            labels[label] = (dims, values, attrs)
+            values, label = self.values[name][which], name.replace(".", "_")
+            dims = (MEMBER, *(f"{label}_{k}" for k in range(values.ndim - 1)))
+            units = {} if entry.named else {"units": str(entry.kind.unit) or "1"}
+            attrs = {"long_name": f"{name} of the member", **units, "input": name}
+            labels[f"{label}_given" if label in block.variables else label] = (dims, values, attrs)
         return labels
 
 
@@ -341,12 +406,6 @@ def _list_of_numbers(numbers: list[int]) -> str:
     """Write member numbers as text; list at most `LISTED`, and count the rest."""
     more = f" and {len(numbers) - LISTED} more" if len(numbers) > LISTED else ""
     return f"{', '.join(map(str, numbers[:LISTED]))}{more}"
-
-
-def _as_slice(indices: IntArray) -> IntArray | slice:
-    """Return consecutive indices as a slice, which avoids a copy."""
-    first, last = int(indices[0]), int(indices[-1])
-    return slice(first, last + 1) if last - first + 1 == len(indices) else indices
 
 
 def _along_all_members(answer: xr.Dataset, count: int) -> xr.Dataset:
@@ -373,29 +432,17 @@ def _concatenated(pieces: list[xr.Dataset]) -> xr.Dataset:
     return xr.Dataset(variables, pieces[0].coords)
 
 
-def with_members(
-    question: Question, members: object, seed: int | None = None, **more: Any
-) -> Question:
-    """Return a question with changed ensemble members: their number, seed or distributions.
+def _joined(attributes: Mapping[Names, Mapping[str, Any]]) -> dict[str, Any]:
+    """Combine the attributes of all groups: keep equal values, and list texts that differ.
 
-    If `members` is None, those of the question are kept, and only the given fields are changed.
-
-    Parameters
-    ----------
-    question : Question
-    members : object, optional
-        Value of the key `members`; a whole number changes only the number of members.
-    seed : int, optional
-    **more
-        Fields of `Members` to change.
+    Other differing attributes are dropped.
     """
-    own, where = question.members, question.where("members")
-    request: Members | None = own if members is None else Members.read(members, where)
-    if request is None:
-        raise where.error(None, "give the number of members, a file or a table")
-    if own is not None and isinstance(members, (int, np.integer)):
-        request = replace(own, n=request.n)
-    changes = {name: value for name, value in {"seed": seed, **more}.items() if value is not None}
-    checked = Members.read({"n": 1} | changes, where)
-    changes = {name: getattr(checked, name) for name in changes}
-    return question.replace(members=replace(request, **changes))
+    joined: dict[str, Any] = {}
+    for name in dict.fromkeys(name for entry in attributes.values() for name in entry):
+        values = {names: entry[name] for names, entry in attributes.items() if name in entry}
+        if len(values) == len(attributes) and len(set(map(repr, values.values()))) == 1:
+            joined[name] = next(iter(values.values()))
+        elif all(isinstance(value, str) for value in values.values()):
+            parts = (f"{', '.join(names)}: {value}" for names, value in values.items())
+            joined[name] = "; ".join(parts)
+    return joined

@@ -1,6 +1,7 @@
-"""Specify the members of an ensemble: which inputs vary, and how their values are drawn.
+"""Members of an ensemble: how they are described, read and drawn.
 
-An input is a number of a question, or a name in it: an orbit table, a kernel, a model.
+An input that varies is a number of a question, or a name in it: an orbit table, a kernel, a model.
+Its values are drawn from a distribution, taken from a grid, or listed for each member.
 
 Each member has its own random generator, defined by its number and the seed (Philox with
 ``SeedSequence(seed, spawn_key=(member,))``). Member 17 is therefore the same alone, in any block
@@ -13,37 +14,36 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterable, Iterator, Mapping
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.engine.member_values import (
-    read_file,
-    units_from_dataset,
-    values_from_dataset,
-    values_from_scene,
-)
-from earthspin.errors import Where, nearest
+from earthspin.errors import OutputError, Where, nearest
 from earthspin.numerics.arrays import FloatArray
-from earthspin.units import Word, by_name, pack
+from earthspin.units import Word, by_name, pack, unit_factor, unpack
 
+if TYPE_CHECKING:
+    import xarray as xr
+
+IntArray = NDArray[np.int64]
+
+#: Name of the dimension of an ensemble.
+MEMBER = "member"
 #: Largest number of members, which limits the memory for the values of one input.
 LARGEST_COUNT = 10_000_000
-
-Shape = Literal["normal", "uniform", "choice", "grid"]
+#: Message for an input that is given more than once.
+TWICE = "it is given twice, perhaps with a dot and in a table; give it once"
 _SHAPES: dict[str, str] = {
     "normal": "a mean and one standard deviation",
     "uniform": "a lowest and a highest value",
     "choice": "one value or more",
     "grid": "one value or more; members take every combination of all grids",
 }
-#: Message for an input that is given more than once.
-TWICE = "it is given twice, perhaps with a dot and in a table; give it once"
-_SETTINGS = ("n", "seed", "uncertainty", "impossible", "only", "correlations", "values")
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,8 @@ class Distribution:
             problem = f"give one of {', '.join(_SHAPES)}, like normal = [1, 2]"
             raise where.error(dict(value), problem)
         ((shape, numbers),) = value.items()
-        numbers = list(numbers) if isinstance(numbers, np.ndarray) and numbers.ndim else numbers
+        if isinstance(numbers, np.ndarray) and numbers.ndim:
+            numbers = numbers.tolist() if type(numbers) is np.ndarray else list(numbers)
         many = len(numbers) if isinstance(numbers, (list, tuple)) else 0
         if many == 0 or (shape in ("normal", "uniform") and many != 2):
             raise where.error(numbers, f"{shape} takes {_SHAPES[shape]}")
@@ -90,7 +91,7 @@ class Distribution:
             raise where.error(self.numbers, "give the lowest value first")
         return Distribution(self.shape, tuple(map(float, numbers)))
 
-    def values(self, normal: FloatArray, index: FloatArray) -> NDArray[Any]:
+    def values(self, normal: FloatArray, index: IntArray) -> NDArray[Any]:
         """Transform standard normal numbers into values with this distribution.
 
         Parameters
@@ -106,14 +107,14 @@ class Distribution:
         from scipy.special import ndtr
 
         numbers = np.array(self.numbers)
+        if self.shape == "grid":
+            return np.asarray(numbers[index])
         if self.shape == "normal":
             return np.asarray(numbers[0] + numbers[1] * normal)
         share = ndtr(normal)
         if self.shape == "uniform":
             return np.asarray(numbers[0] + (numbers[1] - numbers[0]) * share)
-        if self.shape == "choice":
-            index = np.minimum((share * numbers.size).astype(int), numbers.size - 1)
-        return np.asarray(numbers[index])
+        return np.asarray(numbers[np.minimum((share * numbers.size).astype(int), numbers.size - 1)])
 
 
 def checked_names(values: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
@@ -135,6 +136,8 @@ def checked_names(values: Iterable[Any], kind: Any, where: Where) -> tuple[str, 
 
 def _scene_value(number: Any) -> Any:
     """Convert a number, Quantity or path to the form in which scene files store it."""
+    if type(number) in (float, int, str):
+        return number
     if isinstance(number, os.PathLike):
         return os.fspath(number)
     if hasattr(number, "to_value"):
@@ -142,25 +145,66 @@ def _scene_value(number: Any) -> Any:
     return number.item() if isinstance(number, np.generic) else number
 
 
-def standard_normal(seed: int, members: FloatArray, inputs: int) -> FloatArray:
-    """Draw standard normal numbers, with a separate random generator for each member.
+class Listed(NamedTuple):
+    """Values of one input for all members, and their unit.
 
-    Parameters
+    Attributes
     ----------
-    seed : int
-    members : ndarray of int, shape (n,)
-    inputs : int
-        How many numbers each member draws.
-
-    Returns
-    -------
-    ndarray, shape (n, inputs)
+    values : ndarray, shape (n, ...)
+        Finite numbers, or names as text.
+    unit : str or None
+        Unit of the numbers; None means SI.
     """
-    normal = np.empty((len(members), inputs))
-    for row, member in zip(normal, members.tolist(), strict=True):
-        sequence = np.random.SeedSequence(seed, spawn_key=(member,))
-        np.random.Generator(np.random.Philox(sequence)).standard_normal(out=row)
-    return normal
+
+    values: NDArray[Any]
+    unit: str | None = None
+
+    @classmethod
+    def read(cls, value: Any, where: Where) -> Listed:
+        """Read the values of one input from a scene file: a packed array, or a list of names."""
+        if isinstance(value, Mapping):
+            unit = value.get("unit")
+            return cls(unpack(value, where), unit if unit is None else str(unit))
+        return cls(_names(np.array(value, dtype=object), where))
+
+    @classmethod
+    def of(cls, array: Any, where: Where) -> Listed:
+        """Take the values of one input from a DataArray: finite numbers, or names."""
+        if array.dims[:1] != (MEMBER,):
+            dims = f"dimensions {', '.join(map(str, array.dims)) or 'none'}"
+            raise where.error(dims, f"the first dimension must be '{MEMBER}'")
+        values = array.values
+        if values.dtype.kind not in "fiu":
+            return cls(_names(values.astype(object), where))
+        if not np.isfinite(values).all():
+            whole = np.isfinite(values.reshape(len(values), -1)).all(axis=1)
+            raise where.error(f"member {int(np.argmin(whole))}", "give finite numbers")
+        unit = array.attrs.get("units")
+        return cls(values.astype(float), unit if unit is None else str(unit))
+
+    def checked(self, kind: Any, where: Where) -> NDArray[Any]:
+        """Return the values in the unit of an input of this kind.
+
+        Raises
+        ------
+        EarthspinError
+            If names were given for a number, the input does not take one of the names, or the unit
+            is of another kind.
+        """
+        if by_name(kind):
+            checked_names(np.unique(self.values).tolist(), kind, where)
+        elif self.values.dtype.kind == "U":
+            raise where.error(str(self.values[0]), "give finite numbers")
+        elif self.unit is not None:
+            example = f"1 {kind.unit}".strip()
+            return self.values * unit_factor(self.unit, kind.unit, where, example)
+        return self.values
+
+    def write(self) -> Any:
+        """Convert the values to the form in which scene files store them."""
+        if self.values.dtype.kind == "U":
+            return self.values.tolist()
+        return pack(self.values) | ({} if self.unit is None else {"unit": self.unit})
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,10 +225,8 @@ class Members:
     correlations : tuple of (str, str, float)
     distributions : mapping of str to Distribution
         Distributions by name of the input, like ``"body.j2"``.
-    values : mapping of str to ndarray, shape (n, ...)
+    values : mapping of str to Listed
         Numbers or names of every member, by name of the input.
-    units : mapping of str to str
-        Units of these numbers, by name of the input; SI if it has none.
     """
 
     n: int | None = None
@@ -194,13 +236,12 @@ class Members:
     only: tuple[int, ...] = ()
     correlations: tuple[tuple[str, str, float], ...] = ()
     distributions: Mapping[str, Distribution] = field(default_factory=dict)
-    values: Mapping[str, NDArray[Any]] = field(default_factory=dict)
-    units: Mapping[str, str] = field(default_factory=dict)
+    values: Mapping[str, Listed] = field(default_factory=dict)
 
     words: ClassVar[str] = "how many, a table of distributions, or a Dataset along `member`"
     hint: ClassVar[str] = "int | Mapping[str, Any] | xr.Dataset | str"
 
-    # --- as a scene ------------------------------------------------------------------------------
+    # --- reading and writing ---------------------------------------------------------------------
 
     @classmethod
     def read(cls, value: object, where: Where) -> Members:
@@ -216,72 +257,130 @@ class Members:
         if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
             return cls(n=_whole_number(value, where, 1), published=True)
         if isinstance(value, (str, os.PathLike)):
-            value = read_file(Path(value))
+            value = _read_file(Path(value))
         if hasattr(value, "data_vars"):
-            return cls(values=values_from_dataset(value, where), units=units_from_dataset(value))
+            return cls(values=_values_of(value, where))
         if not isinstance(value, Mapping):
             raise where.error(value, f"give {cls.words}")
-        return cls._of_table(value, where)
-
-    @classmethod
-    def _of_table(cls, table: Mapping[str, Any], where: Where) -> Members:
-        settings = {name: entry for name, entry in table.items() if name in _SETTINGS}
-        inputs = {name: entry for name, entry in table.items() if name not in _SETTINGS}
+        inputs = {name: entry for name, entry in value.items() if name not in _SETTINGS}
         for name, entry in inputs.items():
             if not isinstance(entry, Mapping):
                 problem = f"{nearest(name, _SETTINGS)}, or a table like normal = [1, 2]"
                 raise where.at(name).error(entry, problem)
-        uncertainty = settings.get("uncertainty")
-        if uncertainty is not None:
-            Word(("sample",)).read(uncertainty, where.at("uncertainty"))
-        impossible: Any = settings.get("impossible", "refuse")
-        Word(("refuse", "drop")).read(impossible, where.at("impossible"))
-        values = settings.get("values", {})
-        if not isinstance(values, Mapping):
-            raise where.at("values").error(values, "give a table of inputs, each with its values")
-        for name in ("only", "correlations"):
-            if not isinstance(settings.get(name, ()), (list, tuple)):
-                raise where.at(name).error(settings[name], "give a list")
-        n = settings.get("n")
-        return cls(
-            n=None if n is None else _whole_number(n, where.at("n"), 1),
-            seed=_whole_number(settings.get("seed", 0), where.at("seed"), 0, 2**64 - 1),
-            published=uncertainty is not None,
-            impossible=impossible,
-            only=tuple(_whole_number(m, where.at("only"), 0) for m in settings.get("only", ())),
-            correlations=tuple(_correlations(settings.get("correlations", ()), where)),
-            distributions=_once(_distributions(inputs, where), where),
-            values={
-                name: values_from_scene(entry, where.at(name)) for name, entry in values.items()
-            },
-            units={
-                name: str(entry["unit"])
-                for name, entry in values.items()
-                if isinstance(entry, Mapping) and "unit" in entry
-            },
-        )
+        settings: dict[str, Any] = {
+            name: read(value[name], where.at(name))
+            for name, read in _SETTINGS.items()
+            if value.get(name) is not None
+        }
+        published = settings.pop("uncertainty", None) is not None
+        distributions = _distributions(inputs, where)
+        return cls(**settings, published=published, distributions=distributions)
 
     def write(self) -> dict[str, Any]:
         """Convert the specification to a table for a scene file; `read` restores all values."""
-        table: dict[str, Any] = {"seed": self.seed, "impossible": self.impossible}
         options = {
             "n": self.n,
             "uncertainty": "sample" if self.published else "",
             "only": list(self.only),
             "correlations": [list(correlation) for correlation in self.correlations],
         }
-        table |= {name: value for name, value in options.items() if value}
-        table |= {
-            name: {entry.shape: list(entry.numbers)} for name, entry in self.distributions.items()
+        values = {name: entry.write() for name, entry in self.values.items()}
+        return {
+            "seed": self.seed,
+            "impossible": self.impossible,
+            **{name: value for name, value in options.items() if value},
+            **{name: {each.shape: list(each.numbers)} for name, each in self.distributions.items()},
+            **({"values": values} if values else {}),
         }
-        if self.values:
-            table["values"] = {
-                name: entry.tolist() if entry.dtype.kind == "U" else pack(entry)
-                for name, entry in self.values.items()
-            }
-            for name, unit in self.units.items():
-                table["values"][name]["unit"] = unit
-        return table
+
+    # --- drawing ---------------------------------------------------------------------------------
+
+    def count(self, where: Where) -> int:
+        """Number of members of the ensemble, from `n`, from its grids or from its listed values.
+
+        Nothing is drawn, however large the number is.
+
+        Raises
+        ------
+        SceneError
+            If these disagree, none of them is given, or the members that are computed are too many.
+        """
+        grids = [
+            len(entry.numbers) for entry in self.distributions.values() if entry.shape == "grid"
+        ]
+        points = math.prod(grids)
+        counts = {"n": self.n} if self.n is not None else {}
+        counts |= {name: len(entry.values) for name, entry in self.values.items()}
+        if len(set(counts.values())) > 1:
+            raise where.error(counts, "these numbers of members differ; give equally many values")
+        n = next(iter(counts.values()), points if grids else None)
+        if n is None:
+            raise where.at("n").error(None, "give the number of members to draw")
+        if (len(self.only) or n) > LARGEST_COUNT:
+            product = f" ({' times '.join(map(str, grids))})" if len(grids) > 1 else ""
+            problem = (
+                f"an ensemble has at most {LARGEST_COUNT} members; give shorter grids, or draw n "
+                "members from 'choice' or 'uniform', or list the members to compute in 'only'"
+            )
+            raise where.error(f"{n} members{product}", problem)
+        if grids and n % points:
+            problem = f"the grid has {points} points: give a multiple of {points}"
+            raise where.at("n").error(n, problem)
+        if max((*self.only, 0)) >= n:
+            problem = f"members are numbered from 0 to {n - 1}"
+            raise where.at("only").error(max(self.only), problem)
+        return int(n)
+
+
+def _read_file(path: Path) -> xr.Dataset:
+    """Read input values of ensemble members from a CSV, netCDF or Zarr file."""
+    import xarray as xr
+
+    # os.path.exists is false for a name that is too long, where Path.exists raises an error
+    if not os.path.exists(path):
+        raise OutputError(path, "there is no such file", "give a .csv, .nc or .zarr, or a number")
+    try:
+        if path.suffix == ".csv":
+            import pandas as pd
+
+            with warnings.catch_warnings():
+                # rows that are longer than the header would shift the columns
+                warnings.simplefilter("error", pd.errors.ParserWarning)
+                frame = pd.read_csv(path, skipinitialspace=True, index_col=False)
+            columns = {name: (MEMBER, frame[name].to_numpy()) for name in frame if name != MEMBER}
+            return xr.Dataset(columns)
+        if path.suffix in (".nc", ".zarr"):
+            options: dict[str, Any] = {"engine": "zarr", "consolidated": False}
+            with xr.open_dataset(path, **(options if path.suffix == ".zarr" else {})) as dataset:
+                return dataset.load()
+    except Exception as error:  # pandas and xarray raise many types for damaged files
+        raise OutputError(path, f"it cannot be read: {error}") from None
+    raise OutputError(
+        path, "it is not a file of members", "its name must end in .csv, .nc or .zarr"
+    )
+
+
+def _values_of(dataset: Any, where: Where) -> dict[str, Listed]:
+    """Return the values of the inputs in a Dataset; those of the members if it is an answer."""
+    variables = {name: array for name, array in dataset.coords.items() if "input" in array.attrs}
+    values = {
+        name: Listed.of(array, where.at(name))
+        for label, array in (variables or dataset.data_vars).items()
+        if (name := str(array.attrs.get("input", label))) != MEMBER
+    }
+    if not values or not all(len(entry.values) for entry in values.values()):
+        raise where.error("a Dataset", f"it has no members; give variables along '{MEMBER}'")
+    return values
+
+
+def _names(values: NDArray[Any], where: Where) -> NDArray[Any]:
+    """Return the values of one input for all members as text; refuse all but names."""
+    if values.ndim != 1 or not values.size:
+        raise where.error(f"shape {values.shape}", "give one name for each member")
+    for index, name in enumerate(values):
+        if not isinstance(name, str):
+            raise where.error(f"member {index}", "give finite numbers, or a name for each member")
+    return values.astype(str)
 
 
 def _whole_number(value: Any, where: Where, low: int, high: int = LARGEST_COUNT) -> int:
@@ -292,10 +391,21 @@ def _whole_number(value: Any, where: Where, low: int, high: int = LARGEST_COUNT)
     return int(value)
 
 
-def _distributions(
+def _distributions(inputs: Mapping[str, Any], where: Where) -> dict[str, Distribution]:
+    """Read the distributions of all inputs; refuse a name in dotted and in nested spelling."""
+    distributions: dict[str, Distribution] = {}
+    for name, entry in _entries(inputs, where):
+        distribution = Distribution.read(entry, where.at(name))
+        if name in distributions:
+            raise where.at(name).error(list(distribution.numbers), TWICE)
+        distributions[name] = distribution
+    return distributions
+
+
+def _entries(
     table: Mapping[str, Any], where: Where, before: str = ""
-) -> Iterator[tuple[str, Distribution]]:
-    """Yield the name and the distribution of each varying input in a table.
+) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """Yield the name and the entry of each varying input in a table.
 
     TOML turns a dotted name into a table within a table.
     """
@@ -305,66 +415,52 @@ def _distributions(
             raise where.at(full).error(entry, "give a table like normal = [1, 2]")
         inner = [*entry.values()]
         if inner and not set(entry) & set(_SHAPES) and all(isinstance(i, Mapping) for i in inner):
-            yield from _distributions(entry, where, f"{full}.")
+            yield from _entries(entry, where, f"{full}.")
         else:
-            yield full, Distribution.read(entry, where.at(full))
+            yield full, entry
 
 
-def _once(named: Iterable[tuple[str, Distribution]], where: Where) -> dict[str, Distribution]:
-    """Return distributions by name; refuse a name in dotted and in nested spelling."""
-    distributions: dict[str, Distribution] = {}
-    for name, distribution in named:
-        if name in distributions:
-            raise where.at(name).error(list(distribution.numbers), TWICE)
-        distributions[name] = distribution
-    return distributions
+def _list(value: Any, where: Where) -> list[Any]:
+    if not isinstance(value, (list, tuple)):
+        raise where.error(value, "give a list")
+    return [*value]
 
 
-def _correlations(rows: Any, where: Where) -> Iterator[tuple[str, str, float]]:
-    for row in rows:
-        try:
-            first, second, size = row
-        except (TypeError, ValueError):
-            first = second = size = None
-        if not (isinstance(first, str) and isinstance(second, str) and first != second):
-            problem = 'give two names and a number: ["a", "b", 0.5]'
-            raise where.at("correlations").error(row, problem)
-        if isinstance(size, bool) or not isinstance(size, (int, float)) or not abs(size) < 1:
-            problem = "a correlation lies between -1 and 1, both excluded"
-            raise where.at("correlations").error(row, problem)
-        yield first, second, float(size)
+def _correlation(row: Any, where: Where) -> tuple[str, str, float]:
+    try:
+        first, second, size = row
+    except (TypeError, ValueError):
+        first = second = size = None
+    if not (isinstance(first, str) and isinstance(second, str) and first != second):
+        raise where.error(row, 'give two names and a number: ["a", "b", 0.5]')
+    if isinstance(size, bool) or not isinstance(size, (int, float)) or not abs(size) < 1:
+        raise where.error(row, "a correlation lies between -1 and 1, both excluded")
+    return first, second, float(size)
+
+
+def _tables(value: Any, where: Where) -> dict[str, Listed]:
+    if not isinstance(value, Mapping):
+        raise where.error(value, "give a table of inputs, each with its values")
+    return {name: Listed.read(entry, where.at(name)) for name, entry in value.items()}
+
+
+#: Settings in a table of members, each with the function that reads it; other names are inputs.
+_SETTINGS: dict[str, Callable[[Any, Where], Any]] = {
+    "n": lambda value, where: _whole_number(value, where, 1),
+    "seed": lambda value, where: _whole_number(value, where, 0, 2**64 - 1),
+    "uncertainty": Word(("sample",)).read,
+    "impossible": Word(("refuse", "drop")).read,
+    "only": lambda value, where: tuple(_whole_number(m, where, 0) for m in _list(value, where)),
+    "correlations": lambda value, where: tuple(_correlation(r, where) for r in _list(value, where)),
+    "values": _tables,
+}
 
 
 # --- drawing -------------------------------------------------------------------------------------
 
 
-def count_of(members: Members, inputs: Mapping[str, Distribution], where: Where) -> int:
-    """Number of members of an ensemble, from `n`, from its grids or from its listed values.
-
-    Raises
-    ------
-    SceneError
-        If these disagree, or none of them is given.
-    """
-    grids = [len(entry.numbers) for entry in inputs.values() if entry.shape == "grid"]
-    grid = math.prod(grids)
-    counts = {"n": members.n} if members.n is not None else {}
-    counts |= {name: len(entry) for name, entry in members.values.items()}
-    if len(set(counts.values())) > 1:
-        raise where.error(counts, "these numbers of members differ; give equally many values")
-    n = next(iter(counts.values()), grid if grids else None)
-    if n is None:
-        raise where.at("n").error(None, "give the number of members to draw")
-    if grids and n % grid:
-        raise where.at("n").error(n, f"the grid has {grid} points: give a multiple of {grid}")
-    if max((*members.only, 0)) >= n:
-        problem = f"members are numbered from 0 to {n - 1}"
-        raise where.at("only").error(max(members.only), problem)
-    return int(n)
-
-
 def draw(
-    members: Members, inputs: Mapping[str, Distribution], which: FloatArray, where: Where
+    members: Members, inputs: Mapping[str, Distribution], which: IntArray, where: Where
 ) -> dict[str, NDArray[Any]]:
     """Draw the values of all varying inputs for each member, from their distributions.
 
@@ -383,10 +479,14 @@ def draw(
     """
     if not inputs:
         return {}
-    normal = standard_normal(members.seed, which, len(inputs))
-    if members.correlations:
-        normal = _correlated(normal, _root(members, [*inputs], where))
-    index, values = which.astype(int), {}
+    root = _root(members, [*inputs], where)
+    if all(distribution.shape == "grid" for distribution in inputs.values()):
+        normal = np.broadcast_to(np.nan, (len(which), len(inputs)))  # grids take no random numbers
+    else:
+        normal = standard_normal(members.seed, which, len(inputs))
+        if members.correlations:  # not by a BLAS, whose rounding depends on the number of rows
+            normal = sum(map(np.multiply.outer, normal.T, root.T))
+    index, values = which, {}
     for (name, distribution), column in zip(inputs.items(), normal.T, strict=True):
         size = len(distribution.numbers)
         values[name] = distribution.values(column, index % size)
@@ -395,15 +495,26 @@ def draw(
     return values
 
 
-def _correlated(normal: FloatArray, root: FloatArray) -> FloatArray:
-    """Correlate standard normal numbers: multiply each row by the matrix `root`, without BLAS.
+def standard_normal(seed: int, which: IntArray, inputs: int) -> FloatArray:
+    """Draw standard normal numbers, with a separate random generator for each member.
 
-    The rounding of BLAS depends on the number of rows.
+    Parameters
+    ----------
+    seed : int
+    which : ndarray of int, shape (n,)
+        Numbers of the members.
+    inputs : int
+        How many numbers each member draws.
+
+    Returns
+    -------
+    ndarray, shape (n, inputs)
     """
-    mixed = np.zeros_like(normal)
-    for column, weights in zip(normal.T, root.T, strict=True):
-        mixed += np.multiply.outer(column, weights)
-    return mixed
+    normal = np.empty((len(which), inputs))
+    for row, member in zip(normal, which.tolist(), strict=True):
+        sequence = np.random.SeedSequence(seed, spawn_key=(member,))
+        np.random.Generator(np.random.Philox(sequence)).standard_normal(out=row)
+    return normal
 
 
 def _root(members: Members, names: list[str], where: Where) -> FloatArray:

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from earthspin.engine.member_values import MEMBER
+from earthspin.engine.members import MEMBER
 from earthspin.errors import SceneError
 from earthspin.numerics import sampling
 from earthspin.units import real_numbers

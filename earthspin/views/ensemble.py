@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from earthspin.engine.member_values import MEMBER
+from earthspin.engine.members import MEMBER
 from earthspin.engine.spread import inputs_of, members_needed, quantiles, sensitivity
 from earthspin.errors import SceneError
 from earthspin.numerics.arrays import FloatArray

@@ -15,7 +15,6 @@ from scipy import stats
 import earthspin
 from earthspin import EARTH, MOON, SUN, EarthspinError, SceneError
 from earthspin.engine.ensemble import ROW, Ensemble
-from earthspin.engine.inputs import inputs_of
 from earthspin.engine.members import Distribution, Members, draw, standard_normal
 from earthspin.errors import Where
 from earthspin.scenes import QUESTIONS, Scene, load_scene
@@ -444,6 +443,59 @@ def test_a_member_that_fails_is_named() -> None:
         earthspin.ensemble("precession", members)
 
 
+@pytest.fixture
+def few_draws(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """At most a thousand members are drawn; the list counts them."""
+    philox, counts = np.random.Philox, [0]
+
+    def counted(*args: Any) -> Any:
+        counts[0] += 1
+        assert counts[0] <= 1000
+        return philox(*args)
+
+    monkeypatch.setattr(np.random, "Philox", counted)
+    return counts
+
+
+def million(low: float, high: float) -> dict[str, Any]:
+    return {"grid": np.linspace(low, high, 10**6)}
+
+
+@pytest.mark.parametrize(
+    ("members", "message"),
+    [
+        (10**12, "give a number from 1 to 10000000"),
+        (
+            {"body.j2": million(0.00108, 0.00109), "body.gm": million(3.98e14, 3.99e14)},
+            r"'1000000000000 members \(1000000 times 1000000\)': .*at most 10000000.*'only'",
+        ),
+        (10**7, r"members = 10000000: they need about .* GB .*; give a path to write them"),
+    ],
+)
+def test_members_that_are_too_many_are_refused_before_they_are_drawn(
+    members: Any, message: str, few_draws: list[int]
+) -> None:
+    with pytest.raises(SceneError, match=message):
+        earthspin.ensemble("precession", members)
+
+
+def test_an_ensemble_of_days_goes_to_a_store(
+    monkeypatch: pytest.MonkeyPatch, few_draws: list[int]
+) -> None:
+    monkeypatch.setattr("earthspin.engine.ensemble.LONGEST_IN_MEMORY", 1e-3)
+    with pytest.raises(SceneError, match=r"they take about .* days.*; give a path"):
+        earthspin.ensemble(asked("love-numbers", 200_000))
+
+
+def test_members_of_a_large_grid_may_be_computed_alone(few_draws: list[int]) -> None:
+    """Of 25 million, of which all together are refused; nothing is drawn for a grid."""
+    values = np.linspace(3.98e14, 3.99e14, 5000)
+    grid = {"body.gm": {"grid": values}, "moon.gm": {"grid": values / 81}, "only": [5003]}
+    one = earthspin.ensemble("precession", grid)
+    assert (one.body_gm.item(), one.moon_gm.item()) == (values[3], (values / 81)[1])
+    assert few_draws == [0]
+
+
 NAN = xr.Dataset({"body.j2": ("member", [1e-3, np.nan])})
 
 
@@ -525,10 +577,10 @@ def test_inputs_have_their_units_and_names() -> None:
     answer = earthspin.ensemble(asked("free-rotor"))
     assert answer.moments_2.attrs["input"] == "moments.2"
     assert answer.moments_2.attrs["units"] == "kg m2"
-    question = asked("precession").replace(members=None)
-    inputs = inputs_of(question, ["moon.gm", "body.mass"], question.where("members"))
-    assert inputs["moon.gm"].unit == "m3/s2"
-    assert inputs["body.mass"].unit == "kg"
+    grid = {"moon.gm": {"grid": [4.9e12]}, "body.spin_period": {"grid": ["1 d"]}}
+    answer = earthspin.ensemble("precession", grid)
+    assert answer.moon_gm.attrs["units"] == "m3/s2"
+    assert answer.body_spin_period.attrs["units"] == "s"
 
 
 def test_sources_of_random_numbers_of_numpy() -> None:

@@ -15,9 +15,8 @@ import xarray as xr
 
 import earthspin
 from earthspin import EarthspinError, OutputError, SceneError
-from earthspin.engine.ensemble import ROW, Ensemble
+from earthspin.engine.ensemble import LARGEST_NUMBER_OF_RUNS, ROW, Ensemble
 from earthspin.engine.inputs import inputs_of
-from earthspin.engine.variants import LARGEST_NUMBER_OF_RUNS, Variants
 from earthspin.scenes import QUESTIONS, Scene, VersionWarning, load_scene
 from earthspin.sky.eop import c04_path
 from earthspin.sky.ephemeris import open_ephemeris
@@ -288,24 +287,23 @@ def test_words_that_change_the_labels_are_refused() -> None:
         earthspin.ensemble("precession", {"body": {"grid": ["earth", "mars"]}})
 
 
-def test_parts_that_no_number_touches_run_once_for_all_of_the_same_words(
+def test_a_file_is_read_once_for_all_members_with_its_name(
     orbits: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    asked_for = []
+    """Once to see whether it can be read, and once by the part that reads it."""
+    reads: list[Path] = []
+    read_bytes = Path.read_bytes
 
-    def counted(self: Variants, words: tuple[str, ...]) -> Any:
-        asked_for.append(words)
-        return question(self, words)
+    def counted(self: Path) -> bytes:
+        reads.append(self)
+        return read_bytes(self)
 
-    question = Variants.question
-    monkeypatch.setattr(Variants, "question", counted)
-    work = Ensemble(long_term({"n": 20, "orbit": {"choice": [OWN, ROUND]}}))
-    assert {*asked_for} == {(OWN,), (ROUND,)}
-    assert len(asked_for) == 2  # once for each, to see whether they can be
-    assert work.width >= ROW  # members of the same words are copies of one answer
-    first = work.variants[(OWN,)]
-    assert work.variants[(OWN,)] is first
-    assert {"orbit_table", "series"} <= set(first.fixed.results)
+    monkeypatch.setattr(Path, "read_bytes", counted)
+    grid = {"orbit": {"grid": [ROUND, COPY]}, "tides": {"grid": np.linspace(0.9, 1.1, 40)}}
+    many = earthspin.run(long_term(grid, span=("-2 kyr", "0 kyr"), step="1 kyr"))
+    assert many.sizes["member"] == 80
+    for name in (ROUND, COPY):
+        assert 1 <= [path.name for path in reads].count(name) <= 2
 
 
 # --- what they tell ------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from earthspin.engine.ensemble import Ensemble
-from earthspin.engine.member_values import MEMBER
+from earthspin.engine.members import MEMBER
 from earthspin.engine.question import Question
 from earthspin.engine.spread import quantiles, sensitivity
 from earthspin.many import ensemble
