@@ -1,5 +1,10 @@
 """Only what a scene needs is loaded, shown in fresh processes."""
 
+import json
+
+import pytest
+
+from earthspin.scenes import load_scene, shipped_scenes
 from tests.processes import printed
 
 #: What costs a second or more to load, and what stands on it.
@@ -43,6 +48,97 @@ assert not any(name.endswith(".bsp") for name in opened)
 def test_the_observed_pole_needs_no_kernel() -> None:
     loaded = modules_after("import earthspin; earthspin.run('polar-motion')")
     assert not loaded & {"skyfield", "jplephem", "numba", "matplotlib", "erfa", "rich"}
+
+
+#: Heavy modules that the answer to each question uses, beside numpy and xarray.
+KERNEL = {"jplephem", "erfa"}
+LEAST_SQUARES = {"scipy.linalg", "scipy.sparse"}
+USED = {
+    "precession": {*KERNEL, "skyfield"},
+    "torque": KERNEL,
+    "pole": {*KERNEL, *LEAST_SQUARES, "scipy.optimize"},
+    "long-term": KERNEL,
+    "iau": KERNEL | LEAST_SQUARES,
+    "nutation": {*KERNEL, *LEAST_SQUARES, "scipy.special"},
+    "rotation": {*KERNEL, *LEAST_SQUARES, "scipy.spatial", "scipy.special"},
+    "forecast": {"scipy.linalg"},
+    "free-rotor": {"scipy.special"},
+    "top": {"scipy.special"},
+    "spheroid": {"scipy.special"},
+}
+#: What costs a tenth of a second or more, or belongs to drawing, files and workers.
+WATCHED = {
+    *("scipy.fft", "scipy.integrate", "scipy.interpolate", "scipy.linalg", "scipy.optimize"),
+    *("scipy.signal", "scipy.sparse", "scipy.spatial", "scipy.special", "scipy.stats"),
+    *("astropy", "skyfield", "jplephem", "erfa", "matplotlib", "netCDF4", "zarr", "distributed"),
+    *("numba", "jinja2", "rich"),
+}
+
+
+#: Runs each program in a child of one process that holds what all answers import, and prints for
+#: each the modules that it has imported.
+CHILDREN = """
+import json, os, sys
+sys.modules["dask"] = None  # xarray loads dask where it is installed: here as if it were not
+import numpy, xarray, earthspin
+for program in json.load(sys.stdin):
+    if os.fork() == 0:
+        exec(program)
+        print(" ".join(sys.modules), flush=True)
+        os._exit(0)
+    assert os.wait()[1] == 0, program
+"""
+
+
+def watched_after(programs: list[str]) -> list[set[str]]:
+    """Watched modules that a process has imported after each of some programs, run alone."""
+    out = printed(CHILDREN, input=json.dumps(programs))
+    return [set(line.split()) & WATCHED for line in out.splitlines()]
+
+
+@pytest.mark.slow
+def test_a_question_loads_the_heavy_modules_that_it_uses() -> None:
+    """And no other in a fresh process, but for those that these bring along."""
+    drawing = {"scipy.special"}
+    scenes = {type(load_scene(s)).word: s for s in reversed(list(shipped_scenes()))}  # the first
+    used = {scene: frozenset(USED.get(word, ())) for word, scene in scenes.items()}
+    used |= {f"{word}-ensemble": used[scenes[word]] | drawing for word in ("precession", "wobble")}
+    imports = {names: f"import {', '.join(['numpy', *sorted(names)])}" for names in used.values()}
+    runs = {scene: f"earthspin.run({scene!r})" for scene in used}
+    loaded = watched_after([*imports.values(), *runs.values()])
+    brought = dict(zip(imports, loaded, strict=False))
+    for (scene, names), found in zip(used.items(), loaded[len(imports) :], strict=True):
+        assert names <= found <= names | brought[names], scene
+
+
+#: Runs a scene, and leaves in `sys.modules` only what was imported while a part ran.
+DURING_PARTS = """
+from earthspin.engine.part import Part
+from earthspin.engine.run import Run
+from earthspin.scenes import load_scene
+during = set()
+original = Part.stored_or_computed
+def watched(part, inputs):
+    before = set(sys.modules)
+    result = original(part, inputs)
+    during.update(set(sys.modules) - before)
+    return result
+Part.stored_or_computed = watched
+Run(load_scene({!r})).tree("all")
+for name in set(sys.modules) - during:
+    del sys.modules[name]
+"""
+
+
+@pytest.mark.slow
+def test_run_times_of_parts_contain_no_import_of_a_large_library() -> None:
+    """The row of imports has them; a kernel is opened, with its reader, by the part of the sky."""
+    scenes = [*shipped_scenes()]
+    loaded = watched_after([DURING_PARTS.format(scene) for scene in scenes])
+    light = {"jplephem", "erfa", "skyfield"}  # 1, 7 and 24 ms
+    assert {scene: found - light for scene, found in zip(scenes, loaded, strict=True)} == {
+        scene: set() for scene in scenes
+    }
 
 
 def test_skyfield_is_loaded_where_it_is_asked_for() -> None:

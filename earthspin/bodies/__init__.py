@@ -1,13 +1,14 @@
 """The class `Body` and the built-in bodies, with one module of cited numbers for each group."""
 
 from earthspin.bodies.body import BODIES, NUMBERS, Body, body
-from earthspin.bodies.checks import Numeric, all_of
+from earthspin.bodies.checks import all_of
 from earthspin.bodies.earth_moon_sun import EARTH, MOON, SUN
 from earthspin.bodies.giants import JUPITER, NEPTUNE, SATURN, URANUS
 from earthspin.bodies.inner import MARS, MERCURY, VENUS
 from earthspin.bodies.moons import IAPETUS, PHOBOS, TITAN, TRITON
 from earthspin.bodies.orbit import Orbit, Satellite
 from earthspin.bodies.planets import PLANETS
+from earthspin.numerics.arrays import Numeric
 
 __all__ = [
     "BODIES", "EARTH", "IAPETUS", "JUPITER", "MARS", "MERCURY", "MOON", "NEPTUNE", "NUMBERS",

@@ -19,7 +19,7 @@ import numpy as np
 
 from earthspin import constants as c
 from earthspin.bodies import checks
-from earthspin.bodies.checks import Numeric, all_of, are_close, is_close, is_same
+from earthspin.bodies.checks import all_of, are_close, is_close, is_same
 from earthspin.bodies.kinds import (
     CitedPeriod,
     Codes,
@@ -34,6 +34,7 @@ from earthspin.bodies.shapes import FromMass, figure_of, moments_of
 from earthspin.card import card
 from earthspin.errors import BodyError, EarthspinError, Where, nearest
 from earthspin.interior.layers import LayeredBody
+from earthspin.numerics.arrays import Numeric
 from earthspin.sky.elements import Plane
 from earthspin.sky.poles import Angles, Direction, FixedPole, Pole, pole_of
 from earthspin.sky.sources import describe_position, read_position

@@ -9,12 +9,11 @@ from typing import Any
 from earthspin.constants import SPEED_OF_LIGHT, Constant, G
 from earthspin.errors import BodyError, UndefinedError, nearest
 from earthspin.interior.layers import LayeredBody
+from earthspin.numerics.arrays import Numeric
 from earthspin.sky.poles import NAMED_POLES
 
 # --- element-wise tests of numbers and labelled arrays --------------------------------------------
 
-#: A float, or an array with named dimensions (anything numpy can read element by element).
-Numeric = Any
 
 #: Largest relative difference between two values that count as the same body's.
 SAME_BODY = 0.01

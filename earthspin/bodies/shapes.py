@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies.checks import Numeric, all_of
+from earthspin.bodies.checks import all_of
 from earthspin.bodies.kinds import Layers
 from earthspin.constants import Constant, G
 from earthspin.errors import (
@@ -23,7 +23,7 @@ from earthspin.errors import (
     one_line,
 )
 from earthspin.interior.equilibrium import equilibrium, figure
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import FloatArray, Numeric
 from earthspin.units import is_masked, quantity
 
 if TYPE_CHECKING:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
@@ -12,10 +11,8 @@ from earthspin.constants import COMPUTED, Constant, G
 from earthspin.errors import UndefinedError
 from earthspin.interior.layers import LayeredBody, tidal_inertia
 from earthspin.interior.love import FOUR_PI_G, START, Profile, liquid, liquid_centre
-from earthspin.numerics.arrays import Array
+from earthspin.numerics.arrays import Array, Numeric
 from earthspin.numerics.polynomials import carry
-
-Numeric = Any
 
 #: Largest Omega2/(pi G rho) at which a homogeneous liquid body, a Maclaurin spheroid, has an
 #: equilibrium.

@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 
 from earthspin.constants import PREM_READ, G, Tabulated
+from earthspin.numerics.arrays import Numeric
 
 # --- layers, mass and moments of inertia ----------------------------------------------------------
-
-Numeric = Any
 
 
 @dataclass(frozen=True)

@@ -34,16 +34,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from operator import itemgetter
-from typing import Any
 
 import numpy as np
 
 from earthspin.interior.equilibrium import figure
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import elastic
-from earthspin.numerics.arrays import Array
-
-Numeric = Any
+from earthspin.numerics.arrays import Array, Numeric
 
 #: Names of the free modes, in the order in which regions are added.
 MODES = ("chandler_wobble", "free_core_nutation", "inner_core_nutation", "inner_core_wobble")

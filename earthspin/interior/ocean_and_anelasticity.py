@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from earthspin.constants import ARCSEC, IERS, Constant, Tabulated
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import elastic
-from earthspin.numerics.arrays import Array
+from earthspin.numerics.arrays import Array, Numeric
 
 # --- anelastic softening of the mantle ------------------------------------------------------------
 
-Numeric = Any
 
 #: Period up to which the quality factor does not depend on frequency, s.
 ABSORPTION_BAND = 200.0

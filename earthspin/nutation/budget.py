@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from earthspin.constants import (
     ARCSEC,
@@ -23,13 +23,12 @@ from earthspin.constants import (
     TIDES_IN_OBLIQUITY,
 )
 from earthspin.mass.figure import polar_moment_factor
+from earthspin.numerics.arrays import Numeric
 
 if TYPE_CHECKING:
     from earthspin.nutation.analysis import Secular
 
 # --- contributions to the precession rate ---------------------------------------------------------
-
-Numeric = Any
 
 
 def published_effects() -> dict[str, float]:

@@ -16,10 +16,9 @@ from typing import TypeAlias
 import numpy as np
 
 from earthspin.constants import JULIAN_YEAR, NORMAL_95
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import FloatArray, Numeric
 from earthspin.secular.orbit import (
     ModifiedOrbit,
-    Numeric,
     Orbit,
     Shape,
     Strength,

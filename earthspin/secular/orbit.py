@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol, TypeAlias
+from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
 from earthspin.constants import JULIAN_YEAR, SPEED_OF_LIGHT, Constant
 from earthspin.errors import UndefinedError
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import FloatArray, Numeric
 from earthspin.torque.gravity import cross, dot
 
 # --- constant of precession -----------------------------------------------------------------------
@@ -29,8 +29,6 @@ from earthspin.torque.gravity import cross, dot
 #
 # (after Quinn, Tremaine & Duncan 1991, AJ 101, 2287).
 
-#: A float, or one value for each member.
-Numeric = Any
 
 QTD91 = "Quinn, Tremaine & Duncan 1991, AJ 101, 2287"
 _QTD91_READ = "constants of snvecR (japhir/snvecR), which cites eq. 3 and 11 of the paper"

@@ -118,7 +118,7 @@ def _views(tree: Result) -> Views:
 
 
 def figures_of(answer: xr.Dataset) -> list[Figure]:
-    """Draw the figures of a result, as the view module of its question defines them.
+    """Draw the figures of a result, as the views of its question define them.
 
     Parameters
     ----------

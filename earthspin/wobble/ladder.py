@@ -21,7 +21,7 @@ from earthspin.interior.love import elastic, softening
 from earthspin.interior.named import ANELASTIC_EXPONENT, Interior
 from earthspin.interior.ocean_and_anelasticity import anelastic_strain, global_ocean
 from earthspin.mass.figure import ellipticity_from_h, polar_moment_factor
-from earthspin.numerics.arrays import Array
+from earthspin.numerics.arrays import Array, Numeric
 
 # --- elastic mantle with a fluid core -------------------------------------------------------------
 # Liouville's equation of the whole body and Sasao's of its core (Sasao, Okubo & Saito 1980, IAU
@@ -43,8 +43,6 @@ from earthspin.numerics.arrays import Array
 #     (f^2 - b^2 y)(|D| - y |M|) + X a y [(f - b y) tr M + (f - b) tr D] - X^2 a^2 y (1 - y) = 0.
 #
 # Fifty products a body, in the place of a matrix of four by four and its eigenvalues.
-
-Numeric = Any
 
 
 def over(numerator: Numeric, denominator: Numeric) -> Numeric:

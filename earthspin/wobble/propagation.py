@@ -11,17 +11,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
-from typing import Any
 
 import numpy as np
 
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.interior.named import EXPONENT_RANGE, Interior
-from earthspin.numerics.arrays import Array
+from earthspin.numerics.arrays import Array, Numeric
 from earthspin.numerics.polynomials import lagrange
 from earthspin.wobble.ladder import Inputs, Spin, climb
-
-Numeric = Any
 
 #: How often the inputs of each body are drawn, and from which seed.
 DRAWS, SEED = 1000, 1

@@ -6,8 +6,7 @@ from typing import Any
 import pytest
 
 from earthspin import EARTH, MOON, EarthspinError, Scene, SceneError, load_scene
-from earthspin.engine.question import Question
-from earthspin.engine.run import scene_text
+from earthspin.engine.question import Question, scene_text
 from earthspin.scenes import question_named, shipped_scenes, typed_scene
 
 
