@@ -210,16 +210,16 @@ def _check_words(body: Fields) -> None:
 
 def _check_labels(name: str, numbers: Fields) -> None:
     """Check that arrays that share a dimension have the same length and labels along it."""
-    along: dict[str, tuple[str, Any]] = {}
+    by_dimension: dict[str, tuple[str, Any]] = {}
     for field, array in numbers.items():
         for dim in getattr(array, "dims", ()):
-            other, first = along.setdefault(dim, (field, array))
-            same = first.sizes[dim] == array.sizes[dim] and (
-                not (dim in first.coords and dim in array.coords)
-                or all_of(first.coords[dim].values == array.coords[dim].values)
+            other_field, other_array = by_dimension.setdefault(dim, (field, array))
+            same = other_array.sizes[dim] == array.sizes[dim] and (
+                not (dim in other_array.coords and dim in array.coords)
+                or all_of(other_array.coords[dim].values == array.coords[dim].values)
             )
             if not same:
-                differ = f"they differ from those of {other}"
+                differ = f"they differ from those of {other_field}"
                 raise BodyError(name, field, f"labels along '{dim}'", differ)
         for label in getattr(array, "coords", ()):
             kind = array.coords[label].dtype.kind

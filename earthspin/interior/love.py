@@ -315,7 +315,6 @@ def softening(layers: LayeredBody) -> tuple[np.polynomial.Chebyshev, ...]:
 
 def _solved(profile: Profile, body: LayeredBody, strain: Array, carry: Carry) -> tuple[Array, ...]:
     """Solve the deformation equations with their boundary conditions, for all potentials."""
-    zero = np.zeros((strain.size, 3, 4))
     if not body.core_radius:
         y = _across(profile, profile.first, solid_centre(profile, strain), strain, carry)
         bottom = y = np.concatenate([y, np.zeros((strain.size, 6, 4))], axis=-1)
@@ -331,20 +330,20 @@ def _solved(profile: Profile, body: LayeredBody, strain: Array, carry: Carry) ->
     sources[0, _LOAD] = -5 / 3  # weight of the load
     sources[2] = 5 * _ACTS_IN[2]
     unknowns = y.shape[-1] - 4
-    met = np.concatenate([*conditions, y[:, [1, 3, 5]]], axis=1)
-    wanted = np.zeros((met.shape[1], 4))
-    wanted[-3:] = sources
-    mix = np.linalg.solve(met[..., :unknowns], wanted - met[..., unknowns:])
-    mix = np.concatenate([mix, np.broadcast_to(np.eye(4), (strain.size, 4, 4))], axis=1)
-    top = y @ mix
-    answers = zero.astype(top.dtype)
+    boundary = np.concatenate([*conditions, y[:, [1, 3, 5]]], axis=1)
+    required = np.zeros((boundary.shape[1], 4))
+    required[-3:] = sources
+    weights = np.linalg.solve(boundary[..., :unknowns], required - boundary[..., unknowns:])
+    weights = np.concatenate([weights, np.broadcast_to(np.eye(4), (strain.size, 4, 4))], axis=1)
+    top = y @ weights
+    answers = np.zeros((strain.size, 3, 4), dtype=top.dtype)
     answers[:, 0] = top[:, 4] - _ACTS_IN[2]
     if core is not None:
         b = body.core_radius / body.radius
-        answers[:, 1] = _inside(core @ mix, b)
+        answers[:, 1] = _inside(core @ weights, b)
     if inner is not None:
         r = body.inner_core_radius / body.radius
-        answers[:, 2] = _inside(inner @ mix, r)
+        answers[:, 2] = _inside(inner @ weights, r)
         answers[:, 1] -= answers[:, 2]
     lift = top[:, 4] - top[:, 0]
     return (

@@ -33,6 +33,7 @@ is neglected.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from operator import itemgetter
 
 import numpy as np
 
@@ -187,9 +188,7 @@ def transfer(parts: Parts, sigma: Array, rigid_e: float) -> Array:
 def free_modes(parts: Parts) -> dict[str, complex]:
     """Complex body-fixed frequencies of the free modes, cycles per rotation, by name.
 
-    The imaginary part is positive if the mode decays.
-
-    A mode whose region is absent is not included.
+    The imaginary part is positive if the mode decays. Modes of absent regions are not included.
     """
     p, q, _, _ = system(parts)
     roots, vectors = np.linalg.eig(-np.linalg.solve(p, q))
@@ -200,13 +199,10 @@ def free_modes(parts: Parts) -> dict[str, complex]:
         share = abs(x[3] / x[0]) if s.real > -0.5 and x.size > 2 else 0.0
         share = abs(x[2] / x[1]) if s.real <= -0.5 and x.size > 2 else share
         (wobbles if s.real > -0.5 else nutations).append((share, complex(s)))
-    modes = dict(zip(MODES[::3], (s for _, s in sorted(wobbles, key=_first)), strict=False))
-    modes |= zip(MODES[1:3], (s for _, s in sorted(nutations, key=_first)), strict=False)
+    by_share = itemgetter(0)
+    modes = dict(zip(MODES[::3], (s for _, s in sorted(wobbles, key=by_share)), strict=False))
+    modes |= zip(MODES[1:3], (s for _, s in sorted(nutations, key=by_share)), strict=False)
     return {name: modes[name] for name in MODES if name in modes}
-
-
-def _first(pair: tuple[float, complex]) -> float:
-    return pair[0]
 
 
 def parts_of(layers: LayeredBody, spin_rate: float, answers: Array, e: float) -> Parts:

@@ -209,14 +209,14 @@ class Ephemeris:
                     continue
                 if step not in steps:
                     self.evaluations[step] += epochs.days.size
-                    steps[step] = self._along(step, epochs)
+                    steps[step] = self._step_positions(step, epochs)
                 combine(total, steps[step], out=total)
         if not (np.all(total[0]) or np.all(np.any(total, axis=0))):
             where, seen_from = words(target), words(centre).removeprefix("NAIF ")
             raise KernelError(self.path, f"it puts {where} in the middle of {seen_from}", AGAIN)
         return total
 
-    def _along(self, step: Step, epochs: Epochs) -> FloatArray:
+    def _step_positions(self, step: Step, epochs: Epochs) -> FloatArray:
         if not isinstance(step, tuple):
             return checked(step.positions(epochs.days), step, epochs.days).T
         with np.errstate(all="ignore"):  # overflow is refused below

@@ -112,7 +112,7 @@ class VectorTrajectory:
         return words(repr(self.function))
 
 
-class _Along(VectorFunction):  # type: ignore[misc]
+class _TrajectoryFunction(VectorFunction):  # type: ignore[misc]
     """Skyfield vector function whose positions are those of a trajectory; no velocities."""
 
     def __init__(self, trajectory: Trajectory) -> None:
@@ -131,7 +131,7 @@ def function_of(trajectory: Trajectory) -> VectorFunction:
     """Convert a trajectory to a Skyfield vector function, by a wrapper if necessary."""
     if isinstance(trajectory, VectorTrajectory):
         return trajectory.function
-    return _Along(trajectory)
+    return _TrajectoryFunction(trajectory)
 
 
 # --- segments of a vector function ------------------------------------------------------------

@@ -68,7 +68,7 @@ def test_no_position_comes_from_the_fast_reader(monkeypatch: pytest.MonkeyPatch)
         raise AssertionError("the fast reader was asked")
 
     monkeypatch.setattr(Ephemeris, "positions", refuse)
-    monkeypatch.setattr(Ephemeris, "_along", refuse)
+    monkeypatch.setattr(Ephemeris, "_step_positions", refuse)
     earthspin.torque_series("2000-01-01", "2000-02-01", "1 d", source="skyfield", equator="true")
 
 
