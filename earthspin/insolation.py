@@ -1,4 +1,4 @@
-"""Daily insolation and bright stars near the pole, from an answer of `long_term`."""
+"""Daily insolation, from an answer of `long_term`."""
 
 from __future__ import annotations
 
@@ -9,13 +9,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from earthspin.bodies import BODIES, SUN, Numeric, in_a_sentence
-from earthspin.constants import AU, DAY, JULIAN_YEAR, SOLAR_CONSTANT
+from earthspin.bodies import BODIES, SUN, Numeric
+from earthspin.constants import AU, DAY, SOLAR_CONSTANT
 from earthspin.engine.variables import si
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.secular.budget import Quantiles, draws
 from earthspin.secular.insolation import Season, daily, over_days, true_longitude
-from earthspin.sky.stars import STARS, UNKNOWN_MOTION, directions
 from earthspin.units import quantity
 
 _NEEDED = ("obliquity", "eccentricity", "longitude_of_perihelion")
@@ -121,84 +120,6 @@ def daily_insolation(
         "references": "Berger 1978, J. Atmos. Sci. 35, 2362",
     }
     return answer.assign_coords(daily_insolation_error=error)
-
-
-def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
-    """Bright stars nearest to the celestial pole, at each epoch of a result of `long_term`.
-
-    The stars are those of magnitude 4 or brighter near the circle of the pole (Hipparcos catalogue,
-    ESA 1997), moved by their proper motions. For stars without a listed proper motion, the error
-    contains the unknown motion.
-
-    Parameters
-    ----------
-    result : Dataset
-        An answer of `long_term` for the Earth.
-    count : int
-        Number of stars at each epoch, the nearest first.
-
-    Returns
-    -------
-    Dataset
-        Along `epoch` and `nearest`: `star`, `separation` (deg) with its 95 % half-width, and the
-        visual `magnitude`. Parallax, radial velocity and changes of magnitude are neglected.
-
-    Raises
-    ------
-    SceneError
-        If `result` is no such answer or is for another body than the Earth, or `count` exceeds the
-        number of listed stars.
-
-    Examples
-    --------
-    >>> import earthspin
-    >>> past = earthspin.long_term(times=["-12000-01-01", "-3000-01-01", "2000-01-01"])
-    >>> stars = earthspin.pole_stars(past)
-    >>> print(stars.star.squeeze().values, stars.separation.squeeze().round(1).values)
-    ['Vega' 'Thuban' 'Polaris'] [3.5 1.2 0.7]
-    """
-    pole = getattr(result, "pole", None)
-    if pole is None or "epoch" not in pole.dims or pole.attrs.get("frame") != "GCRS":
-        raise SceneError("result", type(result).__name__, "give an answer of long_term")
-    if set(pole.dims) != {"epoch", "component"}:
-        raise SceneError("result", "an answer for several bodies", "give that for one of them")
-    body = result.earthspin.scene.body if "scene" in result.attrs else None
-    if body is not None and not body.needed("pole").of_the_iau:
-        problem = "its pole is not that of IAU 2006, near which the stars of the list are"
-        raise SceneError("result", f"an answer for {in_a_sentence(body.name)}", problem)
-    if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= len(STARS):  # type: ignore[redundant-expr]
-        raise SceneError("count", count, f"give a whole number from 1 to {len(STARS)}")
-    axis = pole.transpose(..., "epoch", "component").values
-    seconds = np.asarray(result["epoch"].values * JULIAN_YEAR)
-    stars = directions(seconds)
-    sine = np.linalg.norm(np.cross(stars, axis), axis=-1)
-    separation = np.arctan2(sine, np.sum(stars * axis, axis=-1))
-    order = np.argsort(separation, axis=0)[:count]
-    columns = np.arange(seconds.size)
-    unknown = np.array([star.proper_motion is None for star in STARS])
-    motion = np.where(unknown[order], UNKNOWN_MOTION * np.abs(seconds), 0.0)
-    error = np.hypot(motion, si(result["pole_error"]).values)
-    dims = ("nearest", "epoch")
-
-    def column(values: Any, long_name: str, units: str) -> xr.Variable:
-        return xr.Variable(dims, values, {"long_name": long_name, "units": units})
-
-    return xr.Dataset(
-        {
-            "star": (dims, np.array([star.name for star in STARS])[order], {"long_name": "star"}),
-            "separation": column(
-                np.degrees(separation[order, columns]), "distance from the celestial pole", "deg"
-            ),
-            "separation_error": column(
-                np.degrees(error), "95 % half-width of the distance from the celestial pole", "deg"
-            ),
-            "magnitude": column(
-                np.array([star.magnitude for star in STARS])[order], "visual magnitude", "1"
-            ),
-        },
-        {"epoch": result["epoch"], "nearest": np.arange(1, count + 1)},
-        {"references": "ESA 1997, The Hipparcos and Tycho Catalogues, SP-1200"},
-    )
 
 
 def _quantile(moved: Callable[[float], xr.DataArray], value: xr.DataArray) -> xr.DataArray:
