@@ -65,95 +65,146 @@ from earthspin.engine.store import verify as verify
 from earthspin.engine.store import write as write
 from earthspin._version import __version__ as __version__
 
-
 def precession(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal['jplephem', 'skyfield'] | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal['linear', 'sample'] | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
-
 def torque_series(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal['jplephem', 'skyfield'] | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    equator: Literal['mean', 'true'] | None = ...,
+    equator: Literal["mean", "true"] | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal['linear', 'sample'] | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
-
 def pole(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal['jplephem', 'skyfield'] | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    effects: Literal['known', 'rigid', 'all'] | Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid'] | Sequence[Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid']] | None = ...,
-    response: Literal['fitted', 'predicted'] | None = ...,
+    effects: Literal["known", "rigid", "all"]
+    | Literal[
+        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+    ]
+    | Sequence[
+        Literal[
+            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+        ]
+    ]
+    | None = ...,
+    response: Literal["fitted", "predicted"] | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal['linear', 'sample'] | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
-
 def compare_iau(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal['jplephem', 'skyfield'] | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    effects: Literal['known', 'rigid', 'all'] | Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid'] | Sequence[Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid']] | None = ...,
+    effects: Literal["known", "rigid", "all"]
+    | Literal[
+        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+    ]
+    | Sequence[
+        Literal[
+            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+        ]
+    ]
+    | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal['linear', 'sample'] | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
-
 def nutation_ladder(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal['jplephem', 'skyfield'] | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    effects: Literal['known', 'rigid', 'all'] | Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid'] | Sequence[Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid']] | None = ...,
-    coupling: Literal['none', 'inferred'] | None = ...,
+    effects: Literal["known", "rigid", "all"]
+    | Literal[
+        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+    ]
+    | Sequence[
+        Literal[
+            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+        ]
+    ]
+    | None = ...,
+    coupling: Literal["none", "inferred"] | None = ...,
     anelastic_exponent: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal['linear', 'sample'] | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
-
 def long_term(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal['jplephem', 'skyfield'] | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     times: Epochs | None = ...,
     orbit: str | PathLike[str] | OrbitTable | None = ...,
     tides: Value | None = ...,
@@ -162,69 +213,78 @@ def long_term(
     obliquity_shift: Value | None = ...,
     longitude_shift: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal['linear', 'sample'] | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
-
 def rotation(
     start: Date | None = ...,
     stop: Date | None = ...,
     step: Value | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    perturbers: Body | str | Mapping[str, Any] | VectorFunction | Sequence[Body | str | Mapping[str, Any] | VectorFunction] | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
     ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
-    source: Literal['jplephem', 'skyfield'] | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
     times: Dates | None = ...,
-    effects: Literal['known', 'rigid', 'all'] | Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid'] | Sequence[Literal['planets', 'j3', 'j4', 'triaxiality', 'geodesic', 'j2-rate', 'second-order', 'nonrigid']] | None = ...,
+    effects: Literal["known", "rigid", "all"]
+    | Literal[
+        "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+    ]
+    | Sequence[
+        Literal[
+            "planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order", "nonrigid"
+        ]
+    ]
+    | None = ...,
     start_attitude: Values | None = ...,
     start_omega: Values | None = ...,
     torque: Callable[[np.ndarray, np.ndarray, np.ndarray], ArrayLike] | None = ...,
     tolerance: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal['linear', 'sample'] | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
-
 def wobble_ladder(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    ocean: Literal['real', 'global', 'none'] | None = ...,
+    ocean: Literal["real", "global", "none"] | None = ...,
     anelastic_exponent: Value | None = ...,
     k2: Value | None = ...,
     core_fraction: Value | None = ...,
     core_ellipticity: Value | None = ...,
     ocean_love_number: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal['linear', 'sample'] | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
-
 def polar_motion(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
     file: str | PathLike[str] | None = ...,
-    kind: Literal['c04', 'c01', 'finals2000A'] | None = ...,
-    method: Literal['burg', 'likelihood'] | None = ...,
+    kind: Literal["c04", "c01", "finals2000A"] | None = ...,
+    method: Literal["burg", "likelihood"] | None = ...,
     window: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal['linear', 'sample'] | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
-
 def pole_offsets(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
     file: str | PathLike[str] | None = ...,
-    kind: Literal['c04', 'c01', 'finals2000A'] | None = ...,
+    kind: Literal["c04", "c01", "finals2000A"] | None = ...,
     window: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal['linear', 'sample'] | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
-
 def forecast(
     days: Value | None = ...,
     step: Value | None = ...,
@@ -232,13 +292,12 @@ def forecast(
     file: str | PathLike[str] | xr.Dataset | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
-    parameters: Literal['shipped', 'fitted'] | None = ...,
+    parameters: Literal["shipped", "fitted"] | None = ...,
     excitation: xr.Dataset | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal['linear', 'sample'] | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
-
 def free_rotor(
     moments: Values | Mapping[str, Value],
     omega: Values,
@@ -247,10 +306,9 @@ def free_rotor(
     duration: Value | None = ...,
     points: int | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal['linear', 'sample'] | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
-
 def heavy_top(
     times: Values | None = ...,
     *,
@@ -266,29 +324,26 @@ def heavy_top(
     phi: Value | None = ...,
     psi: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal['linear', 'sample'] | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
-
 def spheroid_field(
     position: Values,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     point_mass: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal['linear', 'sample'] | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
-
 def cassini_states(
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     orbit: Orbit | Mapping[str, Any] | None = ...,
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal['linear', 'sample'] | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
-
 def love_numbers(
     interior: str | LayeredBody | Mapping[str, Any] | None = ...,
     period: Value | None = ...,
@@ -296,8 +351,64 @@ def love_numbers(
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     anelastic_exponent: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal['linear', 'sample'] | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
 
-__all__ = ['__version__', 'AccuracyError', 'ApartError', 'BODIES', 'Body', 'BodyError', 'CoverageError', 'EARTH', 'EarthspinError', 'KernelError', 'MARS', 'MOON', 'MissingExtraError', 'Orbit', 'OutputError', 'SUN', 'Scene', 'SceneError', 'SeriesError', 'UndefinedError', 'UnitsError', 'VersionWarning', 'cassini_states', 'compare_iau', 'daily_insolation', 'ensemble', 'excitation', 'fit_chandler', 'forecast', 'free_rotor', 'heavy_top', 'load_scene', 'long_term', 'love_numbers', 'nutation_ladder', 'open', 'plan', 'polar_motion', 'polar_motion_from', 'pole', 'pole_offsets', 'pole_stars', 'precession', 'read', 'read_excitation', 'read_orbit', 'rotation', 'run', 'run_tree', 'spheroid_field', 'torque_series', 'verify', 'wobble_ladder', 'write', 'write_series']
+__all__ = [
+    "__version__",
+    "AccuracyError",
+    "ApartError",
+    "BODIES",
+    "Body",
+    "BodyError",
+    "CoverageError",
+    "EARTH",
+    "EarthspinError",
+    "KernelError",
+    "MARS",
+    "MOON",
+    "MissingExtraError",
+    "Orbit",
+    "OutputError",
+    "SUN",
+    "Scene",
+    "SceneError",
+    "SeriesError",
+    "UndefinedError",
+    "UnitsError",
+    "VersionWarning",
+    "cassini_states",
+    "compare_iau",
+    "daily_insolation",
+    "ensemble",
+    "excitation",
+    "fit_chandler",
+    "forecast",
+    "free_rotor",
+    "heavy_top",
+    "load_scene",
+    "long_term",
+    "love_numbers",
+    "nutation_ladder",
+    "open",
+    "plan",
+    "polar_motion",
+    "polar_motion_from",
+    "pole",
+    "pole_offsets",
+    "pole_stars",
+    "precession",
+    "read",
+    "read_excitation",
+    "read_orbit",
+    "rotation",
+    "run",
+    "run_tree",
+    "spheroid_field",
+    "torque_series",
+    "verify",
+    "wobble_ladder",
+    "write",
+    "write_series",
+]

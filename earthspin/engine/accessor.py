@@ -45,8 +45,8 @@ class Answer:
     scene : Question
         The question of this answer, with every number.
     plan : Plan
-        Plan of the run: parts that ran, and parts that were left out, with reasons; with run times
-        in an answer as it was returned, but not in a copy or a selection.
+        Plan of the question: parts that run, and parts that are left out, with the reasons. The
+        node ``plan`` of `run_tree` has the run times.
 
     Examples
     --------
@@ -58,7 +58,6 @@ class Answer:
 
     def __init__(self, answer: xr.Dataset | xr.DataTree) -> None:
         self.dataset = answer.to_dataset() if isinstance(answer, xr.DataTree) else answer
-        self.ran: Plan | None = None  # set on an answer as it is returned
 
     def __getattr__(self, name: str) -> Any:
         """Return a registered method by its name."""
@@ -78,10 +77,9 @@ class Answer:
 
     @property
     def plan(self) -> Plan:
-        """Plan of the run: functions that ran, and functions left out, with the reasons."""
-        if self.ran is None:
-            self.ran = registered("plan")(self.scene)
-        return self.ran
+        """Plan of the question: functions that run, and functions left out, with the reasons."""
+        plan: Plan = registered("plan")(self.scene)
+        return plan
 
     def to_frame(self) -> pd.DataFrame:
         """Return the result as a pandas table: a row for each label, a column for each number.

@@ -196,7 +196,6 @@ class Run:
         error = error_of(result, self.question.headline)
         if neglected.sizes and error in result:  # errors do not contain what the model leaves out
             result[error].attrs["not_modelled"] = neglected.largest
-        result.earthspin.ran = self.plan()
         return result
 
     def tree(self, sections: str | Iterable[str]) -> xr.DataTree:

@@ -8,7 +8,8 @@ import xarray as xr
 from astropy.coordinates import SkyCoord
 
 import earthspin
-from earthspin import EARTH, SceneError
+from earthspin import EARTH, SceneError, load_scene
+from earthspin.engine.run import Run
 from earthspin.questions.precession import Precession
 from earthspin.questions.wobble import Wobble
 from tests.processes import printed
@@ -23,8 +24,9 @@ def test_the_scene_is_the_question(precession_result: xr.Dataset) -> None:
 
 
 def test_the_plan_is_a_table_with_its_seconds() -> None:
-    answer = earthspin.wobble_ladder(ocean="global")
-    plan = answer.earthspin.plan
+    run = Run(load_scene("wobble", {"wobble.ocean": "global"}))
+    run.answer()
+    plan = run.plan()
     text = str(plan)
     assert re.search(r"^  wobble-rungs .+ \[\d+\.\d ms\]$", text, re.MULTILINE)
     assert "ran, in this order" in text
