@@ -73,12 +73,14 @@ def _spread(answer: xr.Dataset) -> xr.Dataset:
 def _percentages(answer: xr.Dataset) -> xr.Dataset:
     """Share of each input in the variance of the main quantities, and what inputs leave, in %."""
     result, shares = sensitivity(answer), xr.Dataset()
+    labels = ("input", [*map(str, result["input"].values), "rest"], result["input"].attrs)
+    result = result.drop_vars("input")  # xarray 2025.6 cannot concatenate labels that are words
     for name in _chiefs(answer):
         share, error, rest = (
             100 * result[f"{name}_{what}"] for what in ("share", "share_error", "unexplained")
         )
         seen = abs(share) >= 100 * SMALL
-        rest = rest.where(abs(rest) >= 100 * SMALL, 0.0).expand_dims(input=["rest"])
+        rest = rest.where(abs(rest) >= 100 * SMALL, 0.0).expand_dims("input")
         share = xr.concat([share.where(seen, 0.0), rest], "input")
         share.attrs = {
             "units": "%",
@@ -89,7 +91,7 @@ def _percentages(answer: xr.Dataset) -> xr.Dataset:
         half = xr.concat([error.where(seen, 0.0), xr.zeros_like(rest)], "input")
         half.attrs = {"units": "%", "long_name": "from the number of members"}
         shares[name], shares[f"{name}_error"] = share, half
-    return shares
+    return shares.assign_coords(input=labels)
 
 
 def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray]:
