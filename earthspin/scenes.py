@@ -430,6 +430,11 @@ def _series(question: Question) -> Series:
     if size == 0:
         problem = "only a series of torques, pole or rotation is written by region"
         raise SceneError("compute", question.word, problem)
+    if question.members is not None:
+        raise question.error("members", "...", "give the scene and the path to earthspin.ensemble")
+    if question.uncertainty == "sample":
+        problem = "a series in blocks has no sampled errors; leave it out, or use earthspin.run"
+        raise question.error("uncertainty", "sample", problem)
     return Series(question, size, max(1, BLOCK // members_of(question)))
 
 

@@ -109,7 +109,7 @@ class Unfinished:
 
         self.folder, self.layout, self.store = folder, layout, folder / STORE
         try:
-            metadata = zarr_folder.verify(self.store, besides=layout.along)
+            metadata = zarr_folder.verify_shared(self.store, layout.along)
         except OutputError:
             raise _damaged(folder, "what its blocks share is") from None
         self.missing = list[int]()
@@ -133,11 +133,10 @@ class Unfinished:
 
         for stray in self.store.rglob("*.partial"):  # a chunk whose writer was killed
             stray.unlink()
-        try:
-            zarr_folder.verify(self.store)
-        except OutputError:
+        if Unfinished(self.folder, self.layout).missing:
             problem = "a block differs from what was just written"
-            raise OutputError(self.folder, problem, "check the disk and run it again") from None
+            raise OutputError(self.folder, problem, "check the disk and run it again")
+        zarr_folder.close(self.store)
         drafts.put_in_place(self.store, target, self.folder)
         drafts.remove(self.folder)
 

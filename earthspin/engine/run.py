@@ -149,7 +149,7 @@ class Run:
             wanted = [sections] if isinstance(sections, str) else [*sections]
         except Exception:  # not iterable
             raise SceneError("sections", sections, f"give names, or '{ALL}'") from None
-        if sections == ALL:
+        if isinstance(sections, str) and sections == ALL:
             return [name for name in known if not all(map(self.why_not, known[name]))]
         for name in wanted:
             if not isinstance(name, str) or name not in known:  # type: ignore[redundant-expr]

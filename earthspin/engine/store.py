@@ -213,6 +213,7 @@ def _write_zarr(result: xr.Dataset | xr.DataTree, path: Path) -> None:
     groups = _groups(result)
     zarr_folder.write(groups, path, {name: encoding_of(node) for name, node in groups.items()})
     zarr_folder.seal(path)
+    zarr_folder.close(path)
 
 
 def zarr_of() -> Any:
@@ -320,7 +321,7 @@ def verify(path: str | Path) -> Path:
         attrs = _read(place)["/"].attrs
     if attrs.get(FORMAT) == VERSION:
         return place
-    if CONTENT in attrs or any(place.glob("*/SHA256SUMS")):
+    if CONTENT in attrs or any(place.rglob("SHA256SUMS")):
         raise OutputError(place, "format 1: open it and write it again")
     raise OutputError(place, "it has no checksum", "earthspin.write adds one")
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+import os
 import re
 from collections.abc import Iterator, Mapping
 from itertools import product
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
 
 #: Attribute of the root: SHA-256 of all other metadata.
 METADATA = "metadata_sha256"
+#: Entry of ``.zmetadata`` in a complete store: SHA-256 of all chunks with their places.
+CHUNKS = "chunks_sha256"
 #: Attribute in which xarray stores the names of the dimensions of an array.
 DIMENSIONS = "_ARRAY_DIMENSIONS"
 #: Options for writing. Version 3 of Zarr has no standard for arrays of text.
@@ -102,6 +105,37 @@ def seal(store: Path) -> None:
     (store / ".zmetadata").write_text(json.dumps(consolidated, indent=2))
 
 
+def close(store: Path) -> None:
+    """Write the hash of all chunks of a store whose chunks are complete.
+
+    The checksum of a chunk shows damage, but not that the chunk stands in another place.
+    """
+    digest = _chunk_digest(store, metadata_of(store))
+    consolidated = json.loads((store / ".zmetadata").read_bytes()) | {CHUNKS: digest}
+    draft = store / ".zmetadata.partial"
+    draft.write_text(json.dumps(consolidated, indent=2))
+    os.replace(draft, store / ".zmetadata")
+
+
+def _chunk_digest(store: Path, metadata: Mapping[str, Any]) -> str:
+    """SHA-256 of all chunks and their paths.
+
+    Raises
+    ------
+    OutputError
+        If a chunk is missing.
+    """
+    total = hashlib.sha256()
+    for name in sorted(_arrays(metadata)):
+        for chunk in _chunks(metadata[f"{name}/.zarray"]):
+            try:
+                content = (store / name / chunk).read_bytes()
+            except FileNotFoundError:
+                raise _missing(store, f"{name}/{chunk}") from None
+            total.update(f"{name}/{chunk} {hashlib.sha256(content).hexdigest()}\n".encode())
+    return total.hexdigest()
+
+
 def _digest(metadata: Mapping[str, Any]) -> str:
     """SHA-256 of all metadata except the attribute that holds it."""
     root = {name: value for name, value in metadata[".zattrs"].items() if name != METADATA}
@@ -142,16 +176,29 @@ def metadata_of(store: Path) -> dict[str, Any]:
     return dict(metadata)
 
 
-def verify(store: Path, *, besides: str = "") -> dict[str, Any]:
-    """Compare all metadata of a store with their hash, and chunks with their checksums.
+def verify(store: Path) -> None:
+    """Compare all metadata and all chunks of a complete store with their hashes.
 
     One chunk at a time is in memory.
+
+    Raises
+    ------
+    OutputError
+        If anything is missing, damaged or in another place.
+    """
+    digest = _chunk_digest(store, metadata_of(store))
+    if json.loads((store / ".zmetadata").read_bytes()).get(CHUNKS) != digest:
+        raise mismatch_error(store, "its numbers or words")
+
+
+def verify_shared(store: Path, along: str) -> dict[str, Any]:
+    """Compare what all blocks of an unfinished store share: metadata, and arrays without blocks.
 
     Parameters
     ----------
     store : Path
-    besides : str
-        Dimension along which the chunks of an unfinished store are not compared.
+    along : str
+        Dimension that is divided into blocks.
 
     Returns
     -------
@@ -165,7 +212,7 @@ def verify(store: Path, *, besides: str = "") -> dict[str, Any]:
     """
     metadata = metadata_of(store)
     for name in _arrays(metadata):
-        if besides not in metadata[f"{name}/.zattrs"][DIMENSIONS]:
+        if along not in metadata[f"{name}/.zattrs"][DIMENSIONS]:
             for chunk in _chunks(metadata[f"{name}/.zarray"]):
                 _check_chunk(store, name, chunk, metadata[f"{name}/.zarray"])
     return metadata
@@ -255,10 +302,15 @@ class ZarrFolder(LocalStore):
         Raises
         ------
         OutputError
-            If it is a chunk that is missing, or the store was replaced.
+            If it is a chunk that is missing or damaged, or the store was replaced.
         """
         content = await super().get(key, prototype, byte_range)
         check_identity(self.root, self._opened)
-        if content is None and _CHUNK.fullmatch(key.rpartition("/")[2]):
-            raise _missing(self.root, key)
+        if _CHUNK.fullmatch(key.rpartition("/")[2]):
+            if content is None:
+                raise _missing(self.root, key)
+            try:
+                _CODEC.decode(content.to_bytes())
+            except Exception:  # Zarr would raise the error of the decoder
+                raise mismatch_error(self.root, "its numbers or words") from None
         return content

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 
@@ -73,6 +74,12 @@ def test_an_unknown_section_is_refused(sections: str | list[str], words: str) ->
         with pytest.raises(SceneError, match=words) as error:
             ask("precession", sections)
         assert error.value.key == "sections"
+
+
+def test_sections_may_be_any_sequence_of_names() -> None:
+    one = earthspin.plan("precession", ["seasons"])
+    for sections in (np.array(["seasons"]), pd.Series(["seasons"]), iter(["seasons"])):
+        assert earthspin.plan("precession", sections).sections == one.sections == ("seasons",)
 
 
 NOT_HERE = [
