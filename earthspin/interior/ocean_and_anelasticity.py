@@ -1,4 +1,4 @@
-"""What ocean and anelastic mantle change in the response of the Earth: wobble and tidal k2."""
+"""Effects of the ocean and of the anelastic mantle on the wobble and on the tidal k2."""
 
 from __future__ import annotations
 

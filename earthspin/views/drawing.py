@@ -201,7 +201,7 @@ Makers: TypeAlias = Sequence[tuple[str, Callable[[Result], T]]]
 
 @dataclass(frozen=True)
 class Views:
-    """What is shown of the answers to one question besides the tables of every answer.
+    """Figures, solids and tables of the answers to one question, besides the general tables.
 
     Attributes
     ----------
