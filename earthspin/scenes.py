@@ -302,8 +302,10 @@ def run(scene: Any) -> xr.Dataset:
 
     Raises
     ------
+    OutputError
+        If the file cannot be read.
     EarthspinError
-        Whatever is wrong with the scene, the kernel or the body, in one line.
+        If the scene has a wrong key or value, or the question cannot be answered.
 
     Examples
     --------
@@ -337,7 +339,7 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
     Raises
     ------
     EarthspinError
-        Whatever is wrong, in one line; among it a section that the question does not have.
+        If the question lacks a section, or for the reasons of `run`.
 
     Examples
     --------
@@ -407,7 +409,7 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
     Raises
     ------
     EarthspinError
-        Whatever is wrong, in one line.
+        If the target cannot be written, or the answer has no blocks; or for the reasons of `run`.
 
     Examples
     --------

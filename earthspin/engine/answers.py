@@ -232,22 +232,43 @@ def _as_written(value: Any) -> Any:
 
 def docstring_of(question: type[Question]) -> str:
     """Make the docstring of a question's public function from its class and its arguments."""
-    head, _, rest = inspect.cleandoc(question.__doc__ or "").partition("\n")
-    lines = [head, "", "Parameters", "----------"]
-    for name, entry in arguments_of(question).items():
+    text, *sections = re.split(r"\n\n(\w+)\n-{4,}\n", inspect.cleandoc(question.__doc__ or ""))
+    of_class = dict(zip(sections[::2], sections[1::2], strict=True))
+    arguments, parameters = arguments_of(question), list[str]()
+    for name, entry in arguments.items():
         if entry is None:
-            lines += [f"{name} : date", f"    {_END[name]}"]
+            parameters += [f"{name} : date", f"    {_END[name]}"]
             continue
         optional = "" if entry.required else ", optional"
         default = f" Default: {entry.default_words}." if entry.default_words else ""
-        lines.append(f"{name} : {entry.kind.words}{optional}")
+        parameters.append(f"{name} : {entry.kind.words}{optional}")
         sentence = f"{entry.doc[:1].upper()}{entry.doc[1:]}.{default}"
-        lines += textwrap.wrap(sentence, 88, initial_indent="    ", subsequent_indent="    ")
-    notes = ["", "Notes", "-----", *SOURCE_TEXT] if _NUMBERED.search(head + rest) else []
-    before, heading, after = rest.rstrip().partition("\nExamples\n")
-    return "\n".join([*lines, before.rstrip(), *notes, f"{heading}{after}", ""])
+        parameters += textwrap.wrap(sentence, 88, initial_indent="    ", subsequent_indent="    ")
+    raises = [
+        f"{error}\n    {case}" for error, (key, case) in _RAISES.items() if key in ("", *arguments)
+    ]
+    if own := of_class.pop("Raises", ""):
+        raises.append(own.rstrip())
+    notes = "\n".join(SOURCE_TEXT) if _NUMBERED.search(text + "".join(of_class.values())) else ""
+    examples = of_class.pop("Examples", "")
+    ordered = {
+        "Parameters": "\n".join(parameters), **of_class, "Raises": "\n".join(raises),
+        "Notes": notes, "Examples": examples,
+    }  # fmt: skip
+    blocks = (
+        f"{title}\n{'-' * len(title)}\n{body.rstrip()}" for title, body in ordered.items() if body
+    )
+    return "\n\n".join([text, *blocks, ""])
 
 
+#: Errors that several questions raise: the key that a question must have, if any, and the case.
+_RAISES = {
+    "SceneError": ("", "If a key is unknown or missing, or its value is not allowed."),
+    "UnitsError": ("", "If a unit has the wrong dimension."),
+    "BodyError": ("body", "If a body lacks a needed number, or its numbers contradict each other."),
+    "KernelError": ("ephemeris", "If a kernel cannot be read, or lacks one of the bodies."),
+    "CoverageError": ("ephemeris", "If the kernel does not cover the dates."),
+}
 #: Note of docstrings that cite an equation of the source text by its number.
 SOURCE_TEXT = (
     "Numbers such as I.8.7 are equations and sections of the source text, Appendix I,",

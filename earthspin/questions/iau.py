@@ -76,11 +76,6 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
         largest nutations, the free core nutation, the angles of precession, and H and C as
         implied by the rate of the IAU.
 
-    Raises
-    ------
-    EarthspinError
-        Whatever is wrong, in one line.
-
     Examples
     --------
     >>> import earthspin

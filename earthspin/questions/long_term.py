@@ -155,8 +155,8 @@ class LongTerm(
 
     Raises
     ------
-    EarthspinError
-        Whatever is wrong, in one line; times outside the orbit's table are refused.
+    CoverageError
+        If times lie outside the table of the orbit.
 
     Examples
     --------

@@ -41,8 +41,8 @@ class LoveNumbers(
 
     Raises
     ------
-    EarthspinError
-        Whatever is wrong, in one line; among it a liquid surface.
+    SceneError
+        If the layers of the body are not known, or its surface is liquid.
 
     Examples
     --------

@@ -80,8 +80,8 @@ class NutationLadder(
 
     Raises
     ------
-    EarthspinError
-        Whatever is wrong, in one line; among it a body whose layers are not known.
+    SceneError
+        If the layers of the body are not known.
 
     Examples
     --------

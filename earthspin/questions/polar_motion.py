@@ -68,8 +68,8 @@ class PolarMotion(OfTable, word="polar-motion", call="polar_motion", table="pola
 
     Raises
     ------
-    EarthspinError
-        Whatever is wrong with the file or the span, in one line.
+    SeriesError
+        If the file is no known table, or has gaps; CoverageError if it does not cover the span.
 
     Examples
     --------

@@ -75,8 +75,8 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
 
     Raises
     ------
-    EarthspinError
-        Whatever is wrong, in one line; a spin that is too slow is refused.
+    UndefinedError
+        If the spin is too slow for the figure axis to follow the angular momentum.
 
     Examples
     --------

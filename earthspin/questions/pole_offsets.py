@@ -49,8 +49,9 @@ class PoleOffsets(OfTable, word="pole-offsets", call="pole_offsets", table="pole
 
     Raises
     ------
-    EarthspinError
-        Whatever is wrong with the file or the span, in one line.
+    SeriesError
+        If the file is no known table, or fails its checks; CoverageError if it does not cover the
+        span.
 
     Examples
     --------

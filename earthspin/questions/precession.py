@@ -58,11 +58,6 @@ class Precession(PerturbedBody, word="precession", call="precession"):
         average, models of the figure, the free wobble, the seasons, IAU 2006, standstills of the
         Moon, and what is neglected.
 
-    Raises
-    ------
-    EarthspinError
-        Whatever is wrong, in one line.
-
     Examples
     --------
     >>> import earthspin

@@ -80,11 +80,6 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
         `component`, with their errors, the largest up to that time. `earthspin.run_tree` adds
         `divergence`, how fast neighbouring rotations part.
 
-    Raises
-    ------
-    EarthspinError
-        Whatever is wrong, in one line.
-
     Examples
     --------
     >>> import earthspin

@@ -38,11 +38,6 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
         `torque` (N m, `component` x, y, z), `torque_magnitude` and its error; bounds on
         directions and distances for each perturber.
 
-    Raises
-    ------
-    EarthspinError
-        Whatever is wrong, in one line.
-
     Examples
     --------
     >>> import earthspin

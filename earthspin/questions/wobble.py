@@ -62,11 +62,6 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
         `quality_factor`. `earthspin.run_tree` adds the sections: the observed period, the
         sensitivity of the last rung, the free core nutation, and the Love numbers.
 
-    Raises
-    ------
-    EarthspinError
-        Whatever is wrong, in one line.
-
     Examples
     --------
     >>> import earthspin
