@@ -113,6 +113,8 @@ def source(name: str) -> str:
 _POWER = re.compile(r"(?<![\w.])([+-]?\d+(?:\.\d+)?(?:\(\d+(?:\.\d+)?\))?)e([+-]?)0*(\d+)(?!\w)")
 #: A minus before a number, but neither a hyphen nor a part of a date.
 _MINUS = re.compile(r"(?<![\w.)\u00b7-])-(?=\d)")
+#: Superscript characters, which stay powers if a table is copied as text.
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _DIFFERENCE = re.compile(r"\bC( ?)-( ?)A\b")
 #: A unit or a letter squared or cubed: kg m2, M a2, t3.
 _SQUARE = re.compile(r"(?<=kg m)2\b|(?<=M a)2\b|(?<=^t)[23]$")
@@ -138,15 +140,15 @@ def typeset(words: str) -> Markup:
     text = _POWER.sub(_power, text)
     text = _MINUS.sub("\u2212", text)
     text = _DIFFERENCE.sub("C\\1\u2212\\2A", text)
-    text = _SQUARE.sub(lambda match: f"<sup>{match[0]}</sup>", text)
+    text = _SQUARE.sub(lambda match: match[0].translate(_RAISED), text)
     text = _SUBSCRIPT.sub(lambda match: f"{_GREEK[match[1]]}<sub>A</sub>", text)
     text = re.sub(r"\buas\b", "\u00b5as", text)
     return Markup(text)
 
 
 def _power(match: re.Match[str]) -> str:
-    sign = "\u2212" if match[2] == "-" else ""
-    return f"{match[1]} \u00d7 10<sup>{sign}{match[3]}</sup>"
+    exponent = f"{match[2].strip('+')}{match[3]}".translate(_RAISED)
+    return f"{match[1]} \u00d7 10{exponent}"
 
 
 #: Greys and colours of figures, as the page's style sheet turns them for light and dark.
