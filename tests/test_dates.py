@@ -263,7 +263,7 @@ def test_a_list_of_times_is_written_and_read_exactly(listed: list[float]) -> Non
 
 
 def grid(first: str, last: str, step: object) -> TimeGrid:
-    return TimeGrid.over(Span.read((first, last), SPAN), dates.Spacing().read(step, STEP))
+    return TimeGrid.over(Span.read((first, last), SPAN), dates.SPACING.read(step, STEP))
 
 
 def test_the_end_of_a_span_is_included_if_the_step_meets_it() -> None:

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from earthspin import EarthspinError, SceneError
 from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
+from earthspin.dates import YearList, YearSpan, grid, seconds
 from earthspin.errors import Where
-from earthspin.years import YearList, YearSpan, grid, seconds
 from tests.refusals import refused
 
 AT = Where("times")

@@ -12,7 +12,7 @@ import numpy as np
 from earthspin.bodies import EARTH, Body
 from earthspin.bodies.orbit import Epoch
 from earthspin.constants import DAY, MAS, NORMAL_95
-from earthspin.dates import Spacing, datetime64
+from earthspin.dates import SPACING, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key
@@ -154,7 +154,7 @@ class Forecast(
     days: Annotated[float, Number("d", "365 d", above=0.0)] = key(
         365.0, doc="horizon, 730 days at most"
     )
-    step: Annotated[float, Spacing(example="1 d")] = key(
+    step: Annotated[float, replace(SPACING, example="1 d")] = key(
         "1 d", doc="time between two epochs, a whole number of days"
     )
     origin: Annotated[float, Epoch()] | None = key(
