@@ -13,15 +13,15 @@ import datetime as dt
 import math
 import re
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
-from earthspin.errors import UnitsError, Where
+from earthspin.errors import SceneError, UnitsError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.units import Number, Plain, is_masked, pack, quantity, unpack
 
@@ -29,7 +29,9 @@ J2000 = np.datetime64("2000-01-01T12:00:00", "us")
 MICROSECONDS_PER_DAY = 86_400_000_000
 FIRST_UTC = 2436934.5  # Julian date of 1960-01-01
 TABLES = "astropy-iers-data"  # the package that brings leap seconds and UT1
-#: How far from J2000.0 a date may lie whose answer has the time as ``datetime64[us]``, d.
+#: Start of the year 1 and end of the year 9999, days from J2000.0.
+FIRST_DAY, END_DAY = -730_119.5, 2_921_939.5
+#: How far from J2000.0 a date may lie that is counted in microseconds, d.
 FARTHEST_DATE = 250_000 * JULIAN_YEAR / DAY
 #: How far from J2000.0 a time over millennia may lie, and how short its step may be, s.
 FARTHEST, SHORTEST = 1e9 * JULIAN_YEAR, DAY
@@ -81,6 +83,8 @@ def two_parts(value: Any, where: Where) -> tuple[Any, Any]:
         return _from_text(value, where)
     if type(value).__module__.startswith("cftime") and hasattr(value, "calendar"):
         return _from_cftime(value, where)
+    if isinstance(value, (list, tuple)):
+        return _from_list(value, (len(value),), where)
     stamps = value
     zone = getattr(value, "tz", None) or getattr(getattr(value, "dt", None), "tz", None)
     if zone is not None:  # pandas, in UTC as pandas stores it
@@ -92,10 +96,7 @@ def two_parts(value: Any, where: Where) -> tuple[Any, Any]:
         stamps = np.datetime64(stamps.replace(tzinfo=None)) - np.timedelta64(zone or 0, "us")
     elif isinstance(stamps, dt.date):
         stamps = np.datetime64(stamps)
-    try:
-        stamps = np.asarray(stamps)
-    except ValueError:
-        raise where.error("uneven lists", "give one or more times in one list") from None
+    stamps = np.asarray(stamps)
     if stamps.dtype.kind == "M":
         if np.isnat(stamps).any():
             raise where.error("NaT", "NaT is no date")
@@ -103,10 +104,14 @@ def two_parts(value: Any, where: Where) -> tuple[Any, Any]:
     elements = stamps.ravel().tolist()
     if stamps.dtype.kind not in "OU" or (not stamps.ndim and elements[0] is value):
         raise where.error(value, f"write a date like {EXAMPLES}")
-    parts = [two_parts(element, where) for element in elements]
-    if any(np.ndim(whole) for whole, _ in parts):
+    return _from_list(elements, stamps.shape, where)
+
+
+def _from_list(values: Sequence[Any], shape: tuple[int, ...], where: Where) -> tuple[Any, Any]:
+    if any(isinstance(value, (list, tuple)) or getattr(value, "shape", ()) for value in values):
         raise where.error("lists of lists", "give one or more times in one list")
-    return tuple(np.moveaxis(np.reshape(parts, (*stamps.shape, 2)).astype(float), -1, 0))
+    parts = [two_parts(value, where) for value in values]
+    return tuple(np.moveaxis(np.reshape(parts, (*shape, 2)).astype(float), -1, 0))
 
 
 def _from_text(text: str, where: Where) -> tuple[Any, Any]:
@@ -209,9 +214,27 @@ def is_time(value: object) -> bool:
 
 
 def datetime64(days_tdb: FloatArray) -> NDArray[np.datetime64]:
-    """Convert days from J2000.0 TDB to ``datetime64[us]``, the type of times in results."""
+    """Convert days from J2000.0 TDB to ``datetime64[us]``, the type of times in results.
+
+    Raises
+    ------
+    SceneError
+        If a year is not from 1 to 9999, which files and plots of results need.
+    """
+    outside = (days_tdb < FIRST_DAY) | (days_tdb >= END_DAY)
+    if np.any(outside):
+        problem = "the time axis of an answer holds the years 1 to 9999; choose dates within them"
+        raise SceneError("time", date_text(days_tdb[outside][0], "s"), problem)
     counts: NDArray[np.int64] = np.rint(days_tdb * MICROSECONDS_PER_DAY).astype(np.int64)
     return J2000 + counts.astype("timedelta64[us]")
+
+
+def date_text(day: float, unit: Literal["D", "s", "us"] = "D") -> str:
+    """Date as text, cut to a unit, of a time in days from J2000.0 TDB."""
+    if not abs(day) <= FARTHEST_DATE:
+        return f"{day:g} d from J2000.0"
+    count = np.timedelta64(round(float(day) * MICROSECONDS_PER_DAY), "us")
+    return str((J2000 + count).astype(f"M8[{unit}]"))
 
 
 def days(times: object, where: Where) -> FloatArray:
@@ -241,7 +264,7 @@ def microseconds(value: Any, where: Where) -> int:
 
 def _check_reach(days: Any, given: object, where: Where) -> None:
     if np.max(np.abs(days)) > FARTHEST_DATE:
-        raise where.error(given, "give a date within 250,000 years of J2000.0")
+        raise where.error(given, "dates count in microseconds up to 250,000 years from J2000.0")
 
 
 def seconds(value: Any, where: Where) -> float:
@@ -304,11 +327,11 @@ class Ends:
         """
         if isinstance(value, cls):
             return value
-        ends = value
-        if is_skyfield_time(value) and value.shape:
-            ends = list(value)
-        single = isinstance(ends, (str, Mapping, set)) or not hasattr(ends, "__len__")
-        if single or is_skyfield_time(ends) or getattr(ends, "ndim", 1) != 1 or len(ends) != 2:
+        try:
+            ends = tuple(() if isinstance(value, (str, Mapping, set)) else value)
+        except TypeError:  # one time
+            ends = ()
+        if len(ends) != 2:
             raise where.error(value, f"give {cls.allowed}")
         first, last = (cls.time(end, where) for end in ends)
         if last < first:

@@ -30,7 +30,7 @@ from astropy.time import Time
 
 from earthspin.bodies import in_a_sentence
 from earthspin.constants import DAY, J2000_JD
-from earthspin.dates import datetime64, two_parts
+from earthspin.dates import date_text, two_parts
 from earthspin.engine.question import Question, scene_of
 from earthspin.engine.variables import si
 from earthspin.errors import SceneError, UndefinedError, Where
@@ -185,9 +185,8 @@ def _rotation(model: Model, times: FloatArray) -> Solved:
     """Matrices from the ICRS to the principal axes of the body, and their errors, rad."""
     first = model.first
     if times.min() < first - MICROSECOND:
-        start, asked = datetime64(np.array([first, times.min()]))
-        problem = f"the rotation starts at {start} TDB; take a later time"
-        raise SceneError("obstime", str(asked), problem)
+        problem = f"the rotation starts at {date_text(first, 'us')} TDB; take a later time"
+        raise SceneError("obstime", date_text(times.min(), "us"), problem)
     answer = run(model.at(_tdb(np.array([first, *np.maximum(times, first)]))))
     answer = answer.isel(time=slice(1, None))
     # times of an answer are rounded to a microsecond
