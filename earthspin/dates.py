@@ -96,7 +96,10 @@ def two_parts(value: Any, where: Where) -> tuple[Any, Any]:
         stamps = np.datetime64(stamps.replace(tzinfo=None)) - np.timedelta64(zone or 0, "us")
     elif isinstance(stamps, dt.date):
         stamps = np.datetime64(stamps)
-    stamps = np.asarray(stamps)
+    try:
+        stamps = np.asarray(stamps)
+    except Exception:  # whatever somebody's class says of being no array
+        raise where.error(value, f"write a date like {EXAMPLES}") from None
     if stamps.dtype.kind == "M":
         if np.isnat(stamps).any():
             raise where.error("NaT", "NaT is no date")
