@@ -39,6 +39,7 @@ MOST_TIMES = 10_000_000
 LONGEST_STEP = 10_000 * JULIAN_YEAR  # s
 DURATION = "-65 kyr"
 EXAMPLES = "'2000-01-01T12:00' or '3000 BC'"
+_SECONDS = ("s", "ms", "us", "ns", "ps", "fs", "as")
 _DATE = re.compile(
     r"""(?P<year>[-+]?\d{1,7})-(?P<day>\d\d-\d\d)
         (?:[T ](?P<clock>\d\d(?::\d\d)?)(?::(?P<second>(?:[0-5]\d|60)(?:\.\d*)?))?
@@ -103,6 +104,8 @@ def two_parts(value: Any, where: Where) -> tuple[Any, Any]:
     if stamps.dtype.kind == "M":
         if np.isnat(stamps).any():
             raise where.error("NaT", "NaT is no date")
+        if np.any(np.abs(stamps.astype("M8[Y]").astype(np.int64)) > FARTHEST / JULIAN_YEAR):
+            raise where.error(value, "give at most 1 Gyr from J2000.0")
         return _from_datetime64(stamps) if zone is None else _from_astropy(stamps, where, value)
     elements = stamps.ravel().tolist()
     if stamps.dtype.kind not in "OU" or (not stamps.ndim and elements[0] is value):
@@ -145,11 +148,15 @@ def _from_text(text: str, where: Where) -> tuple[Any, Any]:
 
 
 def _from_datetime64(stamps: Any) -> tuple[Any, Any]:
-    if np.datetime_data(stamps.dtype)[0] in ("ps", "fs", "as"):  # a day has too many of these
-        stamps = stamps.astype("M8[ns]")
-    midnight = stamps.astype("M8[D]")
-    whole = (midnight - J2000.astype("M8[D]")).astype(float) - 0.5
-    return whole, (stamps - midnight) / np.timedelta64(1, "D")
+    unit, part = np.datetime_data(stamps.dtype)[0], 0.0
+    if unit in _SECONDS:  # NumPy itself does not round down near the first nanosecond
+        size = 1000 ** _SECONDS.index(unit)
+        count, part = np.divmod(stamps.astype(f"M8[{unit}]").astype(np.int64), size)
+        stamps, part = count.astype("M8[s]"), part / size
+    second = stamps.astype("M8[s]")
+    midnight = second.astype("M8[D]")
+    days = (midnight - J2000.astype("M8[D]")).astype(float)
+    return days - 0.5, ((second - midnight).astype(float) + part) / DAY
 
 
 def _from_cftime(date: Any, where: Where) -> tuple[float, float]:

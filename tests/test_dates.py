@@ -142,6 +142,8 @@ def test_a_nanosecond_is_kept() -> None:
         Time(J2000_JD, 1e-9 / DAY, format="jd", scale="tdb"),
     ):
         assert dates.days([form], TIMES)[0] * DAY == pytest.approx(1e-9, rel=1e-2, abs=0)
+    (early,) = dates.days([pd.Timestamp.min], TIMES)
+    assert early == pytest.approx(-117709.4911673, rel=0, abs=1e-7)
 
 
 def test_a_time_in_utc_is_converted() -> None:
@@ -185,6 +187,7 @@ WRONG: dict[str, list[Any]] = {
         *(dt.datetime(9000, 1, 1, tzinfo=dt.UTC), pd.date_range("1950", periods=2, tz="UTC")),
     ],
     "times": [[], ENDLESS],
+    "1 Gyr": [np.datetime64(2**62, "Y")],
 } | {name: [cf(2000, 1, 1, calendar=name)] for name in ("julian", "noleap", "360_day")}
 test_what_is_no_date_is_refused = refused(
     *[(value, words) for words, values in WRONG.items() for value in values],
