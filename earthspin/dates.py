@@ -104,9 +104,9 @@ def two_parts(value: Any, where: Where) -> tuple[Any, Any]:
     if stamps.dtype.kind == "M":
         if np.isnat(stamps).any():
             raise where.error("NaT", "NaT is no date")
-        if np.any(np.abs(stamps.astype("M8[Y]").astype(np.int64)) > FARTHEST / JULIAN_YEAR):
-            raise where.error(value, "give at most 1 Gyr from J2000.0")
-        return _from_datetime64(stamps) if zone is None else _from_astropy(stamps, where, value)
+        if zone is not None:
+            return _from_astropy(stamps, where, value)
+        return _from_datetime64(stamps, where)
     elements = stamps.ravel().tolist()
     if stamps.dtype.kind not in "OU" or (not stamps.ndim and elements[0] is value):
         raise where.error(value, f"write a date like {EXAMPLES}")
@@ -143,16 +143,18 @@ def _from_text(text: str, where: Where) -> tuple[Any, Any]:
         return _from_astropy(f"{utc}:{second}", where, text)
     if second.startswith("60"):
         raise where.error(text, "there is no such date; a leap second is UTC, so end it with Z")
-    whole, rest = _from_datetime64(minute)
+    whole, rest = _from_datetime64(minute, where)
     return whole, rest + float(second) / DAY
 
 
-def _from_datetime64(stamps: Any) -> tuple[Any, Any]:
+def _from_datetime64(stamps: Any, where: Where) -> tuple[Any, Any]:
     unit, part = np.datetime_data(stamps.dtype)[0], 0.0
     if unit in _SECONDS:  # NumPy itself does not round down near the first nanosecond
         size = 1000 ** _SECONDS.index(unit)
         count, part = np.divmod(stamps.astype(f"M8[{unit}]").astype(np.int64), size)
         stamps, part = count.astype("M8[s]"), part / size
+    if np.any(np.abs(stamps.astype("M8[Y]").astype(np.int64)) > FARTHEST / JULIAN_YEAR):
+        raise where.error(stamps, "give at most 1 Gyr from J2000.0")
     second = stamps.astype("M8[s]")
     midnight = second.astype("M8[D]")
     days = (midnight - J2000.astype("M8[D]")).astype(float)
