@@ -33,10 +33,9 @@ TABLES = "astropy-iers-data"  # the package that brings leap seconds and UT1
 FIRST_DAY, END_DAY = -730_119.5, 2_921_939.5
 #: How far from J2000.0 a date may lie that is counted in microseconds, d.
 FARTHEST_DATE = 250_000 * JULIAN_YEAR / DAY
-#: How far from J2000.0 a time over millennia may lie, and how short its step may be, s.
-FARTHEST, SHORTEST = 1e9 * JULIAN_YEAR, DAY
+#: How far from J2000.0 a time over millennia may lie, s.
+FARTHEST = 1e9 * JULIAN_YEAR
 MOST_TIMES = 10_000_000
-LONGEST_STEP = 10_000 * JULIAN_YEAR  # s
 DURATION = "-65 kyr"
 EXAMPLES = "'2000-01-01T12:00' or '3000 BC'"
 _SECONDS = ("s", "ms", "us", "ns", "ps", "fs", "as")
@@ -250,18 +249,8 @@ def date_text(day: float, unit: Literal["D", "s", "us"] = "D") -> str:
 
 
 def days(times: object, where: Where) -> FloatArray:
-    """Convert dates in any form that `two_parts` reads to days from J2000.0 TDB, shape (n,).
-
-    Raises
-    ------
-    SceneError
-        If one of them is no date, or there are none.
-    """
-    whole, rest = two_parts(times, where)
-    listed = np.atleast_1d(whole + rest)
-    if listed.ndim != 1 or listed.size == 0:
-        raise where.error(f"shape {listed.shape}", "give one or more times in one list")
-    return np.asarray(listed, dtype=np.float64)
+    """Convert dates in any form that `two_parts` reads to days from J2000.0 TDB, shape (n,)."""
+    return np.atleast_1d(np.add(*two_parts(times, where)))
 
 
 def microseconds(value: Any, where: Where) -> int:
@@ -275,33 +264,40 @@ def microseconds(value: Any, where: Where) -> int:
 
 
 def _check_reach(days: Any, given: object, where: Where) -> None:
-    if np.max(np.abs(days)) > FARTHEST_DATE:
+    if np.max(np.abs(days), initial=0.0) > FARTHEST_DATE:
         raise where.error(given, "dates count in microseconds up to 250,000 years from J2000.0")
 
 
-def seconds(value: Any, where: Where) -> float:
-    """Read one time, given as a duration from J2000.0 or as a date; return s from J2000.0 TDB.
+def _epochs(value: Any, where: Where) -> Any:
+    """Read durations from J2000.0 or dates, one or several, as seconds from J2000.0 TDB.
 
     Raises
     ------
     SceneError
-        If it is neither.
+        If one of them is neither.
     """
-    if isinstance(value, (int, float)) and not hasattr(value, "to_value"):
-        raise where.error(value, f"give it with its unit, like '{DURATION}', or a date")
-    if not _is_duration(value):
-        whole, rest = two_parts(value, where)
-        time = DAY * (whole + rest)
-    else:
+    if isinstance(value, (list, tuple)):
+        times = np.array([seconds(time, where) for time in value], dtype=float)
+    elif _is_duration(value):
         try:
-            time = quantity(value, "s", where, DURATION)
+            times = quantity(value, "s", where, DURATION)
         except UnitsError:
             problem = f"give a time from J2000.0 like '{DURATION}', or a date like {EXAMPLES}"
             raise where.error(value, problem) from None
-    if np.ndim(time) != 0:
-        raise where.error(value, f"give one time, like '{DURATION}'")
-    if abs(time) > FARTHEST:
+    else:
+        times = DAY * np.add(*two_parts(value, where))
+    if np.max(np.abs(times), initial=0.0) > FARTHEST:
         raise where.error(value, "give at most 1 Gyr from J2000.0")
+    return times
+
+
+def seconds(value: Any, where: Where) -> float:
+    """Read one duration from J2000.0, or one date, as seconds from J2000.0 TDB."""
+    if isinstance(value, (int, float, list, tuple)) and not hasattr(value, "to_value"):
+        raise where.error(value, f"give it with its unit, like '{DURATION}', or a date")
+    time = _epochs(value, where)
+    if np.ndim(time):
+        raise where.error(value, f"give one time, like '{DURATION}'")
     return float(time)
 
 
@@ -445,7 +441,7 @@ class Listed:
     @classmethod
     def times(cls, value: Any, where: Where) -> FloatArray:
         """Read a list of times in any form that the function `days` takes."""
-        listed = days(value, where).copy()
+        listed = days(value, where)
         _check_reach(listed, "a date", where)
         return listed
 
@@ -491,17 +487,7 @@ class YearList(Listed):
     @classmethod
     def times(cls, value: Any, where: Where) -> FloatArray:
         """Read a list of durations from J2000.0 or of dates; return seconds from J2000.0 TDB."""
-        if isinstance(value, str):
-            value = [value]
-        if hasattr(value, "to_value") and not is_time(value):
-            listed = np.atleast_1d(quantity(value, "s", where, DURATION))
-        elif isinstance(value, (list, tuple)):
-            listed = np.array([seconds(time, where) for time in value], dtype=float)
-        else:
-            listed = DAY * days(value, where)
-        if np.max(np.abs(listed), initial=0.0) > FARTHEST:
-            raise where.error("a time", "give at most 1 Gyr from J2000.0")
-        return np.asarray(listed, dtype=float)
+        return np.atleast_1d(_epochs(value, where))
 
 
 #: The times of a series.
@@ -509,10 +495,10 @@ Epochs = TimeGrid | TimeList
 
 
 #: Kind of input: a time step, in s.
-SPACING = Number("s", "6 h", low=1e-6, high=LONGEST_STEP)
+SPACING = Number("s", "6 h", low=1e-6, high=1e4 * JULIAN_YEAR)
 Step = Annotated[float, SPACING]
 #: A step between times over millennia, s.
-YearStep = Annotated[float, Number("s", "1 kyr", low=SHORTEST, high=FARTHEST, plain=False)]
+YearStep = Annotated[float, Number("s", "1 kyr", low=DAY, high=FARTHEST, plain=False)]
 
 
 def grid(span: YearSpan, step: float, where: Where) -> FloatArray:
