@@ -495,7 +495,7 @@ Epochs = TimeGrid | TimeList
 
 
 #: Kind of input: a time step, in s.
-SPACING = Number("s", "6 h", low=1e-6, high=1e4 * JULIAN_YEAR)
+SPACING = Number("s", "6 h", low=1e-6, high=1e4 * JULIAN_YEAR, above=0.0)
 Step = Annotated[float, SPACING]
 #: A step between times over millennia, s.
 YearStep = Annotated[float, Number("s", "1 kyr", low=DAY, high=FARTHEST, plain=False)]

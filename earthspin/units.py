@@ -346,7 +346,8 @@ class Number:
     def _range(self) -> str:
         unit = f" {self.unit}" if self.unit else ""
         if self.above == 0:
-            return "it is greater than zero"
+            reach = f": {max(self.low, 0):g} to {self.high:g}{unit}" if self.high < math.inf else ""
+            return f"it is greater than zero{reach}"
         if self.above > -math.inf:
             return f"it is greater than {self.above:g}{unit}"
         if self.high < math.inf:
