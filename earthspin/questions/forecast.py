@@ -12,7 +12,7 @@ import numpy as np
 from earthspin.bodies import EARTH, Body
 from earthspin.bodies.orbit import Epoch
 from earthspin.constants import DAY, MAS, NORMAL_95
-from earthspin.dates import Spacing, datetime64
+from earthspin.dates import SPACING, date_text, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key
@@ -154,7 +154,7 @@ class Forecast(
     days: Annotated[float, Number("d", "365 d", above=0.0)] = key(
         365.0, doc="horizon, 730 days at most"
     )
-    step: Annotated[float, Spacing(example="1 d")] = key(
+    step: Annotated[float, replace(SPACING, example="1 d")] = key(
         "1 d", doc="time between two epochs, a whole number of days"
     )
     origin: Annotated[float, Epoch()] | None = key(
@@ -233,21 +233,18 @@ def record(file: str | Path | GivenSeries, origin: float | None) -> Record:
     if np.any(abs(steps - 1) > _MIDNIGHT):
         wrong = whole.time[:-1][abs(steps - 1) > _MIDNIGHT][0]
         problem = "a forecast needs one row for each day"
-        raise SceneError("file", f"a step of {steps.max():g} d after {_day(wrong)}", problem)
+        raise SceneError("file", f"a step of {steps.max():g} d after {date_text(wrong)}", problem)
     if origin is None:
         return whole
     first, last = whole.time[[0, -1]]
     if not first <= origin < last + 1:
-        problem = f"the observed rows cover {_day(first)} to {_day(last)}; choose a day inside"
-        raise SceneError("origin", _day(origin), problem)
+        problem = (
+            f"the observed rows cover {date_text(first)} to {date_text(last)}; choose a day inside"
+        )
+        raise SceneError("origin", date_text(origin), problem)
     count = int(np.floor(origin - first + _MIDNIGHT)) + 1
     newest = whole.newest and count == whole.time.size
     return replace(whole, time=whole.time[:count], p=whole.p[:count], newest=newest)
-
-
-def _day(time: float) -> str:
-    """Calendar date, as text, of a time in days from J2000.0."""
-    return str(datetime64(np.array([time]))[0])[:10]
 
 
 @part(loads=("scipy.linalg",))
@@ -326,9 +323,9 @@ def ahead(
     sx, sy = np.sqrt(covariance[:, 0, 0]), np.sqrt(covariance[:, 1, 1])
     source = {
         "references": record.name,
-        "comment": f"observations up to {_day(newest)}",
-        "origin": _day(newest if origin is None else origin),
-        "newest_row": _day(newest),
+        "comment": f"observations up to {date_text(newest)}",
+        "origin": date_text(newest if origin is None else origin),
+        "newest_row": date_text(newest),
         "age_of_newest_row": f"{0.0 if origin is None else origin - newest:g} d at the origin",
         "parameters": f"{kind}: {fast}",
     }
@@ -338,7 +335,7 @@ def ahead(
         )
     if excitation is not None:
         source["excitation"] = (
-            f"given from {_day(excitation.rows[0, 0])} to {_day(excitation.rows[0, -1])}"
+            f"given from {date_text(excitation.rows[0, 0])} to {date_text(excitation.rows[0, -1])}"
         )
     return ForecastPole(
         time=datetime64(_days_ahead(record, days, step)),
@@ -501,7 +498,7 @@ def pole_offsets(
     table = offsets_until(file, float(record.time[-1]))
     time = _days_ahead(record, days, step)
     value, error = (pair.T for pair in predicted_offsets(table, time + MJD))
-    newest = _day(table.mjd[-1] - MJD)
+    newest = date_text(table.mjd[-1] - MJD)
     source = {
         "references": f"IERS {table.name}",
         "comment": f"observations up to {newest}",

@@ -10,6 +10,7 @@ import numpy as np
 
 from earthspin.bodies import MOON, SUN, Body, in_a_sentence
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
+from earthspin.dates import YearList, YearSpan, YearStep, grid
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, key
@@ -41,7 +42,6 @@ from earthspin.sky.orbit_table import OrbitTable, shipped
 from earthspin.torque import rates
 from earthspin.torque.gravity import dot
 from earthspin.units import FileName, Number, Plain, pack, unpack
-from earthspin.years import YearList, YearSpan, YearStep, grid
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -23,6 +23,7 @@ import numpy as np
 
 from earthspin._version import version
 from earthspin.constants import J2000_JD, MAS
+from earthspin.dates import date_text
 from earthspin.errors import (
     CoverageError,
     KernelError,
@@ -289,8 +290,8 @@ class Ephemeris:
             others = sorted(words(place) for place in places if not isinstance(place, int))
             raise CoverageError(
                 " with ".join([self.name, *others]),
-                (_date(np.min(days)), _date(np.max(days))),
-                (_date(start), _date(end)),
+                (date_text(np.min(days), "s"), date_text(np.max(days), "s")),
+                (date_text(start, "s"), date_text(end, "s")),
             )
 
     def check_records(self, days: FloatArray, places: Iterable[Place]) -> None:
@@ -416,15 +417,6 @@ def _open_spk(path: Path) -> Any:
     return kernel
 
 
-def _date(days: float) -> str:
-    """Calendar date, as text for messages, of a time in days from J2000.0 TDB."""
-    if not np.isfinite(days):
-        return str(days)
-    micro = np.timedelta64(round(float(days) * 86_400_000_000), "us")
-    date = np.datetime64("2000-01-01T12:00:00", "us") + micro
-    return str(np.datetime_as_string(date, unit="s"))
-
-
 def describe_kernel(name: str) -> str:
     """Describe a named kernel in one line: its dates and path, or why it is not available."""
     try:
@@ -432,4 +424,4 @@ def describe_kernel(name: str) -> str:
     except (MissingExtraError, KernelError) as error:
         return str(error)
     start, end = ephemeris.coverage(ephemeris.targets - {0})
-    return f"{_date(start)[:10]} to {_date(end)[:10]} TDB, {ephemeris.path}"
+    return f"{date_text(start)} to {date_text(end)} TDB, {ephemeris.path}"
