@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
-from earthspin.engine.plan import Plan
 from earthspin.engine.registry import METHODS, registered
 from earthspin.engine.spread import quantiles, sensitivity
 from earthspin.errors import SceneError
@@ -76,10 +75,9 @@ class Answer:
         return question
 
     @property
-    def plan(self) -> Plan:
+    def plan(self) -> Any:
         """Plan of the question: functions that run, and functions left out, with the reasons."""
-        plan: Plan = registered("plan")(self.scene)
-        return plan
+        return registered("plan")(self.scene)
 
     def to_frame(self) -> pd.DataFrame:
         """Return the result as a pandas table: a row for each label, a column for each number.
