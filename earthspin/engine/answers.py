@@ -158,8 +158,11 @@ def _linear_error(answer: xr.Dataset, name: str) -> xr.DataArray | None:
 
 # --- the public function of a question ------------------------------------------------------------
 
-#: Arguments of a call that give the two ends of a span.
-ENDS = ("start", "stop")
+#: Arguments of a call that give the two ends of a span, with their meaning.
+ENDS = {
+    "start": "First time; plain dates mean TDB, others are converted.",
+    "stop": "Last time, which is included if the step meets it.",
+}
 
 
 def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
@@ -173,10 +176,16 @@ def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
 
     def call(*args: Any, **kwargs: Any) -> xr.Dataset:
         try:
-            values = dict(signature.bind(*args, **kwargs).arguments)
+            values = signature.bind(*args, **kwargs).arguments
         except TypeError as error:
             raise TypeError(f"{question.call}() {error}") from None
-        return answer(question(**_with_span(question, values)))
+        ends = {end: values.pop(end, None) for end in ENDS if end in question.positional}
+        missing = [end for end, value in ends.items() if value is None]
+        if len(missing) == 1:
+            raise SceneError(missing[0], None, "give both start and stop, or times")
+        if ends and not missing:
+            values["span"] = tuple(ends.values())
+        return answer(question(**values))
 
     call.__name__ = call.__qualname__ = question.call
     call.__doc__ = docstring_of(question)
@@ -184,19 +193,6 @@ def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
     call.__signature__ = signature  # type: ignore[attr-defined]
     call.question = question  # type: ignore[attr-defined]
     return call
-
-
-def _with_span(question: type[Question], values: dict[str, Any]) -> dict[str, Any]:
-    """Replace the arguments `start` and `stop` by `span`; raise an error if one is missing."""
-    if "start" not in question.positional:
-        return values
-    ends = {end: values.pop(end, None) for end in ENDS}
-    missing = [end for end, value in ends.items() if value is None]
-    if len(missing) == len(ENDS):
-        return values
-    if missing:
-        raise SceneError(missing[0], None, "give both start and stop, or times")
-    return values | {"span": tuple(ends.values())}
 
 
 def arguments_of(question: type[Question]) -> dict[str, Key | None]:
@@ -236,7 +232,7 @@ def docstring_of(question: type[Question]) -> str:
     lines = [head, "", "Parameters", "----------"]
     for name, entry in arguments_of(question).items():
         if entry is None:
-            lines += [f"{name} : date", f"    {_END[name]}"]
+            lines += [f"{name} : date", f"    {ENDS[name]}"]
             continue
         optional = "" if entry.required else ", optional"
         default = f" Default: {entry.default_words}." if entry.default_words else ""
@@ -254,9 +250,3 @@ SOURCE_TEXT = (
     '"Rigid Body Dynamics", sections I.1 to I.9; docs/equations.md maps each to its function.',
 )
 _NUMBERED = re.compile(r"\bI\.\d")
-
-
-_END = {
-    "start": "First time; plain dates mean TDB, others are converted.",
-    "stop": "Last time, which is included if the step meets it.",
-}

@@ -169,7 +169,7 @@ def with_values(
             bodies[key] = _with_item(body, element, body[element].replace(**numbers))
     question = question.replace(**bodies)
     if any(hasattr(values[name], "dims") for name, entry in inputs.items() if not entry.field):
-        return question.holding(**changes)
+        return question.replace(changes)
     return question.replace(**changes)
 
 

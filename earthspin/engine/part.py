@@ -81,7 +81,8 @@ class Part(Generic[P, R]):
         self._lock = Lock()
         self.gives = _schema_of(function)
         self.name = function.__name__
-        self.does = _first_sentence(function)
+        line = (function.__doc__ or "").strip().split("\n")[0].rstrip(".")
+        self.does = line[:1].lower() + line[1:] if line[1:2].islower() else line
         update_wrapper(self, function)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
@@ -127,17 +128,13 @@ class Part(Generic[P, R]):
 
     def reason(self, keys: dict[str, Any]) -> str | None:
         """Return the reason (text) to omit this part for given inputs, else None."""
-        for condition in self.unless:
-            why = condition(**_arguments(condition, keys))
-            if why is not None:
-                return why
-        return None
+        reasons = (condition(**_arguments(condition, keys)) for condition in self.unless)
+        return next((why for why in reasons if why is not None), None)
 
     def description(self, keys: dict[str, Any]) -> str:
         """Describe what this part does for the given inputs, for the table of a plan."""
-        return (
-            self.does if self.describe is None else self.describe(**_arguments(self.describe, keys))
-        )
+        describe = self.describe
+        return self.does if describe is None else describe(**_arguments(describe, keys))
 
 
 @overload
@@ -203,9 +200,3 @@ def _schema_of(function: Callable[..., Any]) -> Mapping[str, Variable]:
 def _parameters(function: Callable[..., Any], default: object) -> tuple[str, ...]:
     parameters = inspect.signature(function).parameters.values()
     return tuple(entry.name for entry in parameters if entry.default is default)
-
-
-def _first_sentence(function: Callable[..., Any]) -> str:
-    """First line of a function's docstring, in lower case, without the final full stop."""
-    line = (function.__doc__ or "").strip().split("\n")[0].rstrip(".")
-    return line[:1].lower() + line[1:] if line[1:2].islower() else line

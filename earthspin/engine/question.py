@@ -50,17 +50,17 @@ class Key:
     ----------
     name : str
     kind : Kind
-    doc : str
     shown : object
         Default as a user would write it; MISSING if the key is required.
+    doc : str
     setting : bool
         Whether the key belongs in the question's own table.
     """
 
     name: str
     kind: Kind[Any]
-    doc: str
     shown: Any
+    doc: str
     setting: bool
 
     @property
@@ -183,7 +183,9 @@ class Question:
         keys = keys_of(type(self))
         for name, value in values.items():
             if name not in keys:
-                raise SceneError(name, value, unknown_key(type(self), name), source=source)
+                problem = f"compute = '{self.word}' has no such key: delete or rename it"
+                problem += f"; {nearest(name, keys)}"
+                raise SceneError(name, value, problem, source=source)
         chosen = {name: value for name, value in values.items() if value is not None}
         object.__setattr__(self, "given", frozenset({*chosen, *known}))
         object.__setattr__(self, "read_from", source)
@@ -200,12 +202,6 @@ class Question:
                 value = entry.default
             object.__setattr__(self, name, value)
         object.__setattr__(self, "title", self.title or self.word)
-        self._check_groups()
-        self.check()
-        return self
-
-    def _check_groups(self) -> None:
-        """Raise an error if keys are given that exclude one another, as `times` and `span`."""
         groups = [group for group in self.exclusive if self.given & set(group)]
         if len(groups) > 1:
             ways = ", or ".join(" and ".join(group) for group in self.exclusive)
@@ -215,6 +211,8 @@ class Question:
             raise self.error("uncertainty", "sample", problem)
         if self.n is not None and self.uncertainty != "sample":
             raise self.error("n", self.n, "it is only used with uncertainty = 'sample'")
+        self.check()
+        return self
 
     def check(self) -> None:
         """Raise an error if the values of the keys do not fit together; subclasses override it."""
@@ -293,19 +291,15 @@ class Question:
         """
         table: dict[str, Any] = {"compute": self.word}
         own: dict[str, Any] = {}
-        omitted = set(keys_of(type(self))) - self.given if given else self._superseded_keys()
-        for name, entry in keys_of(type(self)).items():
+        keys = keys_of(type(self))
+        used = next((group for group in self.exclusive if self.given & set(group)), None)
+        without_effect = set[str]().union(*self.exclusive).difference(used) if used else set()
+        omitted = keys.keys() - self.given if given else without_effect
+        for name, entry in keys.items():
             value = getattr(self, name)
             if value is not None and name not in omitted:
                 (own if entry.setting else table)[name] = entry.kind.write(value)
         return table | ({self.table: own} if own else {})
-
-    def _superseded_keys(self) -> set[str]:
-        """Names of keys that have no effect, because the user gave alternative keys."""
-        used = next((group for group in self.exclusive if self.given & set(group)), None)
-        if used is None:
-            return set()
-        return {name for group in self.exclusive for name in group} - set(used)
 
     def keys(self) -> dict[str, Any]:
         """Return a dict of the values of all inputs (keys) of this question, by input name."""
@@ -319,24 +313,20 @@ class Question:
         """
         return {}
 
-    def replace(self, **changes: Any) -> Self:
-        """Return a copy of the question with some keys changed; all checks are repeated."""
-        return self._changed(changes, {})
-
-    def holding(self, **arrays: Any) -> Self:
-        """Return a copy of the question with arrays of member values in some keys, unchecked.
+    def replace(self, arrays: Mapping[str, Any] | None = None, /, **changes: Any) -> Self:
+        """Return a copy of the question with some keys changed; all checks are repeated.
 
         Parameters
         ----------
-        **arrays
-            Labelled arrays for keys in `together` of `define_parts`, whose numbers were checked.
+        arrays : mapping, optional
+            Labelled arrays of member values, whose numbers were checked, for keys in `together` of
+            `define_parts`.
+        **changes
+            Values of other keys, as a user writes them.
         """
-        return self._changed({}, arrays)
-
-    def _changed(self, changes: Mapping[str, Any], arrays: Mapping[str, Any]) -> Self:
-        before = {name: getattr(self, name) for name in self.given if name not in changes}
-        values, question = {"title": self.title} | dict(changes), type(self).__new__(type(self))
-        return question._fill(values, known=before | dict(arrays), source=self.read_from)
+        known = {name: getattr(self, name) for name in self.given if name not in changes}
+        values, question = {"title": self.title} | changes, type(self).__new__(type(self))
+        return question._fill(values, known=known | dict(arrays or {}), source=self.read_from)
 
     def _repr_html_(self) -> str:
         """HTML table of all keys: their values, whether these were given, and their meaning."""
@@ -367,22 +357,10 @@ def keys_of(question: type[Question]) -> dict[str, Key]:
         shared = [entry.name for entry in fields(Question) if entry.name != "title"]  # type: ignore[arg-type]
         entries = sorted(fields(question), key=lambda entry: entry.name in shared)  # type: ignore[arg-type]
         question.key_table = {
-            entry.name: Key(
-                name=entry.name,
-                kind=kind_of(hints[entry.name]),
-                doc=entry.metadata["doc"],
-                shown=entry.default,
-                setting=entry.metadata["setting"],
-            )
+            entry.name: Key(entry.name, kind_of(hints[entry.name]), entry.default, **entry.metadata)
             for entry in entries
         }
     return question.key_table
-
-
-def unknown_key(question: type[Question], name: str) -> str:
-    """Return the error message for an unknown key, with the most similar known keys."""
-    allowed = nearest(name, keys_of(question))
-    return f"compute = '{question.word}' has no such key: delete or rename it; {allowed}"
 
 
 # --- text of a scene ------------------------------------------------------------------------------
@@ -403,30 +381,7 @@ def scene_text(question: Question) -> str:
     """Write a question, with the values of all its inputs, as the text of a scene file."""
     import tomli_w
 
-    packed: list[str] = []
-    text = tomli_w.dumps(_without_bytes(question.to_table(), packed))
-    for number, data in enumerate(packed):
-        text = text.replace(f'"{_PACKED.format(number)}"', f'"{data}"', 1)
-    return text
-
-
-#: Placeholder for packed arrays while tomli_w writes a scene, since it writes long text slowly.
-_PACKED = "earthspin: packed array {}"
-
-
-def _without_bytes(value: Any, packed: list[str]) -> Any:
-    """Copy a table with encoded arrays replaced by placeholders; append the arrays to `packed`."""
-    if isinstance(value, list):
-        return [_without_bytes(item, packed) for item in value]
-    if not isinstance(value, dict):
-        return value
-    short = {
-        name: _without_bytes(item, packed) for name, item in value.items() if name != "float64"
-    }
-    if "float64" in value:
-        packed.append(value["float64"])
-        short["float64"] = _PACKED.format(len(packed) - 1)
-    return short
+    return tomli_w.dumps(question.to_table())
 
 
 # --- what a question is made of ------------------------------------------------------------------
