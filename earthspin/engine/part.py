@@ -11,7 +11,7 @@ import inspect
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
-from functools import cache, cached_property, update_wrapper
+from functools import cache, cached_property, partial, update_wrapper
 from threading import Lock
 from typing import Any, Generic, ParamSpec, TypeVar, overload
 
@@ -70,12 +70,13 @@ class Part(Generic[P, R]):
     def __init__(
         self,
         function: Callable[P, R],
-        unless: tuple[Reason, ...],
+        unless: Reason | tuple[Reason, ...] = (),
         describe: Describer | None = None,
         same_for: SameFor | None = None,
         loads: tuple[str, ...] = (),
     ) -> None:
-        self.function, self.unless, self.loads = function, unless, loads
+        self.function, self.loads = function, loads
+        self.unless = unless if isinstance(unless, tuple) else (unless,)
         self.describe, self.same_for = describe, same_for
         self._stored: OrderedDict[Hashable, R] = OrderedDict()
         self._lock = Lock()
@@ -140,22 +141,8 @@ class Part(Generic[P, R]):
 @overload
 def part(function: Callable[P, R], /) -> Part[P, R]: ...
 @overload
-def part(
-    *,
-    unless: Reason | tuple[Reason, ...] = ...,
-    describe: Describer | None = ...,
-    same_for: SameFor | None = ...,
-    loads: tuple[str, ...] = ...,
-) -> Callable[[Callable[P, R]], Part[P, R]]: ...
-def part(
-    function: Callable[P, R] | None = None,
-    /,
-    *,
-    unless: Reason | tuple[Reason, ...] = (),
-    describe: Describer | None = None,
-    same_for: SameFor | None = None,
-    loads: tuple[str, ...] = (),
-) -> Part[P, R] | Callable[[Callable[P, R]], Part[P, R]]:
+def part(**options: Any) -> Callable[[Callable[P, R]], Part[P, R]]: ...
+def part(function: Callable[P, R] | None = None, /, **options: Any) -> Any:
     """Make a `Part` from a typed function; a decorator.
 
     Parameters
@@ -174,11 +161,7 @@ def part(
         Modules that the function, or what it calls, imports when it runs, if this takes long. A run
         imports them before its first part, so that the run time of the part is that of its work.
     """
-    reasons = unless if isinstance(unless, tuple) else (unless,)
-
-    if function is None:
-        return lambda function: Part(function, reasons, describe, same_for, loads)
-    return Part(function, reasons, describe, same_for, loads)
+    return partial(Part, **options) if function is None else Part(function, **options)
 
 
 def _arguments(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any]:

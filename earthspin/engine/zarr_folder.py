@@ -191,56 +191,37 @@ def verify(store: Path) -> None:
         raise mismatch_error(store, "its numbers or words")
 
 
-def verify_shared(store: Path, along: str) -> dict[str, Any]:
-    """Compare what all blocks of an unfinished store share: metadata, and arrays without blocks.
+def missing_blocks(store: Path, along: str) -> set[int]:
+    """Find the blocks of an unfinished store that are not complete; remove their damaged chunks.
 
     Parameters
     ----------
     store : Path
     along : str
-        Dimension that is divided into blocks.
+        Dimension that is divided into blocks, the first of every array that has it.
 
     Returns
     -------
-    dict of str to dict
-        See `metadata_of`.
+    set of int
+        Numbers of the blocks.
 
     Raises
     ------
     OutputError
-        If anything is missing or damaged.
+        If what all blocks share is damaged: metadata, or arrays without blocks.
     """
-    metadata = metadata_of(store)
+    metadata, missing = metadata_of(store), set[int]()
     for name in _arrays(metadata):
-        if along not in metadata[f"{name}/.zattrs"][DIMENSIONS]:
-            for chunk in _chunks(metadata[f"{name}/.zarray"]):
-                _check_chunk(store, name, chunk, metadata[f"{name}/.zarray"])
-    return metadata
-
-
-def damaged_chunks(store: Path, metadata: Mapping[str, Any], along: str, number: int) -> list[str]:
-    """List the files of a block that are missing or damaged.
-
-    Parameters
-    ----------
-    store : Path
-    metadata : mapping of str to dict
-        See `metadata_of`.
-    along : str
-        Dimension that is divided into blocks, the first of every array that has it.
-    number : int
-        Number of the block.
-    """
-    damaged = []
-    for name in _arrays(metadata):
-        dimensions = metadata[f"{name}/.zattrs"][DIMENSIONS]
-        if along in dimensions:
-            chunk = ".".join([str(number)] + ["0"] * (len(dimensions) - 1))
+        array, in_blocks = metadata[f"{name}/.zarray"], metadata[f"{name}/.zattrs"][DIMENSIONS]
+        for chunk in _chunks(array):
             try:
-                _check_chunk(store, name, chunk, metadata[f"{name}/.zarray"])
+                _check_chunk(store, name, chunk, array)
             except OutputError:
-                damaged.append(f"{name}/{chunk}")
-    return damaged
+                if along not in in_blocks:
+                    raise
+                (store / name / chunk).unlink(missing_ok=True)
+                missing.add(int(chunk.partition(".")[0]))
+    return missing
 
 
 def _arrays(metadata: Mapping[str, Any]) -> list[str]:

@@ -35,9 +35,6 @@ class Squares:
     def request(self) -> Mapping[str, str]:
         return {"question": self.question, "version": self.version}
 
-    def first(self) -> xr.Dataset:
-        return self.make(0).assign_attrs(title="squares")
-
     def make(self, number: int) -> xr.Dataset:
         self.made.append(number)
         time.sleep(self.seconds)
@@ -47,7 +44,8 @@ class Squares:
             "day": ("member", np.datetime64("2000-01-01", "us") + member * np.timedelta64(1, "D")),
             "constant": ((), 3.0, {"units": "deg"}),
         }
-        return xr.Dataset(data, {"member": member, "column": ["plus", "minus"]})
+        attrs = {} if number else {"title": "squares"}
+        return xr.Dataset(data, {"member": member, "column": ["plus", "minus"]}, attrs)
 
 
 def blocks_in(partial: Path) -> int:
