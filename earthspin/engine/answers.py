@@ -118,35 +118,31 @@ def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
     }
     if not linear_errors:
         raise question.error("uncertainty", "sample", _NO_ERROR)
-    plain = question.replace(uncertainty=None, n=None)
     count = MEMBERS if question.n is None else question.n
     members = Members(n=count, published=True)
-    sample = Ensemble(plain.replace(members=members), in_memory=True).hold()
+    drawn = question.replace(uncertainty=None, n=None, members=members)
+    sample = Ensemble(drawn, in_memory=True).hold()
     sampled: dict[str, Any] = {}
     for name, linear in linear_errors.items():
-        values = sample[name]
-        if MEMBER not in values.dims:
-            width, shift = np.zeros(answer[name].shape), 0.0
-        else:
+        number, values = answer[name], sample[name]
+        units, width, shift = number.attrs.get("units", "1"), np.zeros(number.shape), 0.0
+        if MEMBER in values.dims:
             low, middle, high = np.quantile(values.values, (_ENDS[0], 0.5, _ENDS[1]), axis=0)
             width = (high - low) / 2
-            shift = float(np.max(np.abs(middle - answer[name].values)))
-        units = answer[name].attrs.get("units", "1")
+            shift = float(np.max(np.abs(middle - number.values)))
+        meaning = f"95 % half-width of the {number.attrs['long_name']}"
         attrs = {
-            "long_name": f"95 % half-width of the {answer[name].attrs['long_name']} from "
-            f"{count} members",
+            "long_name": f"{meaning} from {count} members",
             "units": units,
             "members": count,
             "middle_of_the_sample": f"{shift:.3g} {units} at most from {name}",
         }
-        if linear.attrs.get("units") == units and linear.dims == answer[name].dims:
-            difference = float(np.max(np.abs(linear.values - width), initial=0.0))
-            words = f"{difference:.3g} {units} at most from {linear.name}"
-            attrs["difference_from_linear"] = words
-        sampled[f"{name}_error_sampled"] = (answer[name].dims, width, attrs)
+        if linear.attrs.get("units") == units and linear.dims == number.dims:
+            size = float(np.max(np.abs(linear.values - width), initial=0.0))
+            attrs["difference_from_linear"] = f"{size:.3g} {units} at most from {linear.name}"
+        sampled[f"{name}_error_sampled"] = (number.dims, width, attrs)
     inputs = ", ".join(str(c.attrs["input"]) for c in sample.coords.values() if "input" in c.attrs)
-    summary = {"sampled": f"{count} members in {inputs}"}
-    return answer.assign(sampled).assign_attrs(summary)
+    return answer.assign(sampled).assign_attrs(sampled=f"{count} members in {inputs}")
 
 
 def _linear_error(answer: xr.Dataset, name: str) -> xr.DataArray | None:

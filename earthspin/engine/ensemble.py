@@ -133,9 +133,8 @@ class Ensemble:
         begun = time.perf_counter()
         answer = few.make(0)
         days = (time.perf_counter() - begun) / together * self.which.size / 86_400
-        self._refuse_size(
-            sum(array.nbytes for array in answer.variables.values() if MEMBER in array.dims)
-        )
+        varying = (array for array in answer.variables.values() if MEMBER in array.dims)
+        self._refuse_size(sum(array.nbytes for array in varying))
         if days > LONGEST_IN_MEMORY:
             problem = (
                 f"they take about {days:.2g} days, and {LONGEST_IN_MEMORY} is allowed in memory; "
@@ -148,9 +147,9 @@ class Ensemble:
         size = 2 * member * self.which.size  # of all blocks, and of the whole made of them
         if size > LARGEST_IN_MEMORY:
             problem = (
-                f"they need about {size / 1e9:.3g} GB of memory, and {LARGEST_IN_MEMORY / 1e9:g} "
-                "are allowed; give a path to write them to a store"
+                f"they need about {size / 1e9:.3g} GB of memory, and {LARGEST_IN_MEMORY / 1e9:g}"
             )
+            problem += " are allowed; give a path to write them to a store"
             raise self.question.error("members", self.which.size, problem)
 
     # --- members that cannot exist ---------------------------------------------------------------
@@ -375,9 +374,8 @@ class Ensemble:
 
         An input with the name of a result, such as theta, is labelled ``<name>_given``.
         """
-        labels: dict[str, Any] = {
-            MEMBER: (MEMBER, self.which[which], {"long_name": "number of the member"})
-        }
+        labels = dict[str, Any]()
+        labels[MEMBER] = (MEMBER, self.which[which], {"long_name": "number of the member"})
         for name, entry in self.inputs.items():
             values, label = self.values[name][which], name.replace(".", "_")
             dims = (MEMBER, *(f"{label}_{k}" for k in range(values.ndim - 1)))

@@ -10,10 +10,9 @@ from __future__ import annotations
 import inspect
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Mapping
-from dataclasses import dataclass
 from functools import cache, cached_property, partial, update_wrapper
 from threading import Lock
-from typing import Any, Generic, ParamSpec, TypeVar, overload
+from typing import Any, Generic, NamedTuple, ParamSpec, TypeVar, overload
 
 from earthspin.engine.variables import Variable, Variables
 
@@ -36,8 +35,7 @@ BLOCK = "block"
 STORED = 4
 
 
-@dataclass(frozen=True)
-class Block:
+class Block(NamedTuple):
     """One block of a long series: the epochs with indices from `first` to `last` - 1."""
 
     first: int

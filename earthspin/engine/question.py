@@ -164,13 +164,12 @@ class Question:
         dataclass(frozen=True, init=False, eq=False, repr=False)(cls)
 
     def __init__(self, **values: Any) -> None:
-        self._fill(values)
+        self._fill(values, {})
 
     def _fill(
         self,
         values: Mapping[str, Any],
-        *,
-        known: Mapping[str, Any] | None = None,
+        known: Mapping[str, Any],
         source: str = "",
         in_scene: bool = False,
         typed: Collection[str] = (),
@@ -179,7 +178,6 @@ class Question:
 
         Values in `known` were read before and are not read again.
         """
-        known = known or {}
         keys = keys_of(type(self))
         for name, value in values.items():
             if name not in keys:
@@ -279,7 +277,7 @@ class Question:
                 raise SceneError(name, value, problem, source=source)
             else:
                 values[name] = value
-        return cls.__new__(cls)._fill(values, source=source, in_scene=True, typed=typed)
+        return cls.__new__(cls)._fill(values, {}, source, True, typed)
 
     def to_table(self, *, given: bool = False) -> dict[str, Any]:
         """Convert the question to a table for a scene file, with the values of all keys.
@@ -326,7 +324,7 @@ class Question:
         """
         known = {name: getattr(self, name) for name in self.given if name not in changes}
         values, question = {"title": self.title} | changes, type(self).__new__(type(self))
-        return question._fill(values, known=known | dict(arrays or {}), source=self.read_from)
+        return question._fill(values, known | dict(arrays or {}), self.read_from)
 
     def _repr_html_(self) -> str:
         """HTML table of all keys: their values, whether these were given, and their meaning."""
@@ -465,10 +463,8 @@ def define_parts(
     for part in all_parts:
         for parameter in (*part.needs, *part.uses):
             if parameter not in names | keys | {BLOCK}:
-                raise TypeError(
-                    f"{question.__name__}: {part.name} takes '{parameter}', which is neither a "
-                    "key nor a part; add it"
-                )
+                problem = f"takes '{parameter}', which is neither a key nor a part; add it"
+                raise TypeError(f"{question.__name__}: {part.name} {problem}")
     if NEGLECTED not in names:
         raise TypeError(f"{question.__name__} has no part '{NEGLECTED}'")
     ends = {name: tuple(part.name for part in group) for name, group in groups.items()}
@@ -480,16 +476,13 @@ def define_parts(
 
 def describe_keys(question: type[Question]) -> str:
     """Describe all keys (inputs) of a question as text: allowed values, meaning, default."""
-    lines = []
-    for in_table in (False, True):
-        chosen = [entry for entry in keys_of(question).values() if entry.setting is in_table]
-        if chosen and in_table:
-            lines += ["", f"[{question.table}]"]
-        for entry in chosen:
-            default = f" (default: {entry.default_words})" if entry.default_words else ""
-            default = " (must be given)" if entry.required else default
-            lines.append(f"{entry.name}: {entry.kind.words}")
-            lines += textwrap.wrap(
-                f"{entry.doc}{default}", 92, initial_indent="    ", subsequent_indent="    "
-            )
+    lines: list[str] = []
+    heading = ["", f"[{question.table}]"]
+    for entry in sorted(keys_of(question).values(), key=lambda entry: entry.setting):
+        if entry.setting:
+            lines, heading = lines + heading, []
+        default = f" (default: {entry.default_words})" if entry.default_words else ""
+        default = " (must be given)" if entry.required else default
+        meaning = textwrap.fill(f"{entry.doc}{default}", 88)
+        lines += [f"{entry.name}: {entry.kind.words}", textwrap.indent(meaning, "    ")]
     return "\n".join(lines)

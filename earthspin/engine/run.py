@@ -102,18 +102,15 @@ class Plan:
         """Return the table of this plan as a Dataset along `part`."""
         import xarray as xr
 
-        rows = self.rows
+        part, status, reason, seconds = map(list, zip(*self.rows, strict=True))
         why = "description of the part, or reason for leaving it out"
-        seconds = {"units": "s", "long_name": "run time of the part"}
-        status = {"long_name": "whether the part ran"}
-        return xr.Dataset(
-            {
-                "status": ("part", [row.status for row in rows], status),
-                "reason": ("part", [row.reason for row in rows], {"long_name": why}),
-                "run_time": ("part", [row.seconds or 0.0 for row in rows], seconds),
-            },
-            {"part": ("part", [row.part for row in rows], {"long_name": "part of the plan"})},
-        )
+        run_time = {"units": "s", "long_name": "run time of the part"}
+        columns = {
+            "status": ("part", status, {"long_name": "whether the part ran"}),
+            "reason": ("part", reason, {"long_name": why}),
+            "run_time": ("part", [cost or 0.0 for cost in seconds], run_time),
+        }
+        return xr.Dataset(columns, {"part": ("part", part, {"long_name": "part of the plan"})})
 
     def __str__(self) -> str:
         width = max(len(row.part) for row in self.rows)
@@ -290,14 +287,12 @@ class Run:
 
     # --- answers ---------------------------------------------------------------------------------
 
-    def numbers(
-        self, names: Iterable[str] | None = None, effects: Sequence[str] = ()
-    ) -> xr.Dataset:
+    def numbers(self, names: Iterable[str] = (), effects: Sequence[str] = ()) -> xr.Dataset:
         """Merge the results of some parts into a Dataset without attributes.
 
         Parameters
         ----------
-        names : iterable of str, optional
+        names : iterable of str
             Names of the parts, of which those that are left out are omitted; by default, those of
             the answer.
         effects : sequence of str
@@ -412,9 +407,8 @@ def in_range(what: str) -> Iterator[None]:
         with np.errstate(over="raise", divide="raise", invalid="raise"):
             yield
     except ArithmeticError as error:
-        raise UndefinedError(
-            f"numbers are too large or too small to compute with ({what}: {error}); check the input"
-        ) from error
+        problem = f"numbers are too large or too small to compute with ({what}: {error})"
+        raise UndefinedError(f"{problem}; check the input") from error
 
 
 def _is_same(old: object, new: object) -> bool:
