@@ -53,24 +53,13 @@ def test_every_key_is_used_by_some_part(question: type[Question]) -> None:
     assert used <= {*keys_of(question), *graph.parts, BLOCK}
 
 
-def test_reasons() -> None:
-    plan = earthspin.plan(load_scene("torque"))
-    assert plan.left_out["nutation"] == "the equator is the mean one"
-    plan = earthspin.plan(load_scene("torque", {"equator": "true"}))
-    assert "nutation" not in plan.left_out
-
-
 def test_the_words_of_a_plan() -> None:
-    text = str(earthspin.plan(load_scene("sun-only"), "all"))
-    assert "runs, in this order" in text
-    assert "left out" in text
-    assert "the moon is not among the perturbers" in text
-    assert " ms]" not in text
-    page = earthspin.plan("sun-only")._repr_html_()
-    assert page.startswith("<table>")
-    assert "its section was not requested" in page
-    frame = earthspin.plan("sun-only").to_frame()
-    assert set(frame.columns) == {"part", "status", "reason", "seconds"}
+    plan = earthspin.plan("sun-only")
+    for word in ("runs, in this order", "left out", "the moon is not among the perturbers"):
+        assert word in str(plan)
+    assert " ms]" not in str(plan)
+    assert "its section was not requested" in plan._repr_html_()
+    assert set(plan.to_frame().columns) == {"part", "status", "reason", "seconds"}
 
 
 def test_a_part_is_left_out_with_what_it_needs(monkeypatch: pytest.MonkeyPatch) -> None:

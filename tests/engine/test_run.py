@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 
 import earthspin
-from earthspin import CoverageError, Scene, SceneError, load_scene, scenes
+from earthspin import Scene, SceneError, load_scene, scenes
 from earthspin.engine.run import Run
 from earthspin.questions import averages
 from earthspin.scenes import run, run_blocks
@@ -137,16 +137,6 @@ def test_a_span_alone_has_the_step_of_the_signature(call: str) -> None:
     span = ("-5 kyr", "0 kyr") if call == "long_term" else ("2000-01-01", "2000-03-01")
     step = inspect.signature(ask).parameters["step"].default
     assert ask(*span).identical(ask(*span, step))
-
-
-def test_spans_outside_the_kernel() -> None:
-    for span in (("1800-01-01", "1801-01-01"), ("2053-01-01", "2054-01-01")):
-        with pytest.raises(CoverageError, match="1899-07-29"):
-            earthspin.torque_series(*span, "1 d")
-        with pytest.raises(CoverageError):
-            earthspin.precession(span=span)
-    with pytest.raises(CoverageError):
-        earthspin.torque_series(times=["2000-01-01", "2060-01-01"])
 
 
 def test_both_forms_of_the_torque_agree_to_round_off() -> None:
