@@ -235,10 +235,7 @@ class Answer:
         >>> print(float(share.sel(input="body.dynamical_flattening").round(3)))
         1.0
         """
-        answer = self.dataset
-        outputs = {
-            n: array for n, array in _members(answer, "sensitivity").items() if "_error" not in n
-        }
+        answer, outputs = self.dataset, _members(self.dataset, "sensitivity")
         columns, count, needed = inputs_of(answer), answer.sizes[MEMBER], members_needed(answer)
         if count < needed:
             problem = f"{len(columns)} inputs need at least {needed} members"
@@ -248,7 +245,8 @@ class Answer:
         inputs = np.stack(numbers, axis=1) if numbers else np.empty((count, 0))
         no_slope = {"no_slope": "inputs that are names have no slope"} if classes else {}
         variables: dict[str, Any] = {}
-        for name, array in outputs.items():
+        for name in (name for name in outputs if "_error" not in name):
+            array = outputs[name]
             shares = sampling.shares_of_variance(inputs, array.values.astype(float), classes)
             what, rest = array.attrs.get("long_name", name), array.dims[1:]
             slope_units = f"{array.attrs.get('units', '1')} per unit of the input"
@@ -316,9 +314,8 @@ def members_needed(answer: xr.Dataset) -> int:
     It is 2, plus 1 for each input that is a number, plus k - 1 for each input with k names.
     """
     columns = inputs_of(answer).values()
-    return 2 + sum(
-        len(np.unique(column)) - 1 if column.dtype.kind == "U" else 1 for column in columns
-    )
+    classes = [len(np.unique(column)) for column in columns if column.dtype.kind == "U"]
+    return 2 + len(columns) + sum(classes) - 2 * len(classes)
 
 
 def _members(answer: xr.Dataset, what: str) -> dict[str, xr.DataArray]:

@@ -498,13 +498,10 @@ class Series:
     @cached_property
     def _run(self) -> Run:
         """Run that keeps the results which all blocks share."""
-        return Run(self.question, block=self._block(0))
+        return Run(self.question, block=Block(*self.layout.bounds(0)))
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in vars(self).items() if name != "_run"}
-
-    def _block(self, number: int) -> Block:
-        return Block(*self.layout.bounds(number))
 
     @cached_property
     def request(self) -> Mapping[str, str]:
@@ -514,7 +511,7 @@ class Series:
 
     def make(self, number: int) -> xr.Dataset:
         """Compute one block of consecutive times, by its number."""
-        return self._run.again(block=self._block(number)).answer()
+        return self._run.again(block=Block(*self.layout.bounds(number))).answer()
 
 
 def request_of(question: Question, provenance: Mapping[str, str]) -> dict[str, str]:

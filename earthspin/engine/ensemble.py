@@ -10,11 +10,10 @@ number of members, and a member has the same bits alone.
 from __future__ import annotations
 
 import time
-from collections import OrderedDict
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -86,7 +85,6 @@ class Ensemble:
         nominal = {name: getattr(question, name) for name in question.by_body}
         self.full_question, self.question = question, question.replace(members=None, **nominal)
         self._length = block
-        self._runs: OrderedDict[Names, Run] = OrderedDict()
         members, where = question.members or Members(), question.where("members")
         for name in members.distributions.keys() & members.values.keys():
             raise where.at(name).error("...", TWICE)
@@ -115,8 +113,8 @@ class Ensemble:
 
     def __getstate__(self) -> dict[str, Any]:
         _ = self.layout, self.width  # computed once, before workers receive copies
-        state = vars(self) | {"_runs": OrderedDict()}
-        return {n: value for n, value in state.items() if n not in ("nominal", "descriptions")}
+        results = ("nominal", "descriptions", "run")
+        return {name: value for name, value in vars(self).items() if name not in results}
 
     # --- size and run time -----------------------------------------------------------------------
 
@@ -127,7 +125,7 @@ class Ensemble:
             few = Ensemble(self.full_question.replace(members=first), block=1)
         except SceneError:  # the first members cannot exist; the others are checked after drawing
             return
-        self._runs = few._runs  # for the same questions
+        self.run = few.run  # for the same questions
         together = ROW if few.width > 1 else 1
         _ = few.descriptions  # which do not depend on the number of members
         begun = time.perf_counter()
@@ -214,14 +212,10 @@ class Ensemble:
         keys = (entry.key for entry in self.named.values())
         return self.question.replace(**dict(zip(keys, names, strict=True)))
 
-    def run(self, names: Names) -> Run:
+    @cached_property
+    def run(self) -> Callable[[Names], Run]:
         """Run of the question with the given names and its own numbers, kept for its results."""
-        if names not in self._runs:
-            self._runs[names] = Run(self.variant(names))
-            if len(self._runs) > LARGEST_NUMBER_OF_RUNS:
-                self._runs.popitem(last=False)
-        self._runs.move_to_end(names)
-        return self._runs[names]
+        return lru_cache(LARGEST_NUMBER_OF_RUNS)(lambda names: Run(self.variant(names)))
 
     @property
     def nominal_run(self) -> Run:

@@ -91,16 +91,15 @@ class Part(Generic[P, R]):
     def stored_or_computed(self, inputs: Mapping[str, Any]) -> tuple[R, bool]:
         """Return the result for given inputs, and whether an earlier result was reused."""
         key = None if self.same_for is None else self.same_for(**inputs)
-        if key is None:
-            return self.function(**inputs), False  # type: ignore[call-arg]
         with self._lock:
-            if key in self._stored:
+            if key is not None and key in self._stored:
                 return self._stored[key], True
         result = self.function(**inputs)  # type: ignore[call-arg]
-        with self._lock:
-            self._stored[key] = result
-            if len(self._stored) > STORED:
-                self._stored.popitem(last=False)
+        if key is not None:
+            with self._lock:
+                self._stored[key] = result
+                if len(self._stored) > STORED:
+                    self._stored.popitem(last=False)
         return result, False
 
     def __reduce__(self) -> str:

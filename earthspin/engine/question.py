@@ -194,7 +194,7 @@ class Question:
                 value = _read(entry.kind, chosen[name], where)
             elif name in known:
                 value = known[name]
-            elif entry.required:
+            elif entry.shown is MISSING:
                 raise where.error(None, f"required: {entry.doc} ({entry.kind.words})")
             else:
                 value = entry.default
@@ -230,9 +230,8 @@ class Question:
     def unused(self) -> str:
         """Satellites of the question's body that the answer leaves out, in words; may be empty."""
         satellites = getattr(getattr(self, "body", None), "satellites", ())
-        if self.with_satellites or not satellites:
-            return ""
-        return f"the satellites {', '.join(satellite.name for satellite in satellites)}"
+        names = ", ".join(satellite.name for satellite in satellites)
+        return f"the satellites {names}" if names and not self.with_satellites else ""
 
     given: ClassVar[frozenset[str]]
     read_from: ClassVar[str]
@@ -337,11 +336,9 @@ class Question:
         return card(f"{self.title}: compute = {self.word}", rows)
 
     def __repr__(self) -> str:
-        shown = [
-            f"{name}={_shown(getattr(self, name), entry.kind)!r}"
-            for name, entry in keys_of(type(self)).items()
-            if name in self.given and getattr(self, name) is not None
-        ]
+        values = {n: v for n, v in self.keys().items() if n in self.given and v is not None}
+        kinds = {name: entry.kind for name, entry in keys_of(type(self)).items()}
+        shown = (f"{name}={_shown(value, kinds[name])!r}" for name, value in values.items())
         return f"{type(self).__name__}({', '.join(shown)})"
 
 

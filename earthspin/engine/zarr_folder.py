@@ -59,19 +59,15 @@ def write(groups: Mapping[str, xr.Dataset], path: Path, encoding: Mapping[str, A
         Encoding of the variables of each group, by path; the codec is added.
     """
     for number, (group, node) in enumerate(groups.items()):
-        coded = {
-            name: entry | {"compressors": (_CODEC,), "filters": _filters(node.variables[name])}
-            for name, entry in encoding[group].items()
-        }
+        coded = {}
+        for name, entry in encoding[group].items():
+            # Shuffled, the bytes of equal weight of all numbers stand side by side.
+            kind, size = node.variables[name].dtype.kind, node.variables[name].dtype.itemsize
+            filters = (numcodecs.Shuffle(size),) if kind in "fiuM" else ()
+            coded[name] = entry | {"compressors": (_CODEC,), "filters": filters}
         mode: Any = "a" if number else "w"
         with zarr.config.set({"threading.max_workers": 1}):
             node.to_zarr(path, mode=mode, group=group, encoding=coded, **OPTIONS)
-
-
-def _filters(variable: xr.Variable) -> tuple[Any, ...]:
-    """Filters of a variable before compression: bytes of equal weight of numbers side by side."""
-    is_number = variable.dtype.kind in "fiuM"
-    return (numcodecs.Shuffle(variable.dtype.itemsize),) if is_number else ()
 
 
 def write_region(node: xr.Dataset, store: Path, region: Mapping[str, slice]) -> None:
