@@ -14,23 +14,6 @@ from earthspin.engine.question import Question, keys_of
 from earthspin.engine.run import Run
 from earthspin.scenes import QUESTIONS, shipped_scenes
 
-EVERY = [(scene, sections) for scene in shipped_scenes() for sections in ("all", ())]
-
-
-@pytest.mark.parametrize(("scene", "sections"), EVERY)
-def test_parts_run_after_what_they_need(scene: str, sections: str | tuple[str, ...]) -> None:
-    plan = earthspin.plan(scene, sections)
-    graph = plan.question.graph
-    chosen = {part.name for part in plan.parts}
-    seen: set[str] = set()
-    for part in plan.parts:
-        assert {name for name in part.needs if name in graph.parts} <= seen
-        assert {name for name in part.uses if name in chosen} <= seen
-        seen.add(part.name)
-    titles = {part.title for part in graph.parts.values()}
-    assert {part.title for part in plan.parts} | set(plan.left_out) == titles
-    assert not {part.title for part in plan.parts} & set(plan.left_out)
-
 
 @pytest.mark.parametrize("scene", shipped_scenes())
 def test_a_plan_can_be_pickled(scene: str) -> None:
