@@ -260,23 +260,19 @@ class Question:
         SceneError, UnitsError
             If a key is unknown, missing or wrong.
         """
-        keys, values = keys_of(cls), {"title": title} if title else {}
-        for name, value in table.items():
-            if cls.table and name == cls.table:
-                if not isinstance(value, Mapping):
-                    raise SceneError(name, value, f"it is a table: [{name}]", source=source)
-                own = {setting for setting, entry in keys.items() if entry.setting}
-                for inner in value:
-                    if inner not in own:
-                        problem = nearest(inner, own)
-                        raise SceneError(f"{name}.{inner}", value[inner], problem, source=source)
-                values |= value
-            elif name in keys and keys[name].setting:
+        values: dict[str, Any] = ({"title": title} if title else {}) | dict(table)
+        settings = values.pop(cls.table, {}) if cls.table else {}
+        if not isinstance(settings, Mapping):
+            raise SceneError(cls.table, settings, f"it is a table: [{cls.table}]", source=source)
+        own = {name for name, entry in keys_of(cls).items() if entry.setting}
+        for name, value in values.items():
+            if name in own:
                 problem = f"it belongs in the table [{cls.table}]"
                 raise SceneError(name, value, problem, source=source)
-            else:
-                values[name] = value
-        return cls.__new__(cls)._fill(values, {}, source, True, typed)
+        for name, value in settings.items():
+            if name not in own:
+                raise SceneError(f"{cls.table}.{name}", value, nearest(name, own), source=source)
+        return cls.__new__(cls)._fill(values | dict(settings), {}, source, True, typed)
 
     def to_table(self, *, given: bool = False) -> dict[str, Any]:
         """Convert the question to a table for a scene file, with the values of all keys.
