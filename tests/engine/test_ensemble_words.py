@@ -31,10 +31,8 @@ def write_orbit(path: str, eccentricity: float) -> None:
     """A table in the manner of La2010: in the ecliptic, its perihelion going round."""
     t = np.arange(-60.0, 61.0)
     sines = {"k": np.cos(t / 15), "h": np.sin(t / 15), "q": 0 * t, "p": 0 * t}
-    rows = pd.DataFrame(
-        {"t": t, **{name: eccentricity * variable for name, variable in sines.items()}}
-    )
-    rows.to_csv(path, sep=" ", index=False)
+    rows = {name: eccentricity * sine for name, sine in sines.items()}
+    pd.DataFrame({"t": t} | rows).to_csv(path, sep=" ", index=False)
 
 
 @pytest.fixture
@@ -171,9 +169,8 @@ def test_a_kernel_that_changed_is_noticed(orbits: Path) -> None:
     both = {**inputs, "n": 4, "ephemeris": {"grid": ["de421", "mine.bsp"]}}
     among = QUESTIONS["precession"](members=both)
     many = earthspin.run(among)
-    assert_is_alone(
-        many, 1, earthspin.run(among.replace(members={**both, "only": [1]})).isel(member=0)
-    )
+    alone = earthspin.run(among.replace(members={**both, "only": [1]}))
+    assert_is_alone(many, 1, alone.isel(member=0))
     assert ";" not in many.attrs["ephemeris_sha256"]
     assert many.attrs["ephemeris"] == "de421: de421; mine.bsp: mine.bsp"
     before = [Ensemble(question).request for question in (alone, among)]
@@ -193,12 +190,8 @@ def test_answers_know_the_tables_that_they_were_read_from(orbits: Path) -> None:
     from_table = earthspin.run(long_term(orbit=table))
     assert from_table.attrs["orbit_sha256"] == table.sha256
     assert earthspin.run(from_table).identical(from_table)
-    assert (
-        "orbit_sha256"
-        not in earthspin.run(
-            long_term(orbit=earthspin.read_orbit(pd.read_csv(ROUND, sep=" ")))
-        ).attrs
-    )
+    from_frame = earthspin.read_orbit(pd.read_csv(ROUND, sep=" "))
+    assert "orbit_sha256" not in earthspin.run(long_term(orbit=from_frame)).attrs
     pole = earthspin.polar_motion(span=("2000-01-01", "2001-01-01"))
     assert pole.attrs["table_sha256"] == hashlib.sha256(c04_path().read_bytes()).hexdigest()
 
@@ -275,9 +268,8 @@ def test_the_share_of_words_is_eta_squared(orbits: Path) -> None:
     assert np.isfinite(shares.obliquity_slope.sel(input="tides")).all()
     assert shares.obliquity_slope.attrs["no_slope"] == "inputs that are names have no slope"
     middle = many.earthspin.quantiles([0.5])
-    np.testing.assert_allclose(
-        middle.obliquity[0], many.obliquity.median("member"), rtol=1e-15, atol=0
-    )
+    median = many.obliquity.median("member")
+    np.testing.assert_allclose(middle.obliquity[0], median, rtol=1e-15, atol=0)
 
 
 def test_words_ask_for_as_many_members_as_there_are(orbits: Path) -> None:
@@ -301,14 +293,8 @@ def test_words_ask_for_as_many_members_as_there_are(orbits: Path) -> None:
 
 test_bad_words_are_refused = pytest.mark.usefixtures("orbits")(
     refused(
-        (
-            {"n": 3, "orbit": {"normal": [OWN, ROUND]}},
-            "normal applies to numbers; .* give choice or",
-        ),
-        (
-            {"n": 3, "orbit": {"uniform": [OWN, ROUND]}},
-            "uniform applies to numbers; .* give choice or",
-        ),
+        ({"n": 3, "orbit": {"normal": [OWN, ROUND]}}, "numbers; .* give choice or"),
+        ({"n": 3, "orbit": {"uniform": [OWN, ROUND]}}, "numbers; .* give choice or"),
         ({"n": 3, "orbit": {"choice": []}}, "one value or more"),
         ({"n": 3, "orbit": {"choice": [OWN, 3]}}, 'members.orbit = 3: it is "own"'),
         ({"n": 3, "orbit": {"choice": [OWN, " "]}}, "the path of a table"),
@@ -316,10 +302,7 @@ test_bad_words_are_refused = pytest.mark.usefixtures("orbits")(
         ({"n": 3, "orbit": OWN}, "a table like normal"),
         ({"n": 3, "source": {"choice": ["skyfeld"]}}, "did you mean 'skyfield'"),
         ({"n": 3, "body": {"grid": ["mrs"]}}, "did you mean 'mars'"),
-        (
-            {"n": 4, "body": {"grid": ["earth"]}, "body.j2": {"choice": [1e-3]}},
-            "body.j2 = 'a number': .*differ in 'body' itself",
-        ),
+        ({"body": {"grid": ["earth"]}, "body.j2": {"grid": [1e-3]}}, "differ in 'body' itself"),
         ({"n": 3, "perturbers": {"choice": ["sun"]}}, "allowed: body"),
         ({"n": 3, "title": {"choice": ["a"]}}, "allowed|did you mean"),
         (xr.Dataset({"orbit": ("member", np.array([OWN, None]))}), "'member 1'.*a name for each"),
