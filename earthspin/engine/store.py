@@ -27,7 +27,7 @@ import numpy as np
 from earthspin.engine.drafts import as_path, check_identity, identity, mismatch_error, replacing
 from earthspin.engine.question import SCENE, scene_of
 from earthspin.engine.variables import IN_FILES
-from earthspin.errors import MissingExtraError, OutputError, in_bytes, one_line
+from earthspin.errors import EarthspinError, MissingExtraError, OutputError, in_bytes, one_line
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -359,8 +359,6 @@ def _reading(path: Path) -> Iterator[None]:
 
 def _read(path: Path) -> dict[str, xr.Dataset]:
     """Read all groups of a file by their paths; units stay in the spelling of files."""
-    if path.suffix == ".zarr":
-        zarr_of()
     with _reading(path):
         return _read_zarr(path) if path.suffix == ".zarr" else _read_netcdf(path)
 
@@ -402,11 +400,11 @@ def _open_groups(store: Any, **options: Any) -> dict[str, xr.Dataset]:
     return xr.open_groups(store, decode_times=xr.coders.CFDatetimeCoder(time_unit="us"), **options)
 
 
-def _unreadable(path: Path, error: Exception) -> OutputError:
-    """Make the error for a file that cannot be read, or return the `OutputError` behind it."""
+def _unreadable(path: Path, error: Exception) -> EarthspinError:
+    """Make the error for a file that cannot be read, or return the `EarthspinError` behind it."""
     cause: BaseException | None = error
     while cause is not None:
-        if isinstance(cause, OutputError):
+        if isinstance(cause, EarthspinError):
             return cause
         cause = cause.__cause__ or cause.__context__  # xarray 2025 replaces errors of the store
     reason = one_line(error) or type(error).__name__
