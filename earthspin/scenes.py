@@ -19,9 +19,8 @@ from earthspin.engine import answers, blocks
 from earthspin.engine.blocks import Series
 from earthspin.engine.members import TWICE
 from earthspin.engine.part import BLOCK as BY_BLOCK
-from earthspin.engine.plan import Plan
 from earthspin.engine.question import Question, keys_of, scene_of
-from earthspin.engine.run import Run
+from earthspin.engine.run import Plan, Run
 from earthspin.engine.store import open as open_file
 from earthspin.errors import SceneError, nearest, no_plain_file
 from earthspin.questions import MODULES

@@ -118,35 +118,31 @@ def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
     }
     if not linear_errors:
         raise question.error("uncertainty", "sample", _NO_ERROR)
-    plain = question.replace(uncertainty=None, n=None)
     count = MEMBERS if question.n is None else question.n
     members = Members(n=count, published=True)
-    sample = Ensemble(plain.replace(members=members), in_memory=True).hold()
+    drawn = question.replace(uncertainty=None, n=None, members=members)
+    sample = Ensemble(drawn, in_memory=True).hold()
     sampled: dict[str, Any] = {}
     for name, linear in linear_errors.items():
-        values = sample[name]
-        if MEMBER not in values.dims:
-            width, shift = np.zeros(answer[name].shape), 0.0
-        else:
+        number, values = answer[name], sample[name]
+        units, width, shift = number.attrs.get("units", "1"), np.zeros(number.shape), 0.0
+        if MEMBER in values.dims:
             low, middle, high = np.quantile(values.values, (_ENDS[0], 0.5, _ENDS[1]), axis=0)
             width = (high - low) / 2
-            shift = float(np.max(np.abs(middle - answer[name].values)))
-        units = answer[name].attrs.get("units", "1")
+            shift = float(np.max(np.abs(middle - number.values)))
+        meaning = f"95 % half-width of the {number.attrs['long_name']}"
         attrs = {
-            "long_name": f"95 % half-width of the {answer[name].attrs['long_name']} from "
-            f"{count} members",
+            "long_name": f"{meaning} from {count} members",
             "units": units,
             "members": count,
             "middle_of_the_sample": f"{shift:.3g} {units} at most from {name}",
         }
-        if linear.attrs.get("units") == units and linear.dims == answer[name].dims:
-            difference = float(np.max(np.abs(linear.values - width), initial=0.0))
-            words = f"{difference:.3g} {units} at most from {linear.name}"
-            attrs["difference_from_linear"] = words
-        sampled[f"{name}_error_sampled"] = (answer[name].dims, width, attrs)
+        if linear.attrs.get("units") == units and linear.dims == number.dims:
+            size = float(np.max(np.abs(linear.values - width), initial=0.0))
+            attrs["difference_from_linear"] = f"{size:.3g} {units} at most from {linear.name}"
+        sampled[f"{name}_error_sampled"] = (number.dims, width, attrs)
     inputs = ", ".join(str(c.attrs["input"]) for c in sample.coords.values() if "input" in c.attrs)
-    summary = {"sampled": f"{count} members in {inputs}"}
-    return answer.assign(sampled).assign_attrs(summary)
+    return answer.assign(sampled).assign_attrs(sampled=f"{count} members in {inputs}")
 
 
 def _linear_error(answer: xr.Dataset, name: str) -> xr.DataArray | None:
@@ -158,8 +154,11 @@ def _linear_error(answer: xr.Dataset, name: str) -> xr.DataArray | None:
 
 # --- the public function of a question ------------------------------------------------------------
 
-#: Arguments of a call that give the two ends of a span.
-ENDS = ("start", "stop")
+#: Arguments of a call that give the two ends of a span, with their meaning.
+ENDS = {
+    "start": "First time; plain dates mean TDB, others are converted.",
+    "stop": "Last time, which is included if the step meets it.",
+}
 
 
 def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
@@ -173,10 +172,16 @@ def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
 
     def call(*args: Any, **kwargs: Any) -> xr.Dataset:
         try:
-            values = dict(signature.bind(*args, **kwargs).arguments)
+            values = signature.bind(*args, **kwargs).arguments
         except TypeError as error:
             raise TypeError(f"{question.call}() {error}") from None
-        return answer(question(**_with_span(question, values)))
+        ends = {end: values.pop(end, None) for end in ENDS if end in question.positional}
+        missing = [end for end, value in ends.items() if value is None]
+        if len(missing) == 1:
+            raise SceneError(missing[0], None, "give both start and stop, or times")
+        if ends and not missing:
+            values["span"] = tuple(ends.values())
+        return answer(question(**values))
 
     call.__name__ = call.__qualname__ = question.call
     call.__doc__ = docstring_of(question)
@@ -184,19 +189,6 @@ def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
     call.__signature__ = signature  # type: ignore[attr-defined]
     call.question = question  # type: ignore[attr-defined]
     return call
-
-
-def _with_span(question: type[Question], values: dict[str, Any]) -> dict[str, Any]:
-    """Replace the arguments `start` and `stop` by `span`; raise an error if one is missing."""
-    if "start" not in question.positional:
-        return values
-    ends = {end: values.pop(end, None) for end in ENDS}
-    missing = [end for end, value in ends.items() if value is None]
-    if len(missing) == len(ENDS):
-        return values
-    if missing:
-        raise SceneError(missing[0], None, "give both start and stop, or times")
-    return values | {"span": tuple(ends.values())}
 
 
 def arguments_of(question: type[Question]) -> dict[str, Key | None]:
@@ -237,7 +229,7 @@ def docstring_of(question: type[Question]) -> str:
     arguments, parameters = arguments_of(question), list[str]()
     for name, entry in arguments.items():
         if entry is None:
-            parameters += [f"{name} : date", f"    {_END[name]}"]
+            parameters += [f"{name} : date", f"    {ENDS[name]}"]
             continue
         optional = "" if entry.required else ", optional"
         default = f" Default: {entry.default_words}." if entry.default_words else ""
@@ -275,9 +267,3 @@ SOURCE_TEXT = (
     '"Rigid Body Dynamics", sections I.1 to I.9; docs/equations.md maps each to its function.',
 )
 _NUMBERED = re.compile(r"\bI\.\d")
-
-
-_END = {
-    "start": "First time; plain dates mean TDB, others are converted.",
-    "stop": "Last time, which is included if the step meets it.",
-}

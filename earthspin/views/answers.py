@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, TextIO
 import numpy as np
 import xarray as xr
 
-from earthspin.engine.plan import NOT_REQUESTED, REUSED
-from earthspin.engine.spread import is_ensemble
+from earthspin.engine.accessor import is_ensemble
+from earthspin.engine.run import NOT_REQUESTED, REUSED
 from earthspin.errors import SceneError
 from earthspin.scenes import plan, run_tree
 from earthspin.views import (
