@@ -16,16 +16,7 @@ from earthspin.constants import NORMAL_95
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key
-from earthspin.engine.variables import (
-    Labels,
-    Neglected,
-    Pair,
-    Value,
-    Variables,
-    labels,
-    measured,
-    number,
-)
+from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import SceneError, nearest
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.elements import refuse_overlap, size_and_motion
@@ -151,15 +142,15 @@ def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
 class States(Variables, along=("state",), no_error="it is so or not"):
     """Obliquity, tilt to the mean orbit normal, and stability of each Cassini state of a body."""
 
-    obliquity: Pair = measured(
+    obliquity = measured(
         "deg",
         "angle from the normal of the orbit to the axis",
         comment="half-widths from the uncertainty of the body's numbers",
     )
-    tilt: Pair = measured("deg", "angle from the pole of the orbit's plane to the axis")
-    towards_pole: Value = number("1", "whether the axis leans from the normal towards that pole")
-    stable: Value = number("1", "whether an axis beside it stays")
-    state: Labels = labels("number of the state after Peale (1969)", "1")
+    tilt = measured("deg", "angle from the pole of the orbit's plane to the axis")
+    towards_pole = number("1", "whether the axis leans from the normal towards that pole")
+    stable = number("1", "whether an axis beside it stays")
+    state = labels("number of the state after Peale (1969)", "1")
 
 
 @part

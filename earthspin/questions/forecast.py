@@ -17,17 +17,7 @@ from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key
 from earthspin.engine.run import Run
-from earthspin.engine.variables import (
-    Labels,
-    Neglected,
-    Pair,
-    Value,
-    Variables,
-    labels,
-    measured,
-    number,
-    words,
-)
+from earthspin.engine.variables import Neglected, Variables, labels, measured, number, words
 from earthspin.errors import SceneError, SeriesError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.questions.observed_pole import MJD, Daily, TableFile, complex_pole, labelled_series
@@ -288,9 +278,9 @@ def _from_common_day(record: Record, excitation: GivenSeries) -> tuple[ComplexAr
 class ForecastPole(Daily):
     """Forecast of polar motion."""
 
-    x: Pair = measured("arcsec", "coordinate of the pole towards the prime meridian")
-    y: Pair = measured("arcsec", "coordinate of the pole towards 90 degrees west")
-    correlation_xy: Value = number(
+    x = measured("arcsec", "coordinate of the pole towards the prime meridian")
+    y = measured("arcsec", "coordinate of the pole towards 90 degrees west")
+    correlation_xy = number(
         "1", "correlation of the errors of x and y", no_error="it belongs to the errors"
     )
 
@@ -351,9 +341,9 @@ def ahead(
 class Components(Daily):
     """Parts of the forecast polar motion: Chandler, annual and semiannual wobble, and slow pole."""
 
-    component_x: Pair = measured("mas", "part of x", along=("component", "time"))
-    component_y: Pair = measured("mas", "part of y", along=("component", "time"))
-    component: Labels = labels(default=list(COMPONENTS))
+    component_x = measured("mas", "part of x", along=("component", "time"))
+    component_y = measured("mas", "part of y", along=("component", "time"))
+    component = labels(default=list(COMPONENTS))
 
 
 def not_separated(excitation: GivenSeries | None) -> str | None:
@@ -383,20 +373,20 @@ _COUNTED = "counted over the origins of the table"
 class Skill(Variables, along=("case", "coordinate"), no_error=_COUNTED):
     """Measured errors of past forecasts of polar motion, by number of days after the origin."""
 
-    mean_absolute_error: Value = number("mas", "mean absolute error of the forecast", short="MAE")
-    root_mean_square: Value = number("mas", "root mean square error of the forecast", short="RMS")
-    coverage: Value = number("1", "share of 95 % intervals that contain the observed pole")
-    other_mean_absolute_error: Value = number(
+    mean_absolute_error = number("mas", "mean absolute error of the forecast", short="MAE")
+    root_mean_square = number("mas", "root mean square error of the forecast", short="RMS")
+    coverage = number("1", "share of 95 % intervals that contain the observed pole")
+    other_mean_absolute_error = number(
         "mas",
         "mean absolute error of Bulletin A on the same releases, or of least squares with "
         "autoregression on the same origins",
         short="other MAE",
     )
-    skill_set: Value = words("table and origins", along=("case",))
-    horizon: Value = number("d", "days after the origin", along=("case",))
-    origins: Value = number("1", "number of origins", along=("case",))
-    case: Labels = labels()
-    coordinate: Labels = labels(default=["x", "y"])
+    skill_set = words("table and origins", along=("case",))
+    horizon = number("d", "days after the origin", along=("case",))
+    origins = number("1", "number of origins", along=("case",))
+    case = labels()
+    coordinate = labels(default=["x", "y"])
 
 
 @part
@@ -422,8 +412,8 @@ def skill() -> Skill:
 class BulletinA(Daily):
     """Polar motion x and y as predicted in Bulletin A of the IERS."""
 
-    bulletin_a_x: Pair = measured("arcsec", "x predicted by Bulletin A")
-    bulletin_a_y: Pair = measured("arcsec", "y predicted by Bulletin A")
+    bulletin_a_x = measured("arcsec", "x predicted by Bulletin A")
+    bulletin_a_y = measured("arcsec", "y predicted by Bulletin A")
 
 
 def not_in_file(file: str | Path | GivenSeries, origin: float | None, days: float) -> str | None:
@@ -455,8 +445,8 @@ def bulletin_a(
 class AheadOffsets(Daily):
     """Forecast of the celestial pole offsets."""
 
-    dX: Pair = measured("mas", "X of the celestial pole minus that of IAU 2006/2000A")
-    dY: Pair = measured("mas", "Y of the celestial pole minus that of IAU 2006/2000A")
+    dX = measured("mas", "X of the celestial pole minus that of IAU 2006/2000A")
+    dY = measured("mas", "Y of the celestial pole minus that of IAU 2006/2000A")
 
 
 def offsets_until(file: str | Path, last: float | None) -> PoleSeries:

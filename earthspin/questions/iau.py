@@ -15,10 +15,7 @@ from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import define_parts
 from earthspin.engine.variables import (
-    Labels,
     Neglected,
-    Pair,
-    Value,
     Variables,
     amplitude,
     labels,
@@ -142,58 +139,52 @@ _ADOPTED = "a model that was adopted, exact by definition"
 class EffectRates(Variables):
     """Contribution of each effect to the rates of psi_A and omega_A, and the unexplained rest."""
 
-    psi_rate: Pair = measured(
+    psi_rate = measured(
         "arcsec/yr",
         "contribution to the rate of psi_A at J2000.0, by switching off",
         along=("effect",),
     )
-    psi_rate_published: Value = number(
+    psi_rate_published = number(
         "arcsec/yr",
         "published contribution; 0 where the table has none",
         along=("effect",),
         no_error=_PUBLISHED,
     )
-    omega_rate: Pair = measured(
-        "arcsec/yr", "contribution to the rate of omega_A", along=("effect",)
-    )
-    psi_rate_total: Pair = measured("arcsec/yr", "computed rate of psi_A at J2000.0")
-    omega_rate_total: Pair = measured("arcsec/yr", "computed rate of omega_A at J2000.0")
-    psi_rate_iau: Value = number(
-        "arcsec/yr", "rate of psi_A at J2000.0, IAU 2006", no_error=_ADOPTED
-    )
-    omega_rate_iau: Value = number(
-        "arcsec/yr", "rate of omega_A at J2000.0, IAU 2006", no_error=_ADOPTED
-    )
-    closure: Value = number(
+    omega_rate = measured("arcsec/yr", "contribution to the rate of omega_A", along=("effect",))
+    psi_rate_total = measured("arcsec/yr", "computed rate of psi_A at J2000.0")
+    omega_rate_total = measured("arcsec/yr", "computed rate of omega_A at J2000.0")
+    psi_rate_iau = number("arcsec/yr", "rate of psi_A at J2000.0, IAU 2006", no_error=_ADOPTED)
+    omega_rate_iau = number("arcsec/yr", "rate of omega_A at J2000.0, IAU 2006", no_error=_ADOPTED)
+    closure = number(
         "arcsec/yr",
         "computed rate plus the published non-linear term minus the IAU's rate",
         error="psi_rate_total_error",
     )
-    omega_closure: Value = number(
+    omega_closure = number(
         "arcsec/yr", "computed rate of omega_A minus the IAU's", error="omega_rate_total_error"
     )
-    omega_closure_with_tides: Value = number(
+    omega_closure_with_tides = number(
         "arcsec/yr",
         "the same with the published effect of tides in obliquity",
         error="omega_rate_total_error",
     )
-    closure_over_flattening: Value = number(
+    closure_over_flattening = number(
         "1",
         "closure over what one standard deviation of H makes of the rate",
         no_error="a measure of error itself",
     )
-    closure_over_uncertainty: Value = number(
+    closure_over_uncertainty = number(
         "1",
         "closure over one standard deviation of H and the error of the analysis together",
         no_error="a measure of error itself",
     )
-    psi_rate_analysis_error: Value = number(
+    psi_rate_analysis_error = number(
         "arcsec/yr", "error of the analysis, found from the rate of the IAU's own pole"
     )
-    omega_rate_analysis_error: Value = number(
+    omega_rate_analysis_error = number(
         "arcsec/yr", "error of the analysis, found from the IAU's rate of omega_A"
     )
-    effect: Labels = labels()
+    effect = labels()
 
 
 @part
@@ -319,18 +310,18 @@ _UNFITTED_HALF_WIDTH = "95 % half-width of a residual without a fit, from H and 
 class Residuals(Dated, error="residual_error"):
     """Time series of computed pole minus IAU pole, with and without a fitted trend removed."""
 
-    dpsi_sineps: Value = number("mas", _LONGITUDE)
-    deps: Value = number("mas", _OBLIQUITY)
-    residual_error: Value = number("mas", _HALF_WIDTH, along=())
-    dpsi_sineps_unfitted: Value = number(
+    dpsi_sineps = number("mas", _LONGITUDE)
+    deps = number("mas", _OBLIQUITY)
+    residual_error = number("mas", _HALF_WIDTH, along=())
+    dpsi_sineps_unfitted = number(
         "mas",
         "computed pole minus the IAU's in longitude times sin(eps), nothing removed",
         error="unfitted_error",
     )
-    deps_unfitted: Value = number(
+    deps_unfitted = number(
         "mas", "computed pole minus the IAU's in obliquity, nothing removed", error="unfitted_error"
     )
-    unfitted_error: Value = number("mas", _UNFITTED_HALF_WIDTH)
+    unfitted_error = number("mas", _UNFITTED_HALF_WIDTH)
 
 
 @part
@@ -352,27 +343,27 @@ def residuals(differences: Differences) -> Residuals:
 class ResidualSizes(Variables, along=("model", "direction")):
     """Root mean square and maximum of computed minus IAU pole, for different sets of effects."""
 
-    residual_rms: Value = number(
+    residual_rms = number(
         "mas",
         "root mean square after removal of a constant and a rate",
         error="residual_size_error",
         short="rms",
     )
-    residual_maximum: Value = number(
+    residual_maximum = number(
         "mas",
         "largest after removal of a constant and a rate",
         error="residual_size_error",
         short="largest",
     )
-    residual_rms_unfitted: Value = number(
+    residual_rms_unfitted = number(
         "mas",
         "root mean square of the poles as `pole` returns them, without a fit",
         short="rms without a fit",
     )
-    residual_size_error: Value = number("mas", _HALF_WIDTH, along=())
-    residual_rms_unfitted_error: Value = number("mas", _UNFITTED_HALF_WIDTH, along=())
-    model: Labels = labels()
-    direction: Labels = labels(default=["dpsi_sineps", "deps"])
+    residual_size_error = number("mas", _HALF_WIDTH, along=())
+    residual_rms_unfitted_error = number("mas", _UNFITTED_HALF_WIDTH, along=())
+    model = labels()
+    direction = labels(default=["dpsi_sineps", "deps"])
 
 
 @part
@@ -403,36 +394,34 @@ _FIT = "part of a fit; left_in_phase and left_out_of_phase are its residuals"
 class Nutation(Variables, along=("term",)):
     """Largest circular nutation terms of the computed pole and of the IAU pole."""
 
-    period: Value = number(
+    period = number(
         "d", "period of the circle in space, negative if retrograde", no_error=_ARGUMENTS
     )
-    rigid: Pair = amplitude("mas", "computed rigid amplitude", error="amplitude_error")
-    iau: Pair = amplitude("mas", MERGED, error="amplitude_error")
-    amplitude_error: Value = number(
+    rigid = amplitude("mas", "computed rigid amplitude", error="amplitude_error")
+    iau = amplitude("mas", MERGED, error="amplitude_error")
+    amplitude_error = number(
         "mas", "95 % half-width of an amplitude, without the neighbour's share"
     )
-    neighbour: Value = words(NEIGHBOUR)
-    neighbour_in_phase: Value = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
-    neighbour_out_of_phase: Value = number(
-        "mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES
-    )
-    ratio: Pair = amplitude(
+    neighbour = words(NEIGHBOUR)
+    neighbour_in_phase = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
+    neighbour_out_of_phase = number("mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES)
+    ratio = amplitude(
         "1", "ratio of IAU 2000A to the computed rigid amplitude", error="ratio_error"
     )
-    ratio_error: Value = number("1", "95 % half-width of the ratio")
-    transfer: Pair = amplitude(
+    ratio_error = number("1", "95 % half-width of the ratio")
+    transfer = amplitude(
         "1",
         "fitted resonance formula",
         no_error=_FIT,
         comment="the prograde annual term is not fitted: IAU 2000A includes an atmospheric tide of "
         "0.11 mas there",
     )
-    left: Pair = amplitude(
+    left = amplitude(
         "uas",
         "IAU 2000A minus response times rigid amplitude",
         no_error="a measure of error itself; errors common to both analyses cancel",
     )
-    term: Labels = labels()
+    term = labels()
 
 
 @part
@@ -461,53 +450,51 @@ _ABSORBING = "the response that absorbs what it can"
 class Core(Variables):
     """Parameters of the free core nutation from a fit of the resonance formula to IAU 2000A."""
 
-    core_nutation_period: Pair = measured(
+    core_nutation_period = measured(
         "d",
         "period of the free core nutation in space",
         comment="IAU 2000A is the product of a response and a rigid series, so that the fit only "
         "recovers what was built into it; it is no new measurement",
     )
-    core_nutation_quality: Pair = measured("1", "quality factor of the free core nutation")
-    strength_real: Value = number(
-        "1", "fitted strength, real part", along=("mode",), no_error=_LEFT
-    )
-    strength_imaginary: Value = number(
+    core_nutation_quality = measured("1", "quality factor of the free core nutation")
+    strength_real = number("1", "fitted strength, real part", along=("mode",), no_error=_LEFT)
+    strength_imaginary = number(
         "1", "fitted strength, imaginary part", along=("mode",), no_error=_LEFT
     )
-    core_nutation_period_absorbing: Value = number(
+    core_nutation_period_absorbing = number(
         "d",
         f"the same by {_ABSORBING}",
         no_error="short of core_nutation_period by what the response absorbs",
     )
-    response_rms: Value = number(
+    response_rms = number(
         "uas", f"root mean square of the residuals of {_ABSORBING}", no_error=_LEFT
     )
-    response_maximum: Value = number("uas", f"largest residual of {_ABSORBING}", no_error=_LEFT)
-    apart_rms: Value = number(
+    response_maximum = number("uas", f"largest residual of {_ABSORBING}", no_error=_LEFT)
+    apart_rms = number(
         "uas",
         "root mean square of the residuals of the response that may not absorb additive terms, "
         "these taken away, the prograde year left out",
         no_error=_LEFT,
     )
-    added_period: Value = number(
+    added_period = number(
         "d",
         "period of the circle in space, negative if retrograde",
         along=("added_to",),
         no_error=_ARGUMENTS,
     )
-    added: Pair = amplitude(
+    added = amplitude(
         "uas", "IAU 2000A less that response", along=("added_to",), error="added_error"
     )
-    added_error: Value = number(
+    added_error = number(
         "uas",
         "95 % half-width of what is added, from the period of the core nutation",
         along=("added_to",),
     )
-    added_published: Pair = amplitude(
+    added_published = amplitude(
         "uas", "what its authors add to a response", along=("added_to",), no_error=_PUBLISHED
     )
-    mode: Labels = labels(default=["constant", "chandler", "core", "inner-core"])
-    added_to: Labels = labels()
+    mode = labels(default=["constant", "chandler", "core", "inner-core"])
+    added_to = labels()
 
 
 @part
@@ -543,21 +530,21 @@ def core(
 class Angles(Variables, along=("angle", "degree")):
     """Polynomial coefficients of the precession angles: computed values and those of IAU 2006."""
 
-    angle_coefficient: Value = number(
+    angle_coefficient = number(
         "arcsec",
         "coefficient of (t/century)^degree, computed pole, ecliptic of IAU 2006",
         comment="eps_A, chi_A and p_A need the ecliptic of date, which torques do not give",
     )
-    angle_coefficient_iau: Value = number(
+    angle_coefficient_iau = number(
         "arcsec",
         "coefficient of (t/century)^degree, IAU 2006, fitted in the same way",
         no_error=_ADOPTED,
     )
-    angle_coefficient_error: Value = number(
+    angle_coefficient_error = number(
         "arcsec", "95 % half-width of the computed coefficients, from the analysis and H"
     )
-    angle: Labels = labels()
-    degree: Labels = labels("power of time")
+    angle = labels()
+    degree = labels("power of time")
 
 
 @part
@@ -588,15 +575,15 @@ def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
 class Inferred(Variables, along=("origin",)):
     """Dynamical flattening H and C/(M a2) of the Earth, according to three sources."""
 
-    flattening: Pair = measured(
+    flattening = measured(
         "1",
         "dynamical flattening H",
         short="H = (C-A)/C",
         comment="PREM gives C from densities, and its H is J2 divided by that C/(M a2); the "
         "observed moment was among its data",
     )
-    polar_moment: Pair = measured("1", "C/(M a2)", short="C/(M a2)")
-    origin: Labels = labels()
+    polar_moment = measured("1", "C/(M a2)", short="C/(M a2)")
+    origin = labels()
 
 
 @part

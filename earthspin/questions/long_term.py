@@ -13,16 +13,7 @@ from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, key
-from earthspin.engine.variables import (
-    Labels,
-    Neglected,
-    Pair,
-    Value,
-    Variables,
-    labels,
-    measured,
-    number,
-)
+from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, of_perturber
@@ -394,56 +385,50 @@ def readings(solved: solutions.Solved, wanted: FloatArray, body: Body) -> readin
 class LongTermSeries(FromStart, along=("epoch",)):
     """Obliquity, precession, eccentricity, poles and precession rates at every epoch."""
 
-    obliquity: Pair = measured(
+    obliquity = measured(
         "deg",
         "angle from the orbit's normal to the spin axis",
         comment="half-widths from method, orbit, start, and the assumed uncertainty of tides and "
         "figure in the past",
     )
-    longitude_of_perihelion: Pair = measured(
+    longitude_of_perihelion = measured(
         "deg", "longitude of perihelion from the moving equinox, without jumps"
     )
-    general_precession: Pair = measured(
-        "deg", "p_A, precession of the equinox along the moving orbit"
-    )
-    psi_A: Pair = measured("deg", "precession of the equator along the orbit of J2000.0")
-    omega_A: Pair = measured("deg", "inclination of the equator to the orbit of J2000.0")
-    eccentricity: Pair = measured("1", "eccentricity of the orbit")
-    climatic_precession: Pair = measured(
+    general_precession = measured("deg", "p_A, precession of the equinox along the moving orbit")
+    psi_A = measured("deg", "precession of the equator along the orbit of J2000.0")
+    omega_A = measured("deg", "inclination of the equator to the orbit of J2000.0")
+    eccentricity = measured("1", "eccentricity of the orbit")
+    climatic_precession = measured(
         "1", "eccentricity times the sine of the longitude of perihelion"
     )
-    coprecession: Pair = measured(
-        "1", "eccentricity times the cosine of the longitude of perihelion"
-    )
-    pole: Value = number(
+    coprecession = measured("1", "eccentricity times the cosine of the longitude of perihelion")
+    pole = number(
         "1",
         "unit vector of the spin axis",
         along=("epoch", "component"),
         error="pole_error",
         frame="GCRS",
     )
-    pole_error: Value = number("arcsec", "95 % half-width of the direction of the pole")
-    ecliptic_pole: Value = number(
+    pole_error = number("arcsec", "95 % half-width of the direction of the pole")
+    ecliptic_pole = number(
         "1",
         "unit normal of the orbit",
         along=("epoch", "component"),
         error="ecliptic_pole_error",
         frame="GCRS",
     )
-    ecliptic_pole_error: Value = number(
-        "arcsec", "95 % half-width of the direction of the orbit's normal"
-    )
-    precession_rate: Pair = measured(
+    ecliptic_pole_error = number("arcsec", "95 % half-width of the direction of the orbit's normal")
+    precession_rate = measured(
         "arcsec/yr",
         "rate of precession in longitude along the moving orbit",
         along=("perturber", "epoch"),
     )
-    precession_period: Pair = measured(
+    precession_period = measured(
         "yr", "period of one full turn at that rate", along=("perturber", "epoch"), short="period"
     )
-    epoch: Labels = labels("Julian years from J2000.0 (TDB)", "yr")
-    component: Labels = labels(default=["x", "y", "z"])
-    perturber: Labels = labels()
+    epoch = labels("Julian years from J2000.0 (TDB)", "yr")
+    component = labels(default=["x", "y", "z"])
+    perturber = labels()
 
 
 #: Numbers that are read off the solution by their names.
@@ -516,11 +501,11 @@ _ONE_AT_A_TIME = (
 class Budget(Variables, along=("cause", "epoch"), no_error="a share of an error"):
     """Contribution of each cause to the errors of obliquity, perihelion and pole."""
 
-    obliquity_share: Value = number("arcsec", "share of the error of the obliquity")
-    longitude_share: Value = number("deg", "share of the error of the longitude of perihelion")
-    pole_share: Value = number("arcsec", "share of the error of the pole's direction")
-    cause: Labels = labels()
-    epoch: Labels = labels()
+    obliquity_share = number("arcsec", "share of the error of the obliquity")
+    longitude_share = number("deg", "share of the error of the longitude of perihelion")
+    pole_share = number("arcsec", "share of the error of the pole's direction")
+    cause = labels()
+    epoch = labels()
 
     def dataset(self) -> xr.Dataset:
         """Build the Dataset of error contributions, with a comment that explains these numbers."""
@@ -548,15 +533,13 @@ def budget(readings: reading.Readings, numbers: SideBySide, series: xr.Dataset) 
 class Matrices(FromStart, along=("epoch", "axis", "component"), error="matrix_error"):
     """Precession matrices from the GCRS to mean equator and equinox of date."""
 
-    matrix: Value = number(
-        "1", "precession matrix from the GCRS to mean equator and equinox of date"
-    )
-    matrix_error: Value = number(
+    matrix = number("1", "precession matrix from the GCRS to mean equator and equinox of date")
+    matrix_error = number(
         "arcsec", "95 % half-width of the directions of equinox and pole", along=("epoch",)
     )
-    epoch: Labels = labels()
-    axis: Labels = labels(default=["equinox", "90 deg east", "pole"])
-    component: Labels = labels(default=["x", "y", "z"])
+    epoch = labels()
+    axis = labels(default=["equinox", "90 deg east", "pole"])
+    component = labels(default=["x", "y", "z"])
 
 
 @part

@@ -15,10 +15,7 @@ from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, setting
 from earthspin.engine.variables import (
-    Labels,
     Neglected,
-    Pair,
-    Value,
     Variables,
     amplitude,
     labels,
@@ -206,7 +203,7 @@ _ADDS = "what the model adds, or what it is"
 class RungSizes(Variables, along=("rung",), error="rms_error"):
     """Root mean square of predicted pole minus IAU 2000A, for each model of the ladder."""
 
-    rms_dpsi_sineps: Value = number(
+    rms_dpsi_sineps = number(
         "mas",
         f"{_RMS} {_LONGITUDE}",
         references=SOURCES,
@@ -214,10 +211,10 @@ class RungSizes(Variables, along=("rung",), error="rms_error"):
         comment="H is the observed one throughout; the rungs up to 'anelastic' take no other "
         "number from the motion of the pole",
     )
-    rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
-    rms_error: Value = number("mas", _RMS_ERROR)
-    adds: Value = words(_ADDS, short="what it adds")
-    rung: Labels = labels()
+    rms_deps = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
+    rms_error = number("mas", _RMS_ERROR)
+    adds = words(_ADDS, short="what it adds")
+    rung = labels()
 
 
 @part
@@ -237,18 +234,18 @@ def rung_sizes(left: RungResiduals, models: Prediction) -> RungSizes:
 class ModelSizes(Variables, along=("model",), error="model_rms_error"):
     """Root mean square of predicted pole minus IAU 2000A, for two models outside the ladder."""
 
-    model_rms_dpsi_sineps: Value = number(
+    model_rms_dpsi_sineps = number(
         "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
     )
-    model_rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
-    model_rms_error: Value = number("mas", _RMS_ERROR)
-    model_adds: Value = words(
+    model_rms_deps = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
+    model_rms_error = number("mas", _RMS_ERROR)
+    model_adds = words(
         _ADDS,
         short="what it adds",
         comment="a core in a rigid mantle has a far shorter nutation of its own; the H of "
         "hydrostatic equilibrium is one per cent too small",
     )
-    model: Labels = labels()
+    model = labels()
 
 
 @part
@@ -273,34 +270,32 @@ def beside(left: RungResiduals) -> ModelSizes:
 class Terms(Variables, along=("term",)):
     """Amplitudes of the largest circular nutation terms, from each model and from IAU 2000A."""
 
-    period: Value = number(
+    period = number(
         "d",
         "period of the circle in space, negative if retrograde",
         no_error="it follows from the adopted arguments of IERS 2003",
     )
-    predicted: Pair = amplitude(
+    predicted = amplitude(
         "mas",
         "predicted amplitude",
         along=("rung", "term"),
         error="predicted_error",
         comment="the half-widths do not hold the sizes of what a rung leaves out",
     )
-    predicted_error: Value = number(
+    predicted_error = number(
         "mas",
         "95 % half-width of a predicted amplitude, from the numbers of the inside",
         along=("rung", "term"),
     )
-    iau: Pair = amplitude("mas", MERGED, error="amplitude_error")
-    amplitude_error: Value = number(
+    iau = amplitude("mas", MERGED, error="amplitude_error")
+    amplitude_error = number(
         "mas", "95 % half-width of an amplitude from its analysis, without the neighbour's share"
     )
-    neighbour: Value = words(NEIGHBOUR)
-    neighbour_in_phase: Value = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
-    neighbour_out_of_phase: Value = number(
-        "mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES
-    )
-    rung: Labels = labels()
-    term: Labels = labels()
+    neighbour = words(NEIGHBOUR)
+    neighbour_in_phase = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
+    neighbour_out_of_phase = number("mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES)
+    rung = labels()
+    term = labels()
 
 
 @part
@@ -326,9 +321,9 @@ def terms(pole_analysis: PoleComparison, models: Prediction, interior_spread: Sp
 class Modes(Variables, along=("mode",)):
     """Periods and quality factors of the free modes (wobbles and nutations) of each model."""
 
-    mode_rung: Value = words("rung that has the mode", short="rung")
-    mode_name: Value = words("name of the mode", short="mode")
-    mode_period: Pair = measured(
+    mode_rung = words("rung that has the mode", short="rung")
+    mode_name = words("name of the mode", short="mode")
+    mode_period = measured(
         "d",
         "period: of a nutation in space, negative if retrograde; else in the body",
         short="period",
@@ -336,13 +331,13 @@ class Modes(Variables, along=("mode",)):
         "core and the inner core, the ocean, the loss in the mantle, and numbers inferred from "
         "nutation",
     )
-    mode_quality: Value = number(
+    mode_quality = number(
         "1",
         "quality factor of the mode; infinite where nothing is lost",
         no_error="it follows from published quality factors, which have none",
         short="Q",
     )
-    mode: Labels = labels()
+    mode = labels()
 
 
 @part
@@ -375,10 +370,10 @@ class Transfer(
 ):
     """Transfer function from rigid to non-rigid nutation, for each model of the ladder."""
 
-    transfer_real: Value = number("1", "nutation over that of a rigid body, real part")
-    transfer_imaginary: Value = number("1", "nutation over that of a rigid body, imaginary part")
-    rung: Labels = labels()
-    frequency: Labels = labels(
+    transfer_real = number("1", "nutation over that of a rigid body, real part")
+    transfer_imaginary = number("1", "nutation over that of a rigid body, imaginary part")
+    rung = labels()
+    frequency = labels(
         "frequency in space, cycles per rotation of the body", "1", default=_IN_SPACE
     )
 

@@ -15,7 +15,7 @@ from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, J2000_JD, MAS
 from earthspin.dates import Epochs, Span, days
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, setting
-from earthspin.engine.variables import Labels, Value, Variables, labels, number, si
+from earthspin.engine.variables import Variables, labels, number, si
 from earthspin.errors import SceneError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.questions.reasons import no_iau_model
@@ -63,7 +63,7 @@ class OfTable(Question):
 class Daily(Variables, along=("time",)):
     """Base class of results given at days of a table of the observed pole, or after them."""
 
-    time: Labels = labels("time", standard_name="time", comment="0h UTC in daily tables")
+    time = labels("time", standard_name="time", comment="0h UTC in daily tables")
 
 
 def not_observed(body: Body) -> str | None:
@@ -267,22 +267,20 @@ _AS_RETURNED = "nothing removed"
 class ObservedSizes(Variables, along=("model", "direction"), error="observed_size_error"):
     """Root mean square of the differences between models and the observed celestial pole."""
 
-    observed_rms: Value = number("mas", f"{_RMS}, {_LINE}", short="rms")
-    observed_rms_without_core: Value = number(
-        "mas", f"{_RMS}, {_LINE}, {_CORE}", short="rms without FCN"
-    )
-    observed_rms_unfitted: Value = number(
+    observed_rms = number("mas", f"{_RMS}, {_LINE}", short="rms")
+    observed_rms_without_core = number("mas", f"{_RMS}, {_LINE}, {_CORE}", short="rms without FCN")
+    observed_rms_unfitted = number(
         "mas", f"{_RMS}, {_AS_RETURNED}", short="rms as returned", no_error=_AS_RETURNED
     )
-    observed_rms_without_core_unfitted: Value = number(
+    observed_rms_without_core_unfitted = number(
         "mas", f"{_RMS}, {_CORE}", short="rms as returned, without FCN", no_error=_AS_RETURNED
     )
-    observed_size_error: Value = number(
+    observed_size_error = number(
         "mas",
         "95 % half-width of a residual of the model, from H and integration; the noise of the "
         "observations is in each rms",
         along=(),
     )
-    observed_dates: Value = number("1", "dates compared", along=(), no_error="a count")
-    model: Labels = labels()
-    direction: Labels = labels(default=["dpsi_sineps", "deps"])
+    observed_dates = number("1", "dates compared", along=(), no_error="a count")
+    model = labels()
+    direction = labels(default=["dpsi_sineps", "deps"])

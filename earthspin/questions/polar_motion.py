@@ -15,16 +15,7 @@ from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, setting
 from earthspin.engine.run import in_range
-from earthspin.engine.variables import (
-    Labels,
-    Neglected,
-    Pair,
-    Value,
-    Variables,
-    labels,
-    measured,
-    number,
-)
+from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.questions.observed_pole import (
@@ -90,9 +81,9 @@ class PolarMotion(OfTable, word="polar-motion", call="polar_motion", table="pola
 class ObservedPole(Daily):
     """Observed coordinates x and y of the pole in time, with errors."""
 
-    x: Pair = measured("arcsec", "coordinate of the pole towards the prime meridian")
-    y: Pair = measured("arcsec", "coordinate of the pole towards 90 degrees west")
-    polar_radius: Value = number(
+    x = measured("arcsec", "coordinate of the pole towards the prime meridian")
+    y = measured("arcsec", "coordinate of the pole towards 90 degrees west")
+    polar_radius = number(
         "m", "polar radius of the body", along=(), no_error="a given number of the body"
     )
 
@@ -126,37 +117,35 @@ class FreeWobble(
 ):
     """Period and amplitude of the free wobble, amplitudes of the annual wobble, and mean pole."""
 
-    chandler_period: Pair = measured("d", "period of the free wobble", along=(), short="period")
-    chandler_amplitude: Pair = measured(
+    chandler_period = measured("d", "period of the free wobble", along=(), short="period")
+    chandler_amplitude = measured(
         "mas",
         "amplitude of the free wobble",
         cell_methods="middle: mean (one beat of the wobbles)",
         comment="mean over one beat of the free and the annual wobble",
     )
-    chandler_phase: Value = number(
-        "deg", "phase of the free wobble against a steady one of its period"
-    )
-    annual_amplitude: Value = number(
+    chandler_phase = number("deg", "phase of the free wobble against a steady one of its period")
+    annual_amplitude = number(
         "mas", "amplitude of the annual wobble, prograde", error="chandler_amplitude_error"
     )
-    annual_retrograde_amplitude: Value = number(
+    annual_retrograde_amplitude = number(
         "mas", "amplitude of the annual wobble, retrograde", error="chandler_amplitude_error"
     )
-    mean_pole: Value = number("mas", "mean position of the pole", along=("middle", "axis"))
-    chandler_quality_factor: Value = number(
+    mean_pole = number("mas", "mean position of the pole", along=("middle", "axis"))
+    chandler_quality_factor = number(
         "1",
         "quality factor of the free wobble",
         along=(),
         error="chandler_quality_factor_low chandler_quality_factor_high",
     )
-    chandler_quality_factor_low: Value = number(
+    chandler_quality_factor_low = number(
         "1", "lower end of its 95 % interval", along=(), no_error=_END
     )
-    chandler_quality_factor_high: Value = number(
+    chandler_quality_factor_high = number(
         "1", "upper end of its 95 % interval", along=(), no_error=_END, comment="infinite if open"
     )
-    middle: Labels = labels("middle of a window")
-    axis: Labels = labels(default=["x", "y"])
+    middle = labels("middle of a window")
+    axis = labels(default=["x", "y"])
 
 
 @part(loads=("earthspin.wobble.observed",))
@@ -197,10 +186,10 @@ class Spectrum(
 ):
     """Prograde and retrograde amplitude spectrum of polar motion."""
 
-    spectral_amplitude: Value = number(
+    spectral_amplitude = number(
         "mas", "amplitude of a sinusoid, prograde if the frequency is positive"
     )
-    frequency: Labels = labels("cycles per day, negative if retrograde", "1/d")
+    frequency = labels("cycles per day, negative if retrograde", "1/d")
 
 
 @part
@@ -336,15 +325,15 @@ def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
 class Excitation(Daily, no_error="the table from which it is read gives none"):
     """Excitation of polar motion."""
 
-    chi1: Value = number("mas", "excitation, towards the prime meridian")
-    chi2: Value = number("mas", "excitation, towards 90 degrees east")
+    chi1 = number("mas", "excitation, towards the prime meridian")
+    chi2 = number("mas", "excitation, towards 90 degrees east")
 
 
 class DrivenPole(Daily, no_error="excitation and free wobble are given without errors"):
     """Polar motion that results from a given excitation."""
 
-    x: Value = number("arcsec", "pole, towards the prime meridian")
-    y: Value = number("arcsec", "pole, towards 90 degrees west")
+    x = number("arcsec", "pole, towards the prime meridian")
+    y = number("arcsec", "pole, towards 90 degrees west")
 
 
 @in_range("excitation")

@@ -12,7 +12,7 @@ from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import define_parts, key
-from earthspin.engine.variables import Labels, Neglected, Value, labels, number
+from earthspin.engine.variables import Neglected, labels, number
 from earthspin.motion.axes import AXES, AxisPath
 from earthspin.motion.effect_sizes import axis_displacements
 from earthspin.motion.effects import LARGEST_CORE_NUTATION, NONRIGID, RESPONSE
@@ -171,26 +171,22 @@ def interior_shift(as_fitted: Shift | None = None, as_predicted: Shift | None = 
 class Directions(Dated, error="direction_error"):
     """Unit vectors of the angular momentum, rotation and figure axes in time, with errors."""
 
-    X: Value = number(
+    X = number(
         "1", "first component of the unit vector of the axis", along=("time", "axis"), frame="GCRS"
     )
-    Y: Value = number(
+    Y = number(
         "1", "second component of the unit vector of the axis", along=("time", "axis"), frame="GCRS"
     )
-    Z: Value = number(
+    Z = number(
         "1", "third component of the unit vector of the axis", along=("time", "axis"), frame="GCRS"
     )
-    direction_error: Value = number("arcsec", "95 % half-width of the directions, from all shares")
-    direction_error_method: Value = number(
-        "arcsec", "share of direction_error from the integration"
-    )
-    direction_error_input: Value = number(
-        "arcsec", "share of direction_error from the uncertainty of H"
-    )
-    direction_error_kernel: Value = number(
+    direction_error = number("arcsec", "95 % half-width of the directions, from all shares")
+    direction_error_method = number("arcsec", "share of direction_error from the integration")
+    direction_error_input = number("arcsec", "share of direction_error from the uncertainty of H")
+    direction_error_kernel = number(
         "arcsec", "share of direction_error from the positions of the bodies"
     )
-    axis: Labels = labels()
+    axis = labels()
 
 
 @part
@@ -236,7 +232,7 @@ def axes(
 class ResponseError(Dated):
     """Error of the axis directions that is due to the response of the interior."""
 
-    direction_error_response: Value = number(
+    direction_error_response = number(
         "arcsec",
         "share of direction_error from the response of the interior: its residual, and the "
         "closure of the rates, against IAU 2006/2000A",
@@ -262,7 +258,7 @@ def response_error(
 class SatelliteError(Dated):
     """Error of the axis directions because the nodes of satellites stay at their mean."""
 
-    direction_error_satellites: Value = number(
+    direction_error_satellites = number(
         "arcsec",
         "share of direction_error from the nodes of the satellites, whose nutation of the planet "
         "is left out",
@@ -294,9 +290,9 @@ def no_longitude(body: Body) -> str | None:
 class Angles(Dated, along=("time", "axis"), error="direction_error"):
     """Longitude psi and inclination eps of the axes, relative to the body's orbit at J2000.0."""
 
-    psi: Value = number("arcsec", "precession and nutation in longitude along the orbit of J2000.0")
-    eps: Value = number("arcsec", "angle of the axis from the normal of that orbit")
-    axis: Labels = labels()
+    psi = number("arcsec", "precession and nutation in longitude along the orbit of J2000.0")
+    eps = number("arcsec", "angle of the axis from the normal of that orbit")
+    axis = labels()
 
 
 @part(unless=no_longitude)

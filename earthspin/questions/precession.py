@@ -13,17 +13,7 @@ from earthspin.dates import Span, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import define_parts, key
-from earthspin.engine.variables import (
-    Labels,
-    Neglected,
-    Pair,
-    Value,
-    Variables,
-    labels,
-    measured,
-    number,
-    words,
-)
+from earthspin.engine.variables import Neglected, Variables, labels, measured, number, words
 from earthspin.mass import figure
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import budget as calendar
@@ -91,32 +81,28 @@ _OVER_WINDOW = "time: mean (weighted by the taper)"
 class Rates(Variables, along=("perturber",)):
     """Precession rate, precession period and mean torque of each perturber."""
 
-    precession_rate: Pair = measured(
+    precession_rate = measured(
         "arcsec/yr",
         "rate of precession in longitude along the fixed orbit",
         split=True,
         short="rate",
         cell_methods=_OVER_WINDOW,
     )
-    precession_period: Pair = measured(
-        "yr", "period of one full turn of precession", short="period"
-    )
-    rate_ratio: Value = number(
+    precession_period = measured("yr", "period of one full turn of precession", short="period")
+    rate_ratio = number(
         "1",
         "ratio of the rate to that of the first perturber",
         no_error="a ratio of two rates that each carry their own error",
     )
-    mean_torque: Pair = measured(
-        "N m", "magnitude of the mean torque vector", cell_methods=_OVER_WINDOW
-    )
-    obliquity: Value = number(
+    mean_torque = measured("N m", "magnitude of the mean torque vector", cell_methods=_OVER_WINDOW)
+    obliquity = number(
         "deg",
         "angle between spin axis and orbit normal at the epoch",
         along=(),
         no_error="an angle between a pole and a plane that are given",
     )
-    reference_epoch: Value = words("epoch that the averages refer to (TDB)", along=())
-    perturber: Labels = labels()
+    reference_epoch = words("epoch that the averages refer to (TDB)", along=())
+    perturber = labels()
 
 
 @part
@@ -154,12 +140,12 @@ def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Bod
 class Convergence(Variables, no_error="the curve itself shows the error of each window"):
     """Precession rate for averaging windows of different lengths, to show the convergence."""
 
-    rate_by_window: Value = number(
+    rate_by_window = number(
         "arcsec/yr", "rate of precession by all perturbers", along=("window", "window_cycles")
     )
-    window_length: Value = number("yr", "length of the averaging window", along=("window_cycles",))
-    window: Labels = labels()
-    window_cycles: Labels = labels("length of the averaging window in cycles")
+    window_length = number("yr", "length of the averaging window", along=("window_cycles",))
+    window = labels()
+    window_cycles = labels("length of the averaging window in cycles")
 
 
 @part(unless=reasons.many_pulls)
@@ -203,14 +189,12 @@ class FigureModels(
 ):
     """Dynamical flattening, precession period and wobble period, for three figure models."""
 
-    h_by_model: Value = number("1", "dynamical flattening (C - A)/C", short="H = (C-A)/C")
-    period_by_model: Value = number(
-        "yr", "period of one full turn of precession", short="precession"
-    )
-    wobble_by_model: Value = number("d", "period of the rigid free wobble", short="wobble")
-    moment_difference: Value = number("kg m2", "C - A from J2", along=())
-    polar_moment_factor: Value = number("1", "C/(M a2) from J2 and H", along=())
-    j2_from_moment_difference: Value = number("1", "J2 computed back from C - A", along=())
+    h_by_model = number("1", "dynamical flattening (C - A)/C", short="H = (C-A)/C")
+    period_by_model = number("yr", "period of one full turn of precession", short="precession")
+    wobble_by_model = number("d", "period of the rigid free wobble", short="wobble")
+    moment_difference = number("kg m2", "C - A from J2", along=())
+    polar_moment_factor = number("1", "C/(M a2) from J2 and H", along=())
+    j2_from_moment_difference = number("1", "J2 computed back from C - A", along=())
 
 
 @part(unless=(no_figure, reasons.many_pulls))
@@ -247,8 +231,8 @@ def is_sphere(body: Body) -> str | None:
 class FreeWobble(Variables, no_error="its relative error is that of free_wobble_period"):
     """Period of the free wobble of the body, if it is rigid."""
 
-    free_wobble_period: Pair = measured("d", "period of the rigid free wobble, A/(C - A)")
-    free_wobble_period_sidereal: Value = number(
+    free_wobble_period = measured("d", "period of the rigid free wobble, A/(C - A)")
+    free_wobble_period_sidereal = number(
         "1", "period of the rigid free wobble in turns of the body, its sidereal days"
     )
 
@@ -268,22 +252,22 @@ def free_wobble(body: Body) -> FreeWobble:
 class Seasons(Variables, no_error="its relative error is that of general_precession"):
     """Motion of the equinox, tropical year, and drift of the calendar relative to the seasons."""
 
-    general_precession: Pair = measured(
+    general_precession = measured(
         "arcsec/yr",
         "general precession in longitude: motion of the equinox along the moving ecliptic",
     )
-    general_precession_period: Pair = measured(
+    general_precession_period = measured(
         "yr", "period of one full turn of the equinox", short="period"
     )
-    time_per_degree: Value = number("yr", "time in which the equinox moves by one degree")
-    tropical_year: Value = number("d", "tropical year, the period of the seasons")
-    time_per_day_of_drift: Value = number(
+    time_per_degree = number("yr", "time in which the equinox moves by one degree")
+    tropical_year = number("d", "tropical year, the period of the seasons")
+    time_per_day_of_drift = number(
         "yr", "time in which years of 365.25 d drift by a day against the seasons"
     )
-    time_per_dropped_leap_day: Value = number(
+    time_per_dropped_leap_day = number(
         "yr", "time in which the Gregorian calendar drops one leap day, 400/3"
     )
-    time_per_day_of_gregorian_drift: Value = number(
+    time_per_day_of_gregorian_drift = number(
         "yr", "time in which Gregorian years drift by a day against the seasons"
     )
 
@@ -328,16 +312,14 @@ def seasons(
 class BesideIAU(Variables):
     """Computed precession rate minus that of IAU 2006, and the part that remains unexplained."""
 
-    iau_rate: Value = number(
+    iau_rate = number(
         "arcsec/yr",
         "rate of psi_A in IAU 2006 at the same epoch",
         no_error="a model that was adopted, exact by definition",
     )
-    difference_from_iau: Pair = measured("arcsec/yr", "computed rate minus the IAU's")
-    closure: Pair = measured(
-        "arcsec/yr", "difference that remains after all published contributions"
-    )
-    period_from_prem: Value = number(
+    difference_from_iau = measured("arcsec/yr", "computed rate minus the IAU's")
+    closure = measured("arcsec/yr", "difference that remains after all published contributions")
+    period_from_prem = number(
         "yr",
         "precession period with all known effects, if C is that of PREM instead of J2/H",
         no_error="the difference from the period with the observed H measures it",
@@ -369,11 +351,11 @@ def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> Be
 class Standstills(Variables, along=("standstill",)):
     """Dates of lunar standstills, with the extreme declinations of the Moon."""
 
-    standstill_kind: Value = words("major or minor", short="kind")
-    standstill_declination: Pair = measured(
+    standstill_kind = words("major or minor", short="kind")
+    standstill_declination = measured(
         "deg", "extreme declination, mean equator of date", short="extreme declination"
     )
-    standstill: Labels = labels("day of the extreme declination (TDB)")
+    standstill = labels("day of the extreme declination (TDB)")
 
 
 @part(unless=reasons.no_moon)

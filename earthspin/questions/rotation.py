@@ -15,7 +15,7 @@ from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import define_parts, key
-from earthspin.engine.variables import Labels, Neglected, Value, labels, number, words
+from earthspin.engine.variables import Neglected, labels, number, words
 from earthspin.errors import SceneError
 from earthspin.mass.figure import polar_moment
 from earthspin.motion.effect_sizes import attitude_displacements
@@ -363,34 +363,34 @@ def _share(units: str, name: str, cause: str) -> Any:
 class Attitudes(Dated, along=("time", "component")):
     """Attitude, spin and angular momentum in time, with their errors in total and by cause."""
 
-    attitude: Value = number(
+    attitude = number(
         "1",
         "unit quaternion, body to ICRF",
         along=("time", "quaternion"),
         error="attitude_error",
         short="quaternion, body to ICRF",
     )
-    attitude_error: Value = _error("deg", "the angle of the attitude")
-    attitude_error_method: Value = _share("deg", "attitude", "method")
-    attitude_error_input: Value = _share("deg", "attitude", "input")
-    attitude_error_kernel: Value = _share("deg", "attitude", "kernel")
-    omega: Value = number(
+    attitude_error = _error("deg", "the angle of the attitude")
+    attitude_error_method = _share("deg", "attitude", "method")
+    attitude_error_input = _share("deg", "attitude", "input")
+    attitude_error_kernel = _share("deg", "attitude", "kernel")
+    omega = number(
         "rad/s",
         "angular velocity along the principal axes",
         frame="principal axes of the body, C last",
         short="spin in the body",
     )
-    omega_error: Value = _error("rad/s", "the angular velocity")
-    omega_error_method: Value = _share("rad/s", "omega", "method")
-    omega_error_input: Value = _share("rad/s", "omega", "input")
-    omega_error_kernel: Value = _share("rad/s", "omega", "kernel")
-    angular_momentum: Value = number("kg m2 / s", "angular momentum along the ICRF", frame="ICRF")
-    angular_momentum_error: Value = _error("kg m2 / s", "the angular momentum, C as given")
-    angular_momentum_error_method: Value = _share("kg m2 / s", "angular_momentum", "method")
-    angular_momentum_error_input: Value = _share("kg m2 / s", "angular_momentum", "input")
-    angular_momentum_error_kernel: Value = _share("kg m2 / s", "angular_momentum", "kernel")
-    component: Labels = labels(default=["x", "y", "z"])
-    quaternion: Labels = labels(default=["w", "x", "y", "z"])
+    omega_error = _error("rad/s", "the angular velocity")
+    omega_error_method = _share("rad/s", "omega", "method")
+    omega_error_input = _share("rad/s", "omega", "input")
+    omega_error_kernel = _share("rad/s", "omega", "kernel")
+    angular_momentum = number("kg m2 / s", "angular momentum along the ICRF", frame="ICRF")
+    angular_momentum_error = _error("kg m2 / s", "the angular momentum, C as given")
+    angular_momentum_error_method = _share("kg m2 / s", "angular_momentum", "method")
+    angular_momentum_error_input = _share("kg m2 / s", "angular_momentum", "input")
+    angular_momentum_error_kernel = _share("kg m2 / s", "angular_momentum", "kernel")
+    component = labels(default=["x", "y", "z"])
+    quaternion = labels(default=["w", "x", "y", "z"])
 
 
 def _followed(motion: Motion, rotor: Rotor, seconds: FloatArray, begin: float) -> RotationSeries:
@@ -458,29 +458,23 @@ def turning(
 class Growth(Dated):
     """Growth in time of the distance between two rotations that start almost equal."""
 
-    growth: Value = number(
+    growth = number(
         "1",
         "natural logarithm of how far neighbouring rotations have parted",
         no_error="its scatter is growth_rate_error",
     )
-    growth_rate: Value = number(
-        "1/s", "mean rate of growth; Lyapunov's exponent if chaotic", along=()
-    )
-    growth_rate_error: Value = number(
+    growth_rate = number("1/s", "mean rate of growth; Lyapunov's exponent if chaotic", along=())
+    growth_rate_error = number(
         "1/s",
         "95 % half-width of the rate, from its scatter between stretches of the span",
         along=(),
     )
-    course: Value = words(
-        "chaotic, if neighbours part faster than by powers of time; regular", along=()
-    )
+    course = words("chaotic, if neighbours part faster than by powers of time; regular", along=())
     #: Only where the motion is chaotic.
-    lyapunov_time: Value | None = number(
+    lyapunov_time = number(
         "d", "time in which neighbours part e times as far", along=(), default=None
     )
-    lyapunov_time_error: Value | None = number(
-        "d", "95 % half-width of that time", along=(), default=None
-    )
+    lyapunov_time_error = number("d", "95 % half-width of that time", along=(), default=None)
 
 
 def one_date(span: Span, times: TimeList | None) -> str | None:

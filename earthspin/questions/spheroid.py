@@ -10,7 +10,7 @@ from earthspin.bodies import EARTH, Body, all_of, proper
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key, setting
-from earthspin.engine.variables import Labels, Neglected, Value, Variables, labels, number
+from earthspin.engine.variables import Neglected, Variables, labels, number
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.times import SideBySide
 from earthspin.units import Number, Numbers
@@ -69,23 +69,23 @@ _FRAME = "principal axes of the spheroid, z along its axis"
 class Field(Variables, along=_VECTOR, error="relative_error"):
     """Potential, attraction and torque of a spheroid at given points, with their relative error."""
 
-    position: Value = number(
+    position = number(
         "m", "coordinates of the point from the centre", no_error="as it was given", frame=_FRAME
     )
-    potential: Value = number(
+    potential = number(
         "J/kg",
         "gravitational potential",
         along=("point",),
         comment="of a homogeneous spheroid with the mass, radius and flattening of the body",
     )
-    attraction: Value = number("m/s2", "acceleration of gravity", frame=_FRAME)
-    torque: Value = number("N m", "torque of the point mass on the spheroid", frame=_FRAME)
-    relative_error: Value = number(
+    attraction = number("m/s2", "acceleration of gravity", frame=_FRAME)
+    torque = number("N m", "torque of the point mass on the spheroid", frame=_FRAME)
+    relative_error = number(
         "1",
         "95 % half-width of potential, attraction and torque relative to their sizes",
         along=("point",),
     )
-    component: Labels = labels(default=["x", "y", "z"])
+    component = labels(default=["x", "y", "z"])
 
 
 @part(loads=("scipy.special",))

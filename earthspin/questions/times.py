@@ -14,7 +14,7 @@ from earthspin.bodies.body import members
 from earthspin.dates import Epochs, Span, Step, TimeGrid, TimeList
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import key
-from earthspin.engine.variables import Labels, Variables, labels
+from earthspin.engine.variables import Variables, labels
 from earthspin.errors import SceneError, in_bytes
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.sky import PerturbedBody
@@ -44,14 +44,14 @@ class Series(PerturbedBody):
 class Dated(Variables, along=("time",)):
     """Base class of results given at the dates of a time series."""
 
-    time: Labels = labels("time (TDB)", standard_name="time", axis="T")
+    time = labels("time (TDB)", standard_name="time", axis="T")
 
 
 class FromStart(Variables, along=("time",)):
     """Base class of results given at times from the start of a motion, in axes of the body."""
 
-    time: Labels = labels("time from the start", "s")
-    component: Labels = labels(default=["x", "y", "z"])
+    time = labels("time from the start", "s")
+    component = labels(default=["x", "y", "z"])
 
 
 @part

@@ -12,7 +12,7 @@ from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import define_parts, key
-from earthspin.engine.variables import Labels, Neglected, Pair, Value, labels, measured, number
+from earthspin.engine.variables import Neglected, labels, measured, number
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.reasons import no_iau_model
@@ -95,24 +95,22 @@ def nutation(epochs: Epochs) -> Nutation:
 class Torques(Dated, along=("time", "perturber")):
     """Positions of the perturbers, and their torques on the body, in time."""
 
-    right_ascension: Value = number("deg", "right ascension, geometric", error="direction_error")
-    declination: Value = number("deg", "declination, geometric", error="direction_error")
-    distance: Value = number("m", "distance between the centres")
-    torque: Value = number(
+    right_ascension = number("deg", "right ascension, geometric", error="direction_error")
+    declination = number("deg", "declination, geometric", error="direction_error")
+    distance = number("m", "distance between the centres")
+    torque = number(
         "N m",
         "torque on the equatorial bulge",
         along=("time", "perturber", "component"),
         error="torque_magnitude_error",
     )
-    torque_magnitude: Pair = measured("N m", "magnitude of the torque")
-    direction_error: Value = number(
+    torque_magnitude = measured("N m", "magnitude of the torque")
+    direction_error = number(
         "arcsec", "bound on right ascension and declination", along=("perturber",)
     )
-    distance_error: Value = number(
-        "m", "bound on the distance from the kernel", along=("perturber",)
-    )
-    perturber: Labels = labels()
-    component: Labels = labels(default=["x", "y", "z"])
+    distance_error = number("m", "bound on the distance from the kernel", along=("perturber",))
+    perturber = labels()
+    component = labels(default=["x", "y", "z"])
 
 
 @part

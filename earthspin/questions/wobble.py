@@ -17,15 +17,7 @@ from earthspin.constants import DAY
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, define_parts, key, setting
-from earthspin.engine.variables import (
-    Neglected,
-    Pair,
-    Value,
-    Variables,
-    measured,
-    number,
-    words,
-)
+from earthspin.engine.variables import Neglected, Variables, measured, number, words
 from earthspin.interior.named import ANELASTIC_EXPONENT, EXPONENT_RANGE, Interior
 from earthspin.questions import interiors
 from earthspin.questions.reasons import observed_wobble
@@ -229,21 +221,21 @@ class Rungs(
 ):
     """Period of the free wobble from each model of the ladder, from rigid to deformable."""
 
-    period_solar: Pair = measured("d", "period of the free wobble in days of 86400 s")
-    period_sidereal: Value = number(
+    period_solar = measured("d", "period of the free wobble in days of 86400 s")
+    period_sidereal = number(
         "1",
         "period of the free wobble in turns of the body, its sidereal days",
         short="sidereal days",
     )
-    factor: Value = number("1", "ratio of the period to that of the rung before")
-    quality_factor: Value = number(
+    factor = number("1", "ratio of the period to that of the rung before")
+    quality_factor = number(
         "1",
         "quality factor of the free wobble",
         comment="infinite without dissipation; the exponent of anelasticity is a free choice, "
         "so the anelastic rung is a check of consistency, not a prediction",
         short="Q",
     )
-    rung_formula: Value = words("formula for the turns of the body per wobble, with its source")
+    rung_formula = words("formula for the turns of the body per wobble, with its source")
 
 
 @part
@@ -329,10 +321,10 @@ class Sensitivity(Variables, along=("input",), no_error="a share of an error, or
     The period is that of the most detailed model; errors are 95 % half-widths.
     """
 
-    days_per_unit: Value = number("d", "change of the last rung per unit of the input")
-    input_value: Value = number("1", "value of the input")
-    input_half_width: Value = number("1", "95 % half-width of the input")
-    days_from_input: Value = number(
+    days_per_unit = number("d", "change of the last rung per unit of the input")
+    input_value = number("1", "value of the input")
+    input_half_width = number("1", "95 % half-width of the input")
+    days_from_input = number(
         "d", "95 % half-width of the last rung from the uncertainty of the input"
     )
 
@@ -359,8 +351,8 @@ class CoreNutation(
 ):
     """Period of the free core nutation, for different shapes of the core."""
 
-    free_core_nutation: Pair = measured("d", "period of the free core nutation in space")
-    free_core_nutation_sidereal: Value = number(
+    free_core_nutation = measured("d", "period of the free core nutation in space")
+    free_core_nutation_sidereal = number(
         "1", "period of the free core nutation in turns of the body"
     )
 
