@@ -15,7 +15,7 @@ from earthspin.bodies.planets import LEFT_OUT_OF_STATES, PRECESSING_ORBITS
 from earthspin.constants import NORMAL_95
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, key
+from earthspin.engine.question import Question, key
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import SceneError, nearest
 from earthspin.numerics.arrays import FloatArray
@@ -206,11 +206,6 @@ def neglected(body: Body, own_orbit: Orbit) -> Neglected:
     )
 
 
-define_parts(
-    CassiniStates,
-    answer=states,
-    sections={"neglected": neglected},
-    parts=(own_orbit, locking),
+cassini_states = public_call(
+    CassiniStates, answer=states, sections=(neglected,), parts=(own_orbit, locking)
 )
-
-cassini_states = public_call(CassiniStates)

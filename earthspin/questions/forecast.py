@@ -15,7 +15,7 @@ from earthspin.constants import DAY, MAS, NORMAL_95
 from earthspin.dates import Spacing, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, key
+from earthspin.engine.question import Question, key
 from earthspin.engine.run import Run
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number, words
 from earthspin.errors import SceneError, SeriesError, Where
@@ -516,20 +516,12 @@ def neglected(excitation: GivenSeries | None) -> Neglected:
     )
 
 
-define_parts(
+forecast = public_call(
     Forecast,
     answer=ahead,
-    sections={
-        "components": components,
-        "skill": skill,
-        "bulletin_a": bulletin_a,
-        "pole_offsets": pole_offsets,
-        "neglected": neglected,
-    },
+    sections=(components, skill, bulletin_a, pole_offsets, neglected),
     parts=(record, predicted),
 )
-
-forecast = public_call(Forecast)
 
 
 def to_iers_table(answer: Answer) -> PoleTable:

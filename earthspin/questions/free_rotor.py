@@ -10,7 +10,7 @@ import numpy as np
 
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, setting
+from earthspin.engine.question import Question, setting
 from earthspin.engine.variables import Neglected, labels, number
 from earthspin.errors import Where
 from earthspin.numerics.arrays import FloatArray
@@ -239,13 +239,11 @@ def neglected() -> Neglected:
     return Neglected(what="nothing: the question is about a rigid body without torque")
 
 
-define_parts(
+free_rotor = public_call(
     FreeRotor,
-    answer=(free_rotation,),
-    sections={"poinsot": poinsot, "neglected": neglected},
+    answer=free_rotation,
+    sections=(poinsot, neglected),
     parts=(instants,),
     together=("moments", "omega"),
     widest=4096,
 )
-
-free_rotor = public_call(FreeRotor)

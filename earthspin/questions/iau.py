@@ -13,7 +13,6 @@ from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95
 from earthspin.dates import Epochs, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import define_parts
 from earthspin.engine.variables import (
     Neglected,
     Variables,
@@ -612,20 +611,18 @@ def neglected(effects: tuple[str, ...]) -> Neglected:
     return neglected_rates(rigid(effects))
 
 
-define_parts(
+compare_iau = public_call(
     IAU,
     answer=budget,
-    sections={
-        "residuals": residuals,
-        "residual_sizes": residual_sizes,
-        "observed": observed,
-        "nutation": nutation,
-        "core": core,
-        "angles": angles,
-        "inferred_flattening": inferred_flattening,
-        "neglected": neglected,
-    },
+    sections=(
+        residuals,
+        residual_sizes,
+        observed,
+        nutation,
+        core,
+        angles,
+        inferred_flattening,
+        neglected,
+    ),
     parts=(*PULLS, rates_by_effect, core_response, *INTERIOR, differences, observed_sky),
 )
-
-compare_iau = public_call(IAU)

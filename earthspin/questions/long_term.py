@@ -12,7 +12,7 @@ from earthspin.bodies import MOON, SUN, Body, in_a_sentence
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import define_parts, key
+from earthspin.engine.question import key
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
@@ -570,19 +570,14 @@ def neglected() -> Neglected:
     )
 
 
-define_parts(
+long_term = public_call(
     LongTerm,
-    answer=(series,),
-    sections={"budget": budget, "matrices": matrices, "neglected": neglected},
-    parts=(
-        places, sky, stretch, wanted, *MEANS, orbit_table,
-        numbers, strength, solved, readings,
-    ),
+    answer=series,
+    sections=(budget, matrices, neglected),
+    parts=(places, sky, stretch, wanted, *MEANS, orbit_table, numbers, strength, solved, readings),
     together=(
         *("body", "perturbers", "tides", "ellipticity", "j2_rate"),
         *("obliquity_shift", "longitude_shift"),
     ),
     widest=64,
-)  # fmt: skip
-
-long_term = public_call(LongTerm)
+)

@@ -11,7 +11,7 @@ from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, key
+from earthspin.engine.question import Question, key
 from earthspin.engine.variables import Neglected, Variables, labels, number
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import Yielding, elastic, yielding
@@ -203,16 +203,6 @@ def neglected() -> Neglected:
     return Neglected(what="rotation and ellipticity of the body, about one per cent")
 
 
-define_parts(
-    LoveNumbers,
-    answer=love,
-    sections={
-        "by_period": by_period,
-        "compliances": compliances,
-        "modes": modes,
-        "neglected": neglected,
-    },
-    parts=(layers,),
+love_numbers = public_call(
+    LoveNumbers, answer=love, sections=(by_period, compliances, modes, neglected), parts=(layers,)
 )
-
-love_numbers = public_call(LoveNumbers)

@@ -13,7 +13,7 @@ from earthspin.constants import DAYS_PER_CENTURY
 from earthspin.dates import Epochs
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import define_parts, setting
+from earthspin.engine.question import setting
 from earthspin.engine.variables import (
     Neglected,
     Variables,
@@ -394,17 +394,9 @@ def neglected() -> Neglected:
     return Neglected.cited(ladder.LEFT_OUT, "change of the largest term that is concerned")
 
 
-define_parts(
+nutation_ladder = public_call(
     NutationLadder,
     answer=rung_sizes,
-    sections={
-        "beside": beside,
-        "terms": terms,
-        "modes": modes,
-        "transfer": transfer,
-        "neglected": neglected,
-    },
+    sections=(beside, terms, modes, transfer, neglected),
     parts=(*PULLS, iau_pole, pole_analysis, models, interior_spread, left),
 )
-
-nutation_ladder = public_call(NutationLadder)

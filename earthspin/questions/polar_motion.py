@@ -13,7 +13,7 @@ from earthspin.constants import DAY, DAYS_PER_YEAR, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import define_parts, setting
+from earthspin.engine.question import setting
 from earthspin.engine.run import in_range
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
@@ -211,14 +211,9 @@ def neglected() -> Neglected:
     )
 
 
-define_parts(
-    PolarMotion,
-    answer=observed_pole,
-    sections={"chandler": chandler, "spectrum": spectrum, "neglected": neglected},
-    parts=(pole_table,),
+polar_motion = public_call(
+    PolarMotion, answer=observed_pole, sections=(chandler, spectrum, neglected), parts=(pole_table,)
 )
-
-polar_motion = public_call(PolarMotion)
 
 
 # --- calls on labelled series --------------------------------------------------------------------

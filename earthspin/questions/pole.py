@@ -11,7 +11,7 @@ from earthspin.constants import DAY
 from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import Block, part
-from earthspin.engine.question import define_parts, key
+from earthspin.engine.question import key
 from earthspin.engine.variables import Neglected, labels, number
 from earthspin.motion.axes import AXES, AxisPath
 from earthspin.motion.effect_sizes import axis_displacements
@@ -368,11 +368,9 @@ def neglected(
     )
 
 
-define_parts(
+pole = public_call(
     Pole,
     answer=(axes, response_error, satellite_error, pole_angles),
-    sections={"neglected": neglected},
+    sections=(neglected,),
     parts=(*PULLS, axis_path, turns, *INTERIOR, as_fitted, as_predicted, interior_shift),
 )
-
-pole = public_call(Pole)

@@ -10,7 +10,7 @@ from earthspin.constants import DAY, DAYS_PER_YEAR, NORMAL_95
 from earthspin.dates import Span, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import define_parts, setting
+from earthspin.engine.question import setting
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import UndefinedError
 from earthspin.interior.named import OBSERVED_CORE_NUTATION
@@ -200,11 +200,9 @@ def neglected() -> Neglected:
     )
 
 
-define_parts(
+pole_offsets = public_call(
     PoleOffsets,
     answer=observed_offsets,
-    sections={"core_nutation": core_nutation, "period": period, "neglected": neglected},
+    sections=(core_nutation, period, neglected),
     parts=(offset_table,),
 )
-
-pole_offsets = public_call(PoleOffsets)

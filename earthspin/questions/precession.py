@@ -12,7 +12,7 @@ from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.dates import Span, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import define_parts, key
+from earthspin.engine.question import key
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number, words
 from earthspin.mass import figure
 from earthspin.numerics.arrays import FloatArray
@@ -402,21 +402,19 @@ def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -
     return reasons.neglected_rates()
 
 
-define_parts(
+precession = public_call(
     Precession,
-    answer=(precession_rates,),
-    sections={
-        "convergence": convergence,
-        "figure_models": figure_models,
-        "free_wobble": (free_wobble, observed_wobble),
-        "seasons": seasons,
-        "iau_2006": iau_2006,
-        "standstills": standstills,
-        "neglected": neglected,
-    },
+    answer=precession_rates,
+    sections=(
+        convergence,
+        figure_models,
+        (free_wobble, observed_wobble),
+        seasons,
+        iau_2006,
+        standstills,
+        neglected,
+    ),
     parts=(places, sky, stretch, *MEANS),
     together=("body", "perturbers"),
     widest=16384,
 )
-
-precession = public_call(Precession)

@@ -14,7 +14,7 @@ from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import Block, part
-from earthspin.engine.question import define_parts, key
+from earthspin.engine.question import key
 from earthspin.engine.variables import Neglected, labels, number, words
 from earthspin.errors import SceneError
 from earthspin.mass.figure import polar_moment
@@ -584,11 +584,9 @@ def neglected(
     )
 
 
-define_parts(
+rotation = public_call(
     Rotation,
-    answer=(turning,),
-    sections={"divergence": divergence, "neglected": neglected},
+    answer=turning,
+    sections=(divergence, neglected),
     parts=(*PULLS, pulling, rotor, motion, parting, effect_changes, node_drifts),
 )
-
-rotation = public_call(Rotation)

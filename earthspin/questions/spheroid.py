@@ -9,7 +9,7 @@ import numpy as np
 from earthspin.bodies import EARTH, Body, all_of, proper
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, key, setting
+from earthspin.engine.question import Question, key, setting
 from earthspin.engine.variables import Neglected, Variables, labels, number
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.times import SideBySide
@@ -131,12 +131,6 @@ def neglected(body: Body, position: FloatArray) -> Neglected:
     )
 
 
-define_parts(
-    Spheroid,
-    answer=(field,),
-    sections={"neglected": neglected},
-    together=("body", "point_mass"),
-    widest=16_384,
+spheroid_field = public_call(
+    Spheroid, answer=field, sections=(neglected,), together=("body", "point_mass"), widest=16384
 )
-
-spheroid_field = public_call(Spheroid)

@@ -8,7 +8,7 @@ import numpy as np
 
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, setting
+from earthspin.engine.question import Question, setting
 from earthspin.engine.variables import Neglected, Variables, labels, number, words
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.times import FromStart, Seconds, SideBySide, instants
@@ -231,13 +231,11 @@ def neglected() -> Neglected:
     return Neglected(what="nothing: the question is about a rigid top without friction")
 
 
-define_parts(
+heavy_top = public_call(
     Top,
-    answer=(euler_angles,),
-    sections={"turning": turning, "potential": potential, "neglected": neglected},
+    answer=euler_angles,
+    sections=(turning, potential, neglected),
     parts=(instants, numbers, heavy_top_start, motion),
     together=_OF_THE_TOP,
     widest=4096,
 )
-
-heavy_top = public_call(Top)

@@ -11,7 +11,7 @@ from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import Block, part
-from earthspin.engine.question import define_parts, key
+from earthspin.engine.question import key
 from earthspin.engine.variables import Neglected, labels, measured, number
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import FloatArray
@@ -221,13 +221,11 @@ def neglected(
     return Neglected(sizes, "N m", "largest torque that the model leaves out", body.reference)
 
 
-define_parts(
+torque_series = public_call(
     Torque,
-    answer=(torques,),
-    sections={"neglected": neglected},
+    answer=torques,
+    sections=(neglected,),
     parts=(places, sky, epochs, nutation, nearest),
     together=("body",),
     widest=256,
 )
-
-torque_series = public_call(Torque)

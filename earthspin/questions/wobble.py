@@ -16,7 +16,7 @@ from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, key, setting
+from earthspin.engine.question import Question, key, setting
 from earthspin.engine.variables import Neglected, Variables, measured, number, words
 from earthspin.interior.named import ANELASTIC_EXPONENT, EXPONENT_RANGE, Interior
 from earthspin.questions import interiors
@@ -402,7 +402,7 @@ def neglected(body: Body, inside: Inside | None = None) -> Neglected:
     )
 
 
-define_parts(
+wobble_ladder = public_call(
     Wobble,
     answer=wobble_rungs,
     sections={
@@ -415,5 +415,3 @@ define_parts(
     together=("body", *_INTERIOR),
     widest=1024,
 )
-
-wobble_ladder = public_call(Wobble)
