@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import EARTH, Body
 from earthspin.bodies.orbit import Epoch
 from earthspin.constants import DAY, MAS, NORMAL_95
@@ -20,6 +21,8 @@ from earthspin.engine.run import Run
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number, words
 from earthspin.errors import SceneError, SeriesError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.nutation.core_nutation import LONGEST as FARTHEST
+from earthspin.nutation.core_nutation import predict, too_short
 from earthspin.questions.observed_pole import MJD, Daily, TableFile, complex_pole, labelled_series
 from earthspin.questions.reasons import no_iau_model
 from earthspin.sky.eop import (
@@ -31,12 +34,11 @@ from earthspin.sky.eop import (
     read_pole_offsets,
 )
 from earthspin.units import Number, Plain, pack, unpack
+from earthspin.wobble import forecast as model
 from earthspin.wobble.forecast import COMPONENTS, LONGEST, NEWEST_BIAS, SKILL
 from earthspin.wobble.forecast import Forecast as Predicted
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from earthspin.engine.accessor import Answer
     from earthspin.sky.iers_table import PoleTable
 
@@ -245,8 +247,6 @@ def predicted(
     record: Record, days: float, parameters: str | None, excitation: GivenSeries | None
 ) -> Predicted:
     """Predict polar motion and the covariance of its error for each day after the origin."""
-    from earthspin.wobble import forecast as model
-
     if excitation is not None:
         pole, chi = _from_common_day(record, excitation)
         return model.forecast_with_excitation(pole, chi, int(days), record.newest)
@@ -457,16 +457,11 @@ def offsets_until(file: str | Path, last: float | None) -> PoleSeries:
 
 def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Predict celestial pole offsets and their half-widths at given dates, shape (n, 2) each."""
-    from earthspin.nutation.core_nutation import predict
-
     return predict(table.mjd, table.x, table.y, table.x_error, table.y_error, mjd)
 
 
 def no_offsets(file: str | Path | GivenSeries, origin: float | None, days: float) -> str | None:
     """Return the reason (text) to omit celestial pole offsets without a forecast, else None."""
-    from earthspin.nutation.core_nutation import LONGEST as FARTHEST
-    from earthspin.nutation.core_nutation import too_short
-
     if isinstance(file, GivenSeries):
         return "polar motion has no celestial pole offsets; name a table"
     try:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, setting
@@ -15,11 +16,8 @@ from earthspin.engine.variables import Neglected, labels, number
 from earthspin.errors import Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.times import FromStart, Seconds, instants
-from earthspin.rotor.euler import KEYS
+from earthspin.rotor.euler import KEYS, axis_stability
 from earthspin.units import Duration, Numbers, Plain, Whole, quantity
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 @dataclass(frozen=True)
@@ -149,8 +147,6 @@ class Rotation(FromStart, along=_SERIES, error="relative_error"):
 @part(loads=("scipy.special",))
 def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> Rotation:
     """Compute angular velocity, angular momentum, attitude and energy of a free rotor in time."""
-    import xarray as xr
-
     from earthspin.rotor import triaxial
 
     many = {dim for number in (omega, *moments.numbers) for dim in getattr(number, "dims", ())[:1]}
@@ -213,7 +209,6 @@ class Poinsot(
 def poinsot(moments: Moments, omega: FloatArray, instants: FloatArray) -> Poinsot:
     """Compute ellipsoids, polhode and herpolhode of Poinsot's construction for a free rotor."""
     from earthspin.rotor import poinsot as construction
-    from earthspin.rotor.euler import axis_stability
 
     motion = moments.values, omega.tolist()
     path = construction.polhode(*motion)

@@ -25,8 +25,8 @@ from earthspin.engine.variables import (
 from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.nutation import analysis
 from earthspin.nutation import budget as flat
-from earthspin.nutation.analysis import ANGLES, polynomials, precession_angles
 from earthspin.nutation.budget import Budget, budget_of
 from earthspin.progress import progress
 from earthspin.questions.observed_pole import ObservedSizes, ObservedSky, observed_sky
@@ -52,6 +52,7 @@ from earthspin.questions.pulls import PULLS, Pulls, start_of
 from earthspin.questions.reasons import neglected_rates
 from earthspin.questions.sky import unmeasured
 from earthspin.questions.times import Dated
+from earthspin.sky import iau
 
 if TYPE_CHECKING:
     from earthspin.nutation.response import Response
@@ -115,8 +116,6 @@ def rates_by_effect(
 
     Each effect is switched off in turn.
     """
-    from earthspin.sky.iau import precession_rates
-
     done, on = pole_analysis, rigid(effects)
     without = {}
     with progress("budget", len(on)) as advance:
@@ -128,7 +127,7 @@ def rates_by_effect(
     # What is off has no share, nor has a transfer function: T = 1 at rest in space.
     off = [effect for effect in EFFECTS if effect not in on]
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    return budget_of(done.ours, done.theirs, without, off, precession_rates(0.0).psi_a, u_h)
+    return budget_of(done.ours, done.theirs, without, off, iau.precession_rates(0.0).psi_a, u_h)
 
 
 _PUBLISHED = "the table that it stands in gives none"
@@ -258,9 +257,6 @@ def differences(
     predicted_shift: Shift | None = None,
 ) -> Differences:
     """Compute time series of computed pole minus IAU pole, for different sets of effects."""
-    from earthspin.nutation.analysis import complex_nutation, without_line
-    from earthspin.sky import iau
-
     done = pole_analysis
     days, ends, iau_eta = iau_nutation(pulls, epochs)
     own_start, _ = start_of(body, pulls)
@@ -269,7 +265,7 @@ def differences(
         return path_over(body, pulls, on, start, ends).at(days * DAY, semidiurnal=False)
 
     def eta_of(pole: FloatArray) -> ComplexArray:
-        return complex_nutation(iau.nutation_of(pole, days))
+        return analysis.complex_nutation(iau.nutation_of(pole, days))
 
     # Each model as `pole` returns it, start included.
     models = {
@@ -292,7 +288,7 @@ def differences(
         days=days,
         models=tuple(models),
         plain=plain,
-        fitted=without_line(centuries, plain.reshape(days.size, -1)).reshape(plain.shape),
+        fitted=analysis.without_line(centuries, plain.reshape(days.size, -1)).reshape(plain.shape),
         chosen=2 if NONRIGID.name in effects else 1,
         error=error,
         unfitted_error=np.hypot(error, precession),
@@ -426,19 +422,17 @@ class Nutation(Variables, along=("term",)):
 @part
 def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation:
     """Compare the thirty largest circular nutation terms of the computed pole and the IAU pole."""
-    from earthspin.nutation.analysis import phases
-
     order, terms = largest_terms(pole_analysis, LARGEST)
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
     rigid, real = ours.amplitude[order], theirs.amplitude[order]
     transfer, ratio = core_response.transfer(ours.frequency[order]), real / rigid
     return Nutation(
         **terms,
-        rigid=phases(rigid),
+        rigid=analysis.phases(rigid),
         ratio=(ratio.real, ratio.imag),
         ratio_error=np.hypot(1, np.abs(ratio)) * terms["amplitude_error"] / np.abs(rigid),
         transfer=(transfer.real, transfer.imag),
-        left=phases(real - transfer * rigid),
+        left=analysis.phases(real - transfer * rigid),
     )
 
 
@@ -501,7 +495,6 @@ def core(
     pole_analysis: PoleComparison, core_response: Response, response_apart: ResponseFit
 ) -> Core:
     """Return the parameters of the free core nutation fitted to IAU 2000A, and fit residuals."""
-    from earthspin.nutation.analysis import phases, term_names
     from earthspin.nutation.response import added_half_width
 
     apart, alone = response_apart, response_apart.response
@@ -519,10 +512,10 @@ def core(
         response_maximum=float(np.max(left)),
         apart_rms=float(np.sqrt(np.mean(np.abs(beside) ** 2))),
         added_period=2 * np.pi / ours.frequency[rows],
-        added=phases(apart.left[rows]),
+        added=analysis.phases(apart.left[rows]),
         added_error=added_half_width(alone, ours.frequency[rows], ours.amplitude[rows]),
-        added_published=phases(apart.added[rows]),
-        added_to=term_names(ours.multiples[rows]),
+        added_published=analysis.phases(apart.added[rows]),
+        added_to=analysis.term_names(ours.multiples[rows]),
     )
 
 
@@ -548,26 +541,27 @@ class Angles(Variables, along=("angle", "degree")):
 
 @part
 def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
-    """Fit polynomials to the precession angles of the computed pole and the IAU pole."""
-    from earthspin.nutation.analysis import SLOW_DEGREE
-    from earthspin.sky import iau
-
+    """Fit analysis.polynomials to the precession angles of the computed pole and the IAU pole."""
     t = pole_analysis.days / DAYS_PER_CENTURY
     ecliptic = iau.ecliptic_of_date(pole_analysis.days)
     # what the analysis makes of the pole of IAU 2006 shows what it misses
     ours, again = (
-        polynomials(t, precession_angles(*path.at(t), ecliptic), SLOW_DEGREE)
+        analysis.polynomials(
+            t, analysis.precession_angles(*path.at(t), ecliptic), analysis.SLOW_DEGREE
+        )
         for path in (pole_analysis.ours, pole_analysis.theirs)
     )
-    theirs = polynomials(t, iau.precession_angles(pole_analysis.days), SLOW_DEGREE)
+    theirs = analysis.polynomials(
+        t, iau.precession_angles(pole_analysis.days), analysis.SLOW_DEGREE
+    )
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    of_h = NORMAL_95 * u_h * np.abs(ours) * (np.arange(SLOW_DEGREE + 1) > 0)
+    of_h = NORMAL_95 * u_h * np.abs(ours) * (np.arange(analysis.SLOW_DEGREE + 1) > 0)
     return Angles(
         angle_coefficient=ours,
         angle_coefficient_iau=theirs,
         angle_coefficient_error=np.hypot(again - theirs, of_h),
-        angle=list(ANGLES),
-        degree=np.arange(SLOW_DEGREE + 1.0),
+        angle=list(analysis.ANGLES),
+        degree=np.arange(analysis.SLOW_DEGREE + 1.0),
     )
 
 

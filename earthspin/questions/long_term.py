@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Any, Self
+from typing import Annotated, Any, Self
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import MOON, SUN, Body, in_a_sentence
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.engine.answers import public_call
@@ -33,9 +34,6 @@ from earthspin.torque import rates
 from earthspin.torque.gravity import dot
 from earthspin.units import FileName, Number, Plain, pack, unpack
 from earthspin.years import YearList, YearSpan, YearStep, grid
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 # --- orbits --------------------------------------------------------------------------------------
 

@@ -27,6 +27,7 @@ from earthspin.interior.modes import mode_period
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import ladder
+from earthspin.nutation.analysis import complex_nutation, phases, responses, without_line
 from earthspin.nutation.ladder import Spread, spread_of
 from earthspin.progress import progress
 from earthspin.questions.interiors import SOURCES, Prediction, no_layers, predict
@@ -46,6 +47,7 @@ from earthspin.questions.path import (
     steady_figure,
 )
 from earthspin.questions.pulls import PULLS, Pulls
+from earthspin.sky import iau
 from earthspin.units import Number
 
 #: Terms of the table: the largest circles.
@@ -154,9 +156,6 @@ def left(
     effects: tuple[str, ...],
 ) -> RungResiduals:
     """Compute the residuals of predicted pole minus IAU pole for each model."""
-    from earthspin.nutation.analysis import complex_nutation, responses, without_line
-    from earthspin.sky import iau
-
     done = pole_analysis
     days, ends, theirs = iau_nutation(pulls, epochs)
     path = path_over(body, pulls, effects, done.start, ends)
@@ -301,8 +300,6 @@ class Terms(Variables, along=("term",)):
 @part
 def terms(pole_analysis: PoleComparison, models: Prediction, interior_spread: Spread) -> Terms:
     """Compute the largest circular nutation terms of each model, in phase and out of phase."""
-    from earthspin.nutation.analysis import phases
-
     order, columns = largest_terms(pole_analysis, LARGEST)
     circles, names = pole_analysis.our_circles, models.ladder
     frequency, own = circles.frequency[order], circles.amplitude[order]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +29,8 @@ from earthspin.motion.axes import AxisPath
 from earthspin.motion.effects import GEODESIC, NONRIGID
 from earthspin.motion.forces import fastest_sweep
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.nutation.analysis import followed, on_fixed_ecliptic
+from earthspin.nutation import analysis
+from earthspin.nutation.analysis import Circles, PoleAnalysis, Secular
 from earthspin.nutation.budget import published_effects
 from earthspin.progress import progress
 from earthspin.questions.interiors import CHOSEN, Prediction, no_layers, prediction
@@ -37,10 +38,10 @@ from earthspin.questions.pulls import AxisMotion, Pulls, forces_of, start_of
 from earthspin.questions.reasons import no_iau_model
 from earthspin.questions.satellites import drifts, obliquity_of, swings
 from earthspin.questions.times import days_of
+from earthspin.sky import iau
 from earthspin.sky.kernel import DRIFT_FROM, growth
 
 if TYPE_CHECKING:
-    from earthspin.nutation.analysis import Circles, PoleAnalysis, Secular
     from earthspin.nutation.response import Response
 
 
@@ -81,8 +82,7 @@ def axis_path(
         return axes.axis_path(forces, axis, epoch, span, limits=pulls.limits, advance=advance)
 
 
-@dataclass(frozen=True)
-class Errors:
+class Errors(NamedTuple):
     """95 % half-widths of the directions of the axes at some times, by cause, rad.
 
     Attributes
@@ -102,15 +102,7 @@ class Errors:
     @property
     def total(self) -> FloatArray:
         """Total error of the axis directions, rad: root sum of squares over all causes."""
-        return np.asarray(
-            np.sqrt(
-                self.method**2
-                + self.given**2
-                + self.kernel**2
-                + self.response**2
-                + self.satellites**2
-            )
-        )
+        return np.asarray(np.sqrt(sum(error**2 for error in self)))
 
 
 def direction_errors(
@@ -196,7 +188,7 @@ class LongitudeCycles:
 
         `times` are in s, shape (t,).
         """
-        return followed(psi, np.interp(times, self.times, self.psi)[:, np.newaxis])
+        return analysis.followed(psi, np.interp(times, self.times, self.psi)[:, np.newaxis])
 
 
 def longitude_cycles(path: AxisPath, first: float, ecliptic: FloatArray) -> LongitudeCycles:
@@ -204,9 +196,10 @@ def longitude_cycles(path: AxisPath, first: float, ecliptic: FloatArray) -> Long
 
     It equals the principal value at the time `first`, s.
     """
-    psi = np.unwrap(on_fixed_ecliptic(path.at_starts(), ecliptic)[:, 0])
+    psi = np.unwrap(analysis.on_fixed_ecliptic(path.at_starts(), ecliptic)[:, 0])
     times = path.windows.edges[:-1]
-    principal = on_fixed_ecliptic(path.at(np.array([first]))["angular_momentum"], ecliptic)[0, 0]
+    axis = path.at(np.array([first]))["angular_momentum"]
+    principal = analysis.on_fixed_ecliptic(axis, ecliptic)[0, 0]
     difference = np.interp(first, times, psi) - principal
     return LongitudeCycles(times, psi - 2 * np.pi * np.rint(difference / (2 * np.pi)))
 
@@ -298,15 +291,12 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
     EarthspinError
         If the series does not fit into memory, or lies outside the source of positions.
     """
-    from earthspin.nutation.analysis import complex_nutation
-    from earthspin.sky import iau
-
     days = days_of(epochs)
     first, last = epochs.span()
     ends = np.array([min(first, 0.0), max(last, 0.0)])
     pulls.sky.check_times(ends, pulls.targets)
     angles = iau.at_days(lambda at: iau.nutation_of(iau.true_pole(at), at), days)
-    return days, ends, complex_nutation(angles)
+    return days, ends, analysis.complex_nutation(angles)
 
 
 def residual_error(
@@ -316,11 +306,9 @@ def residual_error(
 
     It is due to the integration, the uncertainty of H, and interpolation.
     """
-    from earthspin.sky.iau import node_error
-
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     error = math.hypot(analysed.path.error, NORMAL_95 * u_h * float(np.max(np.abs(eta))))
-    between_nodes = node_error(days)
+    between_nodes = iau.node_error(days)
     return math.hypot(error, between_nodes) if between_nodes else error
 
 
@@ -369,13 +357,10 @@ def analysed_days(limits: tuple[float, float]) -> tuple[FloatArray, float]:
 @part(
     unless=no_iau_model,
     same_for=lambda pulls: pulls.limits,
-    loads=("earthspin.sky.iau", "scipy.sparse.linalg"),
+    loads=("erfa", "scipy.sparse.linalg"),
 )
 def iau_pole(pulls: Pulls) -> IAUPole:
     """Analyse pole and nutation of the IAU over 150 years, as far as positions are known."""
-    from earthspin.nutation.analysis import PoleAnalysis, complex_nutation
-    from earthspin.sky import iau
-
     days, covered = analysed_days((pulls.limits[0] / DAY, pulls.limits[1] / DAY))
     if covered < SHORTEST_SPAN:
         raise UndefinedError(
@@ -383,17 +368,12 @@ def iau_pole(pulls: Pulls) -> IAUPole:
             f"analysis of nutation needs {SHORTEST_SPAN * DAY / JULIAN_YEAR:.0f}; give a longer "
             "ephemeris, or remove the effect nonrigid"
         )
-    analysis = PoleAnalysis(
-        days, iau.delaunay_arguments(days), iau.delaunay_rates(), iau.fixed_ecliptic()
-    )
+    arguments = iau.delaunay_arguments(days)
+    analyse = PoleAnalysis(days, arguments, iau.delaunay_rates(), iau.fixed_ecliptic())
     pole, original = iau.pole_and_nutation(days)
-    return IAUPole(
-        days,
-        complex_nutation(iau.nutation_of(pole, days)),
-        analysis,
-        analysis.secular(pole),
-        analysis.circles(complex_nutation(original)),
-    )
+    nutation = analysis.complex_nutation(iau.nutation_of(pole, days))
+    circles = analyse.circles(analysis.complex_nutation(original))
+    return IAUPole(days, nutation, analyse, analyse.secular(pole), circles)
 
 
 @part(unless=no_iau_model)
@@ -404,10 +384,7 @@ def pole_analysis(
 
     The initial axis is corrected so that the mean poles agree at the start.
     """
-    from earthspin.nutation.analysis import CENTURY, complex_nutation, shifted_start
-    from earthspin.sky import iau
-
-    days, analysis = iau_pole.days, iau_pole.analysis
+    days, analyse = iau_pole.days, iau_pole.analysis
     start, epoch = start_of(body, pulls)
 
     def integrate(start: FloatArray) -> tuple[AxisPath, FloatArray]:
@@ -417,21 +394,20 @@ def pole_analysis(
     with progress("analysis", 2) as advance:
         _, pole = integrate(start)
         advance(1)
-        start = shifted_start(
-            start, analysis.secular(pole), iau_pole.secular, analysis.ecliptic, epoch / CENTURY
-        )
+        ours, centuries = analyse.secular(pole), epoch / analysis.CENTURY
+        start = analysis.shifted_start(start, ours, iau_pole.secular, analyse.ecliptic, centuries)
         path, pole = integrate(start)
         advance(1)
-    eta = complex_nutation(iau.nutation_of(pole, days))
+    eta = analysis.complex_nutation(iau.nutation_of(pole, days))
     return PoleComparison(
         days=days,
         start=start,
         epoch=epoch,
         path=path,
-        analysis=analysis,
-        ours=analysis.secular(pole),
+        analysis=analyse,
+        ours=analyse.secular(pole),
         theirs=iau_pole.secular,
-        our_circles=analysis.circles(eta),
+        our_circles=analyse.circles(eta),
         their_circles=iau_pole.circles,
         difference=eta - iau_pole.nutation,
     )
@@ -448,22 +424,19 @@ def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp
         Variables of a table of terms: periods, amplitudes of IAU 2000A with their half-widths, and
         the neighbours that this span does not separate from them.
     """
-    from earthspin.nutation.analysis import amplitude_error, neighbours_of, phases, term_names
-    from earthspin.sky import iau
-
     ours = analysed.our_circles
     order = np.argsort(-np.abs(ours.amplitude))[:count]
     at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
-    near = neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
-    neighbour_in, neighbour_out = phases(near.amplitude[order])
+    near = analysis.neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
+    neighbour_in, neighbour_out = analysis.phases(near.amplitude[order])
     return order, {
         "period": 2 * np.pi / ours.frequency[order],
-        "iau": phases(analysed.their_circles.amplitude[order]),
-        "amplitude_error": amplitude_error(ours.frequency[order]),
+        "iau": analysis.phases(analysed.their_circles.amplitude[order]),
+        "amplitude_error": analysis.amplitude_error(ours.frequency[order]),
         "neighbour": [near.names[row] for row in order],
         "neighbour_in_phase": neighbour_in,
         "neighbour_out_of_phase": neighbour_out,
-        "term": term_names(ours.multiples[order]),
+        "term": analysis.term_names(ours.multiples[order]),
     }
 
 
@@ -531,9 +504,7 @@ def response_apart(
     pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
 ) -> ResponseFit:
     """Fit the resonance formula to IAU 2000A without its geodesic nutation and added terms."""
-    from earthspin.nutation.analysis import complex_nutation
     from earthspin.nutation.response import added_to
-    from earthspin.sky import iau
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles.amplitude
     torques = ours.amplitude
@@ -542,7 +513,7 @@ def response_apart(
         rest = [effect for effect in effects if effect != GEODESIC.name]
         path = path_over(body, pulls, rest, pole_analysis.start, pole_analysis.days)
         pole = steady_figure(path, pole_analysis.days)
-        eta = complex_nutation(iau.nutation_of(pole, pole_analysis.days))
+        eta = analysis.complex_nutation(iau.nutation_of(pole, pole_analysis.days))
         torques = pole_analysis.analysis.circles(eta).amplitude
     theirs = theirs - (ours.amplitude - torques)
     added = added_to(ours.multiples)
@@ -584,8 +555,6 @@ class Shift:
 
         Nutation does not move the angular momentum.
         """
-        from earthspin.sky import iau
-
         precession = self.rate * (days * DAY - self.epoch)
         nutation = self.circles.at(iau.delaunay_arguments(days))
         for name, axis in directions.items():
@@ -603,8 +572,6 @@ def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[
 
     Its errors follow from the difference from the IAU pole.
     """
-    from earthspin.sky import iau
-
     circles = replace(analysed.our_circles, amplitude=amplitude)
     published, sine = published_effects(), np.sin(EPSILON_0.value * ARCSEC)
     # The published rate of the response is applied. The rates of effects that are switched off are

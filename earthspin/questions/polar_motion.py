@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_YEAR, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64
@@ -17,6 +18,7 @@ from earthspin.engine.question import setting
 from earthspin.engine.run import in_range
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
+from earthspin.mass.figure import polar_radius
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.questions.observed_pole import (
     MJD,
@@ -30,12 +32,9 @@ from earthspin.questions.observed_pole import (
 from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
 from earthspin.sky.eop import PoleSeries, read_polar_motion
 from earthspin.units import Days, FileName, Number, Numbers, Several, Text, Word, kind_of
+from earthspin.wobble import excitation as ex
 from earthspin.wobble.record import WobbleFit, envelope
 from earthspin.wobble.record import spectrum as amplitude_spectrum
-
-if TYPE_CHECKING:
-    import xarray as xr
-
 
 #: How the free wobble is found.
 Method = Literal["burg", "likelihood"]
@@ -97,8 +96,6 @@ def pole_table(file: str, kind: str | None) -> PoleSeries:
 @part(unless=not_observed)
 def observed_pole(pole_table: PoleSeries, body: Body, span: Span | None) -> ObservedPole:
     """Return the observed polar motion of a table of the IERS within the requested span."""
-    from earthspin.mass.figure import polar_radius
-
     series = within(pole_table, span)
     source = {"references": f"IERS {series.name}", "repairs": series.repairs or "none"}
     return ObservedPole(
@@ -161,8 +158,6 @@ def _free_wobble(
     time: FloatArray, p: ComplexArray, fit: WobbleFit, window: float | None
 ) -> FreeWobble:
     """Return the fitted period and quality factor, and wobble amplitudes in sliding windows."""
-    from earthspin.wobble.excitation import coordinates_of
-
     wobbles = envelope(time, p, fit.period, window)
     low, high = fit.quality_bounds
     return FreeWobble(
@@ -171,7 +166,7 @@ def _free_wobble(
         chandler_phase=np.unwrap(np.angle(wobbles.chandler)),
         annual_amplitude=abs(wobbles.annual) * MAS,
         annual_retrograde_amplitude=abs(wobbles.annual_retrograde) * MAS,
-        mean_pole=np.column_stack(coordinates_of(wobbles.drift)) * MAS,
+        mean_pole=np.column_stack(ex.coordinates_of(wobbles.drift)) * MAS,
         chandler_quality_factor=fit.quality_factor,
         chandler_quality_factor_low=low,
         chandler_quality_factor_high=high,
@@ -287,11 +282,9 @@ def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArr
 
     The excitation is the mean over each step between dates; pole and excitation are in mas.
     """
-    from earthspin.wobble.excitation import ends_of_steps
-
     time, p = complex_pole(pole)
     middles, driving = _complex_excitation(chi)
-    ends = ends_of_steps(middles, _even_step(middles))
+    ends = ex.ends_of_steps(middles, _even_step(middles))
     step = _even_step(time)
     first = np.searchsorted(ends, time[0] - SAME_DAY)
     start = np.searchsorted(time, ends[first] - SAME_DAY) if first < ends.size else time.size
@@ -311,10 +304,8 @@ def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArr
 
 def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     """Return the times of an excitation series, days from J2000.0, and chi1 + i chi2, mas."""
-    from earthspin.wobble.excitation import excitation_of
-
     time, chi1, chi2 = labelled_series(chi, ("chi1", "chi2"), ("mas",))
-    return time, excitation_of(chi1, chi2) / MAS
+    return time, ex.excitation_of(chi1, chi2) / MAS
 
 
 class Excitation(Daily, no_error="the table from which it is read gives none"):
@@ -361,8 +352,6 @@ def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100
     >>> print(seen.time.size, chi.time.size)
     1828 1827
     """
-    from earthspin.wobble import excitation as ex
-
     days, q = _DAYS.read(period, Where("period")), _PURE.read(quality_factor, _Q)
     time, p = complex_pole(ds)
     step = _even_step(time)
@@ -429,8 +418,6 @@ def polar_motion_from(
     >>> print(abs(again.x - seen.x).max().values < 1e-12)
     True
     """
-    from earthspin.wobble import excitation as ex
-
     time, driving = _complex_excitation(chi)
     known = chi.attrs
     period = known.get("chandler_period") if period is None else period
@@ -445,10 +432,8 @@ def polar_motion_from(
     if fitted_to is not None:
         if start is not None:
             raise SceneError("start", start, "it is fitted to the pole; leave it or fitted_to out")
-        from earthspin.wobble.excitation import fitted_start
-
         ends, observed, driving = _together(fitted_to, chi)
-        begin = fitted_start(ends, observed, driving, s)
+        begin = ex.fitted_start(ends, observed, driving, s)
     else:
         begin = complex(ex.pole_of(*_given_start(chi, start, ends[0])))
     x, y = ex.coordinates_of(ex.polar_motion_from(driving, step, s, begin))

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import BODIES, PLANETS, Body, in_a_sentence
 from earthspin.constants import DAY
 from earthspin.dates import Epochs, Span, Step, datetime64
@@ -48,9 +49,6 @@ from earthspin.questions.reasons import no_iau_model, north_note, not_the_iaus_e
 from earthspin.questions.satellites import no_satellites
 from earthspin.questions.sky import Sky
 from earthspin.questions.times import SPAN_DOC, Dated, days_of
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "step")):

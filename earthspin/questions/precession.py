@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import Body, all_of, in_a_sentence
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.constants import DAY, JULIAN_YEAR
@@ -17,13 +18,14 @@ from earthspin.engine.variables import Neglected, Variables, labels, measured, n
 from earthspin.mass import figure
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import budget as calendar
-from earthspin.nutation.budget import closure, published_effects
+from earthspin.nutation.budget import closure, prem_polar_moment, published_effects
 from earthspin.questions import reasons
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, Samples
 from earthspin.questions.reasons import north_note, observed_wobble
 from earthspin.questions.satellites import describe_pole, swings
 from earthspin.questions.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
 from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
+from earthspin.sky import iau
 from earthspin.sky.sources import SourceName
 from earthspin.torque import rates
 from earthspin.torque.average import convergence_curve
@@ -151,8 +153,6 @@ class Convergence(Variables, no_error="the curve itself shows the error of each 
 @part(unless=reasons.many_pulls)
 def convergence(torque_samples: Samples, mean_rates: MeanRates, body: Body) -> Convergence:
     """Compute the precession rate for averaging windows of different lengths and tapers."""
-    import xarray as xr
-
     window = torque_samples.window
     cycles = np.linspace(1.0, window.cycles, CURVE_POINTS)
     total = torque_samples.precessing.sum(axis=1)
@@ -200,8 +200,6 @@ class FigureModels(
 @part(unless=(no_figure, reasons.many_pulls))
 def figure_models(mean_torques: MeanTorques, mean_rates: MeanRates, body: Body) -> FigureModels:
     """Compute H from three models of the figure, and the precession and free wobble for each H."""
-    import xarray as xr
-
     j2, measured_h = body.needed("j2"), body.needed("dynamical_flattening")
     by_mccullough = figure.h_mccullough(body.needed("flattening"))
     models = (by_mccullough, figure.h_homogeneous(j2), measured_h)
@@ -280,12 +278,10 @@ def seasons(
 
     For the Earth as it is, the published effects that the rate leaves out are included.
     """
-    from earthspin.sky.iau import precession_rates
-
     rate, error = mean_rates.total()
     another = reasons.not_the_iaus_earth(body, perturbers)
     published = 0.0 if another else sum(published_effects().values())
-    chi_rate = precession_rates(mean_torques.epoch / DAY).chi_a
+    chi_rate = iau.precession_rates(mean_torques.epoch / DAY).chi_a
     general = calendar.general_precession(rate + published, chi_rate, mean_torques.obliquity)
     year = calendar.tropical_year(general, body.needed("orbital_period"))
     period = rates.period(general), rates.period_error(general, error)
@@ -332,11 +328,8 @@ def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> Be
 
     The observed H contains the observed precession; H = J2 M a2/C with C of PREM does not.
     """
-    from earthspin.nutation.budget import prem_polar_moment
-    from earthspin.sky.iau import precession_rates
-
     rate, error = mean_rates.total()
-    iau_rate = precession_rates(mean_torques.epoch / DAY).psi_a
+    iau_rate = iau.precession_rates(mean_torques.epoch / DAY).psi_a
     unexplained = closure(rate, iau_rate)
     h, j2, radius = (body.needed(name) for name in ("dynamical_flattening", "j2", "radius"))
     h_of_prem = j2 / prem_polar_moment(radius, j2)
@@ -361,14 +354,12 @@ class Standstills(Variables, along=("standstill",)):
 @part(unless=reasons.no_moon)
 def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
     """Find major and minor lunar standstills, with dates and extreme declinations."""
-    from earthspin.sky.iau import find_standstills
-
     moon = {"moon": sky.targets["moon"]}
 
     def declination(days: FloatArray) -> FloatArray:
         return sky.radec(body, days, moon)["moon"][1]
 
-    extremes = find_standstills(declination, stretch.first, stretch.last)
+    extremes = iau.find_standstills(declination, stretch.first, stretch.last)
     errors = [sky.error(moon["moon"], (extreme.day,))[0] for extreme in extremes]
     return Standstills(
         standstill_kind=np.array([extreme.kind for extreme in extremes], dtype=str),

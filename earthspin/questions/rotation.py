@@ -18,6 +18,7 @@ from earthspin.engine.question import key
 from earthspin.engine.variables import Neglected, labels, number, words
 from earthspin.errors import SceneError
 from earthspin.mass.figure import polar_moment
+from earthspin.motion import solution
 from earthspin.motion.effect_sizes import attitude_displacements
 from earthspin.motion.effects import NONRIGID, SECOND_ORDER
 from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY, Rigid
@@ -29,6 +30,7 @@ from earthspin.motion.solution import (
     Motion,
     RotationSeries,
     State,
+    relative_tide_error,
     shares_of,
     start_of,
 )
@@ -205,8 +207,6 @@ def pulling(
     start_omega: FloatArray | None,
 ) -> Pulling:
     """Build the torques of all perturbers on the body, and estimate the torque error."""
-    from earthspin.motion.solution import relative_tide_error
-
     days = epochs.span()
     pulls.sky.check_times(days, pulls.targets)
     forces = forces_of(_spinning(body, start_omega), pulls, _acting(effects))
@@ -297,8 +297,6 @@ def rotor(
 
     It includes copies of the body in which one uncertain input is changed.
     """
-    from earthspin.motion import solution
-
     begin, end = epochs.span()
     epoch = begin * DAY
     body = _spinning(body, start_omega)

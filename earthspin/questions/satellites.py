@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import Body, Numeric, all_of, in_a_sentence
 from earthspin.constants import JULIAN_YEAR, NORMAL_95
 from earthspin.errors import BodyError
@@ -112,8 +113,6 @@ def carried(body: Body, pull: Numeric, obliquity: float) -> Carried:
     """
     if not body.satellites:
         return Carried()
-    import xarray as xr
-
     _refuse_sphere(body)
     names = ("gm", "radius", "j2", "dynamical_flattening", "spin_rate")
     numbers = xr.broadcast(

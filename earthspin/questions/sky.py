@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.elements import EllipseChain, all_by_elements, ellipse_chains
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
 from earthspin.sky.ephemeris import NAMED_KERNELS
+from earthspin.sky.iau import Nutation, true_equator
 from earthspin.sky.poles import Pole, rotate, spherical
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
 from earthspin.sky.sources import (
@@ -34,9 +35,6 @@ from earthspin.sky.sources import (
     place_of,
 )
 from earthspin.units import FileName
-
-if TYPE_CHECKING:
-    from earthspin.sky.iau import Nutation
 
 
 class KernelName(FileName):
@@ -312,8 +310,6 @@ class Sky:
             return pole.equator(body.orbit_pole, days, nutation)
 
         if isinstance(self.source, OfDate):
-            from earthspin.sky.iau import true_equator
-
             targets = self.targets if targets is None else targets
             earth_equator = true_equator if true else None
             frame = earth_equator if pole.of_the_iau else equator

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import numpy as np
 
@@ -11,12 +11,10 @@ from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, setting
 from earthspin.engine.variables import Neglected, Variables, labels, number
+from earthspin.mass.figure import eccentricity_squared
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.times import SideBySide
 from earthspin.units import Number, Numbers
-
-if TYPE_CHECKING:
-    pass
 
 
 class Spheroid(
@@ -111,8 +109,6 @@ def field(body: Body, position: FloatArray, point_mass: float) -> Field:
 @part
 def neglected(body: Body, position: FloatArray) -> Neglected:
     """Effect of the assumption of uniform density; real bodies have a smaller J2."""
-    from earthspin.mass.figure import eccentricity_squared
-
     if body.labelled or body.j2 is None:
         return Neglected(
             what=f"a density that grows inwards: this {proper(body.name)} has no single J2 "

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Annotated, Any, Self
+from typing import Annotated, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin._lazy import xr
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
 from earthspin.dates import Epochs, Span, Step, TimeGrid, TimeList
@@ -20,9 +21,6 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.sky import PerturbedBody
 from earthspin.units import LONGEST_IN_MEMORY as LONGEST_IN_MEMORY
 from earthspin.units import Numbers
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: Seconds from the start of a motion.
 Seconds = Annotated[FloatArray, Numbers("s", "1 s", (None,))]
@@ -137,8 +135,6 @@ class SideBySide:
         arrays = {name: value for name, value in values.items() if hasattr(value, "dims")}
         if not arrays:
             return cls(values)
-        import xarray as xr
-
         joint = dict(zip(arrays, xr.broadcast(*arrays.values()), strict=True))
         first = next(iter(joint.values()))
         numbers = {
@@ -154,8 +150,6 @@ class SideBySide:
 
     def lay(self, values: NDArray[Any], *dims: str) -> xr.DataArray:
         """Build a DataArray of the values, with the common dimensions followed by `dims`."""
-        import xarray as xr
-
         if values.ndim < len(self.dims) + len(dims):
             many = np.shape(next(iter(self.numbers.values())))
             values = np.broadcast_to(values, (*many, *values.shape))

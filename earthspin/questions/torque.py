@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.answers import public_call
@@ -19,13 +20,9 @@ from earthspin.questions.reasons import no_iau_model
 from earthspin.questions.satellites import largest_torques_of_satellites
 from earthspin.questions.sky import Sky, places, sky
 from earthspin.questions.times import SPAN_DOC, Dated, Series, days_of, epochs
+from earthspin.sky.iau import Nutation
 from earthspin.sky.sources import OF_DATE, SourceName
 from earthspin.torque.gravity import largest_torque_on_figure, torque_error, torque_from_declination
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from earthspin.sky.iau import Nutation
 
 
 class Torque(Series, word="torque", call="torque_series", positional=("start", "stop", "step")):
@@ -86,8 +83,6 @@ def source_has_equator(source: SourceName) -> str | None:
 @part(unless=(on_mean_equator, source_has_equator))
 def nutation(epochs: Epochs) -> Nutation:
     """Interpolated IAU nutation for the true equator."""
-    from earthspin.sky.iau import Nutation
-
     start, end = epochs.span()
     return Nutation(start, end, epochs.size)
 
@@ -124,8 +119,6 @@ def torques(
     block: Block | None = None,
 ) -> Torques:
     """Compute declination, distance and torque of each perturber at every time."""
-    import xarray as xr
-
     now = days_of(epochs, block, "series.zarr", (body, *perturbers))
     names = list(sky.targets)
     seen = sky.radec(body, now, true=equator == "true", nutation=nutation)

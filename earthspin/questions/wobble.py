@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import EARTH, Body, Numeric, all_of
 from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY
@@ -24,9 +25,6 @@ from earthspin.questions.reasons import observed_wobble
 from earthspin.rotor.axisymmetric import free_wobble_error
 from earthspin.units import Number
 from earthspin.wobble import ladder, propagation
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _FIGURE = ("dynamical_flattening", "j2", "triaxiality")
 _SPIN = ("gm", "radius", "spin_period")
@@ -166,8 +164,6 @@ class Inside:
 
     def label(self, value: Numeric) -> xr.DataArray:
         """Convert an array with one value per body to a DataArray like those of the inputs."""
-        import xarray as xr
-
         array = np.asarray(value)
         return xr.DataArray(array, dims=self.dims[len(self.dims) - array.ndim :])
 
@@ -187,8 +183,6 @@ def inside(
     ocean_love_number: Numeric | None = None,
 ) -> Inside:
     """Collect the inputs of the non-rigid wobble models: figure, interior and ocean of the body."""
-    import xarray as xr
-
     interior = interiors.interior_of(body)
     assert interior is not None
     names = (*_FIGURE, *_SPIN)
@@ -241,8 +235,6 @@ class Rungs(
 @part
 def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
     """Compute the free wobble period for each model of the ladder, from rigid to deformable."""
-    import xarray as xr
-
     h, j2 = body.needed("dynamical_flattening"), body.needed("j2")
     turns = ladder.rigid_turns(body.needed("flattening"), h, j2, body.triaxiality)
     quality: dict[str, Numeric] = dict.fromkeys(turns, np.inf)
@@ -284,8 +276,6 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
 
 def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric]:
     """95 % half-widths of the rigid wobble periods, from the errors of flattening and of H."""
-    import xarray as xr
-
     spread: dict[str, Numeric] = {}
     for name, value in turns.items():
         from_flattening = name == "flattening"
@@ -302,8 +292,6 @@ def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric
 
 def _stacked(values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
     """Stack the arrays of a mapping along a new dimension, labelled by the keys of the mapping."""
-    import xarray as xr
-
     return xr.concat(
         xr.broadcast(*map(xr.DataArray, values.values())),
         dim=xr.Variable(dim, list(values)),

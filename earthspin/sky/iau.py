@@ -11,9 +11,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
-import erfa
 import numpy as np
 
+from earthspin._lazy import erfa
 from earthspin.constants import DAY, DAYS_PER_CENTURY, DAYS_PER_YEAR, J2000_JD
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 
@@ -28,17 +28,17 @@ _MARGIN = 4  # nodes beyond each end, for accuracy at the ends
 
 
 class NutationModel(NamedTuple):
-    """One of the IAU nutation series: its function in ERFA and its number of terms."""
+    """One of the IAU nutation series: name of its function in ERFA, and its number of terms."""
 
-    series: Callable[..., tuple[FloatArray, FloatArray]]
+    series: str
     terms: int
 
 
 #: IAU 2000A adapted to IAU 2006 (678 lunisolar and 687 planetary terms), and its abridged form,
 #: accurate to 1 mas (McCarthy & Luzum 2003, Celest. Mech. 85, 37).
 NUTATION_MODELS = {
-    "2000A": NutationModel(erfa.nut06a, 1365),
-    "2000B": NutationModel(erfa.nut00b, 77),
+    "2000A": NutationModel("nut06a", 1365),
+    "2000B": NutationModel("nut00b", 77),
 }
 
 
@@ -278,7 +278,7 @@ class Nutation:
         model: str = "2000A",
         spacing: float = NUTATION_NODE_STEP,
     ) -> None:
-        series = NUTATION_MODELS[model].series
+        series = getattr(erfa, NUTATION_MODELS[model].series)
         self.model, self.spacing = model, spacing
 
         def exact(days: FloatArray) -> FloatArray:
