@@ -8,18 +8,7 @@ import numpy as np
 import xarray as xr
 
 from earthspin.views import drawing
-from earthspin.views.drawing import (
-    BLUE,
-    CYCLE,
-    GREY,
-    RED,
-    Axes,
-    Figure,
-    PageFigure,
-    Views,
-    axes,
-    legend_above,
-)
+from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, Figure, PageFigure, Views, axes
 from earthspin.views.reading import Result, answer_of
 from earthspin.views.tables import along
 
@@ -87,7 +76,7 @@ def plot_declination(
     for number, (label, row) in enumerate(along(answer, "perturber")):
         _line_or_band(ax, row.declination, label, number, _colour(label, number), smooth_days)
     ax.set_ylabel("declination (deg)")
-    legend_above(ax)
+    drawing.legend_above(ax)
     return ax
 
 
@@ -120,7 +109,7 @@ def plot_torque(
     drawing.few_dates(ax)
     ax.set_xlabel("time (TDB)")
     if smooth_days:
-        legend_above(ax)
+        drawing.legend_above(ax)
     return ax
 
 
