@@ -216,12 +216,12 @@ class MeanTorques:
     cases: Mapping[str, int] = field(default_factory=dict)
 
 
-def _same_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> Hashable:
-    """Samples from which means are computed; None if these samples are not stored."""
-    return torque_samples if torque_samples.are_stored else None
-
-
-@part(unless=exact_means, same_for=_same_means)
+@part(
+    unless=exact_means,
+    same_for=lambda torque_samples, perturbers: (
+        torque_samples if torque_samples.are_stored else None
+    ),
+)
 def window_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> MeanTorques:
     """Mean torques, computed as weighted means of samples in a time window, with errors.
 

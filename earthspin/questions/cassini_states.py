@@ -56,10 +56,8 @@ class CassiniStates(
     body: Body = key(MOON, doc="body with the spin axis")
     orbit: Annotated[Orbit | None, Orbit] = key(
         None,
-        doc=(
-            "orbit with the period of its node; if not given, that of the body, or the "
-            "mean orbit of a moon or of Mercury"
-        ),
+        doc="orbit with the period of its node; if not given, that of the body, or the mean "
+        "orbit of a moon or of Mercury",
     )
 
     def check(self) -> None:

@@ -20,7 +20,6 @@ from earthspin.engine.variables import (
     labels,
     measured,
     number,
-    words,
 )
 from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
@@ -32,10 +31,7 @@ from earthspin.progress import progress
 from earthspin.questions.observed_pole import ObservedSizes, ObservedSky, observed_sky
 from earthspin.questions.path import (
     INTERIOR,
-    MERGED,
-    NEIGHBOUR,
-    NEIGHBOUR_SHARE,
-    SERIES,
+    CircularTerms,
     Comparison,
     PoleComparison,
     ResponseFit,
@@ -382,24 +378,13 @@ def observed(differences: Differences, observed_sky: ObservedSky) -> ObservedSiz
     return observed_sky.sizes(plain, differences.error)
 
 
-_ARGUMENTS = "it follows from the adopted arguments of IERS 2003"
 _FIT = "part of a fit; left_in_phase and left_out_of_phase are its residuals"
 
 
-class Nutation(Variables, along=("term",)):
+class Nutation(CircularTerms):
     """Largest circular nutation terms of the computed pole and of the IAU pole."""
 
-    period = number(
-        "d", "period of the circle in space, negative if retrograde", no_error=_ARGUMENTS
-    )
     rigid = amplitude("mas", "computed rigid amplitude", error="amplitude_error")
-    iau = amplitude("mas", MERGED, error="amplitude_error")
-    amplitude_error = number(
-        "mas", "95 % half-width of an amplitude, without the neighbour's share"
-    )
-    neighbour = words(NEIGHBOUR)
-    neighbour_in_phase = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
-    neighbour_out_of_phase = number("mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES)
     ratio = amplitude(
         "1", "ratio of IAU 2000A to the computed rigid amplitude", error="ratio_error"
     )
@@ -416,7 +401,6 @@ class Nutation(Variables, along=("term",)):
         "IAU 2000A minus response times rigid amplitude",
         no_error="a measure of error itself; errors common to both analyses cancel",
     )
-    term = labels()
 
 
 @part
@@ -473,7 +457,7 @@ class Core(Variables):
         "d",
         "period of the circle in space, negative if retrograde",
         along=("added_to",),
-        no_error=_ARGUMENTS,
+        no_error="it follows from the adopted arguments of IERS 2003",
     )
     added = amplitude(
         "uas", "IAU 2000A less that response", along=("added_to",), error="added_error"
@@ -541,7 +525,7 @@ class Angles(Variables, along=("angle", "degree")):
 
 @part
 def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
-    """Fit analysis.polynomials to the precession angles of the computed pole and the IAU pole."""
+    """Fit polynomials to the precession angles of the computed pole and the IAU pole."""
     t = pole_analysis.days / DAYS_PER_CENTURY
     ecliptic = iau.ecliptic_of_date(pole_analysis.days)
     # what the analysis makes of the pole of IAU 2006 shows what it misses

@@ -42,7 +42,8 @@ from earthspin.years import YearList, YearSpan, YearStep, grid
 OWN = "own"
 
 
-#: Names of the arrays of a table in a scene.
+#: Names of the words and of the arrays of a table in a scene.
+_WORDS = ("name", "source", "sha256")
 _ARRAYS = ("edges", "coefficients", "axes", "errors")
 
 
@@ -66,8 +67,8 @@ class OrbitChoice(FileName):
         """Return a word or path unchanged; convert an `OrbitTable` to a dict of all its numbers."""
         if isinstance(value, str):
             return value
-        numbers = {name: pack(getattr(value, name)) for name in _ARRAYS}
-        return {"name": value.name, "source": value.source, "sha256": value.sha256} | numbers
+        words = {name: getattr(value, name) for name in _WORDS}
+        return words | {name: pack(getattr(value, name)) for name in _ARRAYS}
 
     def begins(self, head: bytes) -> bool:
         """Return True if the first bytes `head` begin a NumPy archive or a text table."""
@@ -76,7 +77,7 @@ class OrbitChoice(FileName):
 
 def _table_of(table: Mapping[str, Any], where: Where) -> OrbitTable:
     """Build an `OrbitTable` from the dict in which a scene file stores it."""
-    wanted = {"name", "source", "sha256", *_ARRAYS}
+    wanted = {*_WORDS, *_ARRAYS}
     if set(table) != wanted:
         raise where.error(sorted(table), f"an orbit table needs {', '.join(sorted(wanted))}")
     edges, coefficients, axes, errors = (unpack(table[name], where) for name in _ARRAYS)
@@ -84,15 +85,8 @@ def _table_of(table: Mapping[str, Any], where: Where) -> OrbitTable:
     shapes = coefficients.shape[:2] == (4, windows) and errors.shape == (2, windows)
     if not shapes or axes.shape != (3, 3) or coefficients.ndim != 3:
         raise where.error("a table", "the shapes of its arrays do not fit together")
-    return OrbitTable(
-        name=str(table["name"]),
-        edges=edges,
-        coefficients=coefficients,
-        axes=axes,
-        source=str(table["source"]),
-        errors=errors,
-        sha256=str(table["sha256"]),
-    )
+    name, source, sha256 = (str(table[key]) for key in _WORDS)
+    return OrbitTable(name, edges, coefficients, axes, source, errors, sha256)
 
 
 @part
@@ -176,18 +170,14 @@ class LongTerm(
     )
     j2_rate: Annotated[float, Number("1/s", "-8.8e-16 1/s")] | None = key(
         None,
-        doc=(
-            "relative rate of J2 at J2000.0, which decays from 2 to 10 kyr; 0 switches it "
-            "off; that of the body if not given"
-        ),
+        doc="relative rate of J2 at J2000.0, which decays from 2 to 10 kyr; 0 switches it off; "
+        "that of the body if not given",
     )
     obliquity_shift: Shift = key("0 deg", doc="change of the initial obliquity at J2000.0")
     longitude_shift: Shift = key(
         "0 deg",
-        doc=(
-            "rotation of the initial axis about the normal of the orbit, in the direction "
-            "of the orbital motion"
-        ),
+        doc="rotation of the initial axis about the normal of the orbit, in the direction of "
+        "the orbital motion",
     )
 
     @property
@@ -472,11 +462,8 @@ def series(
             perturber=names,
         )
         .with_attributes(
-            obliquity={
-                "orbit": orbit_table.source,
-                "orbit_of": orbit_table.name,
-                **north_note(body),
-            },
+            obliquity=north_note(body)
+            | {"orbit": orbit_table.source, "orbit_of": orbit_table.name},
             pole_error={
                 "method": f"Newton's method in time, {solved.path.windows.order} nodes in each "
                 f"window of {window:.0f} yr",

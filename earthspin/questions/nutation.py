@@ -32,10 +32,7 @@ from earthspin.nutation.ladder import Spread, spread_of
 from earthspin.progress import progress
 from earthspin.questions.interiors import SOURCES, Prediction, no_layers, predict
 from earthspin.questions.path import (
-    MERGED,
-    NEIGHBOUR,
-    NEIGHBOUR_SHARE,
-    SERIES,
+    CircularTerms,
     Comparison,
     PoleComparison,
     iau_nutation,
@@ -94,10 +91,8 @@ class NutationLadder(
 
     coupling: Literal["none", "inferred"] = setting(
         "none",
-        doc=(
-            "coupling at the boundaries of the core in a last rung; its numbers are "
-            "inferred from nutation"
-        ),
+        doc="coupling at the boundaries of the core in a last rung; its numbers are inferred "
+        "from nutation",
     )
     anelastic_exponent: Annotated[float, Number("", "0.09", low=0.0, high=0.2)] = setting(
         ANELASTIC_EXPONENT.value, doc="exponent of frequency in the mantle's quality factor"
@@ -266,14 +261,9 @@ def beside(left: RungResiduals) -> ModelSizes:
 # --- sections ------------------------------------------------------------------------------------
 
 
-class Terms(Variables, along=("term",)):
+class Terms(CircularTerms):
     """Amplitudes of the largest circular nutation terms, from each model and from IAU 2000A."""
 
-    period = number(
-        "d",
-        "period of the circle in space, negative if retrograde",
-        no_error="it follows from the adopted arguments of IERS 2003",
-    )
     predicted = amplitude(
         "mas",
         "predicted amplitude",
@@ -286,15 +276,10 @@ class Terms(Variables, along=("term",)):
         "95 % half-width of a predicted amplitude, from the numbers of the inside",
         along=("rung", "term"),
     )
-    iau = amplitude("mas", MERGED, error="amplitude_error")
     amplitude_error = number(
         "mas", "95 % half-width of an amplitude from its analysis, without the neighbour's share"
     )
-    neighbour = words(NEIGHBOUR)
-    neighbour_in_phase = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
-    neighbour_out_of_phase = number("mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES)
     rung = labels()
-    term = labels()
 
 
 @part

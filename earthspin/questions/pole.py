@@ -92,10 +92,8 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
     effects: Effects = key("known", doc=EFFECTS_DOC)
     response: Literal["fitted", "predicted"] = key(
         "fitted",
-        doc=(
-            "source of the response of the interior for the effect nonrigid: fitted to "
-            "IAU 2000A, or predicted from the layers of the body"
-        ),
+        doc="source of the response of the interior for the effect nonrigid: fitted to IAU "
+        "2000A, or predicted from the layers of the body",
     )
 
     def check(self) -> None:

@@ -101,17 +101,9 @@ def numbers(
     psi: float,
 ) -> SideBySide:
     """Broadcast the moments and initial values of one or more tops to arrays of one shape."""
-    return SideBySide.of(
-        transverse_moment=transverse_moment,
-        axial_moment=axial_moment,
-        weight_moment=weight_moment,
-        theta=theta,
-        spin=spin,
-        phi_rate=phi_rate,
-        theta_rate=theta_rate,
-        phi=phi,
-        psi=psi,
-    )
+    moments = (transverse_moment, axial_moment, weight_moment)
+    start = (theta, spin, phi_rate, theta_rate, phi, psi)
+    return SideBySide.of(**dict(zip(_OF_THE_TOP, (*moments, *start), strict=True)))
 
 
 @part

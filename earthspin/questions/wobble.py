@@ -186,13 +186,8 @@ def inside(
     interior = interiors.interior_of(body)
     assert interior is not None
     names = (*_FIGURE, *_SPIN)
-    own = {
-        "k2": k2,
-        "core_fraction": core_fraction,
-        "core_ellipticity": core_ellipticity,
-        "ocean": ocean_love_number,
-        "anelastic_exponent": anelastic_exponent,
-    }
+    chosen = (k2, core_fraction, core_ellipticity, ocean_love_number, anelastic_exponent)
+    own = dict(zip(_INTERIOR.values(), chosen, strict=True))
     own = {name: value for name, value in own.items() if value is not None}
     given = {name: body.needed(name) for name in names} | own
     numbers = xr.broadcast(*map(xr.DataArray, given.values()))
