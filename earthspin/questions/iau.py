@@ -13,14 +13,7 @@ from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95
 from earthspin.dates import Epochs, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.variables import (
-    Neglected,
-    Variables,
-    amplitude,
-    labels,
-    measured,
-    number,
-)
+from earthspin.engine.variables import Neglected, Variables, amplitude, labels, measured, number
 from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.numerics.arrays import ComplexArray, FloatArray

@@ -271,10 +271,7 @@ def numbers(
 
 @part
 def strength(
-    numbers: SideBySide,
-    mean_torques: MeanTorques,
-    body: Body,
-    orbit_table: OrbitTable,
+    numbers: SideBySide, mean_torques: MeanTorques, body: Body, orbit_table: OrbitTable
 ) -> Strength:
     """Compute the constant of precession at J2000.0, and parameters of its change in time.
 

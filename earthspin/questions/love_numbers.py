@@ -64,8 +64,7 @@ class LoveNumbers(
     interior: LayeredInterior | None = key(None, doc="layers; those of the body if not given")
     body: Body = key(EARTH, doc="body with the layers, the spin and the dynamical flattening")
     period: Annotated[float, Number("s", "1 d", low=200.0, high=1e12)] | None = key(
-        None,
-        doc="period of the deformation; elastic at the seismic period of 1 s if not given",
+        None, doc="period of the deformation; elastic at the seismic period of 1 s if not given"
     )
     anelastic_exponent: Annotated[float, Number("", "0.09", low=0.0, high=0.5)] = key(
         ANELASTIC_EXPONENT.value, doc="exponent of frequency in the quality factor"

@@ -12,14 +12,7 @@ from numpy.typing import NDArray
 
 from earthspin.bodies import Body
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
-from earthspin.constants import (
-    ARCSEC,
-    ARCSEC_PER_YEAR,
-    DAY,
-    EPSILON_0,
-    JULIAN_YEAR,
-    NORMAL_95,
-)
+from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
 from earthspin.dates import Epochs, Span, Step
 from earthspin.engine.part import part
 from earthspin.engine.question import key
@@ -254,11 +247,7 @@ def steady_figure(path: AxisPath, days: FloatArray) -> FloatArray:
 
 
 def path_over(
-    body: Body,
-    pulls: Pulls,
-    effects: Sequence[str],
-    start: FloatArray,
-    days: FloatArray,
+    body: Body, pulls: Pulls, effects: Sequence[str], start: FloatArray, days: FloatArray
 ) -> AxisPath:
     """Integrate the motion of the rigid body's axes over a range of days.
 
@@ -351,9 +340,7 @@ def analysed_days(limits: tuple[float, float]) -> tuple[FloatArray, float]:
 
 
 @part(
-    unless=no_iau_model,
-    same_for=lambda pulls: pulls.limits,
-    loads=("erfa", "scipy.sparse.linalg"),
+    unless=no_iau_model, same_for=lambda pulls: pulls.limits, loads=("erfa", "scipy.sparse.linalg")
 )
 def iau_pole(pulls: Pulls) -> IAUPole:
     """Analyse pole and nutation of the IAU over 150 years, as far as positions are known."""

@@ -300,11 +300,7 @@ def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> LongitudeCycles:
 
 @part(unless=no_longitude)
 def pole_angles(
-    axes: xr.Dataset,
-    turns: LongitudeCycles,
-    epochs: Epochs,
-    body: Body,
-    block: Block | None = None,
+    axes: xr.Dataset, turns: LongitudeCycles, epochs: Epochs, body: Body, block: Block | None = None
 ) -> Angles:
     """Compute longitude psi and inclination eps of the axes, relative to the J2000.0 orbit."""
     vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)

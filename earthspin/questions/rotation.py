@@ -101,8 +101,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
     span: Span = key(("2000-01-01T12:00:00", "2000-02-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("6 h", doc="interval between dates")
     start_attitude: Annotated[FloatArray, Numbers("", "1", (4,))] | None = key(
-        None,
-        doc="quaternion (w, x, y, z), principal axes (C last) to ICRF, at the first date",
+        None, doc="quaternion (w, x, y, z), principal axes (C last) to ICRF, at the first date"
     )
     start_omega: Annotated[FloatArray, Numbers("rad/s", "1e-4 rad/s", (3,))] | None = key(
         None, doc="angular velocity along the principal axes, C last, at the first date"

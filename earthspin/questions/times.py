@@ -69,10 +69,7 @@ BYTES_PER_TIME = 128
 
 
 def days_of(
-    epochs: Epochs,
-    block: Block | None = None,
-    store: str = "",
-    bodies: Iterable[Body] = (),
+    epochs: Epochs, block: Block | None = None, store: str = "", bodies: Iterable[Body] = ()
 ) -> FloatArray:
     """Days from J2000.0 TDB of one block of a time series, or of the whole series.
 

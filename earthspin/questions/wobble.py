@@ -328,9 +328,7 @@ def sensitivity(inside: Inside) -> Sensitivity:
 
 
 class CoreNutation(
-    Variables,
-    along=("core_shape",),
-    no_error="its relative error is that of free_core_nutation",
+    Variables, along=("core_shape",), no_error="its relative error is that of free_core_nutation"
 ):
     """Period of the free core nutation, for different shapes of the core."""
 

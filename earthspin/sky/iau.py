@@ -36,10 +36,7 @@ class NutationModel(NamedTuple):
 
 #: IAU 2000A adapted to IAU 2006 (678 lunisolar and 687 planetary terms), and its abridged form,
 #: accurate to 1 mas (McCarthy & Luzum 2003, Celest. Mech. 85, 37).
-NUTATION_MODELS = {
-    "2000A": NutationModel("nut06a", 1365),
-    "2000B": NutationModel("nut00b", 77),
-}
+NUTATION_MODELS = {"2000A": NutationModel("nut06a", 1365), "2000B": NutationModel("nut00b", 77)}
 
 
 def mean_equator(days: FloatArray) -> FloatArray:

@@ -114,12 +114,7 @@ def plot_torque(
 
 
 def _line_or_band(
-    ax: Axes,
-    series: xr.DataArray,
-    label: str,
-    number: int,
-    colour: str,
-    smooth_days: float | None,
+    ax: Axes, series: xr.DataArray, label: str, number: int, colour: str, smooth_days: float | None
 ) -> None:
     """Draw a time series as a line; if it oscillates fast, as a band between its extremes."""
     swings = int((np.diff(np.sign(np.diff(series.values))) != 0).sum())
