@@ -13,7 +13,15 @@ from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95
 from earthspin.dates import Epochs, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.variables import Neglected, Variables, amplitude, labels, measured, number
+from earthspin.engine.variables import (
+    Neglected,
+    Variables,
+    amplitude,
+    labels,
+    measured,
+    number,
+    words,
+)
 from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.numerics.arrays import ComplexArray, FloatArray
@@ -24,7 +32,10 @@ from earthspin.progress import progress
 from earthspin.questions.observed_pole import ObservedSizes, ObservedSky, observed_sky
 from earthspin.questions.path import (
     INTERIOR,
-    CircularTerms,
+    MERGED,
+    NEIGHBOUR,
+    NEIGHBOUR_SHARE,
+    SERIES,
     Comparison,
     PoleComparison,
     ResponseFit,
@@ -371,13 +382,24 @@ def observed(differences: Differences, observed_sky: ObservedSky) -> ObservedSiz
     return observed_sky.sizes(plain, differences.error)
 
 
+_ARGUMENTS = "it follows from the adopted arguments of IERS 2003"
 _FIT = "part of a fit; left_in_phase and left_out_of_phase are its residuals"
 
 
-class Nutation(CircularTerms):
+class Nutation(Variables, along=("term",)):
     """Largest circular nutation terms of the computed pole and of the IAU pole."""
 
+    period = number(
+        "d", "period of the circle in space, negative if retrograde", no_error=_ARGUMENTS
+    )
     rigid = amplitude("mas", "computed rigid amplitude", error="amplitude_error")
+    iau = amplitude("mas", MERGED, error="amplitude_error")
+    amplitude_error = number(
+        "mas", "95 % half-width of an amplitude, without the neighbour's share"
+    )
+    neighbour = words(NEIGHBOUR)
+    neighbour_in_phase = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
+    neighbour_out_of_phase = number("mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES)
     ratio = amplitude(
         "1", "ratio of IAU 2000A to the computed rigid amplitude", error="ratio_error"
     )
@@ -394,6 +416,7 @@ class Nutation(CircularTerms):
         "IAU 2000A minus response times rigid amplitude",
         no_error="a measure of error itself; errors common to both analyses cancel",
     )
+    term = labels()
 
 
 @part
@@ -450,7 +473,7 @@ class Core(Variables):
         "d",
         "period of the circle in space, negative if retrograde",
         along=("added_to",),
-        no_error="it follows from the adopted arguments of IERS 2003",
+        no_error=_ARGUMENTS,
     )
     added = amplitude(
         "uas", "IAU 2000A less that response", along=("added_to",), error="added_error"

@@ -32,7 +32,10 @@ from earthspin.nutation.ladder import Spread, spread_of
 from earthspin.progress import progress
 from earthspin.questions.interiors import SOURCES, Prediction, no_layers, predict
 from earthspin.questions.path import (
-    CircularTerms,
+    MERGED,
+    NEIGHBOUR,
+    NEIGHBOUR_SHARE,
+    SERIES,
     Comparison,
     PoleComparison,
     iau_nutation,
@@ -261,9 +264,14 @@ def beside(left: RungResiduals) -> ModelSizes:
 # --- sections ------------------------------------------------------------------------------------
 
 
-class Terms(CircularTerms):
+class Terms(Variables, along=("term",)):
     """Amplitudes of the largest circular nutation terms, from each model and from IAU 2000A."""
 
+    period = number(
+        "d",
+        "period of the circle in space, negative if retrograde",
+        no_error="it follows from the adopted arguments of IERS 2003",
+    )
     predicted = amplitude(
         "mas",
         "predicted amplitude",
@@ -276,10 +284,15 @@ class Terms(CircularTerms):
         "95 % half-width of a predicted amplitude, from the numbers of the inside",
         along=("rung", "term"),
     )
+    iau = amplitude("mas", MERGED, error="amplitude_error")
     amplitude_error = number(
         "mas", "95 % half-width of an amplitude from its analysis, without the neighbour's share"
     )
+    neighbour = words(NEIGHBOUR)
+    neighbour_in_phase = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
+    neighbour_out_of_phase = number("mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES)
     rung = labels()
+    term = labels()
 
 
 @part

@@ -16,7 +16,6 @@ from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, EPSILON_0, JULIAN_
 from earthspin.dates import Epochs, Span, Step
 from earthspin.engine.part import part
 from earthspin.engine.question import key
-from earthspin.engine.variables import Variables, amplitude, labels, number, words
 from earthspin.errors import UndefinedError
 from earthspin.motion import axes
 from earthspin.motion.axes import AxisPath
@@ -46,6 +45,11 @@ HALF_SPAN = 27200.0  # d
 #: mas with 50 years of DE421, 1 to 3 mas with 45, 9 to 11 with 40 and 150 with 35.
 SHORTEST_SPAN = 45 * JULIAN_YEAR / DAY  # d
 SAMPLING = 4.0  # d
+#: Descriptions of amplitudes of terms that this span does not separate, in results.
+MERGED = "amplitude of IAU 2000A, together with that of the neighbour, which is no published term"
+NEIGHBOUR = "term that 150 years cannot separate from this one; empty if there is none"
+NEIGHBOUR_SHARE = "share of the neighbour in the amplitude of IAU 2000A"
+SERIES = "coefficients of the adopted series"
 
 
 @part
@@ -394,32 +398,6 @@ def pole_analysis(
         their_circles=iau_pole.circles,
         difference=eta - iau_pole.nutation,
     )
-
-
-_SHARE = "share of the neighbour in the amplitude of IAU 2000A"
-_SERIES = "coefficients of the adopted series"
-
-
-class CircularTerms(Variables, along=("term",)):
-    """Largest circular terms of IAU 2000A, with neighbours that 150 years do not separate."""
-
-    period = number(
-        "d",
-        "period of the circle in space, negative if retrograde",
-        no_error="it follows from the adopted arguments of IERS 2003",
-    )
-    iau = amplitude(
-        "mas",
-        "amplitude of IAU 2000A, together with that of the neighbour, which is no published term",
-        error="amplitude_error",
-    )
-    amplitude_error = number(
-        "mas", "95 % half-width of an amplitude, without the neighbour's share"
-    )
-    neighbour = words("term that 150 years cannot separate from this one; empty if there is none")
-    neighbour_in_phase = number("mas", f"{_SHARE}, in phase", no_error=_SERIES)
-    neighbour_out_of_phase = number("mas", f"{_SHARE}, out of phase", no_error=_SERIES)
-    term = labels()
 
 
 def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp], dict[str, Any]]:
