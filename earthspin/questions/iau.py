@@ -134,7 +134,7 @@ _PUBLISHED = "the table that it stands in gives none"
 _ADOPTED = "a model that was adopted, exact by definition"
 
 
-class EffectRates(Variables):
+class EffectRates(Variables, no_error="a measure of error itself"):
     """Contribution of each effect to the rates of psi_A and omega_A, and the unexplained rest."""
 
     psi_rate = measured(
@@ -167,14 +167,10 @@ class EffectRates(Variables):
         error="omega_rate_total_error",
     )
     closure_over_flattening = number(
-        "1",
-        "closure over what one standard deviation of H makes of the rate",
-        no_error="a measure of error itself",
+        "1", "closure over what one standard deviation of H makes of the rate"
     )
     closure_over_uncertainty = number(
-        "1",
-        "closure over one standard deviation of H and the error of the analysis together",
-        no_error="a measure of error itself",
+        "1", "closure over one standard deviation of H and the error of the analysis together"
     )
     psi_rate_analysis_error = number(
         "arcsec/yr", "error of the analysis, found from the rate of the IAU's own pole"
@@ -335,20 +331,14 @@ def residuals(differences: Differences) -> Residuals:
     )
 
 
-class ResidualSizes(Variables, along=("model", "direction")):
+class ResidualSizes(Variables, along=("model", "direction"), error="residual_size_error"):
     """Root mean square and maximum of computed minus IAU pole, for different sets of effects."""
 
     residual_rms = number(
-        "mas",
-        "root mean square after removal of a constant and a rate",
-        error="residual_size_error",
-        short="rms",
+        "mas", "root mean square after removal of a constant and a rate", short="rms"
     )
     residual_maximum = number(
-        "mas",
-        "largest after removal of a constant and a rate",
-        error="residual_size_error",
-        short="largest",
+        "mas", "largest after removal of a constant and a rate", short="largest"
     )
     residual_rms_unfitted = number(
         "mas",
@@ -436,11 +426,10 @@ def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation
     )
 
 
-_LEFT = "part of a fit; its residuals measure it"
 _ABSORBING = "the response that absorbs what it can"
 
 
-class Core(Variables):
+class Core(Variables, no_error="part of a fit; its residuals measure it"):
     """Parameters of the free core nutation from a fit of the resonance formula to IAU 2000A."""
 
     core_nutation_period = measured(
@@ -450,24 +439,19 @@ class Core(Variables):
         "recovers what was built into it; it is no new measurement",
     )
     core_nutation_quality = measured("1", "quality factor of the free core nutation")
-    strength_real = number("1", "fitted strength, real part", along=("mode",), no_error=_LEFT)
-    strength_imaginary = number(
-        "1", "fitted strength, imaginary part", along=("mode",), no_error=_LEFT
-    )
+    strength_real = number("1", "fitted strength, real part", along=("mode",))
+    strength_imaginary = number("1", "fitted strength, imaginary part", along=("mode",))
     core_nutation_period_absorbing = number(
         "d",
         f"the same by {_ABSORBING}",
         no_error="short of core_nutation_period by what the response absorbs",
     )
-    response_rms = number(
-        "uas", f"root mean square of the residuals of {_ABSORBING}", no_error=_LEFT
-    )
-    response_maximum = number("uas", f"largest residual of {_ABSORBING}", no_error=_LEFT)
+    response_rms = number("uas", f"root mean square of the residuals of {_ABSORBING}")
+    response_maximum = number("uas", f"largest residual of {_ABSORBING}")
     apart_rms = number(
         "uas",
         "root mean square of the residuals of the response that may not absorb additive terms, "
         "these taken away, the prograde year left out",
-        no_error=_LEFT,
     )
     added_period = number(
         "d",

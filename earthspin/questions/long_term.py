@@ -387,20 +387,10 @@ class LongTermSeries(FromStart, along=("epoch",)):
         "1", "eccentricity times the sine of the longitude of perihelion"
     )
     coprecession = measured("1", "eccentricity times the cosine of the longitude of perihelion")
-    pole = number(
-        "1",
-        "unit vector of the spin axis",
-        along=("epoch", "component"),
-        error="pole_error",
-        frame="GCRS",
-    )
+    pole = number("1", "unit vector of the spin axis", along=("epoch", "component"), frame="GCRS")
     pole_error = number("arcsec", "95 % half-width of the direction of the pole")
     ecliptic_pole = number(
-        "1",
-        "unit normal of the orbit",
-        along=("epoch", "component"),
-        error="ecliptic_pole_error",
-        frame="GCRS",
+        "1", "unit normal of the orbit", along=("epoch", "component"), frame="GCRS"
     )
     ecliptic_pole_error = number("arcsec", "95 % half-width of the direction of the orbit's normal")
     precession_rate = measured(

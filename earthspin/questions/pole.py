@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -164,18 +164,15 @@ def interior_shift(as_fitted: Shift | None = None, as_predicted: Shift | None = 
     return shift
 
 
+_COMPONENT: Any = {"along": ("time", "axis"), "frame": "GCRS"}
+
+
 class Directions(Dated, error="direction_error"):
     """Unit vectors of the angular momentum, rotation and figure axes in time, with errors."""
 
-    X = number(
-        "1", "first component of the unit vector of the axis", along=("time", "axis"), frame="GCRS"
-    )
-    Y = number(
-        "1", "second component of the unit vector of the axis", along=("time", "axis"), frame="GCRS"
-    )
-    Z = number(
-        "1", "third component of the unit vector of the axis", along=("time", "axis"), frame="GCRS"
-    )
+    X = number("1", "first component of the unit vector of the axis", **_COMPONENT)
+    Y = number("1", "second component of the unit vector of the axis", **_COMPONENT)
+    Z = number("1", "third component of the unit vector of the axis", **_COMPONENT)
     direction_error = number("arcsec", "95 % half-width of the directions, from all shares")
     direction_error_method = number("arcsec", "share of direction_error from the integration")
     direction_error_input = number("arcsec", "share of direction_error from the uncertainty of H")

@@ -84,10 +84,11 @@ def observed_offsets(offset_table: PoleSeries) -> ObservedOffsets:
     ).with_attributes(dX=source, dY=source)
 
 
-_TEST = "a test, in which noise alone passes in 1 % of the windows"
-
-
-class CoreNutation(Variables, along=("middle",)):
+class CoreNutation(
+    Variables,
+    along=("middle",),
+    no_error="a test, in which noise alone passes in 1 % of the windows",
+):
     """Amplitude and phase of the free core nutation in sliding windows."""
 
     core_nutation_amplitude = measured(
@@ -101,12 +102,8 @@ class CoreNutation(Variables, along=("middle",)):
     core_nutation_phase = measured(
         "deg", "phase of the free core nutation against a steady circle of its published period"
     )
-    detection_limit = number(
-        "uas", "amplitude that noise alone exceeds in 1 % of the windows", no_error=_TEST
-    )
-    detected = number(
-        "1", "1 where the amplitude is above the detection limit, else 0", no_error=_TEST
-    )
+    detection_limit = number("uas", "amplitude that noise alone exceeds in 1 % of the windows")
+    detected = number("1", "1 where the amplitude is above the detection limit, else 0")
     window_length = number("d", "length of a window", along=(), no_error="it is chosen")
     middle = labels("middle of a window")
 
