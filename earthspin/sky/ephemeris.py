@@ -320,7 +320,9 @@ def _sha256(path: Path, same: tuple[int, ...]) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def open_ephemeris(kernel: str | os.PathLike[str] | Any) -> Ephemeris:
+def open_ephemeris(
+    kernel: str | os.PathLike[str] | Any, reader: type[Ephemeris] = Ephemeris
+) -> Ephemeris:
     """Open a kernel from its name, its path, or an open Skyfield kernel.
 
     Parameters
@@ -328,6 +330,8 @@ def open_ephemeris(kernel: str | os.PathLike[str] | Any) -> Ephemeris:
     kernel : str, path, or Skyfield SpiceKernel
         ``"de421"`` (in the package skyfield-data), ``"de440"`` (needs the extra of that name), or
         the path of any .bsp file.
+    reader : type
+        Class of the result.
 
     Raises
     ------
@@ -339,16 +343,16 @@ def open_ephemeris(kernel: str | os.PathLike[str] | Any) -> Ephemeris:
         If the file is invalid.
     """
     if hasattr(kernel, "spk") and hasattr(kernel, "path"):  # Skyfield's SpiceKernel
-        return Ephemeris(kernel.path)
+        return reader(kernel.path)
     if not isinstance(kernel, (str, os.PathLike)):
         raise SceneError("ephemeris", kernel, "it is a name, a path, or a Skyfield kernel")
     text = os.fspath(kernel)
     if text.lower() in NAMED_KERNELS:
-        return Ephemeris(find_kernel(text.lower()), name=text.lower())
+        return reader(find_kernel(text.lower()), name=text.lower())
     if "/" not in text and os.sep not in text and not Path(text).suffix:
         problem = f"{nearest(text, NAMED_KERNELS)}, or the path of a .bsp file"
         raise SceneError("ephemeris", text, problem)
-    return Ephemeris(text)
+    return reader(text)
 
 
 def find_kernel(name: str) -> Path:

@@ -29,7 +29,7 @@ SPACINGS = (16.0, 8.0, 4.0, 2.0, 1.0, 0.5)
 def ladder() -> Ladder:
     """Methods for Sun and Moon at the true equator."""
     true = _directions(true_equator(DAYS))
-    source, spice = Skyfield(kernel()), _spice()
+    source, spice = Skyfield(kernel().path, kernel().name), _spice()
     scale = load.timescale(builtin=True)
 
     def at_each(matrices: Callable[[], FloatArray]) -> tuple[FloatArray, int]:
