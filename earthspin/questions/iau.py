@@ -48,7 +48,7 @@ from earthspin.questions.path import (
     rigid,
     steady_figure,
 )
-from earthspin.questions.pulls import PULLS, Pulls, start_of
+from earthspin.questions.pulls import PULLS, Pulls
 from earthspin.questions.reasons import neglected_rates
 from earthspin.questions.sky import unmeasured
 from earthspin.questions.times import Dated
@@ -110,7 +110,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
 
 @part
 def rates_by_effect(
-    pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
+    pole_analysis: PoleComparison, pulls: Pulls, effects: tuple[str, ...]
 ) -> Budget:
     """Compute the contribution of each effect to the precession rates at J2000.0.
 
@@ -121,12 +121,12 @@ def rates_by_effect(
     with progress("budget", len(on)) as advance:
         for effect in on:
             rest = [e for e in on if e != effect]
-            path = path_over(body, pulls, rest, done.start, done.days)
+            path = path_over(pulls, rest, done.start, done.days)
             without[effect] = done.analysis.secular(steady_figure(path, done.days))
             advance(1)
     # What is off has no share, nor has a transfer function: T = 1 at rest in space.
     off = [effect for effect in EFFECTS if effect not in on]
-    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    u_h = pulls.body.relative_uncertainty.get("dynamical_flattening", 0.0)
     return budget_of(done.ours, done.theirs, without, off, iau.precession_rates(0.0).psi_a, u_h)
 
 
@@ -248,25 +248,24 @@ def differences(
     nonrigid_shift: Shift,
     pulls: Pulls,
     epochs: Epochs,
-    body: Body,
     effects: tuple[str, ...],
     predicted_shift: Shift | None = None,
 ) -> Differences:
     """Compute time series of computed pole minus IAU pole, for different sets of effects."""
     done = pole_analysis
     days, ends, iau_eta = iau_nutation(pulls, epochs)
-    own_start, _ = start_of(body, pulls)
+    body = pulls.body
 
     def axes_of(on: list[str], start: FloatArray) -> dict[str, FloatArray]:
-        return path_over(body, pulls, on, start, ends).at(days * DAY, semidiurnal=False)
+        return path_over(pulls, on, start, ends).at(days * DAY, semidiurnal=False)
 
     def eta_of(pole: FloatArray) -> ComplexArray:
         return analysis.complex_nutation(iau.nutation_of(pole, days))
 
     # Each model as `pole` returns it, start included.
     models = {
-        "first-order": eta_of(axes_of([], own_start)["angular_momentum"]),
-        "rigid": eta_of(axes_of(rigid(effects), own_start)["figure"]),
+        "first-order": eta_of(axes_of([], pulls.start)["angular_momentum"]),
+        "rigid": eta_of(axes_of(rigid(effects), pulls.start)["figure"]),
     }
     from_mean_pole = axes_of(rigid(effects), done.start)
     for name, shift in (("nonrigid", nonrigid_shift), ("predicted", predicted_shift)):

@@ -150,13 +150,12 @@ def left(
     interior_spread: Spread,
     pulls: Pulls,
     epochs: Epochs,
-    body: Body,
     effects: tuple[str, ...],
 ) -> RungResiduals:
     """Compute the residuals of predicted pole minus IAU pole for each model."""
     done = pole_analysis
     days, ends, theirs = iau_nutation(pulls, epochs)
-    path = path_over(body, pulls, effects, done.start, ends)
+    path = path_over(pulls, effects, done.start, ends)
     own = complex_nutation(iau.nutation_of(steady_figure(path, days), days))
     circles = done.our_circles
     factors = {name: models.transfer(name, circles.frequency) - 1 for name in models.rungs}
@@ -165,7 +164,7 @@ def left(
         added = np.array([*responses(circles, iau.delaunay_arguments(at), factors).values()])
         return np.stack([added.real, added.imag], axis=-1).swapaxes(0, 1)
 
-    error = residual_error(done, body, theirs, days)
+    error = residual_error(done, pulls.body, theirs, days)
     sampled = slice(None, None, max(1, days.size // DAYS_OF_ERRORS))
     phases = circles.multiples @ iau.delaunay_arguments(days[sampled])
     terms_at_days = circles.amplitude[:, np.newaxis] * np.exp(1j * phases)

@@ -27,7 +27,7 @@ from earthspin.nutation.analysis import Circles, PoleAnalysis, Secular
 from earthspin.nutation.budget import published_effects
 from earthspin.progress import progress
 from earthspin.questions.interiors import CHOSEN, Prediction, no_layers, prediction
-from earthspin.questions.pulls import AxisMotion, Pulls, forces_of, start_of
+from earthspin.questions.pulls import AxisMotion, Pulls, forces_of
 from earthspin.questions.reasons import no_iau_model
 from earthspin.questions.satellites import drifts, obliquity_of, swings
 from earthspin.questions.times import days_of
@@ -54,11 +54,7 @@ SERIES = "coefficients of the adopted series"
 
 @part
 def axis_path(
-    pulls: Pulls,
-    epochs: Epochs,
-    body: Body,
-    effects: tuple[str, ...],
-    interior_shift: Shift | None = None,
+    pulls: Pulls, epochs: Epochs, effects: tuple[str, ...], interior_shift: Shift | None = None
 ) -> AxisPath:
     """Integrate the axes of the body from J2000.0 to all dates, by Picard iteration.
 
@@ -66,11 +62,10 @@ def axis_path(
     that of the IAU.
     """
     pulls.sky.check_times(epochs.span(), pulls.targets)
-    own, epoch = start_of(body, pulls)
-    axis = own if interior_shift is None else interior_shift.start
+    axis, epoch = pulls.start if interior_shift is None else interior_shift.start, pulls.epoch
     first, last = epochs.span()
     span = first * DAY, last * DAY
-    forces = forces_of(body, pulls, effects)
+    forces = forces_of(pulls, effects)
     with progress("pole", axes.window_count(epoch, span, axes.WINDOW)) as advance:
         return axes.axis_path(forces, axis, epoch, span, limits=pulls.limits, advance=advance)
 
@@ -103,7 +98,6 @@ def direction_errors(
     figure: FloatArray,
     days: FloatArray,
     epochs: Epochs,
-    body: Body,
     pulls: Pulls,
     shift: Shift | None,
 ) -> Errors:
@@ -118,12 +112,11 @@ def direction_errors(
         Their times, days from J2000.0.
     epochs : TimeGrid or TimeList
         All times of the series; the error of the positions depends on the most distant ones.
-    body : Body
     pulls : Pulls
     shift : Shift or None
         Response of the interior; None for a rigid body.
     """
-    _, epoch = start_of(body, pulls)
+    body, epoch = pulls.body, pulls.epoch
     positions = pulls.sky.positions(np.array([epoch / DAY]))
     distance = {name: float(np.linalg.norm(position)) for name, position in positions.items()}
     drift = max(pulls.sky.drift(name, far) for name, far in distance.items())
@@ -136,24 +129,24 @@ def direction_errors(
         given=axes.error_of_input(path, figure, u_h),
         kernel=max(map(growth, epochs.span())) * of_sky,
         response=np.zeros(len(figure)) if shift is None else shift.half_width(days),
-        satellites=drift_of_nodes(body, pulls, days * DAY - epoch),
+        satellites=drift_of_nodes(pulls, days * DAY - epoch),
     )
 
 
-def drift_of_nodes(body: Body, pulls: Pulls, since: FloatArray) -> FloatArray:
+def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
     """Largest displacement of the axis by the nodes of satellites, and by C if that is open, rad.
 
     Parameters
     ----------
-    body : Body
     pulls : Pulls
     since : ndarray, shape (t,)
         Times from the start, s.
     """
+    body = pulls.body
     obliquity = obliquity_of(body) if body.satellites else None
     if obliquity is None:
         return np.zeros(since.size)
-    nutations = swings(body, pulls.mean_pull(body.orbital_period), obliquity)
+    nutations = swings(body, pulls.mean_pull(), obliquity)
     total = np.sum([*drifts(nutations, since).values(), np.zeros(since.size)], axis=0)
     published = LEFT_OUT_OF_RATES.get(body.name, {}) if body.is_as_named else {}
     for rate in published.values():
@@ -251,16 +244,15 @@ def steady_figure(path: AxisPath, days: FloatArray) -> FloatArray:
 
 
 def path_over(
-    body: Body, pulls: Pulls, effects: Sequence[str], start: FloatArray, days: FloatArray
+    pulls: Pulls, effects: Sequence[str], start: FloatArray, days: FloatArray
 ) -> AxisPath:
     """Integrate the motion of the rigid body's axes over a range of days.
 
     Positions of the perturbers are stored for the next run.
     """
-    _, epoch = start_of(body, pulls)
-    forces = forces_of(body, pulls, rigid(effects), keep=True)
+    forces = forces_of(pulls, rigid(effects), keep=True)
     span = days[0] * DAY, days[-1] * DAY
-    return axes.axis_path(forces, start, epoch, span, limits=pulls.limits)
+    return axes.axis_path(forces, start, pulls.epoch, span, limits=pulls.limits)
 
 
 def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, ComplexArray]:
@@ -364,18 +356,16 @@ def iau_pole(pulls: Pulls) -> IAUPole:
 
 
 @part(unless=no_iau_model)
-def pole_analysis(
-    body: Body, pulls: Pulls, effects: tuple[str, ...], iau_pole: IAUPole
-) -> PoleComparison:
+def pole_analysis(pulls: Pulls, effects: tuple[str, ...], iau_pole: IAUPole) -> PoleComparison:
     """Separate the computed pole over 150 years into precession and circular terms, as the IAU's.
 
     The initial axis is corrected so that the mean poles agree at the start.
     """
     days, analyse = iau_pole.days, iau_pole.analysis
-    start, epoch = start_of(body, pulls)
+    start, epoch = pulls.start, pulls.epoch
 
     def integrate(start: FloatArray) -> tuple[AxisPath, FloatArray]:
-        path = path_over(body, pulls, effects, start, days)
+        path = path_over(pulls, effects, start, days)
         return path, steady_figure(path, days)
 
     with progress("analysis", 2) as advance:
@@ -488,7 +478,7 @@ class ResponseFit:
 
 @part(loads=("earthspin.nutation.response",))
 def response_apart(
-    pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
+    pole_analysis: PoleComparison, pulls: Pulls, effects: tuple[str, ...]
 ) -> ResponseFit:
     """Fit the resonance formula to IAU 2000A without its geodesic nutation and added terms."""
     from earthspin.nutation.response import added_to
@@ -498,13 +488,13 @@ def response_apart(
     if GEODESIC.name in effects:
         # The interior does not respond to a rotation of the frame, which is no torque.
         rest = [effect for effect in effects if effect != GEODESIC.name]
-        path = path_over(body, pulls, rest, pole_analysis.start, pole_analysis.days)
+        path = path_over(pulls, rest, pole_analysis.start, pole_analysis.days)
         pole = steady_figure(path, pole_analysis.days)
         eta = analysis.complex_nutation(iau.nutation_of(pole, pole_analysis.days))
         torques = pole_analysis.analysis.circles(eta).amplitude
     theirs = theirs - (ours.amplitude - torques)
     added = added_to(ours.multiples)
-    response = _response_between(ours, torques, theirs - added, body)
+    response = _response_between(ours, torques, theirs - added, pulls.body)
     left = theirs - response.transfer(ours.frequency) * torques
     return ResponseFit(response, _circles_for_fit(ours), torques, left, added)
 

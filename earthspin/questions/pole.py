@@ -42,7 +42,6 @@ from earthspin.questions.pulls import (
     own_kernel,
     start_error,
     start_note,
-    start_of,
     switched_off,
 )
 from earthspin.questions.reasons import no_iau_model, north_note, not_the_iaus_earth
@@ -187,7 +186,6 @@ def axes(
     axis_path: AxisPath,
     epochs: Epochs,
     pulls: Pulls,
-    body: Body,
     effects: tuple[str, ...],
     interior_shift: Shift | None = None,
     block: Block | None = None,
@@ -196,7 +194,7 @@ def axes(
     now = days_of(epochs, block, "pole.zarr")
     directions = axis_path.at(now * DAY)
     figure = directions["figure"]
-    errors = direction_errors(axis_path, figure, now, epochs, body, pulls, interior_shift)
+    errors = direction_errors(axis_path, figure, now, epochs, pulls, interior_shift)
     if interior_shift is not None:
         interior_shift.apply(directions, now)
     vectors = np.stack([directions[axis] for axis in AXES], axis=1)
@@ -216,8 +214,8 @@ def axes(
         direction_error={
             "method": f"Gauss windows of {window:g} d with {axis_path.windows.order} nodes",
             "evaluations": axis_path.evaluations,
-            **start_note(body),
-            **idle_note(body, effects),
+            **start_note(pulls.body),
+            **idle_note(pulls.body, effects),
         },
     )
 
@@ -260,14 +258,11 @@ class SatelliteError(Dated):
 
 @part(unless=no_satellites)
 def satellite_error(
-    axes: xr.Dataset, pulls: Pulls, body: Body, epochs: Epochs, block: Block | None = None
+    axes: xr.Dataset, pulls: Pulls, epochs: Epochs, block: Block | None = None
 ) -> SatelliteError:
     """Compute the error of the axis directions that is due to the nodes of satellites."""
-    _, epoch = start_of(body, pulls)
-    days = days_of(epochs, block, "pole.zarr")
-    return SatelliteError(
-        time=axes.time, direction_error_satellites=drift_of_nodes(body, pulls, days * DAY - epoch)
-    )
+    since = days_of(epochs, block, "pole.zarr") * DAY - pulls.epoch
+    return SatelliteError(time=axes.time, direction_error_satellites=drift_of_nodes(pulls, since))
 
 
 def no_longitude(body: Body) -> str | None:
@@ -325,10 +320,9 @@ def neglected(
     """
     off = switched_off(body, perturbers, effects)
     forces, further = each_added(sky, body, perturbers, effects, off)
-    _, epoch = start_of(body, pulls)
-    moved = axis_displacements(axis_path, epoch, forces, further)
+    moved = axis_displacements(axis_path, pulls.epoch, forces, further)
     if {*off} - {*further}:
-        reach = max(abs(day * DAY - epoch) for day in epochs.span())
+        reach = max(abs(day * DAY - pulls.epoch) for day in epochs.span())
         moved |= drift_by_planets(body, reach)
     sizes = {name: size for name, size in moved.items() if size}
     unknown = [name for name in off if name not in moved]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -208,7 +208,7 @@ def pulling(
     """Build the torques of all perturbers on the body, and estimate the torque error."""
     days = epochs.span()
     pulls.sky.check_times(days, pulls.targets)
-    forces = forces_of(_spinning(body, start_omega), pulls, _acting(effects))
+    forces = forces_of(replace(pulls, body=_spinning(body, start_omega)), _acting(effects))
     if isinstance(pulls.sky.source, Elements):
         places = [place for place in pulls.sky.targets.values() if isinstance(place, ByElements)]
         rounding = max(place.rounding(day) for place in places for day in days)
@@ -539,7 +539,7 @@ def node_drifts(body: Body, pulls: Pulls, epochs: Epochs) -> dict[str, float]:
     if obliquity is None:
         return {}
     begin, end = epochs.span()
-    nutations = swings(body, pulls.mean_pull(body.orbital_period), obliquity)
+    nutations = swings(body, pulls.mean_pull(), obliquity)
     return largest_drifts(nutations, (end - begin) * DAY)
 
 
