@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
@@ -121,22 +120,6 @@ def models(body: Body, coupling: str, anelastic_exponent: float) -> Prediction:
     return predict(body, coupling == "inferred", anelastic_exponent)
 
 
-@dataclass(frozen=True)
-class RungResiduals:
-    """Root mean square of predicted pole minus IAU 2000A, after removal of a linear trend.
-
-    Attributes
-    ----------
-    rms : dict of str to ndarray, shape (2,)
-        Of dpsi sin(eps0) and deps, rad, by rung.
-    error : dict of str to float
-        95 % half-width of either angle, rad, from the inputs of the interior, H and integration.
-    """
-
-    rms: dict[str, FloatArray]
-    error: dict[str, float]
-
-
 @part(loads=("scipy.special",))
 def interior_spread(models: Prediction) -> Spread:
     """Vary the uncertain inputs of the interior, and draw them at random."""
@@ -151,8 +134,12 @@ def left(
     pulls: Pulls,
     epochs: Epochs,
     effects: tuple[str, ...],
-) -> RungResiduals:
-    """Compute the residuals of predicted pole minus IAU pole for each model."""
+) -> dict[str, FloatArray]:
+    """Compute the residuals of predicted pole minus IAU pole for each model.
+
+    They are root mean squares of dpsi sin(eps0) and deps after removal of a linear trend, and the
+    half-width of either from the inputs of the interior, H and integration, rad.
+    """
     done = pole_analysis
     days, ends, theirs = iau_nutation(pulls, epochs)
     path = path_over(pulls, effects, done.start, ends)
@@ -168,13 +155,13 @@ def left(
     sampled = slice(None, None, max(1, days.size // DAYS_OF_ERRORS))
     phases = circles.multiples @ iau.delaunay_arguments(days[sampled])
     terms_at_days = circles.amplitude[:, np.newaxis] * np.exp(1j * phases)
-    rms, errors = {}, {}
+    residuals = {}
     with progress("residuals", len(factors)) as advance:
         for name, shift in zip(factors, iau.at_days(shifts, days).swapaxes(0, 1), strict=True):
             eta = own + shift[:, 0] + 1j * shift[:, 1] - theirs
             plain = np.stack([eta.real, eta.imag], axis=1)
             residual = without_line(days / DAYS_PER_CENTURY, plain)
-            rms[name] = np.sqrt(np.mean(residual**2, axis=0))
+            rms = np.sqrt(np.mean(residual**2, axis=0))
             of_interior = interior_spread.rms_half_width(
                 name,
                 circles.frequency,
@@ -182,9 +169,9 @@ def left(
                 residual[sampled, 0] + 1j * residual[sampled, 1],
                 days[sampled],
             )
-            errors[name] = math.hypot(error, of_interior)
+            residuals[name] = np.array([*rms, math.hypot(error, of_interior)])
             advance(1)
-    return RungResiduals(rms, errors)
+    return residuals
 
 
 _RMS = "root mean square of computed minus IAU 2000A in"
@@ -214,14 +201,14 @@ class RungSizes(Variables, along=("rung",), error="rms_error"):
 
 
 @part
-def rung_sizes(left: RungResiduals, models: Prediction) -> RungSizes:
+def rung_sizes(left: dict[str, FloatArray], models: Prediction) -> RungSizes:
     """Compute the root mean square of predicted pole minus IAU 2000A, for each ladder model."""
     names = models.ladder
-    longitude, obliquity = np.array([left.rms[name] for name in names]).T
+    longitude, obliquity, error = np.array([left[name] for name in names]).T
     return RungSizes(
         rms_dpsi_sineps=longitude,
         rms_deps=obliquity,
-        rms_error=np.array([left.error[name] for name in names]),
+        rms_error=error,
         adds=np.array([ladder.RUNGS[name] for name in names]),
         rung=names,
     )
@@ -245,16 +232,16 @@ class ModelSizes(Variables, along=("model",), error="model_rms_error"):
 
 
 @part
-def beside(left: RungResiduals) -> ModelSizes:
+def beside(left: dict[str, FloatArray]) -> ModelSizes:
     """Compute the root mean square of predicted pole minus IAU 2000A for two more models.
 
     They are a fluid core in a rigid mantle, and a body with the H of hydrostatic equilibrium.
     """
-    longitude, obliquity = np.array([left.rms[name] for name in ladder.BESIDE]).T
+    longitude, obliquity, error = np.array([left[name] for name in ladder.BESIDE]).T
     return ModelSizes(
         model_rms_dpsi_sineps=longitude,
         model_rms_deps=obliquity,
-        model_rms_error=np.array([left.error[name] for name in ladder.BESIDE]),
+        model_rms_error=error,
         model_adds=np.array(list(ladder.BESIDE.values())),
         model=list(ladder.BESIDE),
     )

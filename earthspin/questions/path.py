@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,29 +70,6 @@ def axis_path(
         return axes.axis_path(forces, axis, epoch, span, limits=pulls.limits, advance=advance)
 
 
-class Errors(NamedTuple):
-    """95 % half-widths of the directions of the axes at some times, by cause, rad.
-
-    Attributes
-    ----------
-    method, given, kernel, response, satellites : ndarray, shape (t,)
-        Errors from the integration, from the uncertainty of H, from the positions of the bodies,
-        from the response of the interior (0 for a rigid body), and from the nodes of the body's
-        satellites, which stay at their mean (0 without satellites).
-    """
-
-    method: FloatArray
-    given: FloatArray
-    kernel: FloatArray
-    response: FloatArray
-    satellites: FloatArray
-
-    @property
-    def total(self) -> FloatArray:
-        """Total error of the axis directions, rad: root sum of squares over all causes."""
-        return np.asarray(np.sqrt(sum(error**2 for error in self)))
-
-
 def direction_errors(
     path: AxisPath,
     figure: FloatArray,
@@ -100,8 +77,8 @@ def direction_errors(
     epochs: Epochs,
     pulls: Pulls,
     shift: Shift | None,
-) -> Errors:
-    """Errors of the directions of the axes along an integrated path, by cause.
+) -> dict[str, FloatArray]:
+    """95 % half-widths of the directions of the axes along a path: the total, and those by cause.
 
     Parameters
     ----------
@@ -115,6 +92,12 @@ def direction_errors(
     pulls : Pulls
     shift : Shift or None
         Response of the interior; None for a rigid body.
+
+    Returns
+    -------
+    dict of str to ndarray, shape (t,)
+        By variable, rad. The total also holds the errors from the response of the interior and from
+        the nodes of the body's satellites, which stay at their mean.
     """
     body, epoch = pulls.body, pulls.epoch
     positions = pulls.sky.positions(np.array([epoch / DAY]))
@@ -124,13 +107,16 @@ def direction_errors(
     speed = fastest_sweep(body.number("dynamical_flattening"), float(body.spin_rate), nearest)
     of_sky = axes.error_of_sky(path, figure, drift, speed, DRIFT_FROM)
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    return Errors(
-        method=np.full(len(figure), np.nan if pulls.sky.unmeasured else path.error),
-        given=axes.error_of_input(path, figure, u_h),
-        kernel=max(map(growth, epochs.span())) * of_sky,
-        response=np.zeros(len(figure)) if shift is None else shift.half_width(days),
-        satellites=drift_of_nodes(pulls, days * DAY - epoch),
-    )
+    causes = {
+        "direction_error_method": np.full(
+            days.size, np.nan if pulls.sky.unmeasured else path.error
+        ),
+        "direction_error_input": axes.error_of_input(path, figure, u_h),
+        "direction_error_kernel": max(map(growth, epochs.span())) * of_sky,
+    }
+    response = np.zeros(days.size) if shift is None else shift.half_width(days)
+    errors = (*causes.values(), response, drift_of_nodes(pulls, days * DAY - epoch))
+    return {"direction_error": np.sqrt(sum(error**2 for error in errors)), **causes}
 
 
 def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
@@ -154,40 +140,19 @@ def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
     return np.asarray(total)
 
 
-@dataclass(frozen=True)
-class LongitudeCycles:
-    """Continuous longitude of an axis along a path, from which whole turns are restored.
+def continuous_longitude(
+    path: AxisPath, first: float, ecliptic: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Start times (s) of the windows of a path, and longitude of the angular momentum then (rad).
 
-    Attributes
-    ----------
-    times : ndarray, shape (w,)
-        Start times of the windows, s.
-    psi : ndarray, shape (w,)
-        Continuous longitude at these times, rad.
-    """
-
-    times: FloatArray
-    psi: FloatArray
-
-    def unwrapped(self, psi: FloatArray, times: FloatArray) -> FloatArray:
-        """Add whole turns to longitudes, shape (t, k), so that they are continuous along the path.
-
-        `times` are in s, shape (t,).
-        """
-        return analysis.followed(psi, np.interp(times, self.times, self.psi)[:, np.newaxis])
-
-
-def longitude_cycles(path: AxisPath, first: float, ecliptic: FloatArray) -> LongitudeCycles:
-    """Compute the continuous longitude of the angular momentum along a path.
-
-    It equals the principal value at the time `first`, s.
+    The longitude is continuous, and equals the principal value at the time `first`, s.
     """
     psi = np.unwrap(analysis.on_fixed_ecliptic(path.at_starts(), ecliptic)[:, 0])
     times = path.windows.edges[:-1]
     axis = path.at(np.array([first]))["angular_momentum"]
     principal = analysis.on_fixed_ecliptic(axis, ecliptic)[0, 0]
     difference = np.interp(first, times, psi) - principal
-    return LongitudeCycles(times, psi - 2 * np.pi * np.rint(difference / (2 * np.pi)))
+    return times, psi - 2 * np.pi * np.rint(difference / (2 * np.pi))
 
 
 # --- comparison with the IAU ---------------------------------------------------------------------

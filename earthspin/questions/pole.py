@@ -17,18 +17,18 @@ from earthspin.engine.variables import Neglected, labels, number
 from earthspin.motion.axes import AXES, AxisPath
 from earthspin.motion.effect_sizes import axis_displacements
 from earthspin.motion.effects import LARGEST_CORE_NUTATION, NONRIGID, RESPONSE
-from earthspin.nutation.analysis import on_fixed_ecliptic
+from earthspin.numerics.arrays import FloatArray
+from earthspin.nutation.analysis import followed, on_fixed_ecliptic
 from earthspin.questions.interiors import SOURCES, no_layers
 from earthspin.questions.path import (
     INTERIOR,
     SHORTEST_SPAN,
-    LongitudeCycles,
     Shift,
     analysed_days,
     axis_path,
+    continuous_longitude,
     direction_errors,
     drift_of_nodes,
-    longitude_cycles,
 )
 from earthspin.questions.pulls import (
     EFFECTS_DOC,
@@ -205,10 +205,7 @@ def axes(
         X=vectors[..., 0],
         Y=vectors[..., 1],
         Z=vectors[..., 2],
-        direction_error=errors.total,
-        direction_error_method=errors.method,
-        direction_error_input=errors.given,
-        direction_error_kernel=errors.kernel,
+        **errors,
     ).with_attributes(
         no_error=pulls.sky.no_error,
         direction_error={
@@ -284,21 +281,26 @@ class Angles(Dated, along=("time", "axis"), error="direction_error"):
 
 
 @part(unless=no_longitude)
-def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> LongitudeCycles:
+def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> tuple[FloatArray, FloatArray]:
     """Count whole turns of the angular momentum's longitude psi, from the first time."""
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
-    return longitude_cycles(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
+    return continuous_longitude(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
 
 
 @part(unless=no_longitude)
 def pole_angles(
-    axes: xr.Dataset, turns: LongitudeCycles, epochs: Epochs, body: Body, block: Block | None = None
+    axes: xr.Dataset,
+    turns: tuple[FloatArray, FloatArray],
+    epochs: Epochs,
+    body: Body,
+    block: Block | None = None,
 ) -> Angles:
     """Compute longitude psi and inclination eps of the axes, relative to the J2000.0 orbit."""
     vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     angles = on_fixed_ecliptic(vectors.reshape(-1, 3), ecliptic).reshape(*vectors.shape[:2], 2)
-    psi = turns.unwrapped(angles[..., 0], days_of(epochs, block, "pole.zarr") * DAY)
+    near = np.interp(days_of(epochs, block, "pole.zarr") * DAY, *turns)
+    psi = followed(angles[..., 0], near[:, np.newaxis])
     return Angles(time=axes.time, axis=axes.axis, psi=psi, eps=angles[..., 1]).with_attributes(
         eps=north_note(body)
     )
