@@ -24,16 +24,7 @@ from earthspin.motion.effects import NONRIGID, SECOND_ORDER
 from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY, Rigid
 from earthspin.motion.forces import Forces
 from earthspin.motion.march import FINEST, Masses
-from earthspin.motion.solution import (
-    COARSEST,
-    KINDS,
-    Motion,
-    RotationSeries,
-    State,
-    relative_tide_error,
-    shares_of,
-    start_of,
-)
+from earthspin.motion.solution import COARSEST, KINDS, Motion, RotationSeries, State
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress
 from earthspin.questions.pulls import (
@@ -217,7 +208,8 @@ def pulling(
     doubts = []
     for name, place in pulls.sky.targets.items():
         angle, far = pulls.sky.error(place, days)
-        doubts.append(relative_tide_error(float(np.linalg.norm(positions[name])), far, angle))
+        distance = float(np.linalg.norm(positions[name]))
+        doubts.append(solution.relative_tide_error(distance, far, angle))
     doubt = float(np.max(doubts))  # NaN if one is
     return Pulling(forces, doubt, no_error=pulls.sky.no_error)
 
@@ -325,7 +317,7 @@ def rotor(
         rigid,
         changed,
         solution.masses(pulling.forces, epoch),
-        start_of(rigid, attitude, omega),
+        solution.start_of(rigid, attitude, omega),
         begin,
         end,
         moment,
@@ -424,7 +416,7 @@ def turning(
     series = _followed(motion, rotor, seconds, begin)
     back = np.argsort(order, kind="stable")
     size = rotor.polar_moment * abs(rotor.body.unit)
-    shares = shares_of(series, rotor.changed, rotor.pulling.doubt)
+    shares = solution.shares_of(series, rotor.changed, rotor.pulling.doubt)
     errors = {
         f"{name}_error{share and f'_{share}'}": factor * error[kind][back]
         for kind, (name, factor) in enumerate(zip(KINDS, (1.0, 1.0, size), strict=True))
