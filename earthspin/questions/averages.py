@@ -20,7 +20,7 @@ from earthspin.questions.elements import ellipse_chains, exact_means, no_exact_m
 from earthspin.questions.satellites import Carried, carried, without_swings
 from earthspin.questions.sky import Sky, Stretch
 from earthspin.sky.elements import Elements
-from earthspin.sky.poles import angle, rotate
+from earthspin.sky.poles import FixedPole, IAU2006Pole, MovingPole, angle, rotate
 from earthspin.torque import average, cassini, rates
 from earthspin.torque.average import Window, best_window, precessing_torque, window_mean_and_error
 from earthspin.torque.gravity import torque_from_declination
@@ -76,6 +76,8 @@ def _same_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body
     if any(member.labelled for member in bodies):
         return None
     if not all(isinstance(place, int) for place in places):
+        return None
+    if not isinstance(body.pole, (FixedPole, IAU2006Pole, MovingPole)):
         return None
     return frozenset(sky.provenance.items()), places, stretch, bodies
 

@@ -1,7 +1,7 @@
 """Direction of a body's pole (spin axis), and the plane in which its precession is measured.
 
-All kinds of poles have the same methods; their argument `orbit` is the normal of the body's own
-orbit, if known. Times are days from J2000.0 TDB, vectors are in the GCRS.
+All kinds of poles have the interface of `Pole`. Times are days from J2000.0 TDB, vectors are in the
+GCRS.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple, Self, TypeAlias
+from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
 
@@ -136,6 +136,60 @@ class Direction(NamedTuple):
     def vector(self) -> FloatArray:
         """Unit vector of the direction, shape (3,)."""
         return direction(*self)
+
+
+class Pole(Protocol):
+    """Protocol of a body's pole (spin axis).
+
+    The argument `orbit` is the normal of the body's own orbit, if known.
+    """
+
+    #: Whether the axis follows the IAU models of precession and nutation of the Earth.
+    of_the_iau: bool
+
+    def orbit_normal(self, orbit: Direction | None) -> FloatArray:
+        """Unit normal of the plane in which precession is measured, shape (3,).
+
+        Raises
+        ------
+        UndefinedError
+            If there is no orbit.
+        """
+
+    def is_upright(self, orbit: Direction | None) -> bool:
+        """Return True if the spin axis is nearly normal to the orbit.
+
+        Its longitude is then undefined.
+        """
+
+    def orbit_axes(self, orbit: Direction | None) -> FloatArray:
+        """Matrix from the GCRS to the orbital plane and equinox of J2000.0, shape (3, 3)."""
+
+    def mean(self, days: FloatArray) -> FloatArray:
+        """Unit vectors of the spin axis on given days, without IAU nutation, shape (n, 3)."""
+
+    def without_nutation(self) -> Pole:
+        """Return the pole without the periodic terms that count as nutation."""
+
+    def true(self, day: float) -> FloatArray:
+        """Unit vector of the spin axis on one day, nutation included, shape (3,)."""
+
+    def equator(
+        self, orbit: Direction | None, days: FloatArray, nutation: iau.Nutation | None = None
+    ) -> FloatArray:
+        """Matrices from the GCRS to the body's equator and equinox of date, on given days.
+
+        Parameters
+        ----------
+        orbit : Direction or None
+        days : ndarray, shape (n,)
+        nutation : Nutation, optional
+            If given, the true equator is returned, otherwise the mean equator.
+
+        Returns
+        -------
+        ndarray, shape (n, 3, 3), or (3, 3) for an axis that does not move
+        """
 
 
 class FixedPole(Direction):
@@ -458,10 +512,6 @@ def _swing(row: object, where: Where) -> Swing:
     units, examples = ("rad", "rad", "rad/s"), ("0.7 deg", "357.85 deg", "1e-11 rad/s")
     terms = zip(row, units, examples, strict=True)
     return Swing(*(float(quantity(term, unit, where, example)) for term, unit, example in terms))
-
-
-#: Pole (spin axis) of a body.
-Pole: TypeAlias = FixedPole | IAU2006Pole | MovingPole
 
 
 # --- poles as input -------------------------------------------------------------------------------
