@@ -19,11 +19,8 @@ MANY_SWINGS = 200
 
 def through(tree: Result, title: str, smooth_days: float) -> drawing.Drawing:
     """Figure of declination and torque over time; fast oscillations are drawn as bands."""
-    plot, caption = (
-        partial(_plot_both, smooth_days=smooth_days),
-        _caption_of_torque(tree, smooth_days),
-    )
-    return PageFigure(title, caption, plot).drawn(tree)
+    plot = partial(_plot_both, smooth_days=smooth_days)
+    return PageFigure(title, _caption_of_torque(tree, smooth_days), plot).drawn(tree)
 
 
 def _plot_both(tree: Result, smooth_days: float | None = None) -> Figure:
