@@ -20,7 +20,7 @@ from earthspin.questions.reasons import no_iau_model
 from earthspin.questions.satellites import largest_torques_of_satellites
 from earthspin.questions.sky import Sky, places, sky
 from earthspin.questions.times import SPAN_DOC, Dated, Series, days_of, epochs
-from earthspin.sky.iau import Nutation
+from earthspin.sky.iau import NUTATION_NODE_STEP, Nutation
 from earthspin.sky.sources import OF_DATE, SourceName
 from earthspin.torque.gravity import largest_torque_on_figure, torque_error, torque_from_declination
 
@@ -170,7 +170,7 @@ def torques(
 def _equator_words(equator: str, nutation: Nutation | None) -> str:
     """Describe the model of the equator in words, for the attributes of the result."""
     if nutation is not None:
-        return f"IAU {nutation.model} nutation, a node each {nutation.spacing:g} d"
+        return f"IAU 2000A nutation, a node each {NUTATION_NODE_STEP:g} d"
     return "mean equator" if equator == "mean" else "IAU 2000A nutation at each time"
 
 
