@@ -309,13 +309,13 @@ def _sha256(path: Path, same: tuple[int, ...]) -> str:
 
 
 def open_ephemeris(
-    kernel: str | os.PathLike[str] | Any, reader: type[Ephemeris] | None = None
+    kernel: str | os.PathLike[str], reader: type[Ephemeris] | None = None
 ) -> Ephemeris:
-    """Open a kernel from its name, its path, or an open Skyfield kernel.
+    """Open a kernel from its name or its path.
 
     Parameters
     ----------
-    kernel : str, path, or Skyfield SpiceKernel
+    kernel : str or path
         ``"de421"`` (in the package skyfield-data), ``"de440"`` (needs the extra of that name), or
         the path of any .bsp file.
     reader : type, optional
@@ -324,17 +324,13 @@ def open_ephemeris(
     Raises
     ------
     SceneError
-        If `kernel` is neither a known name nor a path.
+        If `kernel` is a name, but none of the known ones.
     MissingExtraError
         If the package that contains the named kernel is not installed.
     KernelError
         If the file is invalid.
     """
     reader = reader or Ephemeris
-    if hasattr(kernel, "spk") and hasattr(kernel, "path"):  # Skyfield's SpiceKernel
-        return reader(kernel.path)
-    if not isinstance(kernel, (str, os.PathLike)):
-        raise SceneError("ephemeris", kernel, "it is a name, a path, or a Skyfield kernel")
     text = os.fspath(kernel)
     if text.lower() in NAMED_KERNELS:
         return reader(find_kernel(text.lower()), name=text.lower())
