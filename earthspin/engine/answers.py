@@ -12,7 +12,7 @@ import numpy as np
 
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.members import MEMBER, Members
-from earthspin.engine.question import NEGLECTED, Key, Question, keys_of
+from earthspin.engine.question import NEGLECTED, Key, Question, define_parts, keys_of
 from earthspin.engine.run import ALL, Run
 from earthspin.errors import SceneError
 
@@ -161,13 +161,16 @@ ENDS = {
 }
 
 
-def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
-    """Make the public Python function that answers a question of the given class.
+def public_call(question: type[Question], **parts: Any) -> Callable[..., xr.Dataset]:
+    """Make the public Python function that answers a question of the given class by its parts.
 
     Parameters
     ----------
     question : type
+    **parts
+        The parts for its answer and sections; see `define_parts`.
     """
+    define_parts(question, **parts)
     signature = signature_of(question)
 
     def call(*args: Any, **kwargs: Any) -> xr.Dataset:

@@ -417,7 +417,7 @@ def define_parts(
     question: type[Question],
     *,
     answer: Parts,
-    sections: Mapping[str, Parts],
+    sections: Iterable[Parts] | Mapping[str, Parts],
     parts: Iterable[Part[..., Any]] = (),
     together: tuple[str, ...] = (),
     widest: int = 1,
@@ -429,8 +429,9 @@ def define_parts(
     question : type
     answer : Part or tuple of Part
         Parts whose variables a call returns; the first must run.
-    sections : mapping of str to Part or tuple of Part
-        Parts of further results by name of the section; `neglected` is required.
+    sections : iterable or mapping of Part or tuple of Part
+        Parts of further results; a section has the name of its first part, or that in the mapping.
+        `neglected` is required.
     parts : iterable of Part
         Intermediate parts.
     together : tuple of str
@@ -444,6 +445,10 @@ def define_parts(
         If a parameter of a part is neither a key nor a part, a key and a part share a name, or the
         part `neglected` is missing.
     """
+    if not isinstance(sections, Mapping):
+        sections = {
+            (group if isinstance(group, Part) else group[0]).name: group for group in sections
+        }
     groups = {
         name: group if isinstance(group, tuple) else (group,)
         for name, group in {"answer": answer, **sections}.items()

@@ -11,7 +11,7 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Self, dataclass_transform
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
@@ -87,15 +87,6 @@ def si(array: xr.DataArray) -> xr.DataArray:
 
 
 # --- declarations ---------------------------------------------------------------------------------
-
-#: A number, an array along the declared dimensions, a labelled array, or text.
-Value = Any
-#: Labels along a dimension: an array, a list, or a labelled array of another answer.
-Labels = Any
-
-
-#: A number with its half-width.
-Pair = Estimate | tuple[Any, Any]
 
 #: Suffixes of the names of a field's variables, with patterns of their long names, in order.
 _ERROR = {"": "{}", "_error": "95 % half-width of the {}"}
@@ -234,15 +225,13 @@ def labels(long_name: str = "", units: str = "", **options: Any) -> Any:
     return _field({}, units, long_name, options)
 
 
-@dataclass_transform(
-    kw_only_default=True, field_specifiers=(number, measured, amplitude, words, labels)
-)
 class Variables:
     """Base class for the set of variables that one part (function) adds to a result.
 
     Options of a subclass apply to all of its fields: `along`, the dimensions; `error`, the variable
     that holds the error of every number without its own; or `no_error`, why these have no error.
-    An instance takes the values by name, in SI units.
+    An instance takes the values by name, in SI units: numbers, text, labelled arrays, or arrays
+    along the declared dimensions.
     """
 
     #: Default dimensions of the fields.

@@ -36,14 +36,10 @@ if TYPE_CHECKING:
     from earthspin.engine.accessor import Answer
 
 #: Figures, pictures and special tables of the answers to each question.
-VIEWS = {
-    **precession.VIEWS,
-    **torque.VIEWS,
-    **pole.VIEWS,
-    **rotors.VIEWS,
-    **long_term.VIEWS,
-    **observed_pole.VIEWS,
-    **wobble.VIEWS,
+VIEWS: dict[str, Views] = {
+    word: views
+    for module in (precession, torque, pole, rotors, long_term, observed_pole, wobble)
+    for word, views in module.VIEWS.items()
 }
 
 #: Titles of the pages of the documentation that explain the method of a question, by their files.

@@ -24,11 +24,8 @@ def page(
     drawings: Sequence[Drawing] = (),
     solids: Sequence[Solid] = (),
     *,
-    lead: str = "",
-    note: str = "",
-    links: Sequence[tuple[str, str]] = (),
     last: Sequence[Table] = (),
-    footer: str = "",
+    **words: object,
 ) -> str:
     """HTML text of a page with figures, three-dimensional pictures and tables, in this order.
 
@@ -39,13 +36,11 @@ def page(
     drawings : sequence of Drawing
         If the first is square, it stands beside the title.
     solids : sequence of Solid
-    lead, note : str
-        A sentence at the head, and what holds for all that follows.
-    links : sequence of (str, str)
-        Words and addresses of other pages, relative to this one.
     last : sequence of Table
         At the end, folded away.
-    footer : str
+    **words
+        `lead` and `note`, a sentence at the head, and what holds for all that follows; `links`,
+        pairs of words and addresses of other pages, relative to this one; and `footer`.
 
     Returns
     -------
@@ -61,13 +56,10 @@ def page(
         drawings=drawings[1:] if shows_first else drawings,
         solids=solids,
         contents=[part.title for parts in (drawings, solids, tables, last) for part in parts],
-        lead=lead,
-        note=note,
-        links=links,
         last=last,
-        footer=footer,
         figure_on_page=figure_on_page,
         script=source("touch.js") + source("solid.js"),
+        **{"lead": "", "note": "", "links": (), "footer": ""} | words,
     )
 
 

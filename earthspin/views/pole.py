@@ -147,11 +147,7 @@ def observed(tree: Result) -> Table:
     return table_along(sizes, "model", title, columns, note, first="")
 
 
-IAU_TABLES = [
-    ("", budget),
-    ("residual_sizes", residuals),
-    ("observed", observed),
-]
+IAU_TABLES = [("", budget), ("residual_sizes", residuals), ("observed", observed)]
 
 
 def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
