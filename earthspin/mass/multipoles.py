@@ -521,7 +521,6 @@ def zonal_integrals(
     ----------
     density : callable
         rho(r, theta) in kg m-3 from arrays of distances (m) and colatitudes (rad); smooth.
-        For a layered body use `earthspin.mass.figure.layered_moments`.
     perimeter : callable
         Surface of the body, r(theta), m.
     n_max : int
@@ -584,15 +583,6 @@ def zonal_moments(integrals: ArrayLike, radius: float) -> FloatArray:
     """
     z = np.asarray(integrals, dtype=float)
     return np.asarray(-G.value * float(radius) ** np.arange(z.size) * z)
-
-
-def geodetic_zonals(integrals: ArrayLike) -> FloatArray:
-    """Dimensionless zonal coefficients J_n of geodesy, from the zonal integrals Z_n.
-
-    They are -Z_n/M, so that J0 = -1 and J2 = (C - A)/(M s2) with the reference radius s.
-    """
-    z = np.asarray(integrals, dtype=float)
-    return np.asarray(-z / positive("body", "mass", z[0]))
 
 
 def spheroid_zonals(flattening: float, n_max: int) -> FloatArray:
