@@ -326,11 +326,8 @@ def without_line(centuries: FloatArray, series: FloatArray) -> FloatArray:
 # --- terms that cannot be separated from a larger neighbour ---------------------------------------
 # The arguments of most pairs differ by twice the longitude of the Sun's perihelion, with a period
 # of 10,467 years, so that an analysis over the span of the kernels merges the two terms. The
-# contribution of the smaller term to a fitted amplitude is known from the series of IAU 2000A.
-
-NEIGHBOURS_SOURCE = (
-    "IAU 2000A, IERS Conventions (2003), IERS Technical Note 32, tables 5.3a and 5.3b"
-)
+# contribution of the smaller term to a fitted amplitude is known from the series of IAU 2000A (IERS
+# Conventions 2003, IERS Technical Note 32, tables 5.3a and 5.3b).
 
 
 class Term(NamedTuple):

@@ -203,57 +203,12 @@ def budget_of(
 COMPARED = ("planets", "j4", "geodesic", "second-order")
 
 
-def inferred_h(h: float, torque_rate: float, excess: float) -> float:
-    """Dynamical flattening H for which the computed precession rate equals that of the IAU.
-
-    Parameters
-    ----------
-    h : float
-        H used in the computation.
-    torque_rate : float
-        Part of the computed rate that is proportional to H.
-    excess : float
-        Computed rate with all effects minus the IAU rate, in the same unit.
-    """
-    return h * (1 - excess / torque_rate)
-
-
-def inferred_h_uncertainty(h: float, torque_rate: float, effects: float, method: float) -> float:
-    """Standard deviation of the H that is inferred from the IAU precession rate.
-
-    Parameters
-    ----------
-    h, torque_rate : float
-    effects : float
-        Root sum square of the differences between the computed and the published effects.
-    method : float
-        Error of the same analysis for a pole whose rate is known.
-    """
-    return abs(h / torque_rate) * math.hypot(effects, method)
-
-
-def polar_moment_from_mean(
-    mean_moment: float, mean_radius: float, equatorial_radius: Numeric, j2: Numeric
-) -> Numeric:
-    """Polar moment factor C/(M a2) from the mean moment of a spherical model.
-
-    I = (A + B + C)/3 and C - (A + B)/2 = J2 M a2 give C = I + (2/3) J2 M a2.
-
-    Parameters
-    ----------
-    mean_moment : float
-        I/(M R2).
-    mean_radius, equatorial_radius : float
-        R and a, m.
-    j2 : float
-        Like the radius, a float or a labelled array.
-    """
-    return mean_moment * (mean_radius / equatorial_radius) ** 2 + 2 / 3 * j2
-
-
 def prem_polar_moment(radius: Numeric, j2: Numeric) -> Numeric:
-    """Polar moment factor C/(M a2) of the Earth model PREM, for a reference radius a, m, and J2."""
-    return polar_moment_from_mean(PREM_MEAN_MOMENT.value, PREM_RADIUS.value, radius, j2)
+    """Polar moment factor C/(M a2) of the Earth model PREM, for a reference radius a, m, and J2.
+
+    Its mean moment I = (A + B + C)/3 and C - (A + B)/2 = J2 M a2 give C = I + (2/3) J2 M a2.
+    """
+    return PREM_MEAN_MOMENT.value * (PREM_RADIUS.value / radius) ** 2 + 2 / 3 * j2
 
 
 class Flattening(NamedTuple):
@@ -271,8 +226,11 @@ class Flattening(NamedTuple):
     moment_uncertainty: float
 
 
-def inferred_from(budget: Budget, h: float) -> tuple[float, float]:
+def inferred_h(budget: Budget, h: float) -> tuple[float, float]:
     """Value of H that makes the computed precession rate equal to the IAU's, and its uncertainty.
+
+    The standard uncertainty follows from the root sum square of the differences between computed
+    and published effects, and from the error of the same analysis for a pole whose rate is known.
 
     Parameters
     ----------
@@ -284,10 +242,8 @@ def inferred_from(budget: Budget, h: float) -> tuple[float, float]:
     spread = math.sqrt(sum((budget.psi[e] - budget.psi_published[e]) ** 2 for e in compared))
     # all effects except geodesic precession are proportional to H
     grows = sum(rate for effect, rate in budget.psi.items() if effect != "geodesic")
-    return (
-        inferred_h(h, grows, budget.closure),
-        inferred_h_uncertainty(h, grows, spread, budget.psi_analysis_error),
-    )
+    uncertainty = abs(h / grows) * math.hypot(spread, budget.psi_analysis_error)
+    return h * (1 - budget.closure / grows), uncertainty
 
 
 def compared_flattenings(
@@ -317,7 +273,7 @@ def compared_flattenings(
     u_prem = PREM_MEAN_MOMENT.relative_uncertainty
     return {
         "published": from_h(h, u_h * h),
-        "from the IAU's rate": from_h(*inferred_from(budget, h)),
+        "from the IAU's rate": from_h(*inferred_h(budget, h)),
         "PREM": Flattening(j2 / prem, j2 / prem * u_prem, prem, prem * u_prem),
     }
 
