@@ -247,17 +247,12 @@ def ellipticity_from_h(h: Numeric) -> Numeric:
     return h / (1 - h)
 
 
-def h_from_ellipticity(e: Numeric) -> Numeric:
-    """Dynamical flattening H = (C - A)/C from the dynamical ellipticity e = (C - A)/A."""
-    return e / (1 + e)
-
-
 def h_mccullough(flattening: Numeric) -> Numeric:
     """Dynamical flattening H from the geometric flattening f, assuming (C - A)/A = f (I.9.52).
 
     McCullough's formula holds for a homogeneous spheroid, to first order in the flattening.
     """
-    return h_from_ellipticity(flattening)
+    return flattening / (1 + flattening)
 
 
 def h_homogeneous(j2: Numeric) -> Numeric:

@@ -11,7 +11,7 @@ from earthspin.constants import DAYS_PER_YEAR, NORMAL_95
 from earthspin.errors import UndefinedError
 from earthspin.interior.named import OBSERVED_CORE_NUTATION
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.wobble.record import in_blocks
+from earthspin.wobble.record import in_blocks, turning
 
 # --- amplitude and phase of the free core nutation ------------------------------------------------
 # The offsets are one complex number, eta = dX + i dY. The free core nutation is a retrograde circle
@@ -79,12 +79,7 @@ class CoreNutation:
         amplitude = np.interp(time, self.time, self.amplitude.real) + 1j * np.interp(
             time, self.time, self.amplitude.imag
         )
-        return np.asarray(amplitude * circle(time, self.period))
-
-
-def circle(time: FloatArray, period: float = PERIOD) -> ComplexArray:
-    """Circular motion of unit amplitude and period T at times t: exp(2 pi i t/T)."""
-    return np.asarray(np.exp(2j * np.pi * time / period))
+        return np.asarray(amplitude * turning(time, self.period))
 
 
 def fit(
@@ -127,10 +122,10 @@ def fit(
             f"{SHORTEST * abs(period):.0f} d, {SHORTEST:g} periods of the free core nutation, and "
             f"the series' {count * length:.0f} d"
         )
-    local: FloatArray = (np.arange(size) - (size - 1) / 2) * length
+    local = (np.arange(size) - (size - 1) / 2) * length
     # A mean over a block shortens a circle.
     shortened = np.sinc(length / period) / np.sinc(spacing / period)
-    columns = np.column_stack([np.ones(size), local / window, circle(local, period) * shortened])
+    columns = np.column_stack([np.ones(size), local / window, turning(local, period) * shortened])
     starts = np.arange(0, count - size + 1, max(1, round(step / length)))
     series = np.lib.stride_tricks.sliding_window_view(means, size)[starts]
     # Plain sums: a BLAS rounds otherwise with another number of threads.
@@ -145,7 +140,7 @@ def fit(
         np.sqrt(power * fdtri(2, freedom, chance)) for chance in (1 - FALSE_ALARM, 0.95)
     )
     middle = middles[starts] + local[-1]
-    amplitude = coefficients[:, 2] / circle(middle, period)
+    amplitude = coefficients[:, 2] / turning(middle, period)
     half_width = np.sqrt(power / 2) * stdtrit(freedom, 0.975)
     # Below what noise alone gives, the true amplitude may be zero, and the estimate is too large.
     error = np.where(np.abs(amplitude) > noise_alone, half_width, noise_alone)
@@ -194,7 +189,7 @@ class Fits:
 
     def ahead(self, horizon: float, days: slice | int) -> ComplexArray:
         """Predict celestial pole offsets `horizon` days after each of the selected days."""
-        then = circle(np.atleast_1d(self.time[days]) + horizon)
+        then = turning(np.atleast_1d(self.time[days]) + horizon, PERIOD)
         slow, fast = np.exp(-horizon / SLOW_FADE), np.exp(-horizon / FAST_FADE)
         return np.asarray(
             self.constant[days]
@@ -265,7 +260,7 @@ def fit_each_day(time: FloatArray, eta: ComplexArray, weight: FloatArray) -> Fit
     """
     from scipy.signal import lfilter
 
-    turned = circle(time)
+    turned = turning(time, PERIOD)
 
     def total(values: ComplexArray | FloatArray, fall: float) -> ComplexArray:
         return np.asarray(lfilter([1.0], [1.0, -fall], values.astype(complex)))
