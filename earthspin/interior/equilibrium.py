@@ -74,7 +74,7 @@ def equilibrium(body: LayeredBody) -> Equilibrium:
     y5, y7 = (5 / pair[1, 0] * np.array(solutions)).T
     tops = np.array(profile.tops)
     enclosed = tops**3 * (y5 - tops * y7 / 5)
-    at_core = profile.tops.index(body.core_radius / body.radius) if body.core_radius else None
+    at_core = profile.tops.index(profile.core) if profile.core else None
     return Equilibrium(
         k=float(y5[-1] - 1),
         core_k=0.0 if at_core is None else float(enclosed[at_core]),
@@ -174,8 +174,8 @@ def figure(layers: LayeredBody, spin_rate: float) -> Figure:
     gravity = G.value * layers.mass / layers.radius**2
     centrifugal = spin_rate**2 * layers.radius / gravity
     if layers.inner_core_radius:
-        r = layers.inner_core_radius / layers.radius
         profile = Profile(layers)
+        r = profile.inner_core
         i = profile.tops.index(r)
         excess["inner"] = float(scale * rest.enclosed[i])
         share["inner"] = layers.moment_of_inertia(layers.inner_core_radius) / moment
