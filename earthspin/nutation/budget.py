@@ -99,11 +99,9 @@ class Budget:
         Computed and published contributions, by effect.
     psi_error, omega_error : dict of str to float
         95 % half-widths: the error of the analysis, from a pole whose rate is known, and for the
-        first order also the uncertainty of H.
+        first order also the uncertainty of H. Those of the first order are those of the totals.
     psi_total, omega_total : float
         Computed rates.
-    psi_total_error, omega_total_error : float
-        95 % half-widths.
     psi_iau, omega_iau : float
         Rates of IAU 2006.
     closure, omega_closure : float
@@ -123,8 +121,6 @@ class Budget:
     omega_error: dict[str, float]
     psi_total: float
     omega_total: float
-    psi_total_error: float
-    omega_total_error: float
     psi_iau: float
     omega_iau: float
     closure: float
@@ -173,17 +169,14 @@ def budget_of(
         of_h = {FIRST_ORDER: NORMAL_95 * u_h * abs(shares[FIRST_ORDER])}
         return {e: 0.0 if e in none else math.hypot(missed, of_h.get(e, 0.0)) for e in shares}
 
-    psi_error, omega_error = errors(psi, psi_missed), errors(omega, omega_missed)
     return Budget(
         psi=psi,
         psi_published=published_contributions(list(psi)),
         omega=omega,
-        psi_error=psi_error,
-        omega_error=omega_error,
+        psi_error=errors(psi, psi_missed),
+        omega_error=errors(omega, omega_missed),
         psi_total=ours.psi_rate,
         omega_total=ours.omega_rate,
-        psi_total_error=psi_error[FIRST_ORDER],
-        omega_total_error=omega_error[FIRST_ORDER],
         psi_iau=psi_iau,
         omega_iau=omega_iau,
         closure=ours.psi_rate + published_effects()["nonrigid"] - psi_iau,

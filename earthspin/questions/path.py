@@ -454,13 +454,13 @@ def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp
     ours = analysed.our_circles
     order = np.argsort(-np.abs(ours.amplitude))[:count]
     at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
-    near = neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
-    neighbour_in, neighbour_out = phases(near.amplitude[order])
+    names, amplitude = neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
+    neighbour_in, neighbour_out = phases(amplitude[order])
     return order, {
         "period": 2 * np.pi / ours.frequency[order],
         "iau": phases(analysed.their_circles.amplitude[order]),
         "amplitude_error": amplitude_error(ours.frequency[order]),
-        "neighbour": [near.names[row] for row in order],
+        "neighbour": [names[row] for row in order],
         "neighbour_in_phase": neighbour_in,
         "neighbour_out_of_phase": neighbour_out,
         "term": term_names(ours.multiples[order]),

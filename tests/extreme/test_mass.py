@@ -16,11 +16,11 @@ from earthspin.mass.multipoles import (
     inverse_distance,
     inverse_distance_bound,
     orthonormal_functions,
-    spheroid_zonals,
 )
 from earthspin.mass.spheroid import spheroid_attraction, spheroid_potential, spheroid_torque
 from earthspin.mass.tensor import inertia_tensor, principal_axes
 from tests.extreme import Distances, holds
+from tests.mass.spheroid_reference import spheroid_zonals
 
 EPS = float(np.finfo(float).eps)
 
