@@ -17,7 +17,6 @@ from earthspin.nutation import core_nutation
 from earthspin.nutation.core_nutation import predict
 from earthspin.sky.eop import PoleSeries, read_pole_offsets
 from earthspin.wobble.observed import fit
-from earthspin.wobble.record import turning
 from tests.nutation.simulated_offsets import NOISES, excited, noise
 
 PAGE = Path(__file__).parent.parent / "docs" / "measured" / "pole-offsets.inc"
@@ -76,7 +75,7 @@ def windows(parts: tuple[tuple[float, float], ...], amplitude: float) -> tuple[f
     """Return how often the interval of the amplitude holds the truth, and how often it is seen."""
     rng = np.random.default_rng(0)
     days = np.arange(1100, dtype=np.float64) - 549.5
-    core = amplitude * turning(days, core_nutation.PERIOD)
+    core = amplitude * core_nutation.circle(days)
     inside = detected = 0
     for _ in range(WINDOWS):
         fits = core_nutation.fit(days, core + noise(rng, days.size, parts), window=1090)

@@ -11,7 +11,6 @@ from earthspin.constants import DAYS_PER_YEAR, NORMAL_95
 from earthspin.errors import UndefinedError
 from earthspin.interior.named import OBSERVED_CORE_NUTATION
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.wobble.record import in_blocks, turning
 
 # --- amplitude and phase of the free core nutation ------------------------------------------------
 # The offsets are one complex number, eta = dX + i dY. The free core nutation is a retrograde circle
@@ -79,7 +78,12 @@ class CoreNutation:
         amplitude = np.interp(time, self.time, self.amplitude.real) + 1j * np.interp(
             time, self.time, self.amplitude.imag
         )
-        return np.asarray(amplitude * turning(time, self.period))
+        return np.asarray(amplitude * circle(time, self.period))
+
+
+def circle(time: FloatArray, period: float = PERIOD) -> ComplexArray:
+    """Circular motion of unit amplitude and period T at times t: exp(2 pi i t/T)."""
+    return np.asarray(np.exp(2j * np.pi * time / period))
 
 
 def fit(
@@ -114,8 +118,12 @@ def fit(
     from scipy.special import fdtri, stdtrit
 
     spacing = (time[-1] - time[0]) / (time.size - 1)
-    middles, means, length = in_blocks(time, eta, BLOCK)
-    count, size = means.size, round(window / length)
+    block = max(1, round(BLOCK / spacing))
+    count = time.size // block
+    means = eta[: count * block].reshape(count, block).mean(axis=1)
+    middles = time[: count * block].reshape(count, block).mean(axis=1)
+    length = block * spacing
+    size = round(window / length)
     if window < SHORTEST * abs(period) or size > count:
         raise UndefinedError(
             f"a window of {window:.0f} d is not possible; it lies between "
@@ -125,7 +133,7 @@ def fit(
     local = (np.arange(size) - (size - 1) / 2) * length
     # A mean over a block shortens a circle.
     shortened = np.sinc(length / period) / np.sinc(spacing / period)
-    columns = np.column_stack([np.ones(size), local / window, turning(local, period) * shortened])
+    columns = np.column_stack([np.ones(size), local / window, circle(local, period) * shortened])
     starts = np.arange(0, count - size + 1, max(1, round(step / length)))
     series = np.lib.stride_tricks.sliding_window_view(means, size)[starts]
     # Plain sums: a BLAS rounds otherwise with another number of threads.
@@ -140,7 +148,7 @@ def fit(
         np.sqrt(power * fdtri(2, freedom, chance)) for chance in (1 - FALSE_ALARM, 0.95)
     )
     middle = middles[starts] + local[-1]
-    amplitude = coefficients[:, 2] / turning(middle, period)
+    amplitude = coefficients[:, 2] / circle(middle, period)
     half_width = np.sqrt(power / 2) * stdtrit(freedom, 0.975)
     # Below what noise alone gives, the true amplitude may be zero, and the estimate is too large.
     error = np.where(np.abs(amplitude) > noise_alone, half_width, noise_alone)
@@ -189,7 +197,7 @@ class Fits:
 
     def ahead(self, horizon: float, days: slice | int) -> ComplexArray:
         """Predict celestial pole offsets `horizon` days after each of the selected days."""
-        then = turning(np.atleast_1d(self.time[days]) + horizon, PERIOD)
+        then = circle(np.atleast_1d(self.time[days]) + horizon)
         slow, fast = np.exp(-horizon / SLOW_FADE), np.exp(-horizon / FAST_FADE)
         return np.asarray(
             self.constant[days]
@@ -260,7 +268,7 @@ def fit_each_day(time: FloatArray, eta: ComplexArray, weight: FloatArray) -> Fit
     """
     from scipy.signal import lfilter
 
-    turned = turning(time, PERIOD)
+    turned = circle(time)
 
     def total(values: ComplexArray | FloatArray, fall: float) -> ComplexArray:
         return np.asarray(lfilter([1.0], [1.0, -fall], values.astype(complex)))

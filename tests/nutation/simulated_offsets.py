@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 from scipy.signal import lfilter
 
 from earthspin.nutation import core_nutation
-from earthspin.wobble.record import turning
 
 #: Noise of simulated series: name, size in mas and memory in days of each part of it.
 NOISES = {
@@ -41,6 +40,6 @@ def excited(seed: int, years: float = 42.0) -> tuple[NDArray[np.float64], NDArra
     rng = np.random.default_rng(seed)
     days = np.arange(round(years * 365.25)).astype(float)
     walk = rng.standard_normal((days.size, 2)) @ [1, 1j] * 0.05 / np.sqrt(365.25)
-    core = (0.2 + np.cumsum(walk)) * turning(days, core_nutation.PERIOD)
+    core = (0.2 + np.cumsum(walk)) * core_nutation.circle(days)
     year = 0.03 * np.exp(2j * np.pi * days / 365.25)
     return days, core + year + noise(rng, days.size, ((0.1, 40.0), (0.08, 3.0)))
