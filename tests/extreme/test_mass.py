@@ -1,7 +1,5 @@
 """Mass distributions and their gravity fields."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Heavy symmetric top."""
 
-from __future__ import annotations
-
 import math
 from functools import partial
 

@@ -4,8 +4,6 @@ Shares nothing with the kernels: confocal coordinate by the quadratic in lambda,
 differencing closed forms (MacMillan 1930, The Theory of the Potential, sections 35 to 39).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import mpmath as mp

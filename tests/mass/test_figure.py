@@ -1,7 +1,5 @@
 """The spheroid's figure: exact forms against mpmath and quadrature, first orders against them."""
 
-from __future__ import annotations
-
 import mpmath as mp
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """MacCullagh's potential and torque: limits of the sum over the masses, and of each other."""
 
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """The expansion in (n, m): harmonics, 1/R, moments, potentials, where it converges."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

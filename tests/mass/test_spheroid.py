@@ -1,7 +1,5 @@
 """The exact spheroid against the textbook at 80 digits, quadrature, and the field equations."""
 
-from __future__ import annotations
-
 import mpmath as mp
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """The inertia tensor: exact sums, parallel axes, turns, and the bodies that cannot be."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from typing import Any
 

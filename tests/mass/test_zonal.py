@@ -1,7 +1,5 @@
 """Zonal moments: quadrature against closed forms, the exact spheroid, and point masses."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Simulated polar motion with a known free wobble, for tests of estimation methods."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.signal import lfilter
 

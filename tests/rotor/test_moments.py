@@ -1,7 +1,5 @@
 """Principal moments: digits kept, impossible bodies refused."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from typing import Any
 

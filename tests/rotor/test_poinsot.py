@@ -1,7 +1,5 @@
 """Ellipsoids, polhode and herpolhode."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import mpmath as mp

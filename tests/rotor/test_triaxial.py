@@ -1,7 +1,5 @@
 """Jacobi's closed form against the textbook at many digits, step by step, and against itself."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import mpmath as mp
