@@ -346,21 +346,12 @@ class BodyFixed(_Computed, BaseCoordinateFrame):  # type: ignore[misc]
 
 
 for _frame in (EquatorOfDate, BodyFixed):
-    frame_transform_graph.add_transform(
-        ICRS, _frame, DynamicMatrixTransform(lambda _, to: to.matrix, ICRS, _frame)
-    )
-    frame_transform_graph.add_transform(
-        _frame,
-        ICRS,
-        DynamicMatrixTransform(lambda frame, _: np.swapaxes(frame.matrix, -1, -2), _frame, ICRS),
-    )
-    frame_transform_graph.add_transform(
-        _frame,
-        _frame,
-        DynamicMatrixTransform(
-            lambda frame, to: to.matrix @ np.swapaxes(frame.matrix, -1, -2), _frame, _frame
-        ),
-    )
+    for _from, _to, _matrix in (
+        (ICRS, _frame, lambda _, to: to.matrix),
+        (_frame, ICRS, lambda frame, _: np.swapaxes(frame.matrix, -1, -2)),
+        (_frame, _frame, lambda frame, to: to.matrix @ np.swapaxes(frame.matrix, -1, -2)),
+    ):
+        frame_transform_graph.add_transform(_from, _to, DynamicMatrixTransform(_matrix, _from, _to))
 
 
 class SkyfieldFrame:

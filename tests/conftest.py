@@ -1,7 +1,5 @@
 """What every test may use: pinned numbers, a result, the kernel."""
 
-from __future__ import annotations
-
 import json
 import os
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Python code in processes of their own."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

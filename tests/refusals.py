@@ -1,7 +1,5 @@
 """Tests of refused input as tables: calls or arguments, the error that each raises, its words."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

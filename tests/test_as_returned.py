@@ -3,8 +3,6 @@
 No offset, trend or mean is removed before a comparison.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The command `ensemble`: a store and a table, lines for programs, one line for what is wrong."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

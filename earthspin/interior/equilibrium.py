@@ -74,7 +74,7 @@ def equilibrium(body: LayeredBody) -> Equilibrium:
     y5, y7 = (5 / pair[1, 0] * np.array(solutions)).T
     tops = np.array(profile.tops)
     enclosed = tops**3 * (y5 - tops * y7 / 5)
-    at_core = profile.tops.index(body.core_radius / body.radius) if body.core_radius else None
+    at_core = profile.tops.index(profile.core) if profile.core else None
     return Equilibrium(
         k=float(y5[-1] - 1),
         core_k=0.0 if at_core is None else float(enclosed[at_core]),
@@ -98,36 +98,46 @@ def hydrostatic_core(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
 
 
 @dataclass(frozen=True)
-class Figure:
-    """Ellipticities and moments of a body in hydrostatic equilibrium, and of its core regions.
+class Regions:
+    """Ellipticities and moments of a body, its fluid core and its inner core.
 
     Attributes
     ----------
     e, e_f, e_s : float
         (C - A)/A of the whole body, the fluid core and the inner core; 0 for an absent region.
-    e_core : float
-        (C - A)/A of the fluid core and inner core together.
     fluid, inner : float
-        Relative equatorial moments A_f/A and A_s/A.
+        Relative equatorial moments A_f/A and A_s/A; 0 for an absent region.
     a1, a2, a3 : float
         Coupling numbers of the inner core (Mathews, Buffett, Herring & Shapiro 1991, JGR 96,
         8219): the fraction of its C - A that fluid in the same volume would have; the torque on it
         by all other regions, pressure included; and the excess, 1 - a1.
+    """
+
+    e: Numeric
+    e_f: Numeric
+    e_s: Numeric
+    fluid: Numeric
+    inner: Numeric
+    a1: Numeric
+    a2: Numeric
+    a3: Numeric
+
+
+@dataclass(frozen=True)
+class Figure(Regions):
+    """Regions of a body in hydrostatic equilibrium.
+
+    Attributes
+    ----------
+    e_core : float
+        (C - A)/A of the fluid core and inner core together.
     unit : float
         Omega2 R5/(3 G A): product of inertia over A per radian and unit of a Love number.
     surface : float
         Flattening of the surface.
     """
 
-    e: float
-    e_f: float
-    e_s: float
     e_core: float
-    fluid: float
-    inner: float
-    a1: float
-    a2: float
-    a3: float
     unit: float
     surface: float
 
@@ -174,8 +184,8 @@ def figure(layers: LayeredBody, spin_rate: float) -> Figure:
     gravity = G.value * layers.mass / layers.radius**2
     centrifugal = spin_rate**2 * layers.radius / gravity
     if layers.inner_core_radius:
-        r = layers.inner_core_radius / layers.radius
         profile = Profile(layers)
+        r = profile.inner_core
         i = profile.tops.index(r)
         excess["inner"] = float(scale * rest.enclosed[i])
         share["inner"] = layers.moment_of_inertia(layers.inner_core_radius) / moment

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from earthspin.constants import G
 from earthspin.errors import UndefinedError
 from earthspin.interior.layers import Layer, LayeredBody
 from earthspin.numerics.arrays import Array
-from earthspin.numerics.polynomials import carry as by_collocation
+from earthspin.numerics.polynomials import carry
 
 # --- equations of static deformation --------------------------------------------------------------
 # In the notation of Takeuchi & Saito (1972, Methods in Computational Physics 11, eq. 82):
@@ -40,6 +40,8 @@ class Profile:
     def __init__(self, body: LayeredBody) -> None:
         self.layers = body.layers
         self.tops = [layer.top / body.radius for layer in body.layers]
+        self.core = body.core_radius / body.radius
+        self.inner_core = body.inner_core_radius / body.radius
         #: The layer in which the integration starts; of the layers below it only the mass matters.
         self.first = next(i for i, top in enumerate(self.tops) if top > START)
         self.density_unit = body.mass / (4 / 3 * np.pi * body.radius**3)
@@ -152,30 +154,6 @@ def liquid_centre(profile: Profile, i: int, r: float = START) -> Array:
 
 # --- Love numbers and core response ---------------------------------------------------------------
 
-
-class Carry(Protocol):
-    """Interface of a function that integrates dy/dr = M(r) y from one radius to another.
-
-    The solutions y are columns of an array of shape (..., n, columns).
-    """
-
-    def __call__(
-        self,
-        matrix: Callable[[Array], Array],
-        start: float,
-        stop: float,
-        y: Array,
-        /,
-        *,
-        together: bool = False,
-    ) -> Array:
-        """Integrate solutions y (columns of an array) from radius `start` to radius `stop`.
-
-        `together` means that only linear combinations of the columns are needed.
-        """
-        ...
-
-
 #: Amplitude of each potential, and of a load's potential, in inner core, fluid core and mantle.
 _ACTS_IN = np.array([[1.0, 0.0, 1.0, 1.0], [1.0, 1.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0]])
 _LOAD = 3
@@ -230,7 +208,7 @@ class Yielding:
         return np.asarray(self.answers[..., 1:, 1:].sum(axis=(-1, -2)))
 
 
-def yielding(body: LayeredBody, strain: Any = 0.0, carry: Carry = by_collocation) -> Yielding:
+def yielding(body: LayeredBody, strain: Any = 0.0) -> Yielding:
     """Compute Love numbers of a layered body, and responses to potentials in each region.
 
     Parameters
@@ -239,8 +217,6 @@ def yielding(body: LayeredBody, strain: Any = 0.0, carry: Carry = by_collocation
     strain : complex or array
         Relative change of the shear modulus at quality factor 1; a layer's modulus is multiplied by
         1 + strain/shear_q. 0 is the elastic body at seismic periods.
-    carry : callable
-        Integrator of the equations.
 
     Raises
     ------
@@ -267,7 +243,7 @@ def yielding(body: LayeredBody, strain: Any = 0.0, carry: Carry = by_collocation
             )
     strain = np.asarray(strain)
     flat = np.atleast_1d(strain).ravel()
-    solution = _solved(Profile(body), body, flat, carry)
+    solution = _solved(Profile(body), flat)
     return Yielding(*(value.reshape((*strain.shape, *value.shape[1:])) for value in solution))
 
 
@@ -313,19 +289,19 @@ def softening(layers: LayeredBody) -> tuple[np.polynomial.Chebyshev, ...]:
 # potential differs by d across a boundary, y5 jumps by d r2, and y6 by 5 d r.
 
 
-def _solved(profile: Profile, body: LayeredBody, strain: Array, carry: Carry) -> tuple[Array, ...]:
+def _solved(profile: Profile, strain: Array) -> tuple[Array, ...]:
     """Solve the deformation equations with their boundary conditions, for all potentials."""
-    if not body.core_radius:
-        y = _across(profile, profile.first, solid_centre(profile, strain), strain, carry)
+    if not profile.core:
+        y = _across(profile, profile.first, solid_centre(profile, strain), strain)
         bottom = y = np.concatenate([y, np.zeros((strain.size, 6, 4))], axis=-1)
         conditions: list[Array] = []
         inner = core = None
     else:
-        first, inner, conditions = _through_inner_core(profile, body, strain, carry)
-        pair, i = _through_liquid(profile, body, first, carry)
-        bottom = _onto_mantle(profile, body, pair)
+        first, inner, conditions = _through_inner_core(profile, strain)
+        pair, i = _through_liquid(profile, first)
+        bottom = _onto_mantle(profile, pair)
         core = bottom
-        y = _across(profile, i, bottom, strain, carry)
+        y = _across(profile, i, bottom, strain)
     sources = np.zeros((3, 4))
     sources[0, _LOAD] = -5 / 3  # weight of the load
     sources[2] = 5 * _ACTS_IN[2]
@@ -339,11 +315,9 @@ def _solved(profile: Profile, body: LayeredBody, strain: Array, carry: Carry) ->
     answers = np.zeros((strain.size, 3, 4), dtype=top.dtype)
     answers[:, 0] = top[:, 4] - _ACTS_IN[2]
     if core is not None:
-        b = body.core_radius / body.radius
-        answers[:, 1] = _inside(core @ weights, b)
+        answers[:, 1] = _inside(core @ weights, profile.core)
     if inner is not None:
-        r = body.inner_core_radius / body.radius
-        answers[:, 2] = _inside(inner @ weights, r)
+        answers[:, 2] = _inside(inner @ weights, profile.inner_core)
         answers[:, 1] -= answers[:, 2]
     lift = top[:, 4] - top[:, 0]
     return (
@@ -358,7 +332,7 @@ def _inside(state: Array, r: float) -> Array:
     return np.asarray(r**3 * (state[:, 4] - r * state[:, 5] / 5))
 
 
-def _across(profile: Profile, first: int, y: Array, strain: Array, carry: Carry) -> Array:
+def _across(profile: Profile, first: int, y: Array, strain: Array) -> Array:
     """Integrate the deformation equations through solid layers, up to a liquid or the surface."""
     r = START if first == profile.first else profile.tops[first - 1]
     for i in range(first, len(profile.tops)):
@@ -371,21 +345,19 @@ def _across(profile: Profile, first: int, y: Array, strain: Array, carry: Carry)
     return y
 
 
-def _through_inner_core(
-    profile: Profile, body: LayeredBody, strain: Array, carry: Carry
-) -> tuple[Array, Array | None, list[Array]]:
+def _through_inner_core(profile: Profile, strain: Array) -> tuple[Array, Array | None, list[Array]]:
     """Integrate the deformation equations through the inner core, from the centre outwards.
 
     Return (y5, y7) in the liquid, the state at the top of the inner core, and conditions there.
     """
-    if not body.inner_core_radius:
+    if not profile.inner_core:
         pair = np.zeros((strain.size, 2, 3 + 4), dtype=strain.dtype)
         pair[:, :, 0] = liquid_centre(profile, profile.first)
         return pair, None, []
-    y = _across(profile, profile.first, solid_centre(profile, strain), strain, carry)
+    y = _across(profile, profile.first, solid_centre(profile, strain), strain)
     blank = np.zeros((strain.size, 6, 2 + 4))
     y = np.concatenate([y, blank], axis=-1)
-    r = body.inner_core_radius / body.radius
+    r = profile.inner_core
     i = profile.tops.index(r) + 1
     rho, g = profile.density(i, r), profile.gravity(i, r)
     y5, y6 = _stepped(y, r, _ACTS_IN[1] - _ACTS_IN[0])
@@ -406,11 +378,9 @@ def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
     return y5, y6
 
 
-def _through_liquid(
-    profile: Profile, body: LayeredBody, pair: Array, carry: Carry
-) -> tuple[Array, int]:
+def _through_liquid(profile: Profile, pair: Array) -> tuple[Array, int]:
     """Values of potential y5 and gradient y7 at the top of the liquid core, and the next layer."""
-    r = body.inner_core_radius / body.radius or START
+    r = profile.inner_core or START
     liquids = (n for n, layer in enumerate(profile.layers) if not layer.vs)
     i = max(next(liquids), profile.first)
     while not profile.layers[i].vs:
@@ -419,12 +389,12 @@ def _through_liquid(
     return pair, i
 
 
-def _onto_mantle(profile: Profile, body: LayeredBody, pair: Array) -> Array:
+def _onto_mantle(profile: Profile, pair: Array) -> Array:
     """Initial solutions at the base of the mantle, from those at the top of the liquid core.
 
     Two columns are unit displacements of the mantle, which are free because the liquid may slip.
     """
-    b = body.core_radius / body.radius
+    b = profile.core
     i = profile.tops.index(b)
     rho, g = profile.density(i, b), profile.gravity(i, b)
     y = np.zeros((pair.shape[0], 6, pair.shape[2]), dtype=pair.dtype)

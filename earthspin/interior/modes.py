@@ -32,12 +32,12 @@ is neglected.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from operator import itemgetter
 
 import numpy as np
 
-from earthspin.interior.equilibrium import figure
+from earthspin.interior.equilibrium import Regions, figure
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import elastic
 from earthspin.numerics.arrays import Array, Numeric
@@ -47,17 +47,11 @@ MODES = ("chandler_wobble", "free_core_nutation", "inner_core_nutation", "inner_
 
 
 @dataclass(frozen=True)
-class Parts:
+class Parts(Regions):
     """Parameters of the coupled rotation of mantle and core; floats, or arrays of one shape.
 
     Attributes
     ----------
-    e, e_f, e_s : float
-        (C - A)/A of the whole body, the fluid core and the inner core.
-    fluid, inner : float
-        Relative equatorial moments A_f/A and A_s/A; 0 for an absent region.
-    a1, a2, a3 : float
-        Coupling numbers of the inner core (`equilibrium.Figure`).
     answers : array, shape (..., 3, 3), complex
         Products of inertia, divided by A, of the whole body, fluid core and inner core, for unit
         wobbles m, m_f and m_s.
@@ -66,14 +60,6 @@ class Parts:
         in the units of e_f and e_s (Buffett, Mathews & Herring 2002, JGR 107(B4), 2070).
     """
 
-    e: Numeric
-    e_f: Numeric
-    e_s: Numeric
-    fluid: Numeric
-    inner: Numeric
-    a1: Numeric
-    a2: Numeric
-    a3: Numeric
     answers: Array
     k_cmb: Numeric = 0.0
     k_icb: Numeric = 0.0
@@ -219,10 +205,8 @@ def parts_of(layers: LayeredBody, spin_rate: float, answers: Array, e: float) ->
         (C - A)/A of the whole body.
     """
     f = figure(layers, spin_rate)
-    return Parts(
-        e=e, e_f=f.e_f, e_s=f.e_s, fluid=f.fluid, inner=f.inner, a1=f.a1, a2=f.a2, a3=f.a3,
-        answers=f.unit * answers,
-    )  # fmt: skip
+    regions = {field.name: getattr(f, field.name) for field in fields(Regions)}
+    return Parts(**regions | {"e": e}, answers=f.unit * answers)
 
 
 def numbers_of(layers: LayeredBody, spin_rate: float) -> dict[str, float]:

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field, replace
 
 from earthspin.constants import (
     COMPUTED,
-    IERS,
     MARS_GM,
     MARS_J2,
     MARS_POLAR_MOMENT,
@@ -257,13 +256,6 @@ OBSERVED_CORE_NUTATION = Constant(
     0.10 / 1.00273790935,
     "Krasna, Boehm & Schuh 2013, A&A 555, A29: -431.18 +/- 0.10 sidereal days",
     "abstract of the paper, aanda.org/articles/aa/full_html/2013/07/aa21585-13",
-)
-CORE_NUTATION_QUALITY = Constant(
-    20000.0,
-    "",
-    None,
-    _MHB + ", rounded; 20,046 of the 0.000025 in " + IERS + ", table 6.4",
-    "codes of the diurnal Love numbers in public repositories: 1.0023181 + 0.000025 i",
 )
 #: Coupling constants of the core's boundaries, magnetic according to that paper; all inferred from
 #: nutation. Of that to the mantle this is the out-of-phase part: the part in phase acts as an

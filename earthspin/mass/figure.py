@@ -1,7 +1,7 @@
 """Figure, moments of inertia and distant gravity of oblate bodies.
 
-Holds the exact and first-order geometry and moments of homogeneous and layered spheroids (I.9.35 to
-I.9.52), the relations between J2, H and e, and MacCullagh's potential and torque.
+Holds the exact and first-order geometry and moments of homogeneous spheroids (I.9.35 to I.9.52),
+the relations between J2, H and e, and MacCullagh's potential and torque.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from numpy.typing import ArrayLike
 
 from earthspin.constants import G
 from earthspin.errors import BodyError, UndefinedError
-from earthspin.mass.tensor import first_wrong, positive, tensor_about_point, vectors
+from earthspin.mass.tensor import first_wrong, positive, vectors
 from earthspin.numerics.arrays import FloatArray, Numeric
 
-# --- homogeneous and layered spheroids ------------------------------------------------------------
+# --- homogeneous spheroids ------------------------------------------------------------------------
 # The spheroid has the equatorial radius a, the polar one c = a (1 - f), and
 #
 #     e2 = (a2 - c2)/a2 = f (2 - f)
@@ -185,32 +185,6 @@ def spheroid_moments(mass: ArrayLike, radius: ArrayLike, flattening: ArrayLike) 
     return Moments(np.asarray(fifth * (1 + axis_ratio**2)), polar, np.asarray(fifth * e2))
 
 
-def spheroid_tensor(
-    mass: ArrayLike,
-    radius: ArrayLike,
-    flattening: ArrayLike,
-    about: ArrayLike = (0.0, 0.0, 0.0),
-) -> FloatArray:
-    """Exact inertia tensor of a homogeneous spheroid with its axis along z.
-
-    Parameters
-    ----------
-    mass, radius, flattening
-        As for `spheroid_moments`.
-    about : array_like, shape (..., 3)
-        Reference point, from the centre of the spheroid, m.
-
-    Returns
-    -------
-    ndarray, shape (..., 3, 3)
-        kg m2.
-    """
-    moments = spheroid_moments(mass, radius, flattening)
-    equatorial, polar = np.broadcast_arrays(moments.equatorial, moments.polar)
-    diagonal = np.stack([equatorial, equatorial, polar], axis=-1)
-    return tensor_about_point(diagonal[..., np.newaxis] * np.eye(3), mass, about)
-
-
 def moment_difference_first_order(
     mass: ArrayLike, radius: ArrayLike, flattening: ArrayLike
 ) -> FloatArray:
@@ -239,87 +213,6 @@ def moment_difference_from_density(
     rho = positive("spheroid", "density", density)
     a = positive("spheroid", "mean radius", mean_radius)
     return np.asarray(8 * np.pi / 15 * check_flattening(flattening) * rho * a**5)
-
-
-def ellipticity_homogeneous(flattening: ArrayLike) -> FloatArray:
-    """Exact dynamical ellipticity (C - A)/A = (a2 - c2)/(a2 + c2) of a homogeneous spheroid.
-
-    McCullough's formula (I.9.52) approximates it by the flattening.
-    """
-    e2 = eccentricity_squared(flattening)
-    return np.asarray(e2 / (2 - e2))
-
-
-def mccullough_error(flattening: ArrayLike) -> FloatArray:
-    """Exact error of the approximation (C - A)/A = f for a homogeneous spheroid.
-
-    It is about f2/2. For the effect of density variations, see `layered_moments`.
-    """
-    f = check_flattening(flattening)
-    return np.asarray(f**2 * (1 - f) / (2 - eccentricity_squared(f)))
-
-
-def layered_moments(
-    radii: ArrayLike, densities: ArrayLike, flattenings: ArrayLike
-) -> tuple[float, Moments]:
-    """Exact mass and moments of homogeneous layers between concentric coaxial spheroids.
-
-    If all layers have the same flattening, (C - A)/A = (a2 - c2)/(a2 + c2) for any density profile.
-    If the core is rounder than the surface, as in the Earth, (C - A)/A is smaller than the
-    flattening given by McCullough's formula.
-
-    Parameters
-    ----------
-    radii : array_like, shape (n,)
-        Equatorial radii of the outer surfaces of the layers, from the core outwards, m.
-    densities : array_like, shape (n,)
-        Densities of the layers, kg m-3.
-    flattenings : array_like, shape (n,)
-        Flattenings of the outer surfaces.
-
-    Returns
-    -------
-    mass : float
-        kg.
-    moments : Moments
-        kg m2.
-
-    Raises
-    ------
-    UndefinedError
-        If a surface does not lie within the next.
-    """
-    a = positive("layered spheroid", "radius", np.atleast_1d(radii))
-    rho = positive("layered spheroid", "density", np.atleast_1d(densities))
-    f = check_flattening(np.atleast_1d(flattenings))
-    if not a.shape == rho.shape == f.shape or a.ndim != 1:
-        raise UndefinedError(
-            f"radii, densities and flattenings have the shapes {a.shape}, {rho.shape} and "
-            f"{f.shape}; give one of each per layer"
-        )
-    _check_nested(a, f)
-    excess = rho - np.append(rho[1:], 0.0)  # of each spheroid over the layer around it
-    mass = 4 * np.pi / 3 * excess * a**3 * (1 - f)
-    fifth = mass * a**2 / 5
-    e2 = f * (2 - f)
-    moments = Moments(
-        np.asarray(np.sum(fifth * (1 + (1 - f) ** 2))),
-        np.asarray(np.sum(2 * fifth)),
-        np.asarray(np.sum(fifth * e2)),
-    )
-    return float(np.sum(mass)), moments
-
-
-def _check_nested(radii: FloatArray, flattenings: FloatArray) -> None:
-    """Raise an error if layers intersect or touch, at the equator or at the pole."""
-    for name, sizes in (("equatorial", radii), ("polar", radii * (1 - flattenings))):
-        wrong = np.diff(sizes) <= 0
-        if np.any(wrong):
-            k = int(np.argmax(wrong))
-            raise UndefinedError(
-                f"layer {k} has the {name} radius {sizes[k]:g} m and the one around it "
-                f"{sizes[k + 1]:g} m; give the layers from the core outwards, each inside the next"
-            )
 
 
 # --- J2, H and e ----------------------------------------------------------------------------------
@@ -354,17 +247,12 @@ def ellipticity_from_h(h: Numeric) -> Numeric:
     return h / (1 - h)
 
 
-def h_from_ellipticity(e: Numeric) -> Numeric:
-    """Dynamical flattening H = (C - A)/C from the dynamical ellipticity e = (C - A)/A."""
-    return e / (1 + e)
-
-
 def h_mccullough(flattening: Numeric) -> Numeric:
     """Dynamical flattening H from the geometric flattening f, assuming (C - A)/A = f (I.9.52).
 
     McCullough's formula holds for a homogeneous spheroid, to first order in the flattening.
     """
-    return h_from_ellipticity(flattening)
+    return flattening / (1 + flattening)
 
 
 def h_homogeneous(j2: Numeric) -> Numeric:

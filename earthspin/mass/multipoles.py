@@ -16,7 +16,7 @@ from scipy.integrate import quad_vec
 
 from earthspin.constants import G
 from earthspin.errors import AccuracyError, BodyError, UndefinedError
-from earthspin.mass.figure import Moments, eccentricity_squared
+from earthspin.mass.figure import Moments
 from earthspin.mass.tensor import degree, first_wrong, point_masses, positive, vectors
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 
@@ -305,14 +305,11 @@ class Multipoles:
         dm (radius/r')^(n + 1) C*_nm inside.
     radius : float
         Radius of convergence and unit of length of the moments, m.
-    mass : float
-        Total mass of the sources, kg.
     """
 
     side: str
     moments: ComplexArray
     radius: float
-    mass: float
 
     @property
     def n_max(self) -> int:
@@ -368,17 +365,6 @@ class Multipoles:
             total = total * ratio
         return np.asarray(-G.value / self.radius * total)
 
-    def truncation_bound(self, position: ArrayLike) -> FloatArray:
-        """Bound on the error of `potential` from the terms above degree n_max, m2 s-2.
-
-        The bound is G M/|r - radius| q^(n_max + 1), where q < 1 is the ratio of r and radius.
-        """
-        _, ratio = self._converging(position)
-        scale = G.value * self.mass / self.radius
-        if self.side == "exterior":
-            return np.asarray(scale * ratio ** (self.n_max + 2) / (1 - ratio))
-        return np.asarray(scale * ratio ** (self.n_max + 1) / (1 - ratio))
-
     def _converging(self, position: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Return position over reference radius, and convergence ratio; refuse divergence."""
         scaled = vectors("position", position) / self.radius
@@ -419,7 +405,7 @@ def exterior_multipoles(
         raise UndefinedError(
             f"radius = {outer:g} m does not contain the mass at {farthest:g} m; give that or more"
         )
-    return Multipoles("exterior", _moments(m, r / outer, n_max), outer, float(np.sum(m)))
+    return Multipoles("exterior", _moments(m, r / outer, n_max), outer)
 
 
 def interior_multipoles(
@@ -444,7 +430,7 @@ def interior_multipoles(
         )
     ratio = inner / distance
     inverted = r / inner * ratio[:, np.newaxis] ** 2
-    return Multipoles("interior", _moments(m * ratio, inverted, n_max), inner, float(np.sum(m)))
+    return Multipoles("interior", _moments(m * ratio, inverted, n_max), inner)
 
 
 def _moments(masses: FloatArray, scaled: FloatArray, n_max: int) -> ComplexArray:
@@ -521,7 +507,6 @@ def zonal_integrals(
     ----------
     density : callable
         rho(r, theta) in kg m-3 from arrays of distances (m) and colatitudes (rad); smooth.
-        For a layered body use `earthspin.mass.figure.layered_moments`.
     perimeter : callable
         Surface of the body, r(theta), m.
     n_max : int
@@ -584,27 +569,6 @@ def zonal_moments(integrals: ArrayLike, radius: float) -> FloatArray:
     """
     z = np.asarray(integrals, dtype=float)
     return np.asarray(-G.value * float(radius) ** np.arange(z.size) * z)
-
-
-def geodetic_zonals(integrals: ArrayLike) -> FloatArray:
-    """Dimensionless zonal coefficients J_n of geodesy, from the zonal integrals Z_n.
-
-    They are -Z_n/M, so that J0 = -1 and J2 = (C - A)/(M s2) with the reference radius s.
-    """
-    z = np.asarray(integrals, dtype=float)
-    return np.asarray(-z / positive("body", "mass", z[0]))
-
-
-def spheroid_zonals(flattening: float, n_max: int) -> FloatArray:
-    """Exact zonal coefficients J_n of a homogeneous spheroid, for its equatorial radius.
-
-    J_2k = (-1)^(k+1) 3 e^2k/[(2k + 1)(2k + 3)], J0 = -1, and odd coefficients are zero.
-    """
-    e2 = float(eccentricity_squared(flattening))
-    zonals = np.zeros(degree("n_max", n_max) + 1)
-    for k in range(n_max // 2 + 1):
-        zonals[2 * k] = -3 * (-e2) ** k / ((2 * k + 1) * (2 * k + 3))
-    return zonals
 
 
 def zonal_potential(

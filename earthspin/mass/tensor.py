@@ -222,15 +222,10 @@ def tensor_about_point(tensor: ArrayLike, mass: ArrayLike, offset: ArrayLike) ->
     offset : array_like, shape (..., 3)
         From the centre of mass to the point, m.
     """
-    return np.asarray(np.asarray(tensor, dtype=float) + _offset_tensor(mass, offset))
-
-
-def tensor_about_centre(tensor: ArrayLike, mass: ArrayLike, offset: ArrayLike) -> FloatArray:
-    """Inertia tensor about the centre of mass, from that about another point.
-
-    The result is a difference and loses more digits the farther the point is from the body.
-    """
-    return np.asarray(np.asarray(tensor, dtype=float) - _offset_tensor(mass, offset))
+    m, d = positive(_BODY, "mass", mass), vectors("offset", offset)
+    outer = np.asarray(d[..., :, np.newaxis] * d[..., np.newaxis, :])
+    moved = tensor_of_second_moments(m[..., np.newaxis, np.newaxis] * outer)
+    return np.asarray(np.asarray(tensor, dtype=float) + moved)
 
 
 def angular_momentum(tensor: ArrayLike, omega: ArrayLike) -> FloatArray:
@@ -353,13 +348,6 @@ def _refuse(wrong: FloatArray, field: str, value: FloatArray, allowed: str) -> N
     """Raise an error that shows the first value marked in `wrong`, if any is marked."""
     if np.any(wrong):
         raise BodyError(_BODY, field, value[wrong][0].tolist(), allowed)
-
-
-def _offset_tensor(mass: ArrayLike, offset: ArrayLike) -> FloatArray:
-    """Inertia tensor of a point mass about a point at the vector `offset` from the mass."""
-    m, d = positive(_BODY, "mass", mass), vectors("offset", offset)
-    outer = np.asarray(d[..., :, np.newaxis] * d[..., np.newaxis, :])
-    return tensor_of_second_moments(m[..., np.newaxis, np.newaxis] * outer)
 
 
 def tensor_of_second_moments(second: FloatArray) -> FloatArray:

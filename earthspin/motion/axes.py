@@ -18,7 +18,13 @@ import numpy as np
 
 from earthspin.constants import ARCSEC, DAY, NORMAL_95
 from earthspin.errors import UndefinedError
-from earthspin.motion.forces import Forces, equatorial_basis, semidiurnal_amplitudes, tilt_of_figure
+from earthspin.motion.forces import (
+    Figure,
+    Forces,
+    equatorial_basis,
+    semidiurnal_amplitudes,
+    tilt_of_figure,
+)
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.numerics.polynomials import Windows, integrated
 
@@ -148,9 +154,7 @@ def solve(
     series = windows.coefficients(rate)
     figure, fast = forces.figure, None
     if figure.triaxiality:
-        amplitudes = semidiurnal_amplitudes(
-            windows, tensor, axis, tilt, figure.triaxiality, figure.spin_rate, tau
-        )
+        amplitudes = semidiurnal_amplitudes(windows, tensor, axis, tilt, figure)
         fast = np.asarray(windows.coefficients(amplitudes))
     return Segment(
         windows=windows,
@@ -251,12 +255,8 @@ class AxisPath:
         Legendre series of angular momentum minus figure axis, rad.
     fast : ndarray, shape (3, w, n), complex, or None
         Legendre series of the semidiurnal amplitudes of `AXES`, for a triaxial body.
-    spin_rate : float
-        Spin rate, rad/s.
-    a_over_c : float
-        Equatorial over polar moment of inertia.
-    meridian : float
-        Angle of the axis of least moment at J2000.0, rad.
+    body : Figure
+        Flattening, spin rate and meridian of the body.
     interpolation_error : float
         Error from interpolating the torques between nodes, rad.
     floor : float
@@ -270,9 +270,7 @@ class AxisPath:
     momentum: FloatArray
     tilt: FloatArray
     fast: ComplexArray | None
-    spin_rate: float
-    a_over_c: float
-    meridian: float
+    body: Figure
     interpolation_error: float
     floor: float
     rounds: int
@@ -320,7 +318,7 @@ class AxisPath:
         momentum = self.windows.evaluate(self.momentum, times)
         tilt = self.windows.evaluate(self.tilt, times)
         figure = momentum - tilt
-        axes = np.stack([momentum, figure + tilt / self.a_over_c, figure])
+        axes = np.stack([momentum, figure + tilt / (1 - self.body.h), figure])
         if semidiurnal and self.fast is not None:
             axes += self._fast_at(times, figure)
         axes /= np.sqrt(np.sum(axes * axes, axis=1, keepdims=True))
@@ -329,7 +327,7 @@ class AxisPath:
     def _fast_at(self, times: FloatArray, figure: FloatArray) -> FloatArray:
         """Semidiurnal displacement of the three axes of a triaxial body, shape (3, 3, t)."""
         assert self.fast is not None
-        phase = np.exp(2j * (self.spin_rate * times + self.meridian))
+        phase = np.exp(2j * (self.body.spin_rate * times + self.body.meridian))
         move = self.windows.evaluate(self.fast, times) * phase
         towards_x, across_x = equatorial_basis(figure / np.sqrt(np.sum(figure * figure, axis=0)))
         return np.asarray(
@@ -377,7 +375,6 @@ def axis_path(
     UndefinedError
         If the body spins too slowly for its axis to stay near the angular momentum.
     """
-    figure = forces.figure
     segments: list[Segment] = []
     for edges, forward in _directions(epoch, span, limits, window):
         start, mean_rate, solved = start_axis, np.zeros(3), 0
@@ -402,9 +399,7 @@ def axis_path(
         momentum=np.concatenate([s.momentum for s in segments], axis=1),
         tilt=np.concatenate([s.tilt for s in segments], axis=1),
         fast=np.concatenate(fast, axis=1) if fast else None,
-        spin_rate=figure.spin_rate,
-        a_over_c=1 - figure.h,
-        meridian=figure.meridian,
+        body=forces.figure,
         interpolation_error=max(s.tail for s in segments),
         floor=max(s.floor for s in segments) + sum(s.left for s in segments) + float(rounding),
         rounds=max(s.rounds for s in segments),

@@ -8,7 +8,7 @@ mean over equal parts of the span; their scatter gives its uncertainty.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.stats import t as students_t
@@ -87,14 +87,7 @@ def divergence(
     direction : int
         Axis of the sky about which the neighbour is rotated.
     """
-    lane = body.first()
-    both = replace(
-        lane,
-        c_minus_a=np.repeat(lane.c_minus_a, 2),
-        c_minus_b=np.repeat(lane.c_minus_b, 2),
-        tide=np.repeat(lane.tide, 2),
-    )
-    solver = Solver(both, masses, True, TOLERANCE)
+    solver = Solver(body.first(copies=2), masses, True, TOLERANCE)
     solver.begin_with(start.spin)
     q, momentum = start.attitude[:, :1], start.momentum[:, :1]
     state = np.concatenate([rotations.rotated(q, momentum), q])

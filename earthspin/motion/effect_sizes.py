@@ -99,9 +99,7 @@ def _semidiurnal(
     """Largest amplitude of the semidiurnal motion of the figure axis of a triaxial body, rad."""
     figure = forces.figure
     tilt, _ = tilt_of_figure(windows, axis, rate, figure.tau, 0)
-    amplitudes = semidiurnal_amplitudes(
-        windows, tensor, axis, tilt, figure.triaxiality, figure.spin_rate, figure.tau
-    )
+    amplitudes = semidiurnal_amplitudes(windows, tensor, axis, tilt, figure)
     return float(np.max(np.abs(amplitudes[-1])))
 
 

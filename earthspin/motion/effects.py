@@ -12,7 +12,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from earthspin.constants import DAYS_PER_YEAR, MAS, SPEED_OF_LIGHT, UAS
-from earthspin.motion.forces import Forces, Places, RateLaw, Torque
+from earthspin.motion.forces import Forces, Places, RateLaw
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.polynomials import Windows
 from earthspin.torque.gravity import cross, dot
@@ -73,11 +73,9 @@ def add(effect: Effect) -> Effect:
 # Torques of the planets on the equatorial bulge of a body.
 
 
-def _add_planets(forces: Forces, body: Numbers) -> Forces:
-    return replace(forces, gm={**forces.gm, **forces.far})
-
-
-PLANETS = add(Effect("planets", _add_planets))
+PLANETS = add(
+    Effect("planets", lambda forces, body: replace(forces, gm={**forces.gm, **forces.far}))
+)
 
 
 # --- J3 and J4 ------------------------------------------------------------------------------------
@@ -158,29 +156,19 @@ def geodesic_rate(
     return total
 
 
-def geodesic_torque(primary: str) -> Torque:
-    """Make a function that gives geodesic precession about a mass as an equivalent torque.
-
-    Parameters
-    ----------
-    primary : str
-        See `geodesic_rate`.
-    """
-
-    def over(forces: Forces, windows: Windows, place: Places) -> RateLaw:
-        near = {name: forces.gm[name] for name in {primary, *forces.near}}
-        velocity = {name: windows.derivative(place[name]) for name in near}
-        rate = geodesic_rate(near, place, velocity, primary)
-        return lambda axis, momentum: cross(rate, momentum)
-
-    return over
+def geodesic_torque(forces: Forces, windows: Windows, place: Places) -> RateLaw:
+    """Geodesic precession about the Sun as an equivalent torque, a `Torque` of `Forces`."""
+    near = {name: forces.gm[name] for name in {"sun", *forces.near}}
+    velocity = {name: windows.derivative(place[name]) for name in near}
+    rate = geodesic_rate(near, place, velocity, "sun")
+    return lambda axis, momentum: cross(rate, momentum)
 
 
 def _add_geodesic(forces: Forces, body: Numbers) -> Forces:
     # The effect needs the Sun among the perturbers.
     if "sun" not in forces.gm:
         return forces
-    return replace(forces, torques=(*forces.torques, geodesic_torque("sun")))
+    return replace(forces, torques=(*forces.torques, geodesic_torque))
 
 
 GEODESIC = add(Effect("geodesic", _add_geodesic))
@@ -205,11 +193,7 @@ J2_RATE = add(Effect("j2-rate", _set_j2_trend, coefficient="j2_rate"))
 # Torques are computed for the nutating axis instead of the mean pole.
 
 
-def _follow_axis(forces: Forces, body: Numbers) -> Forces:
-    return replace(forces, mean_pole=None)
-
-
-SECOND_ORDER = add(Effect("second-order", _follow_axis))
+SECOND_ORDER = add(Effect("second-order", lambda forces, body: replace(forces, mean_pole=None)))
 
 
 # --- response of the interior ---------------------------------------------------------------------

@@ -90,14 +90,14 @@ class Rigid:
         """Number of rigid bodies, each of which has one column (lane) in all arrays."""
         return int(self.tide.size)
 
-    def first(self) -> Rigid:
-        """Return the parameters of the first body only."""
-        lane = slice(0, 1)
+    def first(self, copies: int = 1) -> Rigid:
+        """Body of the first lane, without the others, in a given number of lanes."""
+        lanes = np.zeros(copies, dtype=int)
         return replace(
             self,
-            c_minus_a=self.c_minus_a[lane],
-            c_minus_b=self.c_minus_b[lane],
-            tide=self.tide[lane],
+            c_minus_a=self.c_minus_a[lanes],
+            c_minus_b=self.c_minus_b[lanes],
+            tide=self.tide[lanes],
         )
 
     def spin(self, state: FloatArray) -> FloatArray:

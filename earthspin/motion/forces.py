@@ -259,13 +259,7 @@ def equatorial_basis(figure: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def semidiurnal_amplitudes(
-    windows: Windows,
-    tensor: FloatArray,
-    figure: FloatArray,
-    tilt: FloatArray,
-    triaxiality: float,
-    spin_rate: float,
-    tau: float,
+    windows: Windows, tensor: FloatArray, direction: FloatArray, tilt: FloatArray, figure: Figure
 ) -> ComplexArray:
     """Complex amplitudes of the semidiurnal motion of a triaxial body's three axes.
 
@@ -274,16 +268,11 @@ def semidiurnal_amplitudes(
     windows : Windows
     tensor : ndarray, shape (6, w, n)
         `earthspin.torque.gravity.tidal_tensor`.
-    figure : ndarray, shape (3, w, n)
+    direction : ndarray, shape (3, w, n)
         Figure axis without this motion.
     tilt : ndarray, shape (3, w, n)
         Angular momentum minus figure axis, rad.
-    triaxiality : float
-        (B - A)/C.
-    spin_rate : float
-        rad/s.
-    tau : float
-        A/(C Omega), s.
+    figure : Figure
 
     Returns
     -------
@@ -296,9 +285,10 @@ def semidiurnal_amplitudes(
     UndefinedError
         If the body is so flat that the period of its free nutation is close to half a day.
     """
-    towards_x, across_x = equatorial_basis(figure)
-    q = _on_equator(apply(tensor, figure), towards_x, across_x)
-    torque = -1.5j * triaxiality / spin_rate * np.conj(q)
+    spin_rate, tau = figure.spin_rate, figure.tau
+    towards_x, across_x = equatorial_basis(direction)
+    q = _on_equator(apply(tensor, direction), towards_x, across_x)
+    torque = -1.5j * figure.triaxiality / spin_rate * np.conj(q)
     half_turn = 2j * spin_rate
     momentum = _series(windows, torque / half_turn, -1 / half_turn)
 
@@ -310,7 +300,7 @@ def semidiurnal_amplitudes(
             f"(|1 - 2 A/C| under {NEAREST_RESONANCE}); remove the effect 'triaxiality' or set "
             f"the body's triaxiality to 0"
         )
-    uneven = triaxiality / (2 * turn) * np.conj(_on_equator(tilt, towards_x, across_x))
+    uneven = figure.triaxiality / (2 * turn) * np.conj(_on_equator(tilt, towards_x, across_x))
     axis = _series(windows, (momentum + uneven) / away, -1j * tau / away)
     rotation = -axis + 1j * windows.derivative(axis) / spin_rate
     return np.stack([momentum, rotation, axis])

@@ -188,16 +188,9 @@ FIRST_RATIO = 1.5
 SETTLED, ROUNDED = 1e-13, 1e-8
 MOST_HALVINGS = 6
 
-
-def _collocation_rule(order: int) -> tuple[Array, Array, Array]:
-    """Gauss nodes and weights on [0, 1], and the matrix that integrates from 0 to each node."""
-    x, weights = legendre.leggauss(order)
-    project = (legendre.legvander(x, order - 1) * weights[:, None]) * (np.arange(order) + 0.5)
-    integrals = legendre.legval(x, legendre.legint(np.eye(order), lbnd=-1))
-    return (x + 1) / 2, weights / 2, (project @ integrals).T / 2
-
-
-_NODES, _WEIGHTS, _INTEGRATE = _collocation_rule(NODES)
+#: Gauss nodes and weights on [0, 1], and the matrix that integrates from 0 to each node.
+_NODES, _WEIGHTS = (rule(NODES).nodes + 1) / 2, rule(NODES).weights / 2
+_INTEGRATE = rule(NODES).integrate.T / 2
 
 
 def carry(

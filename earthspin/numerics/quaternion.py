@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
 
 
@@ -18,17 +19,8 @@ def multiply(p: FloatArray, q: FloatArray) -> FloatArray:
     -------
     ndarray, shape (..., 4)
     """
-    pw, px, py, pz = np.moveaxis(p, -1, 0)
-    qw, qx, qy, qz = np.moveaxis(q, -1, 0)
-    return np.stack(
-        [
-            pw * qw - px * qx - py * qy - pz * qz,
-            pw * qx + px * qw + py * qz - pz * qy,
-            pw * qy - px * qz + py * qw + pz * qx,
-            pw * qz + px * qy - py * qx + pz * qw,
-        ],
-        axis=-1,
-    )
+    product = rotations.times(np.moveaxis(p, -1, 0), np.moveaxis(q, -1, 0))
+    return np.stack(list(product), axis=-1)
 
 
 def conjugate(q: FloatArray) -> FloatArray:
@@ -54,18 +46,8 @@ def rotate(q: FloatArray, v: FloatArray) -> FloatArray:
     -------
     ndarray, shape (..., 3)
     """
-    w, x, y, z = np.moveaxis(q, -1, 0)
-    vx, vy, vz = np.moveaxis(v, -1, 0)
-    # v + 2 w (u x v) + 2 u x (u x v), with u the vector part of q.
-    tx, ty, tz = 2 * (y * vz - z * vy), 2 * (z * vx - x * vz), 2 * (x * vy - y * vx)
-    return np.stack(
-        [
-            vx + w * tx + y * tz - z * ty,
-            vy + w * ty + z * tx - x * tz,
-            vz + w * tz + x * ty - y * tx,
-        ],
-        axis=-1,
-    )
+    rotated = rotations.rotated(np.moveaxis(q, -1, 0), np.moveaxis(v, -1, 0))
+    return np.stack(list(rotated), axis=-1)
 
 
 def rotation_about_z(half_angle: FloatArray) -> FloatArray:

@@ -148,6 +148,7 @@ def rotated(q: FloatArray, v: FloatArray) -> FloatArray:
     """
     w, x, y, z = q
     vx, vy, vz = v
+    # v + 2 w (u x v) + 2 u x (u x v), with u the vector part of q.
     tx, ty, tz = 2 * (y * vz - z * vy), 2 * (z * vx - x * vz), 2 * (x * vy - y * vx)
     return np.stack(
         [

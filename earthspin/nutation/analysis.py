@@ -326,11 +326,8 @@ def without_line(centuries: FloatArray, series: FloatArray) -> FloatArray:
 # --- terms that cannot be separated from a larger neighbour ---------------------------------------
 # The arguments of most pairs differ by twice the longitude of the Sun's perihelion, with a period
 # of 10,467 years, so that an analysis over the span of the kernels merges the two terms. The
-# contribution of the smaller term to a fitted amplitude is known from the series of IAU 2000A.
-
-NEIGHBOURS_SOURCE = (
-    "IAU 2000A, IERS Conventions (2003), IERS Technical Note 32, tables 5.3a and 5.3b"
-)
+# contribution of the smaller term to a fitted amplitude is known from the series of IAU 2000A (IERS
+# Conventions 2003, IERS Technical Note 32, tables 5.3a and 5.3b).
 
 
 class Term(NamedTuple):
@@ -364,24 +361,9 @@ LEFT_OUT = (
 )
 
 
-class Neighbours(NamedTuple):
-    """Errors of fitted nutation amplitudes due to small terms of almost the same frequency.
-
-    Attributes
-    ----------
-    names : list of str
-        Multiples of the omitted neighbour of each fitted term; empty if there is none.
-    amplitude : ndarray, shape (k,), complex
-        Contribution to the factor of exp(i phi) of the fitted term, rad.
-    """
-
-    names: list[str]
-    amplitude: ComplexArray
-
-
 def neighbours_of(
     multiples: NDArray[np.int64], frequency: FloatArray, rates: FloatArray, arguments: FloatArray
-) -> Neighbours:
+) -> tuple[list[str], ComplexArray]:
     """Compute how much omitted nutation terms change fitted terms with almost equal frequency.
 
     The fitted interval is centred on J2000.0.
@@ -396,6 +378,13 @@ def neighbours_of(
         Rates of the Delaunay arguments, rad/s.
     arguments : ndarray, shape (5,)
         Delaunay arguments at J2000.0, rad.
+
+    Returns
+    -------
+    names : list of str
+        Multiples of the omitted neighbour of each fitted term; empty if there is none.
+    amplitude : ndarray, shape (k,), complex
+        Contribution to the factor of exp(i phi) of the fitted term, rad.
     """
     names, amplitude = [""] * len(multiples), np.zeros(len(multiples), dtype=complex)
     for term in LEFT_OUT:
@@ -406,7 +395,7 @@ def neighbours_of(
             turned = np.exp(1j * ((multiple - multiples[nearest]) @ arguments))
             (names[nearest],) = term_names(multiple[np.newaxis])
             amplitude[nearest] += size * turned
-    return Neighbours(names, amplitude)
+    return names, amplitude
 
 
 def circles_of(term: Term) -> tuple[complex, complex]:

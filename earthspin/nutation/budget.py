@@ -99,11 +99,9 @@ class Budget:
         Computed and published contributions, by effect.
     psi_error, omega_error : dict of str to float
         95 % half-widths: the error of the analysis, from a pole whose rate is known, and for the
-        first order also the uncertainty of H.
+        first order also the uncertainty of H. Those of the first order are those of the totals.
     psi_total, omega_total : float
         Computed rates.
-    psi_total_error, omega_total_error : float
-        95 % half-widths.
     psi_iau, omega_iau : float
         Rates of IAU 2006.
     closure, omega_closure : float
@@ -123,8 +121,6 @@ class Budget:
     omega_error: dict[str, float]
     psi_total: float
     omega_total: float
-    psi_total_error: float
-    omega_total_error: float
     psi_iau: float
     omega_iau: float
     closure: float
@@ -173,17 +169,14 @@ def budget_of(
         of_h = {FIRST_ORDER: NORMAL_95 * u_h * abs(shares[FIRST_ORDER])}
         return {e: 0.0 if e in none else math.hypot(missed, of_h.get(e, 0.0)) for e in shares}
 
-    psi_error, omega_error = errors(psi, psi_missed), errors(omega, omega_missed)
     return Budget(
         psi=psi,
         psi_published=published_contributions(list(psi)),
         omega=omega,
-        psi_error=psi_error,
-        omega_error=omega_error,
+        psi_error=errors(psi, psi_missed),
+        omega_error=errors(omega, omega_missed),
         psi_total=ours.psi_rate,
         omega_total=ours.omega_rate,
-        psi_total_error=psi_error[FIRST_ORDER],
-        omega_total_error=omega_error[FIRST_ORDER],
         psi_iau=psi_iau,
         omega_iau=omega_iau,
         closure=ours.psi_rate + published_effects()["nonrigid"] - psi_iau,
@@ -203,57 +196,12 @@ def budget_of(
 COMPARED = ("planets", "j4", "geodesic", "second-order")
 
 
-def inferred_h(h: float, torque_rate: float, excess: float) -> float:
-    """Dynamical flattening H for which the computed precession rate equals that of the IAU.
-
-    Parameters
-    ----------
-    h : float
-        H used in the computation.
-    torque_rate : float
-        Part of the computed rate that is proportional to H.
-    excess : float
-        Computed rate with all effects minus the IAU rate, in the same unit.
-    """
-    return h * (1 - excess / torque_rate)
-
-
-def inferred_h_uncertainty(h: float, torque_rate: float, effects: float, method: float) -> float:
-    """Standard deviation of the H that is inferred from the IAU precession rate.
-
-    Parameters
-    ----------
-    h, torque_rate : float
-    effects : float
-        Root sum square of the differences between the computed and the published effects.
-    method : float
-        Error of the same analysis for a pole whose rate is known.
-    """
-    return abs(h / torque_rate) * math.hypot(effects, method)
-
-
-def polar_moment_from_mean(
-    mean_moment: float, mean_radius: float, equatorial_radius: Numeric, j2: Numeric
-) -> Numeric:
-    """Polar moment factor C/(M a2) from the mean moment of a spherical model.
-
-    I = (A + B + C)/3 and C - (A + B)/2 = J2 M a2 give C = I + (2/3) J2 M a2.
-
-    Parameters
-    ----------
-    mean_moment : float
-        I/(M R2).
-    mean_radius, equatorial_radius : float
-        R and a, m.
-    j2 : float
-        Like the radius, a float or a labelled array.
-    """
-    return mean_moment * (mean_radius / equatorial_radius) ** 2 + 2 / 3 * j2
-
-
 def prem_polar_moment(radius: Numeric, j2: Numeric) -> Numeric:
-    """Polar moment factor C/(M a2) of the Earth model PREM, for a reference radius a, m, and J2."""
-    return polar_moment_from_mean(PREM_MEAN_MOMENT.value, PREM_RADIUS.value, radius, j2)
+    """Polar moment factor C/(M a2) of the Earth model PREM, for a reference radius a, m, and J2.
+
+    Its mean moment I = (A + B + C)/3 and C - (A + B)/2 = J2 M a2 give C = I + (2/3) J2 M a2.
+    """
+    return PREM_MEAN_MOMENT.value * (PREM_RADIUS.value / radius) ** 2 + 2 / 3 * j2
 
 
 class Flattening(NamedTuple):
@@ -271,8 +219,11 @@ class Flattening(NamedTuple):
     moment_uncertainty: float
 
 
-def inferred_from(budget: Budget, h: float) -> tuple[float, float]:
+def inferred_h(budget: Budget, h: float) -> tuple[float, float]:
     """Value of H that makes the computed precession rate equal to the IAU's, and its uncertainty.
+
+    The standard uncertainty follows from the root sum square of the differences between computed
+    and published effects, and from the error of the same analysis for a pole whose rate is known.
 
     Parameters
     ----------
@@ -284,10 +235,8 @@ def inferred_from(budget: Budget, h: float) -> tuple[float, float]:
     spread = math.sqrt(sum((budget.psi[e] - budget.psi_published[e]) ** 2 for e in compared))
     # all effects except geodesic precession are proportional to H
     grows = sum(rate for effect, rate in budget.psi.items() if effect != "geodesic")
-    return (
-        inferred_h(h, grows, budget.closure),
-        inferred_h_uncertainty(h, grows, spread, budget.psi_analysis_error),
-    )
+    uncertainty = abs(h / grows) * math.hypot(spread, budget.psi_analysis_error)
+    return h * (1 - budget.closure / grows), uncertainty
 
 
 def compared_flattenings(
@@ -317,7 +266,7 @@ def compared_flattenings(
     u_prem = PREM_MEAN_MOMENT.relative_uncertainty
     return {
         "published": from_h(h, u_h * h),
-        "from the IAU's rate": from_h(*inferred_from(budget, h)),
+        "from the IAU's rate": from_h(*inferred_h(budget, h)),
         "PREM": Flattening(j2 / prem, j2 / prem * u_prem, prem, prem * u_prem),
     }
 

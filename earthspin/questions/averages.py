@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, field
 
@@ -277,7 +278,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
         square = (
             average.mean_square_of_normal(ellipse.plane.matrix[2], ellipse.i)
             if ellipse.node_rate
-            else average.square_of_normal(ellipse.normal)
+            else np.outer(ellipse.normal, ellipse.normal)
         )
         gm = float(p.gm_on(body)) if strength is None else 1.0
         tide = average.mean_tide(gm, ellipse.a, ellipse.e, square)
@@ -295,7 +296,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     return MeanTorques(
         labels=_labels(perturbers),
         precessing=average.precessing_torque(vectors, axis, normal),
-        precessing_error=average.rounding_of_precessing(error, obliquity),
+        precessing_error=error / math.sin(obliquity),
         torque=np.moveaxis(vectors @ equator.T, -1, 1),
         torque_error=np.repeat(error[:, np.newaxis], 3, axis=1),
         epoch=0.0,

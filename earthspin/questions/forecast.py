@@ -306,7 +306,7 @@ def ahead(
 ) -> ForecastPole:
     """Return the forecast x and y of the pole, with half-widths and correlation of errors."""
     newest = float(record.time[-1])
-    fast = ", ".join(f"{name} = {value:.4g}" for name, value in predicted.fast.as_mapping().items())
+    fast = ", ".join(f"{name} = {value:.4g}" for name, value in vars(predicted.fast).items())
     kind = parameters or ("shipped" if excitation is None else "fitted")
     shown = _days_returned(days, step)
     p, covariance = predicted.pole[shown] * MAS, predicted.covariance[shown] * MAS**2

@@ -369,13 +369,15 @@ def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp
     ours = analysed.our_circles
     order = np.argsort(-np.abs(ours.amplitude))[:count]
     at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
-    near = analysis.neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
-    neighbour_in, neighbour_out = analysis.phases(near.amplitude[order])
+    names, amplitude = analysis.neighbours_of(
+        ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch
+    )
+    neighbour_in, neighbour_out = analysis.phases(amplitude[order])
     return order, {
         "period": 2 * np.pi / ours.frequency[order],
         "iau": analysis.phases(analysed.their_circles.amplitude[order]),
         "amplitude_error": analysis.amplitude_error(ours.frequency[order]),
-        "neighbour": [near.names[row] for row in order],
+        "neighbour": [names[row] for row in order],
         "neighbour_in_phase": neighbour_in,
         "neighbour_out_of_phase": neighbour_out,
         "term": analysis.term_names(ours.multiples[order]),

@@ -54,36 +54,6 @@ class PrincipalMoments:
         """Principal moments of inertia A, B, C as floats, kg m2, shape (..., 3)."""
         return np.asarray(self.moment.hi)
 
-    @property
-    def A(self) -> FloatArray:
-        """Principal moment of inertia A about the x axis, kg m2."""
-        return self.values[..., 0]
-
-    @property
-    def B(self) -> FloatArray:
-        """Principal moment of inertia B about the y axis, kg m2."""
-        return self.values[..., 1]
-
-    @property
-    def C(self) -> FloatArray:
-        """Principal moment of inertia C about the z axis, kg m2."""
-        return self.values[..., 2]
-
-    @property
-    def B_A(self) -> FloatArray:
-        """Difference B - A of principal moments of inertia, kg m2."""
-        return np.asarray(self.difference.hi[..., 2])
-
-    @property
-    def C_A(self) -> FloatArray:
-        """Difference C - A of principal moments of inertia, kg m2."""
-        return np.asarray(-self.difference.hi[..., 1])
-
-    @property
-    def C_B(self) -> FloatArray:
-        """Difference C - B of principal moments of inertia, kg m2."""
-        return np.asarray(self.difference.hi[..., 0])
-
 
 def principal_moments(moments: Moments) -> PrincipalMoments:
     """Read principal moments of inertia; raise an error if no body can have them.

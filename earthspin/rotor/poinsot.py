@@ -13,8 +13,7 @@ rational fraction of a turn per polhode period.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -53,22 +52,6 @@ class Polhode:
     omega: FloatArray
     closed: BoolArray
     period: FloatArray
-
-
-class Closure(NamedTuple):
-    """Turns of a herpolhode and periods after which it nearly closes, and the remaining angle.
-
-    Attributes
-    ----------
-    turns, periods : int
-        Whole turns of the herpolhode and whole periods of the polhode at closure.
-    gap : float
-        Remaining angle at closure, rad.
-    """
-
-    turns: int
-    periods: int
-    gap: float
 
 
 def inertia_ellipsoid(moments: Moments, omega: Any) -> FloatArray:
@@ -236,26 +219,6 @@ def herpolhode_advance(moments: Moments, omega: Any) -> FloatArray:
     # psi includes one turn of the body per period about this axis.
     advance = motion.precession.rate * motion.exact_period + TWO_PI * motion.sense
     return np.asarray(advance.hi)
-
-
-def nearest_closure(advance: float, most_periods: int = 100) -> Closure:
-    """Find the number of polhode periods after which a herpolhode is most nearly closed.
-
-    The advance is then taken in turns per period of the polhode.
-
-    The herpolhode is closed if its advance is a rational multiple of 2 pi. As floats cannot decide
-    this, the gap measures the deviation from closure.
-
-    Parameters
-    ----------
-    advance : float
-        Output of `herpolhode_advance`, rad.
-    most_periods : int
-        Largest denominator to test.
-    """
-    part = Fraction(advance / (2 * np.pi)).limit_denominator(most_periods)
-    gap = advance * part.denominator - 2 * np.pi * part.numerator
-    return Closure(part.numerator, part.denominator, abs(gap))
 
 
 def _across(motion: JacobiMotion, phase: Phase) -> FloatArray:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import BoolArray, FloatArray
-from earthspin.top.start import AxisStart, HeavyTop, axis_heights, axis_start, top_constants
+from earthspin.top.start import AxisStart, HeavyTop, axis_start, top_constants
 
 # --- patterns -------------------------------------------------------------------------------------
 
@@ -51,63 +51,6 @@ def nutation_pattern(top: HeavyTop) -> NDArray[np.str_]:
     ]
     names = ["sleeping", "steady", "cusp", "loop"]
     return np.select(conditions, names, default="wave").reshape(top.shape)
-
-
-class PatternLimits(NamedTuple):
-    """Initial precession rates phi' at which the tip's pattern changes, as waves to loops, rad/s.
-
-    Attributes
-    ----------
-    cusp : ndarray, shape (..., 2)
-        Limits between waves (inside) and loops (outside), with cusps at the limits. For a start at
-        a turning point they are zero (start at the upper one) and 2 m g r/(I3 omega3), twice the
-        slow precession of a fast top (start at the lower one).
-    over_pole : ndarray, shape (..., 2)
-        Rates for which the axis passes exactly over the upper and the lower pole; loops end there,
-        and beyond phi' does not change sign.
-    """
-
-    cusp: FloatArray
-    over_pole: FloatArray
-
-
-def pattern_limits(top: HeavyTop) -> PatternLimits:
-    """Initial precession rates phi' at which waves change to loops and back (I.7.19), rad/s.
-
-    Parameters
-    ----------
-    top : HeavyTop
-        Its own phi_rate is ignored.
-
-    Raises
-    ------
-    UndefinedError
-        If the top has no spin or is vertical, or theta' is so fast that no phi' gives a cusp.
-    """
-    a, _, _, beta = top_constants(top)
-    below, above, _ = axis_heights(top.theta)
-    sine2 = below * above
-    if np.any((a == 0) | (sine2 == 0)):
-        raise UndefinedError(
-            "a top without spin or on the vertical draws neither cusps nor loops; "
-            "give a spin other than 0 and theta between 0 and pi"
-        )
-    # a sin^2 phi'^2 - beta sin^2 phi' + a theta'^2 = 0
-    inside = beta**2 * sine2 - 4 * (a * top.theta_rate) ** 2
-    if np.any(inside < 0):
-        bound = np.sqrt(beta**2 * sine2) / (2 * np.abs(a))
-        fast = np.abs(top.theta_rate) > bound
-        raise UndefinedError(
-            f"with theta_rate = {float(top.theta_rate[fast].flat[0])!r} rad/s no phi_rate gives "
-            f"a cusp; |theta_rate| up to {float(bound[fast].flat[0]):.6g} rad/s allows it"
-        )
-    sine = np.sqrt(sine2)
-    sense = np.where(beta < 0, -1.0, 1.0)
-    larger = (beta * sine + sense * np.sqrt(inside)) / (2 * a * sine)
-    filled = np.where(larger == 0, 1.0, larger)
-    smaller = np.where(larger == 0, 0.0, top.theta_rate**2 / sine2 / filled)
-    cusp = np.sort(np.stack([smaller, larger], axis=-1), axis=-1)
-    return PatternLimits(cusp, np.stack([a / above, -a / below], axis=-1))
 
 
 def _is_steady(start: AxisStart) -> BoolArray:
@@ -217,20 +160,6 @@ def _refuse_slow_spin(top: HeavyTop, slow: BoolArray) -> None:
             f"a spin of {spin!r} rad/s is too slow for steady precession at theta = {theta!r} "
             f"rad; give at least {least:.6g} rad/s in either direction"
         )
-
-
-def slow_precession_limit(top: HeavyTop) -> FloatArray:
-    """Rate of slow precession of a fast top, m g r/(I3 omega3), rad/s.
-
-    Raises
-    ------
-    UndefinedError
-        If the top has no spin.
-    """
-    if np.any(top.spin == 0):
-        raise UndefinedError("a top without spin has no slow precession; give a spin other than 0")
-    limit: FloatArray = top.weight_moment / (top.axial_moment * top.spin)
-    return limit
 
 
 def sleeping_top(top: HeavyTop) -> SleepingTop:

@@ -12,7 +12,6 @@ from dataclasses import dataclass, fields
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from earthspin.errors import BodyError
 from earthspin.numerics.arrays import BoolArray, FloatArray
@@ -72,24 +71,6 @@ class HeavyTop:
             array.flags.writeable = False
             object.__setattr__(self, name, array)
         self._check()
-
-    @classmethod
-    def from_euler_rates(
-        cls, *, theta: ArrayLike, phi_rate: ArrayLike, psi_rate: ArrayLike, **rest: Any
-    ) -> HeavyTop:
-        """Create a top from psi' instead of the spin: omega3 = phi' cos(theta) + psi' (I.7.3).
-
-        Parameters
-        ----------
-        theta : float or ndarray
-            rad.
-        phi_rate, psi_rate : float or ndarray
-            rad/s.
-        **rest
-            The other fields.
-        """
-        spin = np.multiply(phi_rate, np.cos(theta)) + psi_rate
-        return cls(theta=theta, phi_rate=phi_rate, spin=spin, **rest)
 
     @property
     def shape(self) -> tuple[int, ...]:

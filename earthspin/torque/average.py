@@ -306,11 +306,6 @@ def precessing_torque(torque: FloatArray, axis: FloatArray, normal: FloatArray) 
 ROUNDINGS = 2
 
 
-def square_of_normal(normal: FloatArray) -> FloatArray:
-    """Tensor n n^T of the unit normal n of a fixed orbit, shape (3, 3)."""
-    return np.outer(normal, normal)
-
-
 def mean_square_of_normal(pole: FloatArray, inclination: float) -> FloatArray:
     """Tensor n n^T of an orbit normal n, averaged over a period of the node, shape (3, 3).
 
@@ -353,8 +348,3 @@ def mean_torque(tide: FloatArray, axis: FloatArray) -> FloatArray:
 def rounding(tide: FloatArray) -> float:
     """Bound on the rounding error of each component of a mean torque, s-2."""
     return float(3 * ROUNDINGS * np.finfo(float).eps * np.linalg.norm(tide))
-
-
-def rounding_of_precessing(of_torque: FloatArray, obliquity: float) -> FloatArray:
-    """Rounding error of `precessing_torque`, from that of the mean torque, s-2."""
-    return np.asarray(of_torque / math.sin(obliquity))

@@ -221,10 +221,6 @@ class FastExcitation:
         correlation = float(np.tanh(free[6]))
         return cls(first, first_turn, second, second_turn, x, y, correlation, white)
 
-    def as_mapping(self) -> Mapping[str, float]:
-        """Parameters of the fast excitation by name, for the attributes of an answer."""
-        return dict(vars(self))
-
 
 #: Chosen on C04 from 2005 to 2013 by the likelihood of forecasts 1 to 365 days ahead.
 SHIPPED = FastExcitation(0.2755, -0.33, 0.3524, 0.09, 32.0, 47.0, 0.535)

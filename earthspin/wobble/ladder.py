@@ -362,11 +362,7 @@ class Ladder:
 
 
 def inputs_of(
-    interior: Interior,
-    spin: Spin,
-    figure: Mapping[str, Numeric],
-    ocean: str = "real",
-    exponent: Numeric = ANELASTIC_EXPONENT.value,
+    interior: Interior, spin: Spin, figure: Mapping[str, Numeric], ocean: str = "real"
 ) -> Inputs:
     """Collect the inputs of the non-rigid models: the figure of a body, its interior and ocean.
 
@@ -378,8 +374,6 @@ def inputs_of(
         `dynamical_flattening`, `j2` and `triaxiality`.
     ocean : str
         ``"real"`` as published, ``"global"`` all over, ``"none"``.
-    exponent : float
-        Of the mantle's loss.
     """
     k2, fraction, flat = interior.values()
     if flat is None:
@@ -392,14 +386,7 @@ def inputs_of(
         added = mean / spin.centrifugal(love_radius(interior, spin))
     else:
         added = 0.0
-    return Inputs(
-        **figure,
-        k2=k2,
-        core_fraction=fraction,
-        core_ellipticity=flat,
-        ocean=added,
-        anelastic_exponent=exponent,
-    )
+    return Inputs(**figure, k2=k2, core_fraction=fraction, core_ellipticity=flat, ocean=added)
 
 
 def love_radius(interior: Interior, spin: Spin) -> Numeric:

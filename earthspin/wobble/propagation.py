@@ -10,7 +10,7 @@ the computation of every draw.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 
 import numpy as np
 
@@ -34,32 +34,9 @@ _STEP = np.sqrt(3.0)
 _EXPONENTS = 5
 
 
-@dataclass(frozen=True)
-class Drawn:
-    """Random values of the uncertain inputs of the wobble models.
-
-    Attributes
-    ----------
-    normal : dict of str to array, shape (draws,)
-        Standard deviations from the mean, of each normal input with an uncertainty.
-    exponent : array, shape (draws,)
-        The anelastic exponent, even over the range of published work.
-    """
-
-    normal: dict[str, Array]
-    exponent: Array
-
-    def inputs(self, mean: Inputs, uncertainty: Mapping[str, float]) -> Inputs:
-        """Apply the random values to the inputs of one or more bodies, along a new first axis."""
-        ndim = max(np.ndim(getattr(mean, one.name)) for one in fields(Inputs))
-        changed = {
-            name: getattr(mean, name) * (1 + uncertainty[name] * _column(z, ndim))
-            for name, z in self.normal.items()
-        }
-        return replace(mean, **changed, anelastic_exponent=_column(self.exponent, ndim))
-
-
-def draw(uncertainty: Mapping[str, float], draws: int = DRAWS, seed: int = SEED) -> Drawn:
+def draw(
+    uncertainty: Mapping[str, float], draws: int = DRAWS, seed: int = SEED
+) -> tuple[dict[str, Array], Array]:
     """Draw random values of the inputs from their uncertainties; all bodies use the same values.
 
     Parameters
@@ -68,6 +45,13 @@ def draw(uncertainty: Mapping[str, float], draws: int = DRAWS, seed: int = SEED)
         One standard deviation over value, by name of the input; others are not drawn.
     draws : int
     seed : int
+
+    Returns
+    -------
+    normal : dict of str to array, shape (draws,)
+        Standard deviations from the mean, of each normal input with an uncertainty.
+    exponent : array, shape (draws,)
+        The anelastic exponent, even over the range of published work.
     """
     generator = np.random.default_rng(seed)
     normal, exponent = {}, np.empty(0)
@@ -78,7 +62,7 @@ def draw(uncertainty: Mapping[str, float], draws: int = DRAWS, seed: int = SEED)
             drawn = generator.standard_normal(draws)  # for each, so that none shifts the others
             if uncertainty.get(name, 0.0):
                 normal[name] = drawn
-    return Drawn(normal, exponent)
+    return normal, exponent
 
 
 def sampled_half_widths(
@@ -110,9 +94,8 @@ def sampled_half_widths(
     for start in range(0, flat[0].size, _BODIES_AT_ONCE):
         block = [v[start : start + _BODIES_AT_ONCE] for v in flat]
         block_inputs, block_spin = Inputs(*block[:inputs_count]), Spin(*block[inputs_count:])
-        for name, change in _sampled(
-            block_inputs, uncertainty, drawn, block_spin, interior, ocean
-        ).items():
+        changes = _sampled(block_inputs, uncertainty, drawn, block_spin, interior, ocean)
+        for name, change in changes.items():
             # the period is not in the middle of the draws, nor its exponent in that of its range
             widths.setdefault(name, []).append(np.quantile(np.abs(change), 0.95, axis=-1))
     return {name: np.concatenate(parts).reshape(shape) for name, parts in widths.items()}
@@ -121,7 +104,7 @@ def sampled_half_widths(
 def _sampled(
     inputs: Inputs,
     uncertainty: Mapping[str, float],
-    drawn: Drawn,
+    drawn: tuple[dict[str, Array], Array],
     spin: Spin,
     interior: Interior,
     ocean: str,
@@ -130,18 +113,19 @@ def _sampled(
 
     The shape is (bodies, draws). The period is interpolated quadratically.
     """
+    normal, exponent = drawn
     # Chebyshev nodes over the published range of the anelastic exponent
     low, high = EXPONENT_RANGE
     nodes = (low + high) / 2 + (high - low) / 2 * np.polynomial.chebyshev.chebpts1(_EXPONENTS)
-    points = _points(inputs, list(drawn.normal), uncertainty, nodes)
+    points = _points(inputs, list(normal), uncertainty, nodes)
     # basis[i] stands on the turns at points[i]: the mean, each input below and above, the nodes.
-    basis = [-sum((z**2 / 3 for z in drawn.normal.values()), np.zeros(drawn.exponent.size))]
-    for z in drawn.normal.values():
+    basis = [-sum((z**2 / 3 for z in normal.values()), np.zeros(exponent.size))]
+    for z in normal.values():
         basis += [z**2 / 6 - z / (2 * _STEP), z**2 / 6 + z / (2 * _STEP)]
-    basis += list(lagrange(nodes, drawn.exponent))
+    basis += list(lagrange(nodes, exponent))
     sampled = {}
     for name, turns in climb(points, spin, interior, ocean).turns.items():
-        total = np.zeros((turns.shape[-1], drawn.exponent.size))
+        total = np.zeros((turns.shape[-1], exponent.size))
         # where no input of a rung is uncertain, nothing told its turns apart
         points_turns = np.broadcast_to(turns, (len(basis), total.shape[0]))
         for at, share in zip(points_turns, basis, strict=True):
@@ -167,11 +151,6 @@ def _points(
         factor[1 + 2 * i], factor[2 + 2 * i] = (1 + s * _STEP * uncertainty[name] for s in (-1, 1))
         changed[name] = getattr(inputs, name) * factor
     return replace(inputs, **changed, anelastic_exponent=exponent)
-
-
-def _column(values: Array, ndim: int) -> Array:
-    """Reshape a one-dimensional array so that it lies along the first of several axes."""
-    return values.reshape(-1, *(1,) * ndim)
 
 
 def half_widths(

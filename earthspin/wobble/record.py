@@ -112,10 +112,10 @@ def least_squares(columns: ComplexArray, values: ComplexArray) -> ComplexArray:
     return np.asarray(np.linalg.lstsq(columns, values, rcond=None)[0])
 
 
-def without_known_terms(time: FloatArray, p: ComplexArray, period: float = NEAR) -> ComplexArray:
+def without_known_terms(time: FloatArray, p: ComplexArray) -> ComplexArray:
     """Subtract drift and seasonal terms from polar motion; the fit includes the free wobble."""
     columns = known_terms(time)
-    sizes = least_squares(np.column_stack([columns, turning(time, period)]), p)
+    sizes = least_squares(np.column_stack([columns, turning(time, NEAR)]), p)
     return np.asarray(p - columns @ sizes[:-1])
 
 

@@ -260,23 +260,3 @@ class DrivenOscillator:
         apart = size * (np.sinh(x / 2) / (x / 2)) ** 2
         same = 2 * np.sum(size * (np.expm1(x) - x) / x**2).real
         return factors, np.array([same, apart @ factors, apart @ factors**2])
-
-    def sampled(self, count: int, step: float, generator: np.random.Generator) -> ComplexArray:
-        """Simulate polar motion at evenly spaced times, shape (count,), with random noise.
-
-        The simulation starts from the stationary distribution.
-        """
-        from scipy.signal import lfilter
-
-        keep, stationary = np.exp(self.rates * step), self.covariance
-        kicks = stationary - keep[:, None] * stationary * keep.conj()
-        drawn = generator.standard_normal((count, 2, 2)) @ np.array([1, 1j]) / np.sqrt(2)
-        pushed = drawn @ _root(kicks).T
-        pushed[0] = _root(stationary) @ drawn[0]
-        return np.asarray(sum(lfilter([1], [1, -keep[i]], pushed[:, i]) for i in (0, 1)))
-
-
-def _root(covariance: ComplexArray) -> ComplexArray:
-    """Square root R of a covariance matrix, such that R R^H is the matrix; it may be singular."""
-    values, vectors = np.linalg.eigh(covariance)
-    return np.asarray(vectors * np.sqrt(np.maximum(values, 0)))

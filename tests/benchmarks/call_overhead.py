@@ -5,8 +5,6 @@ run itself counts; what is left of the call is overhead. Parts that end in a Dat
 that share is measured at `Variables.dataset`, and is no part of the overhead. Medians of calls.
 """
 
-from __future__ import annotations
-
 import statistics
 import time
 from collections.abc import Callable, Iterator

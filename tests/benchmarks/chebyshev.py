@@ -5,8 +5,6 @@ the Moon of DE421, 13 terms. Both are given blocks that stay in the processor's 
 the processor, the median of several rounds; the agreement is asserted, never a time.
 """
 
-from __future__ import annotations
-
 import statistics
 import time
 from collections.abc import Callable

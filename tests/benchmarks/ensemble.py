@@ -8,8 +8,6 @@ counted. On a machine that others use, the seconds of the processor tell the fir
 those of the clock: both are printed.
 """
 
-from __future__ import annotations
-
 import shutil
 import sys
 import tempfile

@@ -5,8 +5,6 @@ other, two hundred are made and the time is scaled. An axis over a million years
 eleven epochs.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from typing import Any

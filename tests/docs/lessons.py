@@ -1,7 +1,5 @@
 """Import modules of the documentation."""
 
-from __future__ import annotations
-
 import importlib.util
 import sys
 from pathlib import Path

@@ -14,8 +14,6 @@ are the rows of the table that `make extreme` writes:
         yield result - reference
 """
 
-from __future__ import annotations
-
 import re
 import tempfile
 from collections.abc import Callable, Iterable, Iterator

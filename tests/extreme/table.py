@@ -1,7 +1,5 @@
 """Plugin of pytest that writes the table of all extreme cases after a run without a failure."""
 
-from __future__ import annotations
-
 from itertools import groupby
 from pathlib import Path
 

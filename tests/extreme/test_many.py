@@ -1,7 +1,5 @@
 """Ensembles: joint computation, random draws and statistics."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np

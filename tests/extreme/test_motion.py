@@ -5,8 +5,6 @@ the spin, the axis solver uses windows of several days, and the solver of (L, F)
 rotation.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

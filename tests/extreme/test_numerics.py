@@ -1,7 +1,5 @@
 """Products of quaternions."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

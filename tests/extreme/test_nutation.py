@@ -1,7 +1,5 @@
 """Precession angles, nutation terms and the Earth's response."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

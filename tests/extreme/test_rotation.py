@@ -1,7 +1,5 @@
 """Full attitude of a body in time."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from earthspin.bodies import Body

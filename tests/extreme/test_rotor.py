@@ -1,7 +1,5 @@
 """Torque-free rotation."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

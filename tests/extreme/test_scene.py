@@ -1,7 +1,5 @@
 """Scenes and long time series."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Spin axis over millennia to millions of years."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Ephemeris kernels, equators and nutation."""
 
-from __future__ import annotations
-
 import erfa
 import numpy as np
 

@@ -1,7 +1,5 @@
 """Torques, at an instant and averaged over orbits."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

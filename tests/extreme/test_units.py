@@ -1,7 +1,5 @@
 """Dates, calendars and units."""
 
-from __future__ import annotations
-
 import datetime as dt
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Free wobble and its excitation."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What stands around the program: streams, signals, styles, folders that cannot be written."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

@@ -1,7 +1,5 @@
 """Sizes that no machine has, files without an end, and what is repeated in a message."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

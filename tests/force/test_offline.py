@@ -1,7 +1,5 @@
 """Nothing is ever fetched, also when the tables of leap seconds and of UT1 have aged."""
 
-from __future__ import annotations
-
 import pytest
 
 from tests.processes import printed

@@ -1,7 +1,5 @@
 """Stored results that were damaged: nothing is read that is not what was written."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import warnings

@@ -1,7 +1,5 @@
 """Two writers, readers and threads at once, and writers that are killed: whole or not at all."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import textwrap

@@ -1,7 +1,5 @@
 """Malformed inputs: nonsense, numbers of every size, odd lists, and what no one would give."""
 
-from __future__ import annotations
-
 import datetime as dt
 import inspect
 import random

@@ -1,7 +1,5 @@
 """What may come of an input: an answer, or one clear line; nothing else."""
 
-from __future__ import annotations
-
 import contextlib
 import inspect
 import io

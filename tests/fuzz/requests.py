@@ -4,8 +4,6 @@ They follow from the keys of the questions and from the parser of the command li
 key, question, command or option is tried without being listed here.
 """
 
-from __future__ import annotations
-
 import argparse
 import contextlib
 import functools

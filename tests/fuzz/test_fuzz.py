@@ -3,8 +3,6 @@
 More of them: ``make fuzz``, or ``python -m tests.fuzz SEED COUNT``.
 """
 
-from __future__ import annotations
-
 import pytest
 
 import earthspin

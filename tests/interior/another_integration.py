@@ -6,8 +6,6 @@ the level surfaces (Dahlen 1974); in the logarithm of the radius; each solution 
 another way to carry them, and another kind of number, it makes the stored reference as well.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

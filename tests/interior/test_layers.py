@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from earthspin.interior.layers import PREM, PREM_WITH_OCEAN, LayeredBody
+from earthspin.interior.layers import PREM, LayeredBody
+from tests.interior.prem import PREM_WITH_OCEAN
 
 
 def density(body: LayeredBody, r: float) -> float:

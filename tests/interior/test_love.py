@@ -10,11 +10,12 @@ from hypothesis import strategies as st
 from earthspin import UndefinedError
 from earthspin.constants import G
 from earthspin.interior.equilibrium import equilibrium
-from earthspin.interior.layers import PREM, PREM_WITH_OCEAN, Layer, LayeredBody
+from earthspin.interior.layers import PREM, Layer, LayeredBody
 from earthspin.interior.love import elastic, softening, yielding
 from earthspin.interior.mars import MARS
 from tests.conftest import load_pins
 from tests.interior.another_integration import other_answers
+from tests.interior.prem import PREM_WITH_OCEAN
 from tests.interior.shells import sphere
 
 PINS = load_pins("wobble")

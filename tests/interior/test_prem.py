@@ -1,7 +1,8 @@
 """PREM beside what was published of it."""
 
-from earthspin.interior.layers import PREM, PREM_WITH_OCEAN
+from earthspin.interior.layers import PREM
 from tests.conftest import load_pins
+from tests.interior.prem import PREM_WITH_OCEAN
 
 PINS = load_pins("wobble")
 

@@ -3,8 +3,6 @@
 Relative errors against fifty digits and more, of numbers taken as exact.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import mpmath as mp

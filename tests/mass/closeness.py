@@ -1,7 +1,5 @@
 """Closeness without a hidden allowance: what is not given is zero."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Meshes of solids whose moments are known in closed form."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull

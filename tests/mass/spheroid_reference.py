@@ -4,8 +4,6 @@ Shares nothing with the kernels: confocal coordinate by the quadratic in lambda,
 differencing closed forms (MacMillan 1930, The Theory of the Potential, sections 35 to 39).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import mpmath as mp
@@ -86,3 +84,12 @@ def draw(rng: np.random.Generator, family: str, place: str) -> tuple[float, ...]
         }
         point = direction * surface * factors[place]()
     return (a, f, *map(float, point))
+
+
+def spheroid_zonals(flattening: float, n_max: int) -> np.ndarray:
+    """J_n of a homogeneous spheroid: J_2k = (-1)^(k+1) 3 e^2k/[(2k + 1)(2k + 3)], J0 = -1."""
+    e2 = flattening * (2 - flattening)
+    zonals = np.zeros(n_max + 1)
+    for k in range(n_max // 2 + 1):
+        zonals[2 * k] = -3 * (-e2) ** k / ((2 * k + 1) * (2 * k + 3))
+    return zonals

@@ -1,7 +1,5 @@
 """Point masses and grids."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from earthspin.errors import BodyError, UndefinedError

@@ -1,7 +1,5 @@
 """Legendre projection and completeness (I.9.3, I.9.4)."""
 
-from __future__ import annotations
-
 import mpmath as mp
 import numpy as np
 import pytest

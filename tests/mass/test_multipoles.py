@@ -1,7 +1,5 @@
 """The expansion in (n, m): harmonics, 1/R, moments, potentials, where it converges."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -124,7 +122,9 @@ def test_both_series_within_their_bounds(seed: int, n_max: int, far: float, near
         point = np.array([0.48, -0.6, 0.64]) * series.radius * factor
         exact = _direct(masses, positions, point)
         error = abs(float(series.potential(point)) - exact)
-        assert error <= series.truncation_bound(point) + 3e-14 * abs(exact)
+        q = 1 / far if series is exterior else near
+        bound = G.value * masses.sum() * q ** (n_max + 1) / (series.radius * abs(1 - factor))
+        assert error <= bound + 3e-14 * abs(exact)
 
 
 def test_both_series_converge_to_the_sum_over_the_masses() -> None:
@@ -214,7 +214,6 @@ def test_a_ring_about_the_axis_is_zonal_up_to_its_count() -> None:
     [
         (lambda s: s.potential([0.0, 0.0, 2.0]), r"exterior series.*r = 2 m.*beyond 3 m"),
         (lambda s: s.potential([[0, 0, 9.0], [3.0, 0, 0]]), r"r = 3 m"),
-        (lambda s: s.truncation_bound([0.0, 1.0, 0.0]), r"r = 1 m"),
         (lambda s: s.moment(5, 0), r"n = 5, m = 0 is not stored; allowed: n to 4"),
         (lambda s: s.moment(2, 3), "n = 2, m = 3"),
     ],

@@ -1,7 +1,5 @@
 """Principal axes: against 50 digits, and the bodies that leave a choice."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

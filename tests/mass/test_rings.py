@@ -1,7 +1,5 @@
 """The toys: dumbbells, rings and ellipses of masses, numerically and in closed form."""
 
-from __future__ import annotations
-
 import mpmath as mp
 import numpy as np
 import pytest

@@ -8,9 +8,9 @@ from scipy.spatial.transform import Rotation
 
 from earthspin.errors import BodyError, UndefinedError
 from earthspin.mass.figure import spheroid_moments
-from earthspin.mass.multipoles import spheroid_zonals
 from earthspin.mass.shape import Shape
 from tests.mass.solids import ball, brick
+from tests.mass.spheroid_reference import spheroid_zonals
 
 #: What is left of moments, J2 and J4 at 20,000 vertices: 1.9e-4, 1.8e-4 and 4.5e-4.
 LEFT = 6e-4

@@ -1,7 +1,5 @@
 """Sky and bodies for the tests of the whole attitude: an ellipse about a mass, in simple units."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

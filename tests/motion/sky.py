@@ -1,7 +1,5 @@
 """A sky for the tests of this folder: Sun and Moon from the kernel."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from earthspin.bodies import EARTH, MOON, SUN

@@ -1,7 +1,5 @@
 """Three solvers of the axes that share no method: on windows, (L, F), and the whole attitude."""
 
-from __future__ import annotations
-
 from functools import cached_property
 
 import numpy as np

@@ -94,7 +94,7 @@ def test_geodesic_precession_on_a_kepler_ellipse() -> None:
 def test_a_sphere_turns_with_the_geodesic_frame_alone(de421: Ephemeris) -> None:
     span = 365.25 * DAY
     path = axis_path(
-        forces(de421, figure(h=0.0), torques=(geodesic_torque("sun"),)), NORTH, 0.0, (0.0, span)
+        forces(de421, figure(h=0.0), torques=(geodesic_torque,)), NORTH, 0.0, (0.0, span)
     )
     moved = path.at(np.array([span]))["figure"][0] - NORTH
     # 19.19 mas a year about the ecliptic's pole, 23.4 degrees away: towards -x
@@ -105,7 +105,7 @@ def test_torque_at_a_mean_pole_does_not_hear_of_the_axis(de421: Ephemeris) -> No
     fixed = forces(
         de421,
         mean_pole=lambda t: np.broadcast_to(NORTH, (t.size, 3)),
-        torques=(geodesic_torque("sun"),),  # which the angular momentum alone hears of
+        torques=(geodesic_torque,),  # which the angular momentum alone hears of
     )
     windows = Windows(np.array([0.0, 8 * DAY]), 14)
     law, _ = fixed.over(windows)

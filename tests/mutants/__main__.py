@@ -1,7 +1,5 @@
 """``python -m tests.mutants [NAME ...] [--page FILE]``: plant errors, demand that tests fail."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

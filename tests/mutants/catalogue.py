@@ -1,7 +1,5 @@
 """The planted errors as data: what is replaced by what, and where it should be noticed."""
 
-from __future__ import annotations
-
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path

@@ -5,8 +5,6 @@ is run again on a copy without any error. Tests that never get to run do not cou
 caught an error last time, by the page with the results, runs first and alone.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

@@ -1,7 +1,5 @@
 """What became of the planted errors, as text and as a page of the documentation."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 

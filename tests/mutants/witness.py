@@ -1,7 +1,5 @@
 """A pytest plugin that notes the first test that fails, and that the copy is what is tested."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

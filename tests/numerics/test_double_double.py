@@ -1,7 +1,5 @@
 """Double-double numbers against exact fractions and against mpmath."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import mpmath as mp

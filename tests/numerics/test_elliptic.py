@@ -1,7 +1,5 @@
 """Elliptic functions against mpmath, from the circle to the separatrix."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import mpmath as mp

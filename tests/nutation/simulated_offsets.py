@@ -1,7 +1,5 @@
 """Simulated celestial pole offsets: noise with memory, and an excited free core nutation."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import lfilter

@@ -1,7 +1,5 @@
 """Our pole beside the IAU's: the budget, the residuals, the nutations, against print."""
 
-from __future__ import annotations
-
 import importlib.util
 
 import erfa

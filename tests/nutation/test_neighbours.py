@@ -91,8 +91,8 @@ def test_the_prograde_year_holds_a_third_of_itself_of_its_neighbour() -> None:
 
 def test_neighbours_are_found_by_frequency() -> None:
     every = np.concatenate([MULTIPLES, -MULTIPLES])
-    near = neighbours_of(every, every @ RATES, RATES, AT_EPOCH)
-    beside = {tuple(m): name for m, name in zip(every.tolist(), near.names, strict=True) if name}
+    names, _ = neighbours_of(every, every @ RATES, RATES, AT_EPOCH)
+    beside = {tuple(m): name for m, name in zip(every.tolist(), names, strict=True) if name}
     assert beside == {
         (0, 1, 0, 0, 0): "+0 -1 +2 -2 +2", (0, -1, 0, 0, 0): "+0 +1 -2 +2 -2",
         (0, 0, 2, -2, 2): "+0 +2 +0 +0 +0", (0, 0, -2, 2, -2): "+0 -2 +0 +0 +0",

@@ -1,7 +1,5 @@
 """Labelled arrays: in every number of a body each question takes them, or names the field."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

@@ -1,7 +1,5 @@
 """Questions whose bodies are placed by elements: no kernel, exact means, clear refusals."""
 
-from __future__ import annotations
-
 import math
 import tomllib
 from pathlib import Path

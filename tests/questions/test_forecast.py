@@ -1,7 +1,5 @@
 """Forecast of the pole: what it uses, what it refuses, and what was observed later."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Forecast of the pole with a known excitation: made from the observed pole itself."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The pole by region: stretches of a series that are the series, with errors of the whole."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

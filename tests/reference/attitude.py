@@ -11,8 +11,6 @@ Nothing is averaged and nothing is assumed slow: any spin, any shape of three mo
 The differences of the moments are given, never formed.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.spatial.transform import Rotation
 

@@ -3,8 +3,6 @@
 It is an independent check of the closed form, with which it shares only the initial state.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

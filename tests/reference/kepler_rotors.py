@@ -5,8 +5,6 @@ Richardson's extrapolation (Gragg 1965; Hairer, Norsett & Wanner 1993, sect. II.
 `earthspin.motion` the equations, and neither method nor code.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

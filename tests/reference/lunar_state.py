@@ -7,8 +7,6 @@ steadily precessing rigid body has the angular momentum C (n + nu), n the mean m
 rate at which the node regresses: its turns count from the node.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -8,8 +8,6 @@ follow ELP2000-82 (Chapront-Touze & Chapront 1983, Astron. Astrophys. 124, 50), 
 Astronomical Algorithms, tables 47.A and 47.B). The Sun's perigee and the equator are fixed.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from earthspin.constants import DAY, DAYS_PER_CENTURY

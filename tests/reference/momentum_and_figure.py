@@ -7,8 +7,6 @@ Because F rotates about once a day, the steps must be short (steps near a day re
 solver shares only the formula of the torque with `earthspin.motion.axes`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

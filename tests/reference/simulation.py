@@ -1,7 +1,5 @@
 """Simulated polar motion with a known free wobble, for tests of estimation methods."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.signal import lfilter
 
@@ -69,7 +67,7 @@ def simulate(
     p += 94 * turning(time, YEAR) + 4.5 * turning(time, -YEAR) + 5 * turning(time, YEAR / 2)
     if red:
         driven = DrivenOscillator(chandler_frequency(period, quality_factor), memory, red=red**2)
-        p += driven.sampled(time.size, step, generator)
+        p += sampled(driven, time.size, step, generator)
     return time, p + (30 - 300j) + (1.6 - 3.4j) * time / 365.25
 
 
@@ -89,3 +87,21 @@ def red_size(
     white = 2 * s.imag * amplitude**2 / abs(s) ** 2  # power of the white excitation, mas2 d
     red_of_unit_size = 2 * memory / (1 + (s.real * memory) ** 2)
     return float(np.sqrt(share / (1 - share) * white / red_of_unit_size))
+
+
+def sampled(
+    oscillator: DrivenOscillator, count: int, step: float, generator: np.random.Generator
+) -> ComplexArray:
+    """Draw polar motion at even times from the stationary distribution of an oscillator."""
+    keep, stationary = np.exp(oscillator.rates * step), oscillator.covariance
+    kicks = stationary - keep[:, None] * stationary * keep.conj()
+    drawn = generator.standard_normal((count, 2, 2)) @ np.array([1, 1j]) / np.sqrt(2)
+    pushed = drawn @ _root(kicks).T
+    pushed[0] = _root(stationary) @ drawn[0]
+    return np.asarray(sum(lfilter([1], [1, -keep[i]], pushed[:, i]) for i in (0, 1)))
+
+
+def _root(covariance: ComplexArray) -> ComplexArray:
+    """Square root R of a covariance matrix, R R^H, which may be singular."""
+    values, vectors = np.linalg.eigh(covariance)
+    return np.asarray(vectors * np.sqrt(np.maximum(values, 0)))

@@ -1,7 +1,5 @@
 """Earth, Sun and Moon from the ephemeris DE421, as common test problem of the self-checks."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import cache
 

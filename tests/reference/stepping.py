@@ -1,7 +1,5 @@
 """Step-by-step integration with SciPy, and the time derivative of an attitude quaternion."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from typing import Any
 

@@ -4,8 +4,6 @@ Each number is an unevaluated sum of two floats, so that errors in the last digi
 measured. `python -m tests.reference` computes the files again.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from pathlib import Path

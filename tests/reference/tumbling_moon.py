@@ -1,7 +1,5 @@
 """A tumbling moon on an ellipse, for which a reference solution is stored."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

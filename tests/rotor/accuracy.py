@@ -4,8 +4,6 @@ Errors are against the textbook's form at eighty digits: of each component of om
 relative to its own largest value in the motion, and of the elements of the attitude matrix.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import mpmath as mp

@@ -1,7 +1,5 @@
 """Random bodies and starts, by the kind of trouble that they make."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """The symmetric rotor: cones, angles, and the same motion by other ways."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Euler's equations: invariants, stability, and an integrator that knows nothing else."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

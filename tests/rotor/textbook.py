@@ -6,8 +6,6 @@ lose half of a float's digits or all of them; of the eighty digits that they are
 enough are left. Only mpmath is used.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Small kernels, written by hand: the layout of a DAF file and of its segments in plain sight."""
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Sequence
 from dataclasses import dataclass

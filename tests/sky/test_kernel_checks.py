@@ -1,7 +1,5 @@
 """Damaged kernels are refused, and kernels with an unusual layout are read."""
 
-from __future__ import annotations
-
 import shutil
 import struct
 from dataclasses import replace

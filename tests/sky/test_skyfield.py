@@ -1,7 +1,5 @@
 """Skyfield as a source: the same torques, rates and standstills as the fast reader gives."""
 
-from __future__ import annotations
-
 import erfa
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """Bodies with a place of their own: Skyfield's vector functions, orbits, and what is none."""
 
-from __future__ import annotations
-
 import math
 import shutil
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """An ellipse by its elements as a textbook has it, with any number of digits."""
 
-from __future__ import annotations
-
 import mpmath as mp
 
 from earthspin.sky.elements import Ellipse

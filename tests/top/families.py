@@ -1,7 +1,5 @@
 """Random tops that try each kind of motion; the same ones in every run."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 
 import numpy as np

@@ -73,12 +73,6 @@ def test_a_top_does_not_change_with_the_arrays_it_was_made_of() -> None:
         top.theta[0] = 1.0
 
 
-def test_spin_from_the_euler_rates() -> None:
-    rest = {name: value for name, value in TOP.items() if name not in ("theta", "spin")}
-    top = HeavyTop.from_euler_rates(theta=0.6, phi_rate=0.7, psi_rate=4.0, **rest)
-    assert top.spin == pytest.approx(0.7 * np.cos(0.6) + 4.0, rel=1e-15, abs=0)
-
-
 def test_constants_are_those_of_the_source() -> None:
     """I.7.7: b I1 = phi' (sin^2 I1 + cos^2 I3) + psi' cos I3; I.7.14 from the energy I.7.11."""
     phi_rate, theta_rate = 0.7, -0.4

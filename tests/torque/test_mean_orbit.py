@@ -15,7 +15,6 @@ from earthspin.torque.average import (
     mean_torque,
     precessing_torque,
     rounding,
-    square_of_normal,
 )
 from earthspin.torque.gravity import torque_from_position
 from earthspin.torque.rates import circular_orbit_torque
@@ -46,7 +45,7 @@ def test_the_mean_of_torques_along_an_ellipse(
     """Even steps of the mean anomaly converge exponentially: 2000 of them to rounding."""
     axis, normal = normal_at(tilt, 0.0), normal_at(inclination, node)
     sampled = torque_from_position(3.0, 1.0, places(2.0, e, normal, pericentre, 2000), axis)
-    found = mean_torque(mean_tide(3.0, 2.0, e, square_of_normal(normal)), axis)
+    found = mean_torque(mean_tide(3.0, 2.0, e, np.outer(normal, normal)), axis)
     np.testing.assert_allclose(found, sampled.mean(axis=0), rtol=0, atol=1e-13)
 
 

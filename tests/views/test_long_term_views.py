@@ -1,7 +1,5 @@
 """Tables and figures of the axis over millennia: they say what the result says."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import combinations
 

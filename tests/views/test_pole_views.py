@@ -1,7 +1,5 @@
 """Tables and figures of the pole: they say what the result says."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

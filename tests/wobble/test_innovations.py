@@ -1,7 +1,5 @@
 """Covariance of forecasts from innovations, against the model's own and against draws."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from earthspin.wobble import forecast

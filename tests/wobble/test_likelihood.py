@@ -87,7 +87,7 @@ def test_samples_have_the_covariance_of_the_state() -> None:
     s = excitation.chandler_frequency(433.0, 5.0)
     oscillator = DrivenOscillator(s, TAU, white=3.0, red=400.0, background=50.0)
     of = covariance(1j * s, 3.0, 400.0, 50.0)
-    p = oscillator.sampled(40_000, 30.0, np.random.default_rng(7))
+    p = simulation.sampled(oscillator, 40_000, 30.0, np.random.default_rng(7))
     back = np.exp(-1j * MIDDLE * 30.0)
     for lag in (0, 1, 6):
         seen = np.mean(p[lag:] * p[: p.size - lag].conj()) * back**lag

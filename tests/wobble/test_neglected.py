@@ -1,7 +1,5 @@
 """What the ladder leaves out, found again by a larger system and by the slope of the ladder."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

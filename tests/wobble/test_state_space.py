@@ -1,7 +1,5 @@
 """Filter and likelihood against the covariance of all observations, and forecasts against draws."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -6,11 +6,11 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from earthspin.mass.figure import maccullagh_torque
-from earthspin.mass.multipoles import spheroid_zonals
 from earthspin.mass.spheroid import spheroid_attraction, spheroid_torque
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.double_double import DoubleDouble
 from tests.benchmarks.accuracy.ladder import Ladder, settings
+from tests.mass.spheroid_reference import spheroid_zonals
 from tests.reference.sky import unit_vectors
 from tests.reference.stored import load
 
