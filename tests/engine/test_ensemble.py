@@ -657,3 +657,12 @@ def test_a_row_longer_than_the_header_is_refused(tmp_path: Path) -> None:
     file.write_text("k2,core_fraction\n0.298,0.114,0.0025\n0.299,0.114,0.0025\n")
     with pytest.raises(EarthspinError, match=r"m\.csv.*it cannot be read"):
         earthspin.ensemble("wobble", file)
+
+
+def test_a_number_of_the_question_out_of_range_is_found_among_arrays() -> None:
+    members = {"n": 70, "seed": 1, "ocean_love_number": {"normal": [0.04, 0.03]}}
+    kept = earthspin.ensemble("wobble", members | {"impossible": "drop"})
+    assert 0.0 <= float(kept.ocean_love_number.min()) < 0.02
+    assert "that cannot exist" in kept.attrs["members_dropped"]
+    with pytest.raises(SceneError, match=r"cannot exist: .*ocean_love_number"):
+        earthspin.ensemble("wobble", members)
