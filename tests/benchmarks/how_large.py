@@ -42,9 +42,9 @@ def past(kyr: int) -> xr.Dataset:
     return earthspin.long_term(f"-{kyr} kyr", "0 kyr", "1 kyr")
 
 
-def insolation(answer: xr.Dataset) -> xr.DataArray:
+def insolation(answer: xr.Dataset) -> xr.Dataset:
     """Insolation at 180 latitudes at the June solstice."""
-    return earthspin.daily_insolation(answer, list(LATITUDES), "90 deg")
+    return earthspin.daily_insolation(answer, list(LATITUDES), "90 deg").to_dataset()
 
 
 #: By call: what the size counts, sizes, and the call; insolation is given an answer of `past`.
@@ -138,7 +138,7 @@ def main() -> None:
             seconds, memory, result = numbers[-1]
             rows.append(
                 f"| `{name}` | {sizes[-1]:,} {what} | {seconds:.2g} s | {memory:.0f} MB "
-                f"| {result:.2g} MB |"
+                f"| {max(result, 1):.0f} MB |"
             )
         axes[0].set_ylabel("processor time (s)")
         axes[1].set_ylabel("peak memory (MB)")
