@@ -66,6 +66,7 @@ bench: $(VENV)/.test
 	$(BIN)/python tests/benchmarks/side_by_side.py
 	$(BIN)/python tests/benchmarks/call_overhead.py
 	$(BIN)/python tests/benchmarks/ensemble.py
+	$(BIN)/python -m tests.benchmarks.how_large
 
 clean:
 	rm -rf $(VENV) $(LOWEST) $(NEWEST) .venv-3.14 report build dist docs/_build

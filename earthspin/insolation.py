@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from earthspin.bodies import BODIES, SUN, Numeric
+from earthspin.bodies import BODIES, SUN
 from earthspin.constants import AU, DAY, SOLAR_CONSTANT
 from earthspin.engine.variables import si
 from earthspin.errors import SceneError, UndefinedError, Where
+from earthspin.numerics.arrays import FloatArray
 from earthspin.secular.budget import Quantiles, draws
-from earthspin.secular.insolation import Season, daily, over_days, true_longitude
+from earthspin.secular.insolation import Season, daily, daylight, inverse_square, over_days
+from earthspin.secular.insolation import true_longitude as from_mean
 from earthspin.units import quantity
 
 _NEEDED = ("obliquity", "eccentricity", "longitude_of_perihelion")
 _TURN = 2 * np.pi
-_TURNING = "longitude_of_perihelion"
+_PERIHELION = _NEEDED.index("longitude_of_perihelion")
 #: Half-width of the longitude of perihelion, rad, above which its contribution is sampled.
 SAMPLED_FROM = 0.1
 _CALL = "daily_insolation"
@@ -87,30 +88,41 @@ def daily_insolation(
     if not isinstance(true_longitude, (bool, np.bool_)):
         raise Where("true_longitude", _CALL).error(true_longitude, "give True or False")
     body = str(result["obliquity"].attrs.get("orbit_of", ""))
-    phi = _angle(latitude, "latitude", np.pi / 2)
-    sun = _angle(solar_longitude, "solar_longitude", _TURN)
-    insolation = partial(
-        _insolation, latitude=phi, longitude=sun, true=true_longitude, share=_share(days, body)
-    )
-    middle = [si(result[name]) for name in _NEEDED]
-    value = insolation(*middle)
-    squares = xr.zeros_like(value)
-    for place, name in enumerate(_NEEDED):
-        half = si(result[f"{name}_error"])
+    angles = [
+        _angle(latitude, "latitude", np.pi / 2),
+        _angle(solar_longitude, "solar_longitude", _TURN),
+    ]
+    share = _share(days, body)
+    inputs = [si(result[f"{name}{kind}"]) for kind in ("", "_error") for name in _NEEDED]
+    labels, arrays = _side_by_side(*inputs, *angles)
+    middle, halves, (phi, sun) = arrays[:3], arrays[3:6], arrays[6:]
+    if true_longitude and share is None:
+        # Latitude and obliquity are in one factor, eccentricity and perihelion in the other.
+        def strength(eps: FloatArray, e: FloatArray, w: FloatArray) -> FloatArray:
+            return inverse_square(Season(eps, e, w), sun)
 
-        def moved(by: Numeric, place: int = place, half: xr.DataArray = half) -> xr.DataArray:
-            changed = list(middle)
-            changed[place] = changed[place] + by * half
-            return insolation(*changed)
+        def light(eps: FloatArray, e: FloatArray, w: FloatArray) -> FloatArray:
+            return daylight(eps, phi, sun)
 
-        share = (moved(1) - moved(-1)) / 2
-        if name == _TURNING and bool((half > SAMPLED_FROM).any()):
-            share = share.where(half <= SAMPLED_FROM, _quantile(moved, value))
-        squares = squares + share**2
+        mean = strength(*middle) * light(*middle) / np.pi
+        by_obliquity = strength(*middle) ** 2 * _squares(light, middle, halves, (0,))
+        by_orbit = light(*middle) ** 2 * _squares(strength, middle, halves, (1, _PERIHELION))
+        squares = (by_obliquity + by_orbit) / np.pi**2
+    else:
+
+        def insolation(eps: FloatArray, e: FloatArray, w: FloatArray) -> FloatArray:
+            season = Season(eps, e, w)
+            true = sun if true_longitude else from_mean(season, sun)
+            return (
+                daily(season, phi, true) if share is None else over_days(season, phi, true, share)
+            )
+
+        mean = insolation(*middle)
+        squares = _squares(insolation, middle, halves, (0, 1, _PERIHELION))
     constant = _constant(solar_constant, body)
-    error: xr.DataArray = constant * squares**0.5
+    error = labels.copy(data=constant * squares**0.5)
     error.attrs = {"units": "W m-2", "long_name": "95 % half-width of the daily insolation"}
-    answer = (constant * value).rename("daily_insolation")
+    answer = labels.copy(data=constant * mean).rename("daily_insolation")
     kind = "true" if true_longitude else "mean"
     answer.attrs = {
         "units": "W m-2",
@@ -122,31 +134,42 @@ def daily_insolation(
     return answer.assign_coords(daily_insolation_error=error)
 
 
-def _quantile(moved: Callable[[float], xr.DataArray], value: xr.DataArray) -> xr.DataArray:
-    """95 % half-width of insolation due to random errors of the longitude of perihelion."""
-    quantiles = Quantiles()
-    for (by,) in draws(1):
-        quantiles.add({_CALL: (moved(float(by)) - value).values})
-    return value.copy(data=quantiles.at_probability()[_CALL])
+def _side_by_side(*arrays: xr.DataArray) -> tuple[xr.DataArray, list[FloatArray]]:
+    """Labels of all dimensions, and arrays that broadcast along them without copies."""
+    labels = xr.broadcast(*arrays)[0]
+    aligned = xr.align(*arrays, join="outer", copy=False)
+    return labels, [
+        array.transpose(*labels.dims, missing_dims="ignore").values.reshape(
+            [array.sizes.get(name, 1) for name in labels.dims]
+        )
+        for array in aligned
+    ]
 
 
-def _insolation(
-    obliquity: xr.DataArray,
-    eccentricity: xr.DataArray,
-    perihelion: xr.DataArray,
-    *,
-    latitude: xr.DataArray,
-    longitude: xr.DataArray,
-    true: bool,
-    share: float | None,
-) -> xr.DataArray:
-    """Insolation divided by the solar constant, averaged over a day or over a part of the year."""
-    arrays = xr.broadcast(obliquity, eccentricity, perihelion, latitude, longitude)
-    eps, e, w, phi, sun = (array.values for array in arrays)
-    season = Season(eps, e, w)
-    sun = sun if true else true_longitude(season, sun)
-    mean = daily(season, phi, sun) if share is None else over_days(season, phi, sun, share)
-    return arrays[0].copy(data=mean)
+def _squares(
+    function: Callable[..., FloatArray],
+    middle: Sequence[FloatArray],
+    halves: Sequence[FloatArray],
+    places: Sequence[int],
+) -> FloatArray:
+    """Sum of the squared changes of a function due to half-widths of some of its arguments."""
+    total: FloatArray = np.zeros(1)
+    for place in places:
+        half = halves[place]
+
+        def moved(by: float, place: int = place, half: FloatArray = half) -> FloatArray:
+            changed = list(middle)
+            changed[place] = changed[place] + by * half
+            return function(*changed)
+
+        share = (moved(1) - moved(-1)) / 2
+        if place == _PERIHELION and np.any(half > SAMPLED_FROM):
+            value, quantiles = function(*middle), Quantiles()
+            for (by,) in draws(1):
+                quantiles.add({_CALL: moved(float(by)) - value})
+            share = np.where(half <= SAMPLED_FROM, share, quantiles.at_probability()[_CALL])
+        total = total + share**2
+    return total
 
 
 def _angle(value: Any, name: str, most: float) -> xr.DataArray:

@@ -25,6 +25,7 @@ from earthspin.engine.members import MEMBER, TWICE, IntArray, Members, draw
 from earthspin.engine.question import NEGLECTED, SCENE, Question, scene_text
 from earthspin.engine.run import Run
 from earthspin.errors import ApartError, EarthspinError, SceneError
+from earthspin.units import Number
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -171,7 +172,12 @@ class Ensemble:
 
     def _impossible_members(self) -> Iterator[tuple[int, EarthspinError]]:
         """Yield the index and the error of each member whose inputs are impossible."""
-        arrays = all(entry.field and entry.labelled for entry in self.numbers.values())
+        together = self.question.graph.together
+        arrays = all(
+            entry.labelled
+            and (entry.field or (entry.key in together and isinstance(entry.kind, Number)))
+            for entry in self.numbers.values()
+        )
         for names, indices in self.groups.items():
             try:
                 question = self.variant(names)
@@ -180,6 +186,7 @@ class Ensemble:
                 continue
             if arrays:
                 with suppress(EarthspinError):
+                    self._check_ranges(indices)
                     with_values(question, self.numbers, self._together(indices))
                     continue
             for index in indices.tolist():
@@ -187,6 +194,13 @@ class Ensemble:
                     with_values(question, self.numbers, self._alone(index))
                 except EarthspinError as error:
                     yield index, error
+
+    def _check_ranges(self, indices: IntArray) -> None:
+        """Raise an error if a number of the question itself is out of range in some members."""
+        for name, entry in self.numbers.items():
+            values = self.values[name][indices]
+            for extreme in () if entry.field else (values.min(), values.max()):
+                entry.kind.read(float(extreme), self.question.where(name))
 
     # --- groups of members, and runs for the names of each ---------------------------------------
 

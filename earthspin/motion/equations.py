@@ -27,7 +27,7 @@ import numpy as np
 
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
-from earthspin.torque.gravity import zonal_torque
+from earthspin.torque.gravity import zonal_law
 
 #: Torque divided by C along the body's axes, s-2, shape (m, 3), from times (s), shape (m,),
 #: quaternions (m, 4) and angular velocities along the body's axes, rad/s (m, 3).
@@ -168,6 +168,10 @@ class Equations:
         strength = pull.gm[:, np.newaxis] / (square * square * np.sqrt(square))
         strength = strength * (1 + body.trend * (body.epoch + pull.times))
         self._strength = np.tile(strength, self._lanes) * self._rows(body.tide)
+        zonal = {degree: coefficient / body.unit for degree, coefficient in body.zonal}
+        near = pull.gm[: pull.near, np.newaxis, np.newaxis]
+        places = pull.places[:, : pull.near, np.newaxis]
+        self._on_harmonics = zonal_law(zonal, body.radius, near, places) if zonal else None
         matrix = rotations.matrices(start[3:])
         momentum = _into(matrix, start[:3]) if in_space else start[:3]
         spin = body.unit / body.moments * momentum
@@ -245,16 +249,9 @@ class Equations:
         lanes = (3, self._lanes, self._nodes)
         axis, along = matrix[:, 2].reshape(lanes), momentum.reshape(lanes)
         total = np.zeros(lanes)
-        for degree, coefficient in body.zonal:
-            for mass in range(pull.near):
-                total += body.tide[:, np.newaxis] * zonal_torque(
-                    degree,
-                    coefficient / body.unit,
-                    body.radius,
-                    float(pull.gm[mass]),
-                    pull.places[:, mass, np.newaxis, :],
-                    axis,
-                )
+        if self._on_harmonics is not None:
+            torque = np.sum(self._on_harmonics(axis[:, np.newaxis]), axis=1)
+            total += body.tide[:, np.newaxis] * torque
         for law in pull.laws:
             total += law(axis, along)
         return total.reshape(3, -1)

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from earthspin.constants import COMPUTED, DAY, DAYS_PER_CENTURY, Constant
+from earthspin.constants import COMPUTED, DAY, Constant
 from earthspin.interior.equilibrium import Figure, figure
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import Yielding, elastic, yielding
@@ -418,9 +418,9 @@ class Spread:
         self,
         name: str,
         frequency: FloatArray,
-        circles: ComplexArray,
+        circles: FloatArray,
+        products: FloatArray,
         residual: ComplexArray,
-        days: FloatArray,
     ) -> float:
         """95 % half-width of the root mean square of a residual, the larger of both angles, rad.
 
@@ -430,26 +430,28 @@ class Spread:
             Model.
         frequency : ndarray, shape (k,)
             Frequencies of the circular terms in space, rad/s.
-        circles : ndarray, shape (k, t), complex
-            Rigid circular terms at the days, rad.
+        circles : ndarray, shape (2 k, t)
+            Real parts of the rigid circular terms at t days, then imaginary parts, without linear
+            trends, rad.
+        products : ndarray, shape (2 k, 2 k)
+            Sums over the days of the products of two rows of `circles`, rad2.
         residual : ndarray, shape (t,), complex
             Nominal residual, without a linear trend, rad.
-        days : ndarray, shape (t,)
         """
-        from earthspin.nutation.analysis import without_line
-
-        shifts = np.einsum("nk,kt->tn", self.transfer_changes(name, frequency), circles)
-        shifts = without_line(days / DAYS_PER_CENTURY, np.hstack([shifts.real, shifts.imag]))
-        factors = np.vstack([np.ones(self.weights.shape[1]), self.weights])
+        change = self.transfer_changes(name, frequency)
+        shifts_of_angles = (
+            np.hstack([change.real, -change.imag]),
+            np.hstack([change.imag, change.real]),
+        )
         half_widths = []
-        for angle, shift in zip(
-            (residual.real, residual.imag), np.split(shifts, 2, axis=1), strict=True
-        ):
-            series = np.column_stack([angle, shift])
-            products = np.einsum("ti,tj->ij", series, series) / len(days)
-            squares = np.einsum("id,ij,jd->d", factors, products, factors, optimize=True)
-            change = np.sqrt(np.maximum(squares, 0.0)) - np.sqrt(products[0, 0])
-            half_widths.append(float(_half_width(change)))
+        for angle, shift in zip((residual.real, residual.imag), shifts_of_angles, strict=True):
+            nominal = np.sum(angle * angle)
+            linear = np.einsum("ni,i->n", shift, np.einsum("it,t->i", circles, angle))
+            square = np.einsum("ni,mi->nm", np.einsum("ni,ij->nj", shift, products), shift)
+            by_node = 2 * linear[:, np.newaxis] + np.einsum("nm,md->nd", square, self.weights)
+            squares = nominal + np.sum(self.weights * by_node, axis=0)
+            rms_change = np.sqrt(np.maximum(squares, 0.0)) - np.sqrt(nominal)
+            half_widths.append(float(_half_width(rms_change / np.sqrt(angle.size))))
         return max(half_widths)
 
     def _drawn(self, changes: Array) -> Array:

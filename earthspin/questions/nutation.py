@@ -154,7 +154,9 @@ def left(
     error = residual_error(done, pulls.body, theirs, days)
     sampled = slice(None, None, max(1, days.size // DAYS_OF_ERRORS))
     phases = circles.multiples @ iau.delaunay_arguments(days[sampled])
-    terms_at_days = circles.amplitude[:, np.newaxis] * np.exp(1j * phases)
+    terms = (circles.amplitude[:, np.newaxis] * np.exp(1j * phases)).T
+    waves = without_line(days[sampled] / DAYS_PER_CENTURY, np.hstack([terms.real, terms.imag])).T
+    products = np.einsum("it,jt->ij", waves, waves)
     residuals = {}
     with progress("residuals", len(factors)) as advance:
         for name, shift in zip(factors, iau.at_days(shifts, days).swapaxes(0, 1), strict=True):
@@ -165,9 +167,9 @@ def left(
             of_interior = interior_spread.rms_half_width(
                 name,
                 circles.frequency,
-                terms_at_days,
+                waves,
+                products,
                 residual[sampled, 0] + 1j * residual[sampled, 1],
-                days[sampled],
             )
             residuals[name] = np.array([*rms, math.hypot(error, of_interior)])
             advance(1)

@@ -77,15 +77,17 @@ class Quantiles:
         """Add the deviations of one random solution from the nominal one, by quantity."""
         for name, distance in distances.items():
             if name not in self._largest:
-                self._largest[name] = np.zeros((self._count + 1, *distance.shape))
-            # the smallest is first and is replaced
-            self._largest[name][0] = np.abs(distance)
-            self._largest[name].sort(axis=0)
+                self._largest[name] = np.zeros((self._count, *distance.shape))
+            rest = np.abs(distance)
+            for row in self._largest[name]:  # the largest first; faster than to sort them
+                row_before = row.copy()
+                np.maximum(row, rest, out=row)
+                rest = np.fmin(row_before, rest)  # NaN counts as the largest
 
     def at_probability(self) -> dict[str, FloatArray]:
         """Return the quantile of the deviations of each quantity, for `PROBABILITY`."""
         return {
-            name: largest[1] + self._share * (largest[2] - largest[1])
+            name: largest[-1] + self._share * (largest[-2] - largest[-1])
             for name, largest in self._largest.items()
         }
 

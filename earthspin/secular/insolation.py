@@ -56,13 +56,27 @@ def daily(season: Season, latitude: FloatArray, longitude: FloatArray) -> FloatA
     longitude : ndarray
         True longitude of the Sun, rad.
     """
+    closeness = inverse_square(season, longitude)
+    return np.asarray(closeness * daylight(season.obliquity, latitude, longitude) / np.pi)
+
+
+def inverse_square(season: Season, longitude: FloatArray) -> FloatArray:
+    """Factor (a/r)^2 of the insolation, which does not depend on latitude and obliquity."""
     e = season.eccentricity
     nearness = (1 + e * np.cos(longitude - season.perihelion - np.pi)) / (1 - e * e)
-    sine = np.sin(season.obliquity) * np.sin(longitude)
+    return np.asarray(nearness**2)
+
+
+def daylight(obliquity: FloatArray, latitude: FloatArray, longitude: FloatArray) -> FloatArray:
+    """Sine of the Sun's height, integrated over the hour angle from noon to sunset, rad.
+
+    It depends on the orbit only through the true longitude.
+    """
+    sine = np.sin(obliquity) * np.sin(longitude)
     high, level = np.sin(latitude) * sine, np.cos(latitude) * np.sqrt(1 - sine * sine)
     # half the length of daylight is pi during a polar day and 0 during a polar night
     half_day = np.arccos(np.clip(-high / np.maximum(level, 1e-300), -1.0, 1.0))
-    return np.asarray(nearness**2 * (half_day * high + level * np.sin(half_day)) / np.pi)
+    return np.asarray(half_day * high + level * np.sin(half_day))
 
 
 def true_longitude(season: Season, mean: FloatArray) -> FloatArray:

@@ -235,45 +235,22 @@ def quadrupole_torque(tensor: FloatArray, axis: FloatArray) -> FloatArray:
 # which for n = 2 is (I.9.34). Per unit of C it is proportional to M a2/C = H/J2.
 
 
-def zonal_torque(
-    degree: int,
-    coefficient: float,
-    radius: float,
-    gm: float,
-    position: FloatArray,
-    axis: FloatArray,
-) -> FloatArray:
-    """Torque of a mass on one zonal harmonic J_n of a body, divided by M a2, s-2.
-
-    Parameters
-    ----------
-    degree : int
-        n of J_n, 2 or more.
-    coefficient : float
-        J_n in the convention of geodesy (unnormalised, J2 of an oblate body positive).
-    radius : float
-        Equatorial reference radius a, m.
-    gm : float
-        Gravitational parameter of the mass, m3 s-2.
-    position : ndarray, shape (3, ...)
-        From the body to the mass, m.
-    axis : ndarray, shape (3, ...)
-        Unit vectors of the figure axis.
-    """
-    return zonal_law({degree: coefficient}, radius, gm, position)(axis)
-
-
 def zonal_law(
-    coefficients: Mapping[int, float], radius: float, gm: float, position: FloatArray
+    coefficients: Mapping[int, float], radius: float, gm: float | FloatArray, position: FloatArray
 ) -> Callable[[FloatArray], FloatArray]:
     """Make a function of the figure axis that returns the torque on several harmonics J_n.
 
     Parameters
     ----------
     coefficients : mapping of int to float
-        J_n by degree.
-    radius, gm, position
-        As for `zonal_torque`.
+        J_n by degree n of 2 or more, in the convention of geodesy (unnormalised, J2 of an oblate
+        body positive).
+    radius : float
+        Equatorial reference radius a, m.
+    gm : float or ndarray
+        Gravitational parameter of the mass, m3 s-2.
+    position : ndarray, shape (3, ...)
+        From the body to the mass, m.
 
     Returns
     -------
@@ -286,8 +263,8 @@ def zonal_law(
     series = np.zeros((max(coefficients, default=1), *distance.shape))
     for degree, coefficient in coefficients.items():
         pull = gm / distance**3 * coefficient * (radius / distance) ** (degree - 2)
-        slope = legendre.legder(np.eye(degree + 1)[degree])
-        series[:degree] += np.multiply.outer(slope, pull)
+        for k in range(degree - 1, -1, -2):  # P_n' = sum of (2k + 1) P_k
+            series[k] += (2 * k + 1) * pull
 
     def torque(axis: FloatArray) -> FloatArray:
         size = legendre.legval(dot(direction, axis), series, tensor=False)
@@ -298,7 +275,7 @@ def zonal_law(
 
 # --- bounds on neglected torques ------------------------------------------------------------------
 # The torque on J_n is (G M m / r) J_n (a/r)^n P_n'(u) times the sine of the angle from the axis
-# (`zonal_torque`); the torque on the equatorial ellipticity is at most 3/2 G m (B - A) / r3,
+# (`zonal_law`); the torque on the equatorial ellipticity is at most 3/2 G m (B - A) / r3,
 # about the axis.
 
 #: Largest |P_n'(u)| sqrt(1 - u2): for n = 3 at u2 = 11/15, for n = 4 at u2 = (27 + sqrt(393))/56.

@@ -563,3 +563,12 @@ test_an_input_in_two_spellings_is_refused = refused(
     ({"body.j2": GRID, "values": {"body.j2": pack(np.array([1e-3, 2e-3]))}}, "it is given twice"),
     call=lambda members: earthspin.ensemble(Scene(compute="wobble"), members),
 )
+
+
+def test_a_number_of_the_question_out_of_range_is_found_among_arrays() -> None:
+    members = {"n": 70, "seed": 1, "ocean_love_number": {"normal": [0.04, 0.03]}}
+    kept = earthspin.ensemble("wobble", members | {"impossible": "drop"})
+    assert 0.0 <= float(kept.ocean_love_number.min()) < 0.02
+    assert "that cannot exist" in kept.attrs["members_dropped"]
+    with pytest.raises(SceneError, match=r"cannot exist: .*ocean_love_number"):
+        earthspin.ensemble("wobble", members)

@@ -96,6 +96,19 @@ def test_the_error_is_that_of_the_answer(past: xr.Dataset) -> None:
     assert np.allclose(by_tilt, moved, rtol=0.02, atol=1e-9)
 
 
+@pytest.mark.parametrize("half", [0.01, 200.0])
+def test_both_longitudes_have_the_same_error_at_the_equinox(past: xr.Dataset, half: float) -> None:
+    """There both are zero for any perihelion; one is computed for all latitudes in one step."""
+    lost = past.copy()
+    name = "longitude_of_perihelion_error"
+    lost[name] = (0 * past[name] + half).assign_attrs(past[name].attrs)
+    errors = [
+        daily_insolation(lost, ["-40 deg", "65 deg"], "0 deg", kind).daily_insolation_error
+        for kind in (True, False)
+    ]
+    assert np.allclose(*errors, rtol=1e-7, atol=0)  # 6e-9 measured
+
+
 @pytest.mark.slow
 def test_the_error_holds_where_the_season_of_perihelion_is_lost() -> None:
     """The half-width of the perihelion is more than a turn there; draws of it are the truth."""

@@ -5,7 +5,7 @@ import pytest
 
 import earthspin
 from earthspin.bodies import EARTH, MOON, SUN
-from earthspin.torque.gravity import largest_torque_on_figure, zonal_torque
+from earthspin.torque.gravity import largest_torque_on_figure, zonal_law
 
 MASS, RADIUS = 6.0e24, 6.4e6
 GM, DISTANCE = 4.9e12, 3.6e8
@@ -28,7 +28,7 @@ def largest(zonal: dict[int, float], triaxiality: float = 0.0) -> dict[str, floa
 def test_zonal(degree: int, coefficient: float) -> None:
     place = DISTANCE * directions()
     axis = np.broadcast_to(np.array([[0.0], [0.0], [1.0]]), place.shape)
-    found = zonal_torque(degree, coefficient, RADIUS, GM, place, axis) * MOMENT
+    found = zonal_law({degree: coefficient}, RADIUS, GM, place)(axis) * MOMENT
     sizes = np.linalg.norm(found, axis=0)
     bound = largest({degree: coefficient})[f"j{degree}"]
     assert sizes.max() <= bound
@@ -86,9 +86,9 @@ def test_a_series_says_what_it_leaves_out() -> None:
             unit = np.stack([np.cos(dec) * np.cos(ra), np.cos(dec) * np.sin(ra), np.sin(dec)])
             axis = np.broadcast_to(np.array([[0.0], [0.0], [1.0]]), unit.shape)
             coefficient = float(getattr(EARTH, f"j{degree}"))
-            total += zonal_torque(
-                degree, coefficient, EARTH.radius, body.gm, one.distance.values * unit, axis
-            )
+            total += zonal_law(
+                {degree: coefficient}, EARTH.radius, body.gm, one.distance.values * unit
+            )(axis)
         largest_there_is[f"j{degree}"] = np.linalg.norm(total, axis=0).max() * bulge
     for effect, size in largest_there_is.items():
         assert size < float(told.sel(effect=effect)) < 2 * size
