@@ -271,7 +271,7 @@ class Body(FromMass):
 
     def _source(self, name: str) -> str:
         """Literature source of the value of a field; empty if a user changed the built-in value."""
-        value, cited = getattr(self, name), NUMBERS.get(self.name, {}).get(name)
+        value, cited = getattr(self, name), NUMBERS.get(self.known_as, {}).get(name)
         if isinstance(value, c.Constant):
             return value.source
         return cited.source if cited is not None and is_same(cited.value, value) else ""
@@ -363,9 +363,21 @@ class Body(FromMass):
         return {"from": NOTHING} | table
 
     @property
+    def known_as(self) -> str:
+        """Name of the built-in body with a NAIF code of this body; without codes, its own name.
+
+        It is empty if no built-in body has its codes. Orbits, models and published numbers are
+        found by it.
+        """
+        if not self.naif:
+            return self.name
+        codes = set(self.naif)
+        return next((name for name, world in BODIES.items() if codes & set(world.naif)), "")
+
+    @property
     def changes(self) -> str:
-        """Describe the differences from the built-in body of the same name; empty if none."""
-        start = BODIES.get(self.name)
+        """Describe the differences from the built-in body with its codes; empty if none."""
+        start = BODIES.get(self.known_as)
         if start is None or start is self:
             return ""
         changes = []
@@ -395,7 +407,7 @@ class Body(FromMass):
 
         It includes the satellites of this body, except the other body itself.
         """
-        name = other.name.lower()
+        name = (other.known_as or other.name).lower()
         return self.gm + sum(s.gm for s in self.satellites if s.name.lower() != name)
 
     @property
@@ -589,7 +601,7 @@ class Body(FromMass):
     @property
     def are_as_named(self) -> Numeric:
         """Test for each ensemble member if figure and spin agree with the built-in body to 1 %."""
-        named = BODIES.get(self.name)
+        named = BODIES.get(self.known_as)
         if named is None or self.satellites != named.satellites:
             return False
         close = (are_close(getattr(self, name), getattr(named, name)) for name in _OF_THE_WOBBLE)
@@ -667,6 +679,11 @@ def _placed(function: Any, where: Where) -> Body:
         problem = "its mass is not known; give Body(name=..., gm=..., position=...)"
         raise where.error(function, problem)
     return match.replace(position=function)
+
+
+def label_of(name: str, bodies: Iterable[Body]) -> str | None:
+    """Return the label of the first body that is a given built-in one; None if there is none."""
+    return next((world.name for world in bodies if world.known_as == name), None)
 
 
 def members(bodies: Iterable[Body]) -> int:

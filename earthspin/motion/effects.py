@@ -178,9 +178,9 @@ def geodesic_torque(primary: str) -> Torque:
 
 def _add_geodesic(forces: Forces, body: Numbers) -> Forces:
     # The effect needs the Sun among the perturbers.
-    if "sun" not in forces.gm:
+    if forces.sun not in forces.gm:
         return forces
-    return replace(forces, torques=(*forces.torques, geodesic_torque("sun")))
+    return replace(forces, torques=(*forces.torques, geodesic_torque(forces.sun)))
 
 
 GEODESIC = add(Effect("geodesic", _add_geodesic))

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from earthspin.bodies import Body
+from earthspin.bodies import Body, label_of
 from earthspin.bodies.checks import extent, overlap
 from earthspin.errors import SceneError, nearest
 from earthspin.sky.elements import Ellipse, Plane
@@ -81,10 +81,11 @@ def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
     assert member.orbit is not None
     about = member.orbit.about
     if about:
-        if about not in known or about == member.name:
+        label = about if about in known else label_of(about, known.values())
+        if label is None or label == member.name:
             others = [name for name in known if name != member.name]
             raise SceneError(f"{member.name}.orbit.about", about, nearest(about, others))
-        return about
+        return label
     if member is not body:
         return body.name
     left = [name for name, other in known.items() if other.orbit is None and other is not body]
