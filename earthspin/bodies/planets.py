@@ -245,15 +245,19 @@ _ASKED = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
 
 
 def all_in_words() -> str:
-    """Table of all built-in bodies as text: whether each can rotate, and which numbers it lacks."""
+    """Table of all built-in bodies as text: what each can do, and which numbers it lacks."""
     width = max(map(len, BODIES))
     lines = []
     for name, world in BODIES.items():
         missing = [field for field in _ASKED if getattr(world, field) is None]
-        status = "pulls and spins" if not missing else "pulls"
-        if 0 < len(missing) < len(_ASKED) - 1:
-            status = f"pulls and spins; not known: {', '.join(missing)}"
-        lines.append(f"{name:<{width}}  {status}")
+        facts = ["pulls and spins" if len(missing) < len(_ASKED) - 1 else "pulls"]
+        if name in OF_MOONS:
+            facts = [f"{facts[0]} once it has an orbit or a position"]
+        if missing and facts[0] != "pulls":
+            facts.append(f"not known: {', '.join(missing)}")
+        if name in PRECESSING_ORBITS:
+            facts.append("locked to its orbit (cassini_states, not precession)")
+        lines.append(f"{name:<{width}}  {'; '.join(facts)}")
     return "\n".join([*lines, "", "each number with its source: earthspin info bodies NAME"])
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -13,11 +13,12 @@ import numpy as np
 from earthspin._version import version
 from earthspin.bodies import EARTH, MOON, SUN, Body, all_of
 from earthspin.bodies.checks import extent, overlap, refuse_break_up
-from earthspin.bodies.planets import on_its_orbit, pulled_by
+from earthspin.bodies.planets import PRECESSING_ORBITS, on_its_orbit, pulled_by
+from earthspin.constants import DAY
 from earthspin.dates import Span
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key
-from earthspin.errors import SceneError, UndefinedError, Where
+from earthspin.errors import KernelError, SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.elements import EllipseChain, all_by_elements, ellipse_chains
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
@@ -160,12 +161,15 @@ class Places:
         Smallest allowed distance of each perturber, m: the sum of the largest radii.
     by_elements : bool
         True if all positions follow from elements, so that no kernel is needed.
+    by_own_orbit : mapping of str to EllipseChain
+        The same chains, and that to the body, for a body that only its own orbit places.
     """
 
     body: Body
     targets: dict[str, EllipseChain]
     reach: dict[str, float]
     by_elements: bool = False
+    by_own_orbit: Mapping[str, EllipseChain] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -342,15 +346,32 @@ class Stretch:
 
 def _place(source: Source, name: str, chain: EllipseChain) -> Place:
     """NAIF code, trajectory or ellipses with which a source of positions finds a body."""
-    if chain.ellipses:
-        return ByElements(chain.ellipses, source.code(chain.start.naif, name))
-    return place_of(source, name, chain.start.naif, chain.start.position)
+    start = chain.start
+    try:
+        if chain.ellipses:
+            return ByElements(chain.ellipses, source.code(start.naif, name))
+        return place_of(source, name, start.naif, start.position)
+    except KernelError as error:
+        raise KernelError(
+            error.path,
+            f"it has no position of '{start.name}'",
+            f"give an orbit or a position, like .replace(orbit={_known_orbit(start)})",
+        ) from None
+
+
+def _known_orbit(body: Body) -> dict[str, str]:
+    """Example of an orbit of a body: that of a known moon about its planet, or that of Pluto."""
+    orbit = PRECESSING_ORBITS.get(body.known_as)
+    if orbit is None or orbit.period is None:
+        return {"a": "39.5 au", "about": SUN.name}
+    return {"period": f"{orbit.period / DAY:.8g} d", "about": orbit.about}
 
 
 @part
 def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
     """Determine for each body how its position is found: kernel, own trajectory or elements."""
-    targets = {p.name: EllipseChain(p) for p in perturbers} | ellipse_chains(body, perturbers)
+    alone = {p.name: EllipseChain(p) for p in perturbers}
+    targets = alone | ellipse_chains(body, perturbers)
     for p in perturbers:
         start = targets[p.name].start
         if targets[p.name].ellipses and start.position is not None:
@@ -361,6 +382,7 @@ def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
         targets,
         {p.name: extent(body) + extent(p) for p in perturbers},
         all_by_elements(body, perturbers),
+        alone | ellipse_chains(body, perturbers, starts_at_body=False),
     )
 
 
@@ -387,8 +409,15 @@ def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
         }
         return Sky(Elements(), CENTRE, ellipses, places.reach)
     opened = open_source(source, ephemeris)
-    centre = _place(opened, places.body.name, EllipseChain(places.body))
-    targets = {name: _place(opened, name, chain) for name, chain in places.targets.items()}
+    name, chains = places.body.name, places.targets
+    try:
+        centre = _place(opened, name, EllipseChain(places.body))
+    except KernelError:
+        if name not in places.by_own_orbit:
+            raise
+        chains = dict(places.by_own_orbit)
+        centre = _place(opened, name, chains.pop(name))
+    targets = {name: _place(opened, name, chain) for name, chain in chains.items()}
     for name, place in targets.items():
         if place == centre:
             raise SceneError("perturbers", name, "a body does not pull on itself")
