@@ -26,7 +26,7 @@ from earthspin.engine.store import open as open_file
 from earthspin.errors import SceneError, nearest, no_plain_file
 from earthspin.questions import MODULES
 from earthspin.questions.times import epochs
-from earthspin.units import FileName
+from earthspin.units import FileName, is_deep
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -177,6 +177,8 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
     if changes is not None and not isinstance(changes, Mapping):
         raise SceneError("changes", changes, "give a mapping of keys to values")
     changes = changes or {}
+    if is_deep(changes):
+        raise SceneError("changes", changes, "its tables contain themselves; give each a new one")
     if isinstance(scene, Question):
         if not changes:
             return scene

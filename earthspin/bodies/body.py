@@ -176,10 +176,14 @@ class Body(FromMass):
     UNITS: ClassVar[dict[str, str]]
     LABELLED: ClassVar[frozenset[str]]
 
-    def __new__(cls, *places: object, **_: object) -> Body:
-        """Raise an error for positional arguments; the fields of a body must be named."""
+    def __new__(cls, *places: object, **given: object) -> Body:
+        """Raise an error for positional arguments and for names that are no fields of a body."""
         if places:
             raise TypeError("Body() takes its arguments by name: Body(name='x', gm=1e14)")
+        for key in given.keys() - cls.KINDS.keys() - {"obliquity"}:
+            use = f"give it to replace, like Body(...).replace({key}=...)"
+            problem = use if key in _READ_AS else nearest(key, cls.KINDS)
+            raise BodyError(str(given.get("name")), key, given[key], problem)
         return super().__new__(cls)
 
     def __post_init__(self, obliquity: Any) -> None:
@@ -210,7 +214,7 @@ class Body(FromMass):
     def _pole_at(self, value: object) -> Pole:
         """Return a fixed spin axis with the given obliquity and this body's equinox direction."""
         angle = _READ_AS["obliquity"].read(value, Where(f"{self.name}.obliquity"))
-        if hasattr(angle, "dims") or not 0 <= angle <= math.pi:
+        if hasattr(angle, "dims") or np.ndim(angle) or not 0 <= angle <= math.pi:
             raise BodyError(self.name, "obliquity", value, "give one angle from 0 to 180 deg")
         assert self.pole is not None
         if self.orbit_pole is None:
@@ -347,7 +351,8 @@ class Body(FromMass):
                     raise where.error(dict(table), allowed)
                 if start == LAYERS:
                     return cls.from_layers(changes.pop("interior"), **changes)
-                return cls(**changes)
+                derived = {key: changes.pop(key) for key in _DERIVED & changes.keys()}
+                return cls(**changes).replace(**derived)
             return body(start, where.at("from")).replace(**changes)
         except (EarthspinError, TypeError) as error:
             if isinstance(error, EarthspinError) and not isinstance(error, BodyError):
@@ -628,6 +633,9 @@ _READ_AS: dict[str, Any] = {
     **Body.KINDS, "mass": Magnitude("kg", "5.97e24 kg"), "moments": Moments(),
     "obliquity": Magnitude("rad", "40 deg"),
 }  # fmt: skip
+
+#: Keys that change other fields of a body.
+_DERIVED = _READ_AS.keys() - Body.KINDS.keys() - {"obliquity"}
 
 #: Required keys of a table, by its "from", each with an example value.
 _LEAST = {

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from earthspin.errors import OutputError, Where, nearest
 from earthspin.numerics.arrays import FloatArray
-from earthspin.units import Word, by_name, pack, unit_factor, unpack
+from earthspin.units import Word, by_name, is_deep, pack, unit_factor, unpack
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -262,6 +262,8 @@ class Members:
             return cls(values=_values_of(value, where))
         if not isinstance(value, Mapping):
             raise where.error(value, f"give {cls.words}")
+        if is_deep(value):
+            raise where.error(value, "its tables contain themselves; give each a new one")
         inputs = {name: entry for name, entry in value.items() if name not in _SETTINGS}
         for name, entry in inputs.items():
             if not isinstance(entry, Mapping):

@@ -213,7 +213,7 @@ class LongTerm(
         if "perturbers" not in self.given and no_iau_model(self.body):
             object.__setattr__(self, "perturbers", (SUN,))
         if sorted(p.known_as for p in self.perturbers) not in (["sun"], ["moon", "sun"]):
-            problem = "over millennia it is the Sun, or Sun and Moon; give no others"
+            problem = "give the Sun (NAIF 10), or the Sun and Moon (10 and 301)"
             raise self.error("perturbers", [p.name for p in self.perturbers], problem)
 
 
