@@ -26,7 +26,7 @@ from earthspin.engine.store import open as open_file
 from earthspin.errors import SceneError, nearest, no_plain_file
 from earthspin.questions import MODULES
 from earthspin.questions.times import epochs
-from earthspin.units import FileName, is_deep
+from earthspin.units import FileName
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -177,8 +177,6 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
     if changes is not None and not isinstance(changes, Mapping):
         raise SceneError("changes", changes, "give a mapping of keys to values")
     changes = changes or {}
-    if is_deep(changes):
-        raise SceneError("changes", changes, "its tables contain themselves; give each a new one")
     if isinstance(scene, Question):
         if not changes:
             return scene
@@ -245,6 +243,8 @@ def _leaves(key: str, value: Any) -> Iterator[str]:
     if not isinstance(value, Mapping):
         yield key
         return
+    if key.count(".") >= MOST_PARTS:
+        raise SceneError("changes", "a table", "its tables contain themselves; give each a new one")
     for name, inner in value.items():
         yield from _leaves(f"{key}.{name}", inner)
 

@@ -426,12 +426,6 @@ def pack(values: FloatArray) -> dict[str, Plain]:
     return {"shape": list(values.shape), "float64": base64.b64encode(data).decode("ascii")}
 
 
-def is_deep(table: Mapping[Any, Any], levels: int = 32) -> bool:
-    """Return True if tables are nested in more levels than a scene has, or contain themselves."""
-    inner = [value for value in table.values() if isinstance(value, Mapping)]
-    return levels == 0 or any(is_deep(value, levels - 1) for value in inner)
-
-
 def unpack(table: Mapping[str, Any], where: Where) -> FloatArray:
     """Restore an array from the dict that `pack` returned.
 

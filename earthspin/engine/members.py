@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from earthspin.errors import OutputError, Where, nearest
 from earthspin.numerics.arrays import FloatArray
-from earthspin.units import Word, by_name, is_deep, pack, unit_factor, unpack
+from earthspin.units import Word, by_name, pack, unit_factor, unpack
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,6 +34,8 @@ IntArray = NDArray[np.int64]
 
 #: Name of the dimension of an ensemble.
 MEMBER = "member"
+#: Largest number of dots in the name of an input.
+DEEPEST = 32
 #: Largest number of members, which limits the memory for the values of one input.
 LARGEST_COUNT = 10_000_000
 #: Message for an input that is given more than once.
@@ -262,8 +264,6 @@ class Members:
             return cls(values=_values_of(value, where))
         if not isinstance(value, Mapping):
             raise where.error(value, f"give {cls.words}")
-        if is_deep(value):
-            raise where.error(value, "its tables contain themselves; give each a new one")
         inputs = {name: entry for name, entry in value.items() if name not in _SETTINGS}
         for name, entry in inputs.items():
             if not isinstance(entry, Mapping):
@@ -413,6 +413,8 @@ def _entries(
     """
     for name, entry in table.items():
         full = f"{before}{name}"
+        if full.count(".") > DEEPEST:
+            raise where.error("a table", "its tables contain themselves; give each a new one")
         if not isinstance(entry, Mapping):
             raise where.at(full).error(entry, "give a table like normal = [1, 2]")
         inner = [*entry.values()]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -13,7 +13,8 @@ import numpy as np
 from earthspin._version import version
 from earthspin.bodies import EARTH, MOON, SUN, Body, all_of
 from earthspin.bodies.checks import extent, overlap, refuse_break_up
-from earthspin.bodies.planets import PRECESSING_ORBITS, on_its_orbit, pulled_by
+from earthspin.bodies.moons import ORBITS as OF_MOONS
+from earthspin.bodies.planets import on_its_orbit, pulled_by
 from earthspin.constants import DAY
 from earthspin.dates import Span
 from earthspin.engine.part import part
@@ -168,8 +169,8 @@ class Places:
     body: Body
     targets: dict[str, EllipseChain]
     reach: dict[str, float]
-    by_elements: bool = False
-    by_own_orbit: Mapping[str, EllipseChain] = field(default_factory=dict)
+    by_elements: bool
+    by_own_orbit: dict[str, EllipseChain]
 
 
 @dataclass(frozen=True)
@@ -352,19 +353,12 @@ def _place(source: Source, name: str, chain: EllipseChain) -> Place:
             return ByElements(chain.ellipses, source.code(start.naif, name))
         return place_of(source, name, start.naif, start.position)
     except KernelError as error:
-        raise KernelError(
-            error.path,
-            f"it has no position of '{start.name}'",
-            f"give an orbit or a position, like .replace(orbit={_known_orbit(start)})",
-        ) from None
-
-
-def _known_orbit(body: Body) -> dict[str, str]:
-    """Example of an orbit of a body: that of a known moon about its planet, or that of Pluto."""
-    orbit = PRECESSING_ORBITS.get(body.known_as)
-    if orbit is None or orbit.period is None:
-        return {"a": "39.5 au", "about": SUN.name}
-    return {"period": f"{orbit.period / DAY:.8g} d", "about": orbit.about}
+        moon, problem = OF_MOONS.get(start.known_as), f"it has no position of '{start.name}'"
+        orbit = {"a": "39.5 au", "about": SUN.name}
+        if moon is not None and moon.period is not None:
+            orbit = {"period": f"{moon.period / DAY:.8g} d", "about": moon.about}
+        remedy = f"give an orbit or a position, like .replace(orbit={orbit}), or another kernel"
+        raise KernelError(error.path, problem, remedy) from None
 
 
 @part
@@ -415,9 +409,9 @@ def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
     except KernelError:
         if name not in places.by_own_orbit:
             raise
-        chains = dict(places.by_own_orbit)
-        centre = _place(opened, name, chains.pop(name))
-    targets = {name: _place(opened, name, chain) for name, chain in chains.items()}
+        chains = places.by_own_orbit
+        centre = _place(opened, name, chains[name])
+    targets = {name: _place(opened, name, chains[name]) for name in places.targets}
     for name, place in targets.items():
         if place == centre:
             raise SceneError("perturbers", name, "a body does not pull on itself")
