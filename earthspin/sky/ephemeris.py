@@ -132,7 +132,7 @@ class Ephemeris:
                 return code
         raise KernelError(
             self.path,
-            f"it has no position of '{name}' (NAIF {', '.join(map(str, candidates)) or 'unknown'})",
+            f"it does not hold '{name}' (NAIF {', '.join(map(str, candidates)) or 'code unknown'})",
             f"it holds {', '.join(map(str, sorted(self.targets)))}",
         )
 
