@@ -146,8 +146,9 @@ def _orbits(
     for p in perturbers:
         place = places[p.name]
         square = np.sum(place * place, axis=1)
-        turning = np.cross(place, later[p.name] - place) / square[:, np.newaxis]
-        periods.append(2 * np.pi * MOMENT / np.linalg.norm(np.mean(turning, axis=0)))
+        turned = np.cross(place, later[p.name] - place) / square[:, np.newaxis]
+        turn = np.linalg.norm(np.mean(turned, axis=0))
+        periods.append(2 * np.pi * MOMENT / turn if turn else 0.0)  # 0: its torque is constant
         strengths.append(largest(p.gm_on(body)) * np.mean(square**-1.5))
     return np.array(periods), int(np.argmax(strengths))
 

@@ -30,7 +30,6 @@ from earthspin.sky.sources import (
     SourceName,
     describe_position,
     describe_source,
-    is_measured,
     is_vector_function,
     open_source,
     place_of,
@@ -141,11 +140,6 @@ class PerturbedBody(Question):
         """Refuse a spin so fast that the body would break up, if the question needs the spin."""
         if "spin_period" in self.needed():
             refuse_break_up(self.body)
-
-
-def unmeasured(body: Body) -> bool:
-    """Return True if `body.position` is set but not from a kernel, so its error is unknown."""
-    return body.position is not None and not is_measured(body.position)
 
 
 @dataclass(frozen=True)
