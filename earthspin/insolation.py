@@ -12,7 +12,7 @@ import xarray as xr
 from earthspin.bodies import BODIES, SUN, Numeric
 from earthspin.constants import AU, DAY, SOLAR_CONSTANT
 from earthspin.engine.variables import si
-from earthspin.errors import SceneError, UndefinedError, Where, one_line
+from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.secular.budget import Quantiles, draws
 from earthspin.secular.insolation import Season, daily, over_days, true_longitude
 from earthspin.units import quantity
@@ -88,7 +88,7 @@ def daily_insolation(
     try:
         xr.align(result["obliquity"], *arrays, join="exact")
     except ValueError as misfit:
-        problem = f"give it labels like coords={{'epoch': result.epoch}}: {one_line(misfit)}"
+        problem = f"give it labels like coords={{'epoch': result.epoch}}: {misfit}"
         raise SceneError("latitude, solar_longitude", "an array", problem, source=_CALL) from None
     if not isinstance(true_longitude, (bool, np.bool_)):
         raise Where("true_longitude", _CALL).error(true_longitude, "give True or False")

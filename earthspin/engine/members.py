@@ -34,8 +34,6 @@ IntArray = NDArray[np.int64]
 
 #: Name of the dimension of an ensemble.
 MEMBER = "member"
-#: Largest number of dots in the name of an input.
-DEEPEST = 32
 #: Largest number of members, which limits the memory for the values of one input.
 LARGEST_COUNT = 10_000_000
 #: Message for an input that is given more than once.
@@ -402,6 +400,10 @@ def _distributions(inputs: Mapping[str, Any], where: Where) -> dict[str, Distrib
             raise where.at(name).error(list(distribution.numbers), TWICE)
         distributions[name] = distribution
     return distributions
+
+
+#: Largest number of dots in the name of an input.
+DEEPEST = 32
 
 
 def _entries(
