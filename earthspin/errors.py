@@ -250,8 +250,8 @@ class UndefinedError(EarthspinError, ValueError):
     >>> try:
     ...     earthspin.precession(body=mars, perturbers="sun")
     ... except earthspin.UndefinedError as error:
-    ...     print(error)
-    precession is counted along the orbit; set the body's orbit_pole
+    ...     print(str(error).partition(";")[0])
+    the equinox of a body is the node of its orbit, which is not known
     """
 
 

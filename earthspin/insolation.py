@@ -85,6 +85,12 @@ def daily_insolation(
         raise SceneError(
             "result", type(result).__name__, "give an answer of long_term", source=_CALL
         )
+    labelled = [angle for angle in (latitude, solar_longitude) if isinstance(angle, xr.DataArray)]
+    try:
+        xr.align(result["obliquity"], *labelled, join="exact")
+    except ValueError as misfit:
+        problem = f"give it labels like coords={{'epoch': result.epoch}}: {misfit}"
+        raise SceneError("latitude, solar_longitude", "an array", problem, source=_CALL) from None
     if not isinstance(true_longitude, (bool, np.bool_)):
         raise Where("true_longitude", _CALL).error(true_longitude, "give True or False")
     body = str(result["obliquity"].attrs.get("orbit_of", ""))

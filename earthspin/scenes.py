@@ -242,6 +242,8 @@ def _leaves(key: str, value: Any) -> Iterator[str]:
     if not isinstance(value, Mapping):
         yield key
         return
+    if key.count(".") >= MOST_PARTS:
+        raise SceneError("changes", "a table", "its tables contain themselves; give each a new one")
     for name, inner in value.items():
         yield from _leaves(f"{key}.{name}", inner)
 

@@ -176,10 +176,14 @@ class Body(FromMass):
     UNITS: ClassVar[dict[str, str]]
     LABELLED: ClassVar[frozenset[str]]
 
-    def __new__(cls, *places: object, **_: object) -> Body:
-        """Raise an error for positional arguments; the fields of a body must be named."""
+    def __new__(cls, *places: object, **given: object) -> Body:
+        """Raise an error for positional arguments and for names that are no fields of a body."""
         if places:
             raise TypeError("Body() takes its arguments by name: Body(name='x', gm=1e14)")
+        for key in given.keys() - cls.KINDS.keys() - {"obliquity"}:
+            use = f"give it to replace, like Body(...).replace({key}=...)"
+            problem = use if key in _READ_AS else nearest(key, cls.KINDS)
+            raise BodyError(str(given.get("name")), key, given[key], problem)
         return super().__new__(cls)
 
     def __post_init__(self, obliquity: Any) -> None:
@@ -210,7 +214,7 @@ class Body(FromMass):
     def _pole_at(self, value: object) -> Pole:
         """Return a fixed spin axis with the given obliquity and this body's equinox direction."""
         angle = _READ_AS["obliquity"].read(value, Where(f"{self.name}.obliquity"))
-        if hasattr(angle, "dims") or not 0 <= angle <= math.pi:
+        if hasattr(angle, "dims") or np.ndim(angle) or not 0 <= angle <= math.pi:
             raise BodyError(self.name, "obliquity", value, "give one angle from 0 to 180 deg")
         assert self.pole is not None
         if self.orbit_pole is None:
@@ -271,7 +275,7 @@ class Body(FromMass):
 
     def _source(self, name: str) -> str:
         """Literature source of the value of a field; empty if a user changed the built-in value."""
-        value, cited = getattr(self, name), NUMBERS.get(self.name, {}).get(name)
+        value, cited = getattr(self, name), NUMBERS.get(self.known_as, {}).get(name)
         if isinstance(value, c.Constant):
             return value.source
         return cited.source if cited is not None and is_same(cited.value, value) else ""
@@ -347,7 +351,8 @@ class Body(FromMass):
                     raise where.error(dict(table), allowed)
                 if start == LAYERS:
                     return cls.from_layers(changes.pop("interior"), **changes)
-                return cls(**changes)
+                derived = {key: changes.pop(key) for key in _DERIVED & changes.keys()}
+                return cls(**changes).replace(**derived)
             return body(start, where.at("from")).replace(**changes)
         except (EarthspinError, TypeError) as error:
             if isinstance(error, EarthspinError) and not isinstance(error, BodyError):
@@ -363,9 +368,21 @@ class Body(FromMass):
         return {"from": NOTHING} | table
 
     @property
+    def known_as(self) -> str:
+        """Name of the built-in body with a NAIF code of this body; without codes, its own name.
+
+        It is empty if no built-in body has its codes. Orbits, models and published numbers are
+        found by it.
+        """
+        if not self.naif:
+            return self.name
+        codes = set(self.naif)
+        return next((name for name, world in BODIES.items() if codes & set(world.naif)), "")
+
+    @property
     def changes(self) -> str:
-        """Describe the differences from the built-in body of the same name; empty if none."""
-        start = BODIES.get(self.name)
+        """Describe the differences from the built-in body with its codes; empty if none."""
+        start = BODIES.get(self.known_as)
         if start is None or start is self:
             return ""
         changes = []
@@ -395,7 +412,7 @@ class Body(FromMass):
 
         It includes the satellites of this body, except the other body itself.
         """
-        name = other.name.lower()
+        name = (other.known_as or other.name).lower()
         return self.gm + sum(s.gm for s in self.satellites if s.name.lower() != name)
 
     @property
@@ -589,7 +606,7 @@ class Body(FromMass):
     @property
     def are_as_named(self) -> Numeric:
         """Test for each ensemble member if figure and spin agree with the built-in body to 1 %."""
-        named = BODIES.get(self.name)
+        named = BODIES.get(self.known_as)
         if named is None or self.satellites != named.satellites:
             return False
         close = (are_close(getattr(self, name), getattr(named, name)) for name in _OF_THE_WOBBLE)
@@ -616,6 +633,9 @@ _READ_AS: dict[str, Any] = {
     **Body.KINDS, "mass": Magnitude("kg", "5.97e24 kg"), "moments": Moments(),
     "obliquity": Magnitude("rad", "40 deg"),
 }  # fmt: skip
+
+#: Keys that change other fields of a body.
+_DERIVED = _READ_AS.keys() - Body.KINDS.keys() - {"obliquity"}
 
 #: Required keys of a table, by its "from", each with an example value.
 _LEAST = {
@@ -667,6 +687,11 @@ def _placed(function: Any, where: Where) -> Body:
         problem = "its mass is not known; give Body(name=..., gm=..., position=...)"
         raise where.error(function, problem)
     return match.replace(position=function)
+
+
+def label_of(name: str, bodies: Iterable[Body]) -> str | None:
+    """Return the label of the first body that is a given built-in one; None if there is none."""
+    return next((world.name for world in bodies if world.known_as == name), None)
 
 
 def members(bodies: Iterable[Body]) -> int:

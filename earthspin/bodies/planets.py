@@ -65,18 +65,18 @@ _OTHERS = (
 
 def pulled_by(body: Body) -> tuple[Body, ...]:
     """Default perturbers of a body: the Sun and the Moon, or the Sun and the body's planet."""
-    return tuple(BODIES[name] for name in _OTHERS.get(body.name, _SUN_AND_MOON))
+    return tuple(BODIES[name] for name in _OTHERS.get(body.known_as, _SUN_AND_MOON))
 
 
 def on_its_orbit(body: Body) -> Body:
     """Set the mean orbit of a giant planet that has neither an orbit nor a position source."""
     placed = body.orbit is not None or body.position is not None
-    if placed or body.name not in ORBITS:
+    if placed or body.known_as not in ORBITS:
         return body
-    orbit = ORBITS[body.name]
+    orbit = ORBITS[body.known_as]
     assert orbit.a is not None
     # with its period, the orbit stays the same if an ensemble varies the mass
-    nominal = BODIES[body.name] if hasattr(body.gm, "dims") else body
+    nominal = BODIES[body.known_as] if hasattr(body.gm, "dims") else body
     period = 2 * math.pi * math.sqrt(orbit.a**3 / (SUN.gm + nominal.gm_on(SUN)))
     orbit = replace(orbit, period=period)
     return body.replace(orbit=orbit, orbit_pole=body.orbit_pole)
@@ -245,15 +245,19 @@ _ASKED = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
 
 
 def all_in_words() -> str:
-    """Table of all built-in bodies as text: whether each can rotate, and which numbers it lacks."""
+    """Table of all built-in bodies as text: what each can do, and which numbers it lacks."""
     width = max(map(len, BODIES))
     lines = []
     for name, world in BODIES.items():
         missing = [field for field in _ASKED if getattr(world, field) is None]
-        status = "pulls and spins" if not missing else "pulls"
-        if 0 < len(missing) < len(_ASKED) - 1:
-            status = f"pulls and spins; not known: {', '.join(missing)}"
-        lines.append(f"{name:<{width}}  {status}")
+        facts = ["pulls and spins" if len(missing) < len(_ASKED) - 1 else "pulls"]
+        if name in OF_MOONS:
+            facts = [f"{facts[0]} once it has an orbit or a position"]
+        if missing and facts[0] != "pulls":
+            facts.append(f"not known: {', '.join(missing)}")
+        if name in PRECESSING_ORBITS:
+            facts.append("locked to its orbit (cassini_states, not precession)")
+        lines.append(f"{name:<{width}}  {'; '.join(facts)}")
     return "\n".join([*lines, "", "each number with its source: earthspin info bodies NAME"])
 
 

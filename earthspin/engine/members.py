@@ -386,6 +386,10 @@ def _whole_number(value: Any, where: Where, low: int, high: int = LARGEST_COUNT)
     return int(value)
 
 
+#: Largest number of dots in the name of an input.
+DEEPEST = 32
+
+
 def _distributions(
     table: Mapping[str, Any], where: Where, before: str = ""
 ) -> Iterator[tuple[str, Distribution]]:
@@ -394,6 +398,8 @@ def _distributions(
     TOML turns a dotted name into a table within a table.
     """
     for name, entry in table.items():
+        if before.count(".") > DEEPEST:
+            raise where.error("a table", "its tables contain themselves; give each a new one")
         inner = entry.values()
         if inner and not set(entry) & set(_SHAPES) and all(isinstance(i, Mapping) for i in inner):
             yield from _distributions(entry, where, f"{before}{name}.")

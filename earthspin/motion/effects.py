@@ -158,15 +158,15 @@ def geodesic_rate(
 
 def geodesic_torque(forces: Forces, windows: Windows, place: Places) -> RateLaw:
     """Geodesic precession about the Sun as an equivalent torque, a `Torque` of `Forces`."""
-    near = {name: forces.gm[name] for name in {"sun", *forces.near}}
+    near = {name: forces.gm[name] for name in {forces.sun, *forces.near}}
     velocity = {name: windows.derivative(place[name]) for name in near}
-    rate = geodesic_rate(near, place, velocity, "sun")
+    rate = geodesic_rate(near, place, velocity, forces.sun)
     return lambda axis, momentum: cross(rate, momentum)
 
 
 def _add_geodesic(forces: Forces, body: Numbers) -> Forces:
     # The effect needs the Sun among the perturbers.
-    if "sun" not in forces.gm:
+    if forces.sun not in forces.gm:
         return forces
     return replace(forces, torques=(*forces.torques, geodesic_torque))
 

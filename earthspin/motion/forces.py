@@ -86,6 +86,8 @@ class Forces:
     mean_pole : callable or None
         Function of times (t,) that returns unit vectors (t, 3). If given, torques are evaluated for
         an axis in this direction, so second-order effects are switched off.
+    sun : str
+        Name of the Sun, if it is among the perturbers.
     """
 
     figure: Figure
@@ -95,6 +97,7 @@ class Forces:
     far: Mapping[str, float] = field(default_factory=dict)
     torques: tuple[Torque, ...] = ()
     mean_pole: Callable[[FloatArray], FloatArray] | None = None
+    sun: str = "sun"
 
     def over(self, windows: Windows) -> tuple[RateLaw, FloatArray]:
         """Return a function for the angular momentum's rate in time windows, and the tidal tensor.

@@ -10,14 +10,13 @@ import numpy as np
 
 from earthspin._lazy import xr
 from earthspin._version import version
-from earthspin.bodies import Body, Numeric, in_a_sentence
+from earthspin.bodies import Body, Numeric
 from earthspin.bodies.checks import OF_AVERAGE, largest, refuse_fast_axis
 from earthspin.constants import DAY
 from earthspin.engine.part import part
-from earthspin.errors import UndefinedError
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import Estimate, FloatArray
-from earthspin.questions.elements import ellipse_chains, exact_means, no_exact_means
+from earthspin.questions.elements import ellipse_chains, exact_means, locked_error, no_exact_means
 from earthspin.questions.satellites import Carried, carried, without_swings
 from earthspin.questions.sky import Sky, Stretch
 from earthspin.sky.elements import Elements
@@ -29,6 +28,10 @@ from earthspin.torque.gravity import torque_from_declination
 #: Time between samples. One day is enough, since torques have no strong period below four days:
 #: with two days the rate is the same to 1e-12, with four days it differs by 3e-6.
 SAMPLING = DAY  # s
+#: Number of samples of the angular velocity of a perturber, and their length, s.
+ORBIT_SAMPLES, MOMENT = 1000, 60.0
+#: An orbit slower than the slowest cycle by this factor needs a window of its own.
+AS_SLOW = 1.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +52,8 @@ class Samples:
         Obliquity of the axis to the orbit at the epoch, rad.
     nearness : ndarray, shape (perturber,)
         Mean of 1/r3 of each perturber, m-3.
+    swing : ndarray, shape (perturber,)
+        Relative variation of the torque of each perturber on times longer than the window.
     unmeasured : tuple of str
         Perturbers whose positions have no measured error.
     no_error : str
@@ -65,6 +70,7 @@ class Samples:
     window: Window
     obliquity: float
     nearness: FloatArray
+    swing: FloatArray
     unmeasured: tuple[str, ...] = ()
     no_error: str = ""
     strength: xr.DataArray | None = None
@@ -89,7 +95,12 @@ def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Bod
     body = without_swings(body)
     pole, orbit = body.needed("pole"), body.orbit_pole
     cycle = max(map(slowest_cycle, perturbers))
+    orbits, strongest = _orbits(sky, stretch, body, perturbers)
+    if orbits[strongest] > AS_SLOW * cycle:
+        cycle = float(orbits[strongest])
     window = best_window(stretch.first * DAY, stretch.last * DAY, cycle)
+    # the mean of a weak perturber over a part of its orbit may be off by all of it
+    is_part = orbits > AS_SLOW * window.length / average.FEWEST_CYCLES
     times = window.sample_times(SAMPLING)
     days = times / DAY
 
@@ -114,11 +125,29 @@ def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Bod
         window=window,
         obliquity=angle(axis_at_epoch, normal),
         nearness=np.array([np.mean(coordinates[p.name][2] ** -3.0) for p in perturbers]),
+        swing=np.where(is_part, 1.0, [p.slow_swing for p in perturbers]),
         unmeasured=sky.unmeasured,
         no_error=sky.no_error,
         strength=strength,
         are_stored=_same_samples(sky, stretch, body, perturbers) is not None,
     )
+
+
+def _orbits(
+    sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]
+) -> tuple[FloatArray, int]:
+    """Mean time of a revolution of each perturber, s, and the index of the strongest perturber."""
+    days = np.linspace(stretch.first, stretch.last, ORBIT_SAMPLES)[:-1]
+    places, later = sky.positions(days), sky.positions(days + MOMENT / DAY)
+    periods, strengths = [], []
+    for p in perturbers:
+        place = places[p.name]
+        square = np.sum(place * place, axis=1)
+        turned = np.cross(place, later[p.name] - place) / square[:, np.newaxis]
+        turn = np.linalg.norm(np.mean(turned, axis=0))
+        periods.append(2 * np.pi * MOMENT / turn if turn else 0.0)  # 0: its torque is constant
+        strengths.append(largest(p.gm_on(body)) * np.mean(square**-1.5))
+    return np.array(periods), int(np.argmax(strengths))
 
 
 def _labels(perturbers: tuple[Body, ...]) -> list[str]:
@@ -153,16 +182,7 @@ def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: FloatArray) -> None
         for name, position in sky.positions(times / DAY).items():
             turns = cassini.locked_ratio(times, position, spin_axis, spin_rate)
             if turns is not None:
-                raise _locked_error(body, name, turns)
-
-
-def _locked_error(body: Body, perturber: str, turns: float) -> UndefinedError:
-    """Make the error for a spin that is locked to an orbit."""
-    return UndefinedError(
-        f"{in_a_sentence(body.name)} is locked to its orbit with '{perturber}' ({turns:g} "
-        f"rotation{'' if turns == 1 else 's'} per orbit), so averages over orbits do not apply; "
-        "use cassini_states for the position of its axis"
-    )
+                raise locked_error(body, name, turns)
 
 
 def slowest_cycle(perturber: Body) -> float:
@@ -230,7 +250,7 @@ def window_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> MeanT
     """
     samples = torque_samples
     window, times = samples.window, samples.times
-    swing = np.array([np.nan if p.name in samples.unmeasured else p.slow_swing for p in perturbers])
+    swing = np.where([p.name in samples.unmeasured for p in perturbers], np.nan, samples.swing)
     strength = samples.strength
     many = None if strength is None else strength.values.reshape(len(perturbers), -1)
     precessing, precessing_error = window_mean_and_error(
@@ -274,7 +294,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
         for spin_rate in np.ravel(body.spin_rate):
             turns = cassini.locked_turns(float(spin_rate), forward)
             if turns is not None:
-                raise _locked_error(body, p.name, turns)
+                raise locked_error(body, p.name, turns)
         square = (
             average.mean_square_of_normal(ellipse.plane.matrix[2], ellipse.i)
             if ellipse.node_rate

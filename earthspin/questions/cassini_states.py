@@ -96,7 +96,7 @@ class Locking:
 
 def orbit_of(body: Body, orbit: Orbit | None) -> Orbit | None:
     """Return the orbit given by the user, or else the body's known orbit; None if there is none."""
-    return orbit or body.orbit or PRECESSING_ORBITS.get(body.name)
+    return orbit or body.orbit or PRECESSING_ORBITS.get(body.known_as)
 
 
 @part
@@ -111,12 +111,12 @@ def own_orbit(body: Body, orbit: Orbit | None) -> Orbit:
 def locking(body: Body, own_orbit: Orbit) -> Locking:
     """Compute the mean motion of a body on its orbit, and its number of rotations per orbit."""
     about = own_orbit.about or SUN.name
-    if about not in BODIES or about == body.name:
-        others = [name for name in BODIES if name != body.name]
+    if about not in BODIES or about == body.known_as:
+        others = [name for name in BODIES if name != body.known_as]
         raise SceneError("orbit.about", about, nearest(about, others))
     placed = body.replace(orbit=own_orbit)
     a, motion = size_and_motion(placed, BODIES[about])
-    known = PRECESSING_ORBITS.get(body.name)
+    known = PRECESSING_ORBITS.get(body.known_as)
     like = f", like about = '{known.about}'" if known is not None and known.about else ""
     advice = "" if own_orbit.about else f"; name what it orbits{like}"
     refuse_overlap(placed, BODIES[about], a, advice)
@@ -195,8 +195,8 @@ def _error(body: Body, orbit: Orbit, locking: Locking, obliquity: FloatArray) ->
 @part
 def neglected(body: Body, own_orbit: Orbit) -> Neglected:
     """Published sizes of effects on the obliquity that the theory of Cassini states neglects."""
-    sizes = LEFT_OUT_OF_STATES.get(body.name, {})
-    if sizes and body.is_as_named and own_orbit == PRECESSING_ORBITS.get(body.name):
+    sizes = LEFT_OUT_OF_STATES.get(body.known_as, {})
+    if sizes and body.is_as_named and own_orbit == PRECESSING_ORBITS.get(body.known_as):
         return Neglected.cited(sizes, "change of the obliquity in the upright state")
     return Neglected(
         what="libration, pulls beside that of the primary, a core that does not follow, and terms "

@@ -6,11 +6,13 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from earthspin.bodies import Body
+from earthspin.bodies import Body, in_a_sentence, label_of
 from earthspin.bodies.checks import extent, overlap
+from earthspin.bodies.moons import ORBITS as OF_MOONS
 from earthspin.bodies.orbit import Orbit
-from earthspin.errors import SceneError, nearest
+from earthspin.errors import SceneError, UndefinedError, nearest
 from earthspin.sky.elements import Ellipse, Plane
+from earthspin.torque.cassini import locked_turns
 
 #: Largest relative deviation of semi-major axis and period from Kepler's third law. The Sun makes
 #: the Moon's month 0.3 per cent longer than the law with its mean distance.
@@ -33,10 +35,13 @@ class EllipseChain(NamedTuple):
     ellipses: tuple[tuple[Ellipse, int], ...] = ()
 
 
-def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, EllipseChain]:
-    """Chains of ellipses that lead to the perturbers with orbital elements, by perturber name.
+def ellipse_chains(
+    body: Body, perturbers: tuple[Body, ...], starts_at_body: bool = True
+) -> dict[str, EllipseChain]:
+    """Chains of ellipses that lead to the bodies with orbital elements, by their names.
 
-    A chain starts from the spinning body if possible, else from a body without elements.
+    A chain starts from the spinning body if possible, else from a body without elements; or the
+    other way round, for a spinning body that is placed by its own orbit.
 
     Raises
     ------
@@ -58,7 +63,8 @@ def ellipse_chains(body: Body, perturbers: tuple[Body, ...]) -> dict[str, Ellips
         ellipse = _ellipse(known[name], known[about], body)
         links[about][name], links[name][about] = (ellipse, 1), (ellipse, -1)
     reached: dict[str, EllipseChain] = {}
-    for start in (body, *(member for member in perturbers if member.orbit is None)):
+    without_orbit = [member for member in perturbers if member.orbit is None]
+    for start in (body, *without_orbit) if starts_at_body else (*without_orbit, body):
         if start.name not in reached:
             _add_chain(EllipseChain(start), start.name, links, reached)
     return {name: chain for name, chain in reached.items() if chain.ellipses}
@@ -81,10 +87,11 @@ def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
     """Name of the body that `member` orbits; an empty text if that body is not in the list."""
     about: str = member.needed("orbit").about
     if about:
-        if about not in known or about == member.name:
+        label = about if about in known else label_of(about, known.values())
+        if label is None or label == member.name:
             others = [name for name in known if name != member.name]
             raise SceneError(f"{member.name}.orbit.about", about, nearest(about, others))
-        return about
+        return label
     if member is not body:
         return body.name
     left = [name for name, other in known.items() if other.orbit is None and other is not body]
@@ -179,6 +186,15 @@ def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
     return a, 2 * math.pi / period
 
 
+def locked_error(body: Body, perturber: str, turns: float) -> UndefinedError:
+    """Make the error for a spin that is locked to an orbit."""
+    return UndefinedError(
+        f"{in_a_sentence(body.name)} is locked to its orbit with '{perturber}' ({turns:g} "
+        f"rotation{'' if turns == 1 else 's'} per orbit), so averages over orbits do not apply; "
+        "use cassini_states for the position of its axis"
+    )
+
+
 def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
     """Return True if all perturber positions relative to the body follow from orbital elements."""
     if not any(member.orbit is not None for member in (body, *perturbers)):
@@ -190,8 +206,14 @@ def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
 def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """Return the reason (text) to omit windowed means if exact means are possible, else None.
 
-    Exact means are possible if each perturber moves on an ellipse about the body.
+    Exact means are possible if each perturber moves on an ellipse about the body. No mean is
+    possible for a moon without a place that is locked to its planet, which is refused.
     """
+    moon = OF_MOONS.get(body.known_as)
+    if moon is not None and body.orbit is body.position is None and not body.labelled:
+        turns = locked_turns(float(body.spin_rate), 2 * math.pi / body.number("orbital_period"))
+        if turns is not None:
+            raise locked_error(body, moon.about, turns)
     by_name = ellipse_chains(body, perturbers)
     single = all(chain.start is body and len(chain.ellipses) == 1 for chain in by_name.values())
     if len(by_name) < len(perturbers) or not single:

@@ -50,9 +50,9 @@ from earthspin.questions.path import (
 )
 from earthspin.questions.pulls import PULLS, Pulls
 from earthspin.questions.reasons import neglected_rates
-from earthspin.questions.sky import unmeasured
 from earthspin.questions.times import Dated
 from earthspin.sky import iau
+from earthspin.sky.sources import is_measured
 
 if TYPE_CHECKING:
     from earthspin.nutation.response import Response
@@ -96,7 +96,8 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
             "gives errors; use pole() for them"
         )
         for member in (self.body, *self.perturbers):
-            if unmeasured(member) or member.orbit is not None:
+            placed = member.position is None or is_measured(member.position)
+            if not placed or member.orbit is not None:
                 raise self.error("perturbers", member.name, problem)
 
 

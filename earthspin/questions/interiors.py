@@ -37,7 +37,7 @@ def interior_of(body: Body) -> Interior | None:
     """
     own = body.interior
     if isinstance(own, LayeredBody):
-        usual = BODIES[body.name].interior if body.is_as_named else None
+        usual = BODIES[body.known_as].interior if body.is_as_named else None
         return named.with_layers(own, named.INTERIORS.get(str(usual)))
     return named.INTERIORS.get(str(own))
 

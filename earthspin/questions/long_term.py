@@ -9,7 +9,7 @@ from typing import Annotated, Any, Self
 import numpy as np
 
 from earthspin._lazy import xr
-from earthspin.bodies import MOON, SUN, Body, in_a_sentence
+from earthspin.bodies import MOON, SUN, Body, in_a_sentence, label_of
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.dates import YearList, YearSpan, YearStep, grid
 from earthspin.engine.answers import public_call
@@ -95,8 +95,8 @@ def orbit_table(orbit: str | OrbitTable, body: Body) -> OrbitTable:
     if not isinstance(orbit, str):
         return orbit
     if orbit != OWN:
-        return read_orbit(orbit, body=body.name)
-    table = shipped(body.name)
+        return read_orbit(orbit, body=body.known_as or body.name)
+    table = shipped(body.known_as)
     if table is None:
         raise UndefinedError(
             f"no orbit over millions of years is shipped for {body.name}; give a file as orbit"
@@ -191,10 +191,9 @@ class LongTerm(
         super().check()
         if "perturbers" not in self.given and no_iau_model(self.body):
             object.__setattr__(self, "perturbers", (SUN,))
-        names = [p.name for p in self.perturbers]
-        if "sun" not in names or set(names) - {"sun", "moon"}:
-            problem = "over millennia it is the Sun, or Sun and Moon; give no others"
-            raise self.error("perturbers", names, problem)
+        if sorted(p.known_as for p in self.perturbers) not in (["sun"], ["moon", "sun"]):
+            problem = "give the Sun (NAIF 10), or the Sun and Moon (10 and 301)"
+            raise self.error("perturbers", [p.name for p in self.perturbers], problem)
 
 
 def _unknown_start(body: Body) -> str:
@@ -255,8 +254,8 @@ def numbers(
     as_published = 0.0 if not_sun_and_moon(body, perturbers) else body.are_as_named
     return SideBySide.of(
         **{
-            name: of_perturber(mean_rates.rate.value, place)
-            for place, name in enumerate(mean_rates.means.labels)
+            p.known_as: of_perturber(mean_rates.rate.value, place)
+            for place, p in enumerate(perturbers)
         },
         relative_error=np.hypot(error / np.abs(rate), CLOSURE * as_published),
         published=_published() * as_published,
@@ -281,7 +280,7 @@ def strength(
     """
     cosine, now = math.cos(mean_torques.obliquity), orbit_table.at(np.zeros(1))
     # the rates are those on the body's own orbit, whichever is given
-    own = shipped(body.name) or orbit_table
+    own = shipped(body.known_as) or orbit_table
     eccentricity = float(np.linalg.norm(own.at(np.zeros(1))[1]))
     motion = 2 * math.pi / body.number("orbital_period")
     geodesic = geodesic_precession(SUN.gm, motion, eccentricity)
@@ -421,6 +420,7 @@ def series(
     solved: solutions.Solved,
     orbit_table: OrbitTable,
     body: Body,
+    perturbers: tuple[Body, ...],
 ) -> LongTermSeries:
     """Return obliquity, precession, eccentricity, poles and rates at every epoch, with errors."""
     nominal, lay = readings.mine, numbers.lay
@@ -446,7 +446,7 @@ def series(
                 rates.period(rate), rates.period_error(rate, error), "perturber", "epoch"
             ),
             epoch=wanted / JULIAN_YEAR,
-            perturber=names,
+            perturber=[label_of(name, perturbers) or name for name in names],
         )
         .with_attributes(
             obliquity=north_note(body)

@@ -134,7 +134,7 @@ def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
         return np.zeros(since.size)
     nutations = swings(body, pulls.mean_pull(), obliquity)
     total = np.sum([*drifts(nutations, since).values(), np.zeros(since.size)], axis=0)
-    published = LEFT_OUT_OF_RATES.get(body.name, {}) if body.is_as_named else {}
+    published = LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
     for rate in published.values():
         total += abs(rate.value) * ARCSEC_PER_YEAR * math.sin(obliquity) * np.abs(since)
     return np.asarray(total)

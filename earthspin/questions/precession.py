@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from earthspin._lazy import xr
-from earthspin.bodies import Body, all_of, in_a_sentence
+from earthspin.bodies import Body, all_of, in_a_sentence, label_of
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.dates import Span, datetime64
@@ -347,9 +347,11 @@ class Standstills(Variables, along=("standstill",)):
 
 
 @part(unless=reasons.no_moon)
-def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
+def standstills(
+    sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]
+) -> Standstills:
     """Find major and minor lunar standstills, with dates and extreme declinations."""
-    moon = {"moon": sky.targets["moon"]}
+    moon = {"moon": sky.targets[str(label_of("moon", perturbers))]}
 
     def declination(days: FloatArray) -> FloatArray:
         return sky.radec(body, days, moon)["moon"][1]
@@ -370,7 +372,7 @@ def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
 def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -> Neglected:
     """Published contributions to the precession rate of effects that are not modelled."""
     unknown = reasons.not_the_iaus_earth(body, perturbers)
-    published = LEFT_OUT_OF_RATES.get(body.name, {}) if body.is_as_named else {}
+    published = LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
     nutations = swings(body, mean_rates.pull, mean_rates.means.obliquity)
     nodes = {f"{name}, period {swing.years}": swing.rate for name, swing in nutations.items()}
     if published:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from earthspin import bodies
-from earthspin.bodies import BODIES, SUN, Body
+from earthspin.bodies import BODIES, SUN, Body, label_of
 from earthspin.bodies import PLANETS as PLANET_NAMES
 from earthspin.constants import ARCSEC, DAY, NORMAL_95
 from earthspin.engine.part import part
@@ -127,6 +127,8 @@ class Pulls:
         Place of each perturber in the source.
     limits : tuple of float
         First and last time for which all positions are available, s from J2000.0 TDB.
+    sun : str
+        Name of the Sun, if it is among the perturbers.
     """
 
     body: Body
@@ -134,6 +136,7 @@ class Pulls:
     gm: dict[str, float]
     targets: dict[str, Place]
     limits: tuple[float, float]
+    sun: str = SUN.name
     _stored: dict[tuple[float, float, int], dict[str, FloatArray]] = field(
         default_factory=dict, repr=False
     )
@@ -183,11 +186,13 @@ def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str
     if PLANETS.name in effects:
         named = {code for member in (body, *perturbers) for code in member.naif}
         for name in bodies.PLANETS:
-            if name not in masses and name != body.name and named.isdisjoint(BODIES[name].naif):
+            if name not in masses and name != body.known_as and named.isdisjoint(BODIES[name].naif):
                 masses[name] = float(BODIES[name].gm_on(body))
                 targets[name] = sky.place(BODIES[name])
     start, end = sky.coverage(targets)
-    return Pulls(body, sky, masses, targets, (start * DAY, end * DAY))
+    limits = start * DAY, end * DAY
+    name = label_of(SUN.name, perturbers) or SUN.name
+    return Pulls(body, sky, masses, targets, limits, name)
 
 
 def forces_of(pulls: Pulls, effects: Sequence[str], keep: bool = False) -> Forces:
@@ -199,6 +204,7 @@ def forces_of(pulls: Pulls, effects: Sequence[str], keep: bool = False) -> Force
         far={name: gm for name, gm in pulls.gm.items() if name not in near},
         positions=lambda times: {},
         near=near,
+        sun=pulls.sun,
         mean_pole=lambda times: body.needed("pole").mean(times / DAY),
     )
     forces = switched_on(forces, body, effects)
@@ -295,9 +301,9 @@ def switched_off(
         for name, effect in EFFECTS.items()
         if effect.coefficient and body.number(effect.coefficient) == 0
     }
-    if body.name not in BODIES and all_by_elements(body, perturbers):
+    if body.known_as not in BODIES and all_by_elements(body, perturbers):
         idle.add(PLANETS.name)  # the body is not in the solar system
-    if "sun" not in {perturber.name for perturber in perturbers}:
+    if label_of(SUN.name, perturbers) is None:
         idle.add(GEODESIC.name)
     off = (name for name in EFFECTS if name not in {*effects, *idle, NONRIGID.name})
     return tuple(off) if perturbers else ()
@@ -332,12 +338,12 @@ def drift_by_planets(body: Body, seconds: float) -> dict[str, float]:
     Sun, or whose obliquity is not known.
     """
     obliquity = obliquity_of(body)
-    if body.name not in PLANET_NAMES or body.orbital_period is None or obliquity is None:
+    if body.known_as not in PLANET_NAMES or body.orbital_period is None or obliquity is None:
         return {}
     phases = math.pi * (np.arange(_SAMPLES) + 0.5) / _SAMPLES
     own, pull = _orbit_radius(body), 0.0
     for name in PLANET_NAMES:
-        if name != body.name:
+        if name != body.known_as:
             other = _orbit_radius(BODIES[name])
             square = own**2 + other**2 - 2 * own * other * np.cos(phases)
             pull += BODIES[name].number("gm") * float(np.mean(square**-1.5))

@@ -7,7 +7,7 @@ from collections.abc import Collection
 
 import numpy as np
 
-from earthspin.bodies import Body, in_a_sentence, proper
+from earthspin.bodies import Body, in_a_sentence, label_of, proper
 from earthspin.constants import DAY, NORMAL_95, PUBLISHED_EFFECTS
 from earthspin.engine.part import part
 from earthspin.engine.variables import Neglected, Variables, measured
@@ -30,11 +30,10 @@ def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """
     if reason := no_iau_model(body):
         return reason
-    names = {p.name for p in perturbers}
-    missing = [name for name in ("sun", "moon") if name not in names]
+    missing = [name for name in ("sun", "moon") if label_of(name, perturbers) is None]
     if missing:
         return f"the {missing[0]} is not among the perturbers"
-    return "the comparison is for Sun and Moon only" if len(names) > 2 else None
+    return "the comparison is for Sun and Moon only" if len(perturbers) > 2 else None
 
 
 def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
@@ -53,8 +52,8 @@ def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """Return the reason (text) to omit lunar results if the Moon is no perturber, else None."""
     if reason := no_iau_model(body):
         return reason
-    has_moon = "moon" in {p.name for p in perturbers}
-    return None if has_moon else "the moon is not among the perturbers"
+    missing = label_of("moon", perturbers) is None
+    return "the moon is not among the perturbers" if missing else None
 
 
 def many_pulls(perturbers: tuple[Body, ...]) -> str | None:

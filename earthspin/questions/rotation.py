@@ -551,9 +551,9 @@ def neglected(
     if node_drifts:
         sizes |= node_drifts
         sources.append("nodes: circles of the pole by the torques of the satellites on the bulge")
-    known = BEYOND_RIGID.get(body.name) if body.is_as_named else None
+    known = BEYOND_RIGID.get(body.known_as) if body.is_as_named else None
     usual = {perturber.name for perturber in pulled_by(body)}
-    if known is None or not usual <= {perturber.name for perturber in perturbers}:
+    if known is None or not usual <= {perturber.known_as for perturber in perturbers}:
         unknown.insert(0, _BEYOND)
     else:
         begin, end = epochs.span()

@@ -13,11 +13,13 @@ import numpy as np
 from earthspin._version import version
 from earthspin.bodies import EARTH, MOON, SUN, Body, all_of
 from earthspin.bodies.checks import extent, overlap, refuse_break_up
+from earthspin.bodies.moons import ORBITS as OF_MOONS
 from earthspin.bodies.planets import on_its_orbit, pulled_by
+from earthspin.constants import DAY
 from earthspin.dates import Span
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key
-from earthspin.errors import SceneError, UndefinedError, Where
+from earthspin.errors import KernelError, SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.elements import EllipseChain, all_by_elements, ellipse_chains
 from earthspin.sky import sources
@@ -132,11 +134,6 @@ class PerturbedBody(Question):
             refuse_break_up(self.body)
 
 
-def unmeasured(body: Body) -> bool:
-    """Return True if `body.position` is set but not from a kernel, so its error is unknown."""
-    return body.position is not None and not sources.is_measured(body.position)
-
-
 @dataclass(frozen=True)
 class Places:
     """Way to find the position of each body: kernel, own trajectory or orbital elements.
@@ -151,12 +148,15 @@ class Places:
         Smallest allowed distance of each perturber, m: the sum of the largest radii.
     by_elements : bool
         True if all positions follow from elements, so that no kernel is needed.
+    by_own_orbit : mapping of str to EllipseChain
+        The same chains, and that to the body, for a body that only its own orbit places.
     """
 
     body: Body
     targets: dict[str, EllipseChain]
     reach: dict[str, float]
-    by_elements: bool = False
+    by_elements: bool
+    by_own_orbit: dict[str, EllipseChain]
 
 
 @dataclass(frozen=True)
@@ -331,15 +331,25 @@ class Stretch:
 
 def _place(source: Source, name: str, chain: EllipseChain) -> Place:
     """NAIF code, trajectory or ellipses with which a source of positions finds a body."""
-    if chain.ellipses:
-        return ByElements(chain.ellipses, source.code(chain.start.naif, name))
-    return sources.place_of(source, name, chain.start.naif, chain.start.position)
+    start = chain.start
+    try:
+        if chain.ellipses:
+            return ByElements(chain.ellipses, source.code(start.naif, name))
+        return sources.place_of(source, name, start.naif, start.position)
+    except KernelError as error:
+        moon, problem = OF_MOONS.get(start.known_as), f"it has no position of '{start.name}'"
+        orbit = {"a": "39.5 au", "about": SUN.name}
+        if moon is not None and moon.period is not None:
+            orbit = {"period": f"{moon.period / DAY:.8g} d", "about": moon.about}
+        remedy = f"give an orbit or a position, like .replace(orbit={orbit}), or another kernel"
+        raise KernelError(error.path, problem, remedy) from None
 
 
 @part
 def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
     """Determine for each body how its position is found: kernel, own trajectory or elements."""
-    targets = {p.name: EllipseChain(p) for p in perturbers} | ellipse_chains(body, perturbers)
+    alone = {p.name: EllipseChain(p) for p in perturbers}
+    targets = alone | ellipse_chains(body, perturbers)
     for p in perturbers:
         start = targets[p.name].start
         if targets[p.name].ellipses and start.position is not None:
@@ -350,6 +360,7 @@ def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
         targets,
         {p.name: extent(body) + extent(p) for p in perturbers},
         all_by_elements(body, perturbers),
+        alone | ellipse_chains(body, perturbers, starts_at_body=False),
     )
 
 
@@ -376,8 +387,15 @@ def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
         }
         return Sky(Elements(), CENTRE, ellipses, places.reach)
     opened = sources.open_source(source, ephemeris)
-    centre = _place(opened, places.body.name, EllipseChain(places.body))
-    targets = {name: _place(opened, name, chain) for name, chain in places.targets.items()}
+    name, chains = places.body.name, places.targets
+    try:
+        centre = _place(opened, name, EllipseChain(places.body))
+    except KernelError:
+        if name not in places.by_own_orbit:
+            raise
+        chains = places.by_own_orbit
+        centre = _place(opened, name, chains[name])
+    targets = {name: _place(opened, name, chains[name]) for name in places.targets}
     for name, place in targets.items():
         if place == centre:
             raise SceneError("perturbers", name, "a body does not pull on itself")

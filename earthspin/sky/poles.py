@@ -200,7 +200,10 @@ class FixedPole(Direction):
     def orbit_normal(self, orbit: Direction | None) -> FloatArray:
         """Unit normal of the body's orbit, the plane in which precession is measured, (3,)."""
         if orbit is None:
-            raise UndefinedError("precession is counted along the orbit; set the body's orbit_pole")
+            raise UndefinedError(
+                "the equinox of a body is the node of its orbit, which is not known; set its orbit "
+                "or orbit_pole, like orbit_pole = ['273 deg', '67 deg']"
+            )
         return orbit.vector()
 
     def is_upright(self, orbit: Direction | None) -> bool:

@@ -352,6 +352,10 @@ class Skyfield(Ephemeris):
         """Skyfield vector function for the position of one body relative to another."""
         if not isinstance(target, int) and target.centre == centre:
             return function_of(target)  # no common vectors to cancel
+        if centre == 0:  # of which Skyfield makes a sum of no vectors
+            return self._from_barycentre(target)
+        if target == 0:
+            return -self._from_barycentre(centre)
         return self._from_barycentre(target) - self._from_barycentre(centre)
 
     def _from_barycentre(self, place: Place) -> VectorFunction:

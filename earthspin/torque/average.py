@@ -39,8 +39,8 @@ TAPERS: dict[str, tuple[float, ...]] = {
     "blackman-harris": _BLACKMAN_HARRIS,
 }
 
-#: Longest window, s, to limit the effect of the secular drift's curvature (measured with DE440: 0.1
-#: mas/cy over 150 years, 0.6 over 450, 4 over 870).
+#: Longest window of more than `FEWEST_CYCLES` cycles, s, to limit the effect of the secular drift's
+#: curvature (measured with DE440: 0.1 mas/cy over 150 years, 0.6 over 450, 4 over 870).
 LONGEST_WINDOW = 150 * JULIAN_YEAR
 
 #: Sine of the obliquity below which the longitude of an axis is undefined.
@@ -135,13 +135,13 @@ def best_window(start: float, end: float, cycle: float, epoch: float = 0.0) -> W
     centre, room = (
         (epoch, room) if room >= FEWEST_CYCLES * cycle else ((start + end) / 2, end - start)
     )
-    turns = math.floor(min(room, LONGEST_WINDOW) / cycle)
+    longest = max(LONGEST_WINDOW, FEWEST_CYCLES * cycle)
+    turns = math.floor(min(room, longest) / cycle)
     if turns < FEWEST_CYCLES:
         raise UndefinedError(
             f"an average over orbits needs three turns of the slowest cycle, "
             f"{FEWEST_CYCLES * cycle / JULIAN_YEAR:.2f} years; the span has "
-            f"{room / JULIAN_YEAR:.2f}, and no more than {LONGEST_WINDOW / JULIAN_YEAR:.0f} are "
-            f"used; choose a longer span or kernel"
+            f"{room / JULIAN_YEAR:.2f}; choose a longer span or kernel, or orbits by elements"
         )
     return Window(centre, turns, cycle, "sin4")
 

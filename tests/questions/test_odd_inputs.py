@@ -1,6 +1,7 @@
 """Inputs that were once taken for something else, or broke: each is right now, or refused."""
 
 from collections.abc import Callable
+from typing import Any
 
 import astropy.units as u
 import numpy as np
@@ -12,6 +13,8 @@ from astropy.time import Time, TimeDelta
 import earthspin
 from earthspin import (
     EARTH,
+    Body,
+    BodyError,
     EarthspinError,
     OutputError,
     SceneError,
@@ -19,6 +22,7 @@ from earthspin import (
     UnitsError,
     units,
 )
+from tests.refusals import refused
 
 
 @pytest.mark.parametrize("text", ["0.3 furlongs", "0.3 km", "0.3 bananas"])
@@ -203,3 +207,47 @@ def test_a_part_that_cannot_be_drawn_says_so() -> None:
 def test_what_the_fuzzer_found_is_refused(call: Callable[[], object], words: str) -> None:
     with pytest.raises((earthspin.EarthspinError, ValueError), match=f"(?i){words}"):
         call()
+
+
+CIRCLE: dict[str, object] = {}
+CIRCLE["body"] = CIRCLE
+PAST = earthspin.long_term(times=["-2000-01-01", "0001-01-01", "2000-01-01"])
+ROCK: dict[str, Any] = {"name": "rock", "gm": 1e14, "radius": 1e6}
+MOMENTS = ["1e30 kg m2", "1.1e30 kg m2", "1.2e30 kg m2"]
+
+test_what_broke_is_refused_in_one_line = refused(
+    (lambda: earthspin.load_scene("precession", CIRCLE), SceneError, "contain themselves"),
+    (lambda: earthspin.ensemble("precession", CIRCLE), SceneError, "contain themselves"),
+    (lambda: EARTH.replace(obliquity=np.array([0.1, 0.2])), BodyError, "one angle"),
+    (lambda: EARTH.replace(obliquity=["1 deg", "2 deg"]), BodyError, "one angle"),
+    (lambda: Body(**ROCK, moments=MOMENTS), BodyError, "replace\\(moments"),
+    (lambda: Body(**ROCK, mass="1 kg"), BodyError, "replace\\(mass"),
+    (lambda: Body(**ROCK, spin="5 h"), BodyError, "spin_period"),
+)
+
+
+@pytest.mark.parametrize(
+    "latitude",
+    [
+        xr.DataArray([0.1, 0.2], dims="epoch"),
+        xr.DataArray([0.1, 0.2, 0.3], {"epoch": [1, 2, 3]}, ("epoch",)),
+    ],
+)
+def test_latitudes_along_other_epochs(latitude: xr.DataArray) -> None:
+    with pytest.raises(SceneError, match=r"latitude.*epoch"):
+        earthspin.daily_insolation(PAST, latitude, "90 deg")
+    with pytest.raises(SceneError, match=r"longitude.*epoch"):
+        earthspin.daily_insolation(PAST, "65 deg", latitude)
+    fitting = xr.DataArray([0.1, 0.2, 0.3], dims="epoch")
+    along = earthspin.daily_insolation(PAST, fitting, "90 deg")
+    alone = earthspin.daily_insolation(PAST, [0.1, 0.2, 0.3], "90 deg")
+    diagonal = [float(alone[i, i]) for i in range(3)]
+    assert along.values == pytest.approx(diagonal, rel=1e-14, abs=0)
+
+
+def test_moments_of_a_body_from_nothing() -> None:
+    table = {"from": "nothing", "moments": MOMENTS, **ROCK}
+    body = earthspin.load_scene(
+        "wobble", {"body": {**table, "flattening": 0.01, "spin_period": "9 h"}}
+    )
+    assert body.body.moments == pytest.approx([1e30, 1.1e30, 1.2e30], rel=1e-12, abs=0)
