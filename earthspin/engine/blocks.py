@@ -34,8 +34,16 @@ from earthspin.engine.part import BLOCK, Block
 from earthspin.engine.question import NEGLECTED, Question, scene_text
 from earthspin.engine.run import Run
 from earthspin.engine.store import FORMAT, MADE_OF, VERSION, encoding_of, spelled, verify, zarr_of
-from earthspin.errors import EarthspinError, MissingExtraError, OutputError, SceneError, one_line
+from earthspin.errors import (
+    EarthspinError,
+    MissingExtraError,
+    OutputError,
+    SceneError,
+    Where,
+    one_line,
+)
 from earthspin.progress import progress
+from earthspin.units import Whole
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -327,7 +335,7 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
     MissingExtraError
         If zarr is not installed; or distributed, if `client` needs it.
     """
-    _check_client(client)
+    client = _checked(client)
     place = drafts.as_path(path)
     if place.suffix != ".zarr":
         problem = "its name does not end in .zarr"
@@ -364,7 +372,7 @@ def hold(work: Work, *, client: object = None) -> xr.Dataset:
     """
     import xarray as xr
 
-    _check_client(client)
+    client = _checked(client)
     layout = work.layout
     with progress(work.what, layout.size) as advance:
         blocks = {0: work.first()}
@@ -470,17 +478,21 @@ def _cluster(client: object) -> Iterator[Client]:
             yield connected
 
 
-def _check_client(client: object) -> None:
-    """Raise an error if `client` has a wrong type, before anything is computed.
+def _checked(client: object) -> object:
+    """Return a client, or a number of workers as an int, before anything is computed.
 
     Raises
     ------
     SceneError
+        If it has a wrong type, or no scheduler answers at the address.
     """
-    counted = isinstance(client, int) and not isinstance(client, bool) and client > 0
-    if not (client is None or counted or isinstance(client, str) or hasattr(client, "scatter")):
-        allowed = "give a number of workers, the address of a scheduler, or a Client of distributed"
-        raise SceneError("client", client, allowed)
+    if client is None or hasattr(client, "scatter"):
+        return client
+    if isinstance(client, str):
+        with _cluster(client):
+            return client
+    others = " (of workers), the address of a scheduler, or a Client of distributed"
+    return Whole(others=others).read(client, Where("client"))
 
 
 def _digest_of_store(target: Path) -> str | None:
