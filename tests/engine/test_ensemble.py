@@ -500,8 +500,8 @@ NAN = xr.Dataset({"body.j2": ("member", [1e-3, np.nan])})
 
 
 test_bad_members_are_refused = refused(
-    (0, "a number from 1 to"),
-    (-3, "a number from 1 to"),
+    (0, "whole number, 1 or more"),
+    (-3, "whole number, 1 or more"),
     (2.5, "how many, a table of distributions"),
     (True, "how many, a table of distributions"),
     ("nowhere.csv", "there is no such file"),
@@ -527,7 +527,7 @@ test_bad_members_are_refused = refused(
     ({"n": 3, "uncertainty": "sampled"}, "did you mean 'sample'"),
     ({"n": 3, "impossible": "ignore"}, "allowed: drop, refuse"),
     ({"n": 3, "uncertainty": "sample", "only": [3]}, "numbered from 0 to 2"),
-    ({"n": 3, "uncertainty": "sample", "seed": -1}, "a number from 0 to"),
+    ({"n": 3, "uncertainty": "sample", "seed": -1}, "whole number, 0 or more"),
     ({"n": 3, "uncertainty": "sample", "correlations": [["a", "b"]]}, "two names and a number"),
     ({"n": 3, "uncertainty": "sample", "correlations": [["a", "b", 0.5]]}, "allowed: anelastic"),
     (
