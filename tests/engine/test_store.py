@@ -138,6 +138,8 @@ def test_a_full_disk_leaves_the_old_store_and_nothing_else(
     large = xr.Dataset({"x": ("n", np.random.default_rng(1).random(1_000_000))})
     with pytest.raises(OutputError, match="No space left on device; the existing file is not"):
         store.write(large, path)
+    with pytest.raises(OutputError, match="No space left on device"):
+        store.write(large, tmp_path / "new" / "folder" / "r.zarr")
     monkeypatch.undo()
     time.sleep(0.5)
     assert list(tmp_path.iterdir()) == [path]
