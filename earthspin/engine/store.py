@@ -375,8 +375,7 @@ def _read_zarr(path: Path) -> dict[str, xr.Dataset]:
     from earthspin.engine import zarr_folder
 
     sealed = _format_of(path, zarr_folder.attributes(path)) == VERSION
-    if sealed:
-        zarr_folder.metadata_of(path)
+    (zarr_folder.metadata_of if sealed else zarr_folder.check_nodes)(path)
     store: Any = zarr_folder.ZarrFolder(path) if sealed else path
     options: dict[str, Any] = {"engine": "zarr", "consolidated": sealed}
     nodes = xr.open_groups(store, decode_times=_coder(), **options)
