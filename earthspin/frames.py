@@ -35,6 +35,7 @@ from earthspin.engine.question import Question, scene_of
 from earthspin.engine.variables import si
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
+from earthspin.progress import progress
 from earthspin.questions.times import epochs
 from earthspin.scenes import VERSIONS, load_scene, members_of, run, run_tree, warn_of_versions
 from earthspin.secular.reading import NO_EQUINOX, equator_and_equinox, equinox_error
@@ -204,7 +205,8 @@ def _tdb(times: FloatArray) -> Time:
 def _at(model: Model, time: Any, where: Where) -> tuple[FloatArray, FloatArray]:
     """Rotation matrices from the ICRS, at times of astropy or Skyfield, and their errors, rad."""
     flat = time.reshape(-1) if isinstance(time, Time) else time
-    solved = _solved(model, tuple(days(flat, where).tolist()))
+    with progress("axes of the frame"):
+        solved = _solved(model, tuple(days(flat, where).tolist()))
     warn_of_versions(model.versions, solved.versions, stacklevel=5)
     return solved.matrix.reshape(*time.shape, 3, 3), solved.error.reshape(time.shape)
 

@@ -13,6 +13,7 @@ from earthspin.bodies import BODIES, SUN, Numeric
 from earthspin.constants import AU, DAY, SOLAR_CONSTANT
 from earthspin.engine.variables import si
 from earthspin.errors import SceneError, UndefinedError, Where
+from earthspin.progress import progress
 from earthspin.secular.budget import Quantiles, draws
 from earthspin.secular.insolation import Season, daily, over_days, true_longitude
 from earthspin.units import quantity
@@ -25,6 +26,7 @@ SAMPLED_FROM = 0.1
 _CALL = "daily_insolation"
 
 
+@progress("insolation")
 def daily_insolation(
     result: xr.Dataset,
     latitude: Any,

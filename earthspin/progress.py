@@ -10,10 +10,10 @@ import json
 import math
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from threading import Lock, Timer
-from typing import Protocol, TextIO
+from typing import Any, Protocol, TextIO
 
 PATIENCE = 2.0  # seconds before a bar appears
 #: Seconds between two lines for programs.
@@ -21,6 +21,8 @@ EVERY = 1.0
 
 #: Held by whoever shows a bar: of work within work, only the outer is shown.
 _watching = Lock()
+#: Functions that hide the bars of work whose amount is not known.
+_hide: list[Callable[[], None]] = []
 #: Where lines for programs go; none where a person watches.
 _lines: list[TextIO] = []
 
@@ -33,15 +35,16 @@ class Advance(Protocol):
 
 
 @contextmanager
-def progress(label: str, total: int, already: int = 0) -> Iterator[Advance]:
+def progress(label: str, total: int | None = None, already: int = 0) -> Iterator[Advance]:
     """Show a progress bar on stderr as soon as the work has lasted two seconds.
 
     Parameters
     ----------
     label : str
         What is being done.
-    total : int
-        How much there is to do.
+    total : int, optional
+        How much there is to do. If that is not known, the bar moves to and fro, and gives way to
+        that of work within whose amount is known.
     already : int
         How much of it was done before, which counts as done and not for the rate.
 
@@ -50,10 +53,16 @@ def progress(label: str, total: int, already: int = 0) -> Iterator[Advance]:
     Advance
         To be called as the work proceeds.
     """
-    if _watching.locked() or not (_lines or sys.stderr.isatty()):
+    unwatched = not (_lines or sys.stderr.isatty()) or (total is None and (_lines or _hide))
+    if _watching.locked() or unwatched:
         yield lambda amount: None
         return
+    if total is None:
+        yield from _bar(label, None, 0)
+        return
     with _watching:
+        for hide in _hide:
+            hide()
         if _lines:
             yield from _in_lines(label, total, already, _lines[-1])
         else:
@@ -93,7 +102,41 @@ def _in_lines(label: str, total: int, already: int, stream: TextIO) -> Iterator[
     yield advance
 
 
-def _bar(label: str, total: int, already: int) -> Iterator[Advance]:
+def _bar(label: str, total: int | None, already: int) -> Iterator[Advance]:
+    done, shown = already, list[Any]()
+
+    def show() -> None:
+        shown.append(_columns(label, total, done))
+        shown[0].start()
+
+    def hide() -> None:
+        late.cancel()
+        late.join()
+        if shown:
+            shown[0].stop()
+
+    def advance(amount: int) -> None:
+        nonlocal done
+        done += amount
+        if shown:
+            shown[0].update(shown[0].task_ids[0], completed=done)
+
+    # A clock of its own, for a first step that lasts longer than anyone likes to wait.
+    late = Timer(PATIENCE, show)
+    late.daemon = True
+    late.start()
+    if total is None:
+        _hide.append(hide)
+    try:
+        yield advance
+    finally:
+        if total is None:
+            _hide.remove(hide)
+        hide()
+
+
+def _columns(label: str, total: int | None, done: int) -> Any:
+    """Build a progress bar of the library rich, which takes 0.1 s to import."""
     import rich.progress as columns
     from rich.console import Console
     from rich.text import Text
@@ -106,18 +149,10 @@ def _bar(label: str, total: int, already: int) -> Iterator[Advance]:
             speed = task.finished_speed or task.speed
             return Text(f"{speed:.3g}/s" if speed else "")
 
-    count, left = columns.MofNCompleteColumn(), columns.TimeRemainingColumn()
-    cells = ("{task.description}", columns.BarColumn(), count, Rate(""), left)
+    amount: list[Any] = [columns.TimeElapsedColumn()]
+    if total is not None:
+        amount = [columns.MofNCompleteColumn(), Rate(""), columns.TimeRemainingColumn()]
+    cells = ("{task.description}", columns.BarColumn(), *amount)
     bar = columns.Progress(*cells, console=Console(stderr=True), transient=True)
-    task = bar.add_task(label, total=total, completed=already)
-    # A clock of its own, for a first step that lasts longer than anyone likes to wait.
-    late = Timer(PATIENCE, bar.start)
-    late.daemon = True
-    late.start()
-
-    try:
-        yield lambda amount: bar.advance(task, amount)
-    finally:
-        late.cancel()
-        late.join()
-        bar.stop()
+    bar.add_task(label, total=total, completed=done)
+    return bar

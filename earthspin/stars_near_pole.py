@@ -11,10 +11,12 @@ from earthspin.bodies import in_a_sentence
 from earthspin.constants import JULIAN_YEAR
 from earthspin.engine.variables import si
 from earthspin.errors import SceneError, Where
+from earthspin.progress import progress
 from earthspin.sky.stars import STARS, UNKNOWN_MOTION, directions
 from earthspin.units import Whole
 
 
+@progress("stars near the pole")
 def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
     """Bright stars nearest to the celestial pole, at each epoch of a result of `long_term`.
 
