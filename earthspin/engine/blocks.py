@@ -357,7 +357,7 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
             return verify(place)
         if not (folder / STORE).exists():
             begin(folder, request, layout, work.first())
-        _complete(work, Unfinished(folder, layout), target, client)
+        _complete(work, folder, target, client)
     return place
 
 
@@ -390,20 +390,23 @@ def hold(work: Work, *, client: object = None) -> xr.Dataset:
     return whole.assign_attrs(first.attrs)
 
 
-def _complete(work: Work, store: Unfinished, target: Path, client: object) -> None:
+def _complete(work: Work, folder: Path, target: Path, client: object) -> None:
     """Compute the missing blocks of an unfinished store; then finish the store."""
-    layout, done = work.layout, store.length
+    layout, done = work.layout, 0
     try:
+        store = Unfinished(folder, layout)
+        done = store.length
         with progress(work.what, layout.size, done) as advance:
-            for number, _ in _blocks(work, store.missing, client, store.folder):
+            for number, _ in _blocks(work, store.missing, client, folder):
                 done += layout.length(number)
                 advance(layout.length(number))
+        store.finish(target)
     except BaseException as ended:
-        if not isinstance(ended, Exception):  # interrupted from outside, as by Ctrl-C
-            state = f"{done} of {layout.size} are stored in {store.folder.name}"
+        # interrupted from outside, as by Ctrl-C
+        if not isinstance(ended, Exception) and (folder / STORE).exists():
+            state = f"{done or 'some'} of {layout.size} are stored in {folder.name}"
             ended.add_note(f"{state}; run the same command to continue")
         raise
-    store.finish(target)
 
 
 def _blocks(

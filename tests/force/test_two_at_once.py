@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
+import multiprocessing
 import subprocess
 import sys
 import textwrap
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -165,6 +168,26 @@ def test_what_is_no_path_is_named(path: object) -> None:
     for call in (store.open, store.verify, lambda p: store.write(small(), p)):
         with pytest.raises(TypeError, match="path is of type"):
             call(path)  # type: ignore[operator]
+
+
+def digests(_: int = 0) -> list[str]:
+    """Of all numbers and attributes of some answers."""
+    scenes = ("precession", "torque", "wobble", "long-term")
+    return [store.content_hash({"/": earthspin.run(scene)}) for scene in scenes]
+
+
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+def test_threads_asyncio_and_forks_give_the_same_bits() -> None:
+    expected = digests()
+    with ThreadPoolExecutor(16) as pool:
+        assert all(each == expected for each in pool.map(digests, range(16)))
+
+    async def together() -> list[list[str]]:
+        return await asyncio.gather(*(asyncio.to_thread(digests) for _ in range(3)))
+
+    assert asyncio.run(together()) == 3 * [expected]
+    with multiprocessing.get_context("fork").Pool(2) as processes:
+        assert processes.map(digests, range(2)) == 2 * [expected]
 
 
 @pytest.mark.parametrize("name", ["loop.nc", "loop.zarr", "loop/r.nc", "loop/r.zarr"])
