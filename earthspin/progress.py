@@ -21,7 +21,7 @@ EVERY = 1.0
 
 #: Held by whoever shows a bar: of work within work, only the outer is shown.
 _watching = Lock()
-#: Functions that hide the bars of work whose amount is not known.
+#: Functions that hide bars: those of work whose amount is not known give way to others.
 _hide: list[Callable[[], None]] = []
 #: Where lines for programs go; none where a person watches.
 _lines: list[TextIO] = []
@@ -125,13 +125,11 @@ def _bar(label: str, total: int | None, already: int) -> Iterator[Advance]:
     late = Timer(PATIENCE, show)
     late.daemon = True
     late.start()
-    if total is None:
-        _hide.append(hide)
+    _hide.append(hide)
     try:
         yield advance
     finally:
-        if total is None:
-            _hide.remove(hide)
+        _hide.remove(hide)
         hide()
 
 
@@ -149,10 +147,8 @@ def _columns(label: str, total: int | None, done: int) -> Any:
             speed = task.finished_speed or task.speed
             return Text(f"{speed:.3g}/s" if speed else "")
 
-    amount: list[Any] = [columns.TimeElapsedColumn()]
-    if total is not None:
-        amount = [columns.MofNCompleteColumn(), Rate(""), columns.TimeRemainingColumn()]
-    cells = ("{task.description}", columns.BarColumn(), *amount)
+    count, left = columns.MofNCompleteColumn(), columns.TimeRemainingColumn()
+    cells = ("{task.description}", columns.BarColumn(), count, Rate(""), left)
     bar = columns.Progress(*cells, console=Console(stderr=True), transient=True)
     bar.add_task(label, total=total, completed=done)
     return bar
