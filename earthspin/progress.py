@@ -53,6 +53,9 @@ def progress(label: str, total: int | None = None, already: int = 0) -> Iterator
     Advance
         To be called as the work proceeds.
     """
+    if total is not None and not _watching.locked():
+        for hide in _hide:  # before stderr is asked: a bar puts a file of its own in its place
+            hide()
     unwatched = not (_lines or sys.stderr.isatty()) or (total is None and (_lines or _hide))
     if _watching.locked() or unwatched:
         yield lambda amount: None
@@ -61,8 +64,6 @@ def progress(label: str, total: int | None = None, already: int = 0) -> Iterator
         yield from _bar(label, None, 0)
         return
     with _watching:
-        for hide in _hide:
-            hide()
         if _lines:
             yield from _in_lines(label, total, already, _lines[-1])
         else:
