@@ -8,19 +8,7 @@ import numpy as np
 import xarray as xr
 
 from earthspin.views import drawing
-from earthspin.views.drawing import (
-    BLUE,
-    CYCLE,
-    GREY,
-    RED,
-    Axes,
-    Figure,
-    PageFigure,
-    Views,
-    axes,
-    legend_above,
-    literal,
-)
+from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, Figure, PageFigure, Views, axes
 from earthspin.views.reading import Result, answer_of
 from earthspin.views.tables import along
 
@@ -31,11 +19,8 @@ MANY_SWINGS = 200
 
 def through(tree: Result, title: str, smooth_days: float) -> drawing.Drawing:
     """Figure of declination and torque over time; fast oscillations are drawn as bands."""
-    plot, caption = (
-        partial(_plot_both, smooth_days=smooth_days),
-        _caption_of_torque(tree, smooth_days),
-    )
-    return PageFigure(title, caption, plot).drawn(tree)
+    plot = partial(_plot_both, smooth_days=smooth_days)
+    return PageFigure(title, _caption_of_torque(tree, smooth_days), plot).drawn(tree)
 
 
 def _plot_both(tree: Result, smooth_days: float | None = None) -> Figure:
@@ -87,10 +72,10 @@ def plot_declination(
     ax = axes(ax)
     for number, (label, row) in enumerate(along(answer, "perturber")):
         _line_or_band(
-            ax, row.declination, literal(label), number, _colour(label, number), smooth_days
+            ax, row.declination, drawing.literal(label), number, _colour(label, number), smooth_days
         )
     ax.set_ylabel("declination (deg)")
-    legend_above(ax)
+    drawing.legend_above(ax)
     return ax
 
 
@@ -115,7 +100,7 @@ def plot_torque(
         _line_or_band(ax, torque, "", number, colour, smooth_days)
         if smooth_days:
             mean = torque.rolling(time=_samples(answer, smooth_days), center=True).mean()
-            words, over = f"{literal(label)}, mean over {smooth_days:g} d", 4 - 0.1 * number
+            words, over = f"{drawing.literal(label)}, mean over {smooth_days:g} d", 4 - 0.1 * number
             ax.plot(answer.time, mean, color=colour, lw=1.4, zorder=over, label=words)
         else:
             ax.axhline(float(torque.mean()), color=colour, lw=0.8, ls="--")
@@ -123,17 +108,12 @@ def plot_torque(
     drawing.few_dates(ax)
     ax.set_xlabel("time (TDB)")
     if smooth_days:
-        legend_above(ax)
+        drawing.legend_above(ax)
     return ax
 
 
 def _line_or_band(
-    ax: Axes,
-    series: xr.DataArray,
-    label: str,
-    number: int,
-    colour: str,
-    smooth_days: float | None,
+    ax: Axes, series: xr.DataArray, label: str, number: int, colour: str, smooth_days: float | None
 ) -> None:
     """Draw a time series as a line; if it oscillates fast, as a band between its extremes."""
     swings = int((np.diff(np.sign(np.diff(series.values))) != 0).sum())

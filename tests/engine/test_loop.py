@@ -234,7 +234,7 @@ def test_a_damaged_block_where_none_is_missing(
     path, work = tmp_path / "r.zarr", Squares()
     folder = ended(path, 6)
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(blocks.Unfinished, "finish", lambda *_: None)
+        patched.setattr(blocks, "finish", lambda *_: None)
         blocks.write(Squares(), path)
     flip(folder / blocks.STORE / name)
     blocks.write(work, path)
@@ -338,7 +338,7 @@ def test_killed_again_and_again(tmp_path: Path, times: int) -> None:
         assert bytes_of(store) == straight
 
 
-@pytest.mark.parametrize("step", ["__init__", "finish"])
+@pytest.mark.parametrize("step", ["missing_blocks", "finish"])
 def test_an_end_beside_the_blocks_says_what_is_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, step: str
 ) -> None:
@@ -347,7 +347,7 @@ def test_an_end_beside_the_blocks_says_what_is_kept(
     def end(*_: object) -> None:
         raise _EndError
 
-    monkeypatch.setattr(blocks.Unfinished, step, end)
+    monkeypatch.setattr(blocks, step, end)
     with pytest.raises(_EndError) as error:
         blocks.write(Squares(), tmp_path / "r.zarr")
     (kept,) = error.value.__notes__
