@@ -35,6 +35,7 @@ from earthspin.engine.question import Question, scene_of
 from earthspin.engine.variables import si
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
+from earthspin.progress import progress
 from earthspin.questions.times import epochs
 from earthspin.scenes import VERSIONS, load_scene, members_of, run, run_tree, warn_of_versions
 from earthspin.secular.reading import NO_EQUINOX, equator_and_equinox, equinox_error
@@ -205,7 +206,8 @@ def _at(model: Model, time: Any, where: Where) -> tuple[FloatArray, FloatArray]:
     times = np.add(*two_parts(time, where))
     if times.size == 0:
         return np.empty((*times.shape, 3, 3)), np.empty(times.shape)
-    solved = _solved(model, tuple(times.ravel().tolist()))
+    with progress("axes of the frame"):
+        solved = _solved(model, tuple(times.ravel().tolist()))
     warn_of_versions(model.versions, solved.versions, stacklevel=5)
     return solved.matrix.reshape(*times.shape, 3, 3), solved.error.reshape(times.shape)
 

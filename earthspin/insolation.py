@@ -13,6 +13,7 @@ from earthspin.constants import AU, DAY, SOLAR_CONSTANT
 from earthspin.engine.variables import si
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
+from earthspin.progress import progress
 from earthspin.secular.budget import Quantiles, draws
 from earthspin.secular.insolation import Season, daily, daylight, inverse_square, over_days
 from earthspin.secular.insolation import true_longitude as from_mean
@@ -26,6 +27,7 @@ SAMPLED_FROM = 0.1
 _CALL = "daily_insolation"
 
 
+@progress("insolation")
 def daily_insolation(
     result: xr.Dataset,
     latitude: Any,

@@ -12,11 +12,12 @@ import xarray as xr
 from earthspin.engine import blocks
 from earthspin.engine.drafts import as_path
 from earthspin.engine.ensemble import Ensemble
-from earthspin.engine.members import Members
+from earthspin.engine.members import LARGEST_COUNT, LARGEST_SEED, Members
 from earthspin.engine.question import Question
 from earthspin.engine.store import open as open_store
-from earthspin.errors import OutputError, SceneError
+from earthspin.errors import OutputError, Where
 from earthspin.scenes import load_scene
+from earthspin.units import Whole, is_whole
 
 
 def ensemble(
@@ -87,8 +88,8 @@ def ensemble(
             raise loaded.error("rng", rng, "give either seed or rng")
         seed = _seed_from(rng)
     request = _with_members(loaded, members, {"seed": seed, "impossible": impossible})
-    if block is not None and (isinstance(block, bool) or not isinstance(block, int) or block < 1):  # type: ignore[redundant-expr]
-        raise request.error("block", block, "give a whole number, 1 or more")
+    if block is not None:
+        block = Whole(1, LARGEST_COUNT).read(block, request.where("block"))
     if path is not None and as_path(path).suffix != ".zarr":
         raise OutputError(path, "its name does not end in .zarr", "an ensemble goes to Zarr")
     work = Ensemble(request, block=block, in_memory=path is None)
@@ -104,7 +105,7 @@ def _with_members(question: Question, members: object, settings: dict[str, Any])
     request: Members | None = own if members is None else Members.read(members, where)
     if request is None:
         raise where.error(None, "give the number of members, a file or a table")
-    if own is not None and isinstance(members, (int, np.integer)):
+    if own is not None and is_whole(members):
         request = replace(own, n=request.n)
     changes = {name: value for name, value in settings.items() if value is not None}
     checked = Members.read(changes, where)
@@ -116,7 +117,5 @@ def _seed_from(rng: int | np.random.Generator | np.random.SeedSequence) -> int:
     """Return a given integer seed, or draw one from a NumPy generator or seed sequence."""
     if isinstance(rng, (np.random.Generator, np.random.SeedSequence)):
         return int(np.random.default_rng(rng).integers(2**32))
-    if isinstance(rng, bool) or not isinstance(rng, (int, np.integer)):
-        problem = "give a whole number, or a Generator or SeedSequence of NumPy"
-        raise SceneError("rng", rng, problem)
-    return int(rng)
+    others = ", or a Generator or SeedSequence of NumPy"
+    return Whole(0, LARGEST_SEED, others).read(rng, Where("rng"))

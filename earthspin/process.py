@@ -49,10 +49,19 @@ def run_command(command: Callable[[], None], *, show_traceback: bool = False) ->
         be written; 70 for a defect of the program; 130 if interrupted, 143 if terminated, 129 if
         the terminal is gone; 141 if whoever read the output has gone.
     """
+    with warnings.catch_warnings(record=True) as held:
+        status = _status(command, show_traceback)
+    for warning in held if status == 0 else ():
+        _say(" ".join(str(warning.message).split()))
+    return status
+
+
+def _status(command: Callable[[], None], show_traceback: bool) -> int:
+    """Run a command, print the message of an exception, and return the exit status."""
     try:
         _check_streams()
         logging.getLogger("matplotlib").setLevel(logging.ERROR)  # its own affairs
-        with _endings(), warnings.catch_warnings(record=True) as held:
+        with _endings():
             command()
             sys.stdout.flush()
     except KeyboardInterrupt as ended:
@@ -71,8 +80,6 @@ def run_command(command: Callable[[], None], *, show_traceback: bool = False) ->
         if show_traceback or os.environ.get(TRACEBACK, "0") not in ("", "0"):
             _print("".join(traceback.format_exception(error)).rstrip())
         return status
-    for warning in held:
-        _say(" ".join(str(warning.message).split()))
     return 0
 
 

@@ -10,10 +10,10 @@ import json
 import math
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from threading import Lock, Timer
-from typing import Protocol, TextIO
+from typing import Any, Protocol, TextIO
 
 PATIENCE = 2.0  # seconds before a bar appears
 #: Seconds between two lines for programs.
@@ -21,6 +21,8 @@ EVERY = 1.0
 
 #: Held by whoever shows a bar: of work within work, only the outer is shown.
 _watching = Lock()
+#: Functions that hide bars: those of work whose amount is not known give way to others.
+_hide: list[Callable[[], None]] = []
 #: Where lines for programs go; none where a person watches.
 _lines: list[TextIO] = []
 
@@ -33,15 +35,16 @@ class Advance(Protocol):
 
 
 @contextmanager
-def progress(label: str, total: int, already: int = 0) -> Iterator[Advance]:
+def progress(label: str, total: int | None = None, already: int = 0) -> Iterator[Advance]:
     """Show a progress bar on stderr as soon as the work has lasted two seconds.
 
     Parameters
     ----------
     label : str
         What is being done.
-    total : int
-        How much there is to do.
+    total : int, optional
+        How much there is to do. If that is not known, the bar moves to and fro, and gives way to
+        that of work within whose amount is known.
     already : int
         How much of it was done before, which counts as done and not for the rate.
 
@@ -50,8 +53,15 @@ def progress(label: str, total: int, already: int = 0) -> Iterator[Advance]:
     Advance
         To be called as the work proceeds.
     """
-    if _watching.locked() or not (_lines or sys.stderr.isatty()):
+    if total is not None and not _watching.locked():
+        for hide in _hide:  # before stderr is asked: a bar puts a file of its own in its place
+            hide()
+    unwatched = not (_lines or sys.stderr.isatty()) or (total is None and (_lines or _hide))
+    if _watching.locked() or unwatched:
         yield lambda amount: None
+        return
+    if total is None:
+        yield from _bar(label, None, 0)
         return
     with _watching:
         if _lines:
@@ -93,7 +103,39 @@ def _in_lines(label: str, total: int, already: int, stream: TextIO) -> Iterator[
     yield advance
 
 
-def _bar(label: str, total: int, already: int) -> Iterator[Advance]:
+def _bar(label: str, total: int | None, already: int) -> Iterator[Advance]:
+    done, shown = already, list[Any]()
+
+    def show() -> None:
+        shown.append(_columns(label, total, done))
+        shown[0].start()
+
+    def hide() -> None:
+        late.cancel()
+        late.join()
+        if shown:
+            shown[0].stop()
+
+    def advance(amount: int) -> None:
+        nonlocal done
+        done += amount
+        if shown:
+            shown[0].update(shown[0].task_ids[0], completed=done)
+
+    # A clock of its own, for a first step that lasts longer than anyone likes to wait.
+    late = Timer(PATIENCE, show)
+    late.daemon = True
+    late.start()
+    _hide.append(hide)
+    try:
+        yield advance
+    finally:
+        _hide.remove(hide)
+        hide()
+
+
+def _columns(label: str, total: int | None, done: int) -> Any:
+    """Build a progress bar of the library rich, which takes 0.1 s to import."""
     import rich.progress as columns
     from rich.console import Console
     from rich.text import Text
@@ -109,15 +151,5 @@ def _bar(label: str, total: int, already: int) -> Iterator[Advance]:
     count, left = columns.MofNCompleteColumn(), columns.TimeRemainingColumn()
     cells = ("{task.description}", columns.BarColumn(), count, Rate(""), left)
     bar = columns.Progress(*cells, console=Console(stderr=True), transient=True)
-    task = bar.add_task(label, total=total, completed=already)
-    # A clock of its own, for a first step that lasts longer than anyone likes to wait.
-    late = Timer(PATIENCE, bar.start)
-    late.daemon = True
-    late.start()
-
-    try:
-        yield lambda amount: bar.advance(task, amount)
-    finally:
-        late.cancel()
-        late.join()
-        bar.stop()
+    bar.add_task(label, total=total, completed=done)
+    return bar

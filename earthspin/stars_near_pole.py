@@ -10,10 +10,13 @@ import xarray as xr
 from earthspin.bodies import in_a_sentence
 from earthspin.constants import JULIAN_YEAR
 from earthspin.engine.variables import si
-from earthspin.errors import SceneError
+from earthspin.errors import SceneError, Where
+from earthspin.progress import progress
 from earthspin.sky.stars import STARS, UNKNOWN_MOTION, directions
+from earthspin.units import Whole
 
 
+@progress("stars near the pole")
 def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
     """Bright stars nearest to the celestial pole, at each epoch of a result of `long_term`.
 
@@ -57,8 +60,7 @@ def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
     if body is not None and not body.needed("pole").of_the_iau:
         problem = "its pole is not that of IAU 2006, near which the stars of the list are"
         raise SceneError("result", f"an answer for {in_a_sentence(body.name)}", problem)
-    if isinstance(count, bool) or not isinstance(count, int) or not 1 <= count <= len(STARS):  # type: ignore[redundant-expr]
-        raise SceneError("count", count, f"give a whole number from 1 to {len(STARS)}")
+    count = Whole(1, len(STARS)).read(count, Where("count"))
     axis = pole.transpose(..., "epoch", "component").values
     seconds = np.asarray(result["epoch"].values * JULIAN_YEAR)
     stars = directions(seconds)

@@ -16,7 +16,18 @@ import warnings
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from types import NoneType, UnionType
-from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeVar, Union, get_args, get_origin
+from typing import (
+    Annotated,
+    Any,
+    ClassVar,
+    Literal,
+    Protocol,
+    TypeGuard,
+    TypeVar,
+    Union,
+    get_args,
+    get_origin,
+)
 
 import numpy as np
 
@@ -465,23 +476,29 @@ class _AsItIs:
         return value
 
 
+def is_whole(value: object) -> TypeGuard[int | np.integer[Any]]:
+    """Return True for an integer of Python or NumPy; a truth value or a duration is none."""
+    return isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
+
+
 @dataclass(frozen=True)
 class Whole(_AsItIs):
-    """Kind of input: a whole number from `low` to `high`."""
+    """Kind of input: a whole number from `low` to `high`; `others` tells what else is allowed."""
 
     low: int = 1
     high: int = LONGEST_IN_MEMORY
+    others: str = ""
 
     hint = "int"
 
     @property
     def words(self) -> str:
         """Text for error messages: the smallest allowed whole number."""
-        return f"a whole number, {self.low} or more"
+        return f"a whole number, {self.low} or more{self.others}"
 
     def read(self, value: object, where: Where) -> int:
         """Return a value as an int; refuse all but whole numbers from `low` to `high`."""
-        if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        if not is_whole(value):
             raise where.error(value, f"give {self.words}")
         if not self.low <= value <= self.high:
             raise where.error(value, f"give {self.words}, and at most {self.high}")

@@ -3,10 +3,14 @@
 import io
 import sys
 import time
+from collections.abc import Callable
+from typing import Any
 
 import pytest
 
+import earthspin
 from earthspin import progress as module
+from earthspin.frames import EquatorOfDate
 from earthspin.progress import progress
 
 
@@ -46,6 +50,37 @@ def test_work_within_work_shows_one_bar(monkeypatch: pytest.MonkeyPatch) -> None
         advance(1)
     assert "outer" in screen.getvalue()
     assert "inner" not in screen.getvalue()
+
+
+def test_work_of_known_amount_hides_that_of_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
+    screen = watched(monkeypatch)
+    with progress("unknown"):
+        time.sleep(0.6)
+        assert "unknown" in screen.getvalue()
+        with progress("known", 1):
+            time.sleep(0.6)
+            before = screen.getvalue()
+            time.sleep(0.3)
+            assert "known" in before
+            assert "unknown" not in screen.getvalue().removeprefix(before)
+
+
+PAST = earthspin.long_term("-2 kyr", "0 kyr", "1 kyr")
+CALLS: dict[str, Callable[[], Any]] = {
+    "answer": lambda: earthspin.run("precession"),
+    "answer with sections": lambda: earthspin.run_tree("precession", "seasons"),
+    "insolation": lambda: earthspin.daily_insolation(PAST, "65 deg", "90 deg"),
+    "stars near the pole": lambda: earthspin.pole_stars(PAST),
+    "axes of the frame": lambda: EquatorOfDate(model=PAST, obstime="2010-01-01").error,
+}
+
+
+@pytest.mark.parametrize("label", CALLS)
+def test_each_long_work_is_shown(monkeypatch: pytest.MonkeyPatch, label: str) -> None:
+    screen = watched(monkeypatch)
+    monkeypatch.setattr(module, "PATIENCE", 0.0)
+    CALLS[label]()
+    assert label in screen.getvalue()
 
 
 def test_nothing_is_shown_where_nobody_watches(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,7 +15,7 @@ from earthspin.errors import EarthspinError, Where, nearest
 from earthspin.interior.layers import Layer, LayeredBody, from_samples
 from earthspin.interior.named import INTERIORS
 from earthspin.sky.sources import read_position, write_position
-from earthspin.units import Text, pack, quantity, real_numbers, unpack
+from earthspin.units import Text, is_whole, pack, quantity, real_numbers, unpack
 
 # --- numbers, words, codes and positions ----------------------------------------------------------
 
@@ -84,9 +84,9 @@ class Codes:
 
     def read(self, value: object, where: Where) -> tuple[int, ...]:
         """Return the NAIF codes as a tuple; refuse anything but integers."""
-        if not isinstance(value, (list, tuple)) or not all(type(code) is int for code in value):
+        if not isinstance(value, (list, tuple)) or not all(map(is_whole, value)):
             raise where.error(value, "give a list of whole numbers, like [499, 4]")
-        return tuple(value)
+        return tuple(map(int, value))
 
     def write(self, value: tuple[int, ...]) -> Plain:
         """Return the NAIF codes as a list, which is the form stored in scene files."""

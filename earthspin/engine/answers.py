@@ -15,6 +15,7 @@ from earthspin.engine.members import MEMBER, Members
 from earthspin.engine.question import NEGLECTED, Key, Question, define_parts, keys_of
 from earthspin.engine.run import ALL, Run
 from earthspin.errors import SceneError
+from earthspin.progress import progress
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,6 +29,7 @@ _ENDS = (0.025, 0.975)
 _NO_ERROR = "no number of this answer has an error that can be sampled; leave it out"
 
 
+@progress("answer")
 def answer(question: Question) -> xr.Dataset:
     """Compute the answer to a question, as a Dataset.
 
@@ -52,6 +54,7 @@ def answer(question: Question) -> xr.Dataset:
     return _with_sample(question, result) if question.uncertainty == "sample" else result
 
 
+@progress("answer with sections")
 def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.DataTree:
     """Compute the answer to a question, and return it with the requested sections as a DataTree.
 

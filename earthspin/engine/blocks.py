@@ -34,8 +34,16 @@ from earthspin.engine.part import BLOCK, Block
 from earthspin.engine.question import NEGLECTED, Question, scene_text
 from earthspin.engine.run import Run
 from earthspin.engine.store import FORMAT, MADE_OF, VERSION, encoding_of, spelled, verify, zarr_of
-from earthspin.errors import EarthspinError, MissingExtraError, OutputError, SceneError, one_line
+from earthspin.errors import (
+    EarthspinError,
+    MissingExtraError,
+    OutputError,
+    SceneError,
+    Where,
+    one_line,
+)
 from earthspin.progress import progress
+from earthspin.units import Whole
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -303,7 +311,7 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
     MissingExtraError
         If zarr is not installed; or distributed, if `client` needs it.
     """
-    _check_client(client)
+    client = _checked(client)
     place = drafts.as_path(path)
     if place.suffix != ".zarr":
         problem = "its name does not end in .zarr"
@@ -325,8 +333,7 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
             return verify(place)
         if not (folder / STORE).exists():
             begin(folder, request, layout, work.make(0))
-        _complete(work, folder, client)
-        finish(folder, layout, target)
+        _complete(work, folder, target, client)
     return place
 
 
@@ -341,7 +348,7 @@ def hold(work: Work, *, client: object = None) -> xr.Dataset:
     """
     import xarray as xr
 
-    _check_client(client)
+    client = _checked(client)
     layout, blocks = work.layout, dict[int, Any]()
     with progress(work.what, layout.size) as advance:
         others = _blocks(work, list(range(1, layout.count)), client)
@@ -355,18 +362,21 @@ def hold(work: Work, *, client: object = None) -> xr.Dataset:
     return whole.assign_attrs(blocks[0].attrs)
 
 
-def _complete(work: Work, folder: Path, client: object) -> None:
-    """Compute the missing blocks of an unfinished store."""
-    layout, missing = work.layout, missing_blocks(folder, work.layout)
-    done = layout.size - sum(map(layout.length, missing))
+def _complete(work: Work, folder: Path, target: Path, client: object) -> None:
+    """Compute the missing blocks of an unfinished store; then finish the store."""
+    layout, done = work.layout, 0
     try:
+        missing = missing_blocks(folder, layout)
+        done = layout.size - sum(map(layout.length, missing))
         with progress(work.what, layout.size, done) as advance:
             for number, _ in _blocks(work, missing, client, folder):
                 done += layout.length(number)
                 advance(layout.length(number))
+        finish(folder, layout, target)
     except BaseException as ended:
-        if not isinstance(ended, Exception):  # interrupted from outside, as by Ctrl-C
-            state = f"{done} of {layout.size} are stored in {folder.name}"
+        # interrupted from outside, as by Ctrl-C
+        if not isinstance(ended, Exception) and (folder / STORE).exists():
+            state = f"{done or 'some'} of {layout.size} are stored in {folder.name}"
             ended.add_note(f"{state}; run the same command to continue")
         raise
 
@@ -443,17 +453,21 @@ def _cluster(client: object) -> Iterator[Client]:
             yield connected
 
 
-def _check_client(client: object) -> None:
-    """Raise an error if `client` has a wrong type, before anything is computed.
+def _checked(client: object) -> object:
+    """Return a client, or a number of workers as an int, before anything is computed.
 
     Raises
     ------
     SceneError
+        If it has a wrong type, or no scheduler answers at the address.
     """
-    counted = isinstance(client, int) and not isinstance(client, bool) and client > 0
-    if not (client is None or counted or isinstance(client, str) or hasattr(client, "scatter")):
-        allowed = "give a number of workers, the address of a scheduler, or a Client of distributed"
-        raise SceneError("client", client, allowed)
+    if client is None or hasattr(client, "scatter"):
+        return client
+    if isinstance(client, str):
+        with _cluster(client):
+            return client
+    others = " (of workers), the address of a scheduler, or a Client of distributed"
+    return Whole(others=others).read(client, Where("client"))
 
 
 def _digest_of_store(target: Path) -> str | None:

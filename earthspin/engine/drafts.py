@@ -56,13 +56,21 @@ def check_writable(folder: str | Path) -> Path:
     """
     path = as_path(folder)
     try:
-        existing = next(p for p in (path.absolute(), *path.absolute().parents) if p.exists())
+        existing = next(p for p in (path.absolute(), *path.absolute().parents) if _exists(p))
         with tempfile.TemporaryFile(dir=existing):
             pass
     except (OSError, ValueError) as error:
         problem = f"the folder cannot be written to: {one_line(error)}"
         raise OutputError(path, problem, "choose another with --out") from None
     return path
+
+
+def _exists(path: Path) -> bool:
+    """Return True if a path exists; unlike `Path.exists`, raise an error for a loop of links."""
+    with suppress(FileNotFoundError, NotADirectoryError):
+        path.stat()
+        return True
+    return False
 
 
 def refuse_what_does_not_fit(path: Path, size: float, what: str) -> None:
@@ -123,7 +131,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
 
 
 def prepared(path: str | Path) -> Path:
-    """Resolve links in the path of a file to be written, and create its parent folder.
+    """Check the path of a file to be written, and resolve its links.
 
     Raises
     ------
@@ -132,11 +140,11 @@ def prepared(path: str | Path) -> Path:
     """
     check_writable(as_path(path).parent)
     with output_errors(path):
+        _exists(Path(path))
         target = Path(path).resolve()
         zarr = (target / ".zgroup").exists() or (target / "zarr.json").exists()
         if target.is_dir() and not zarr:
             raise OutputError(path, "it is a folder, but not a Zarr store", "move it away")
-        target.parent.mkdir(parents=True, exist_ok=True)
         return target
 
 
@@ -160,7 +168,8 @@ def output_errors(path: str | Path, remedy: str = "") -> Iterator[None]:
 def claimed(box: Path, target: Path) -> Iterator[None]:
     """Create the folder of a draft and lock it; a context manager.
 
-    Where the file system has no locks, writers are not kept apart.
+    Where the file system has no locks, writers are not kept apart. Folders that are created for it
+    are removed at the end if they are empty.
 
     Parameters
     ----------
@@ -172,20 +181,23 @@ def claimed(box: Path, target: Path) -> Iterator[None]:
     OutputError
         If another process has locked the folder.
     """
-    box.mkdir(exist_ok=True)
-    lock = FileLock(box / LOCK, blocking=False)
+    lock, created = FileLock(box / LOCK, blocking=False), [p for p in box.parents if not p.exists()]
     try:
-        lock.acquire()
-    except Timeout:
-        remedy = "wait for that run, or stop it"
-        raise OutputError(target, "another run is writing it", remedy) from None
-    except (OSError, NotImplementedError):
-        pass
-    try:
+        box.mkdir(parents=True, exist_ok=True)
+        try:
+            lock.acquire()
+        except Timeout:
+            remedy = "wait for that run, or stop it"
+            raise OutputError(target, "another run is writing it", remedy) from None
+        except (OSError, NotImplementedError):
+            pass
         _restore(box, target)
         yield
     finally:
         lock.release()
+        with suppress(OSError):
+            for folder in created:
+                folder.rmdir()
 
 
 def put_in_place(draft: Path, target: Path, box: Path) -> None:

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from earthspin.errors import OutputError, Where, nearest
 from earthspin.numerics.arrays import FloatArray
-from earthspin.units import Word, by_name, pack, unit_factor, unpack
+from earthspin.units import Whole, Word, by_name, is_whole, pack, unit_factor, unpack
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,8 +34,9 @@ IntArray = NDArray[np.int64]
 
 #: Name of the dimension of an ensemble.
 MEMBER = "member"
-#: Largest number of members, which limits the memory for the values of one input.
-LARGEST_COUNT = 10_000_000
+#: Largest number of members, which limits the memory for the values of one input; largest seed.
+LARGEST_COUNT, LARGEST_SEED = 10_000_000, 2**64 - 1
+_COUNT, _INDEX = Whole(1, LARGEST_COUNT), Whole(0, LARGEST_COUNT)
 #: Message for an input that is given more than once.
 TWICE = "it is given twice, perhaps with a dot and in a table; give it once"
 _SHAPES: dict[str, str] = {
@@ -252,8 +253,8 @@ class Members:
         """
         if isinstance(value, Members):
             return value
-        if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
-            return cls(n=_whole_number(value, where, 1), published=True)
+        if is_whole(value):
+            return cls(n=_COUNT.read(value, where), published=True)
         if isinstance(value, (str, os.PathLike)):
             value = _read_file(Path(value))
         if hasattr(value, "data_vars"):
@@ -378,14 +379,6 @@ def _names(values: NDArray[Any], where: Where) -> NDArray[Any]:
     return values.astype(str)
 
 
-def _whole_number(value: Any, where: Where, low: int, high: int = LARGEST_COUNT) -> int:
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
-        raise where.error(value, "give a whole number")
-    if not low <= int(value) <= high:
-        raise where.error(value, f"give a number from {low} to {high}")
-    return int(value)
-
-
 #: Largest number of dots in the name of an input.
 DEEPEST = 32
 
@@ -433,11 +426,11 @@ def _tables(value: Any, where: Where) -> dict[str, Listed]:
 
 #: Settings in a table of members, each with the function that reads it; other names are inputs.
 _SETTINGS: dict[str, Callable[[Any, Where], Any]] = {
-    "n": lambda value, where: _whole_number(value, where, 1),
-    "seed": lambda value, where: _whole_number(value, where, 0, 2**64 - 1),
+    "n": _COUNT.read,
+    "seed": Whole(0, LARGEST_SEED).read,
     "uncertainty": Word(("sample",)).read,
     "impossible": Word(("refuse", "drop")).read,
-    "only": lambda value, where: tuple(_whole_number(m, where, 0) for m in _list(value, where)),
+    "only": lambda value, where: tuple(_INDEX.read(m, where) for m in _list(value, where)),
     "correlations": lambda value, where: tuple(_correlation(r, where) for r in _list(value, where)),
     "values": _tables,
 }

@@ -362,8 +362,8 @@ def scene_of(answer: Any) -> str:
 
     A netCDF file holds the scene as a variable, so that ``ncdump -h`` stays readable.
     """
-    text = answer.attrs.get(SCENE, "")
-    if not text and SCENE in getattr(answer, "data_vars", ()):
+    text = answer.attrs.get(SCENE)
+    if text is None and SCENE in getattr(answer, "data_vars", ()):
         text = answer[SCENE].values.tolist()
     return text if isinstance(text, str) else ""
 

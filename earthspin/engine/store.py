@@ -131,24 +131,31 @@ _NUMBERS = {"i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8"}
 
 
 def _refuse_attributes(result: xr.Dataset | xr.DataTree, path: Path) -> None:
-    """Raise an error if an attribute is neither text nor real numbers, as no file can hold it."""
+    """Raise an error if an attribute is no text, real number or plain list of these."""
     for node in getattr(result, "subtree", (result,)):
         owners = {f"'{name}'": variable.attrs for name, variable in node.variables.items()}
         for owner, attrs in ({"the answer": node.attrs} | owners).items():
             for name, value in attrs.items():
-                if not (isinstance(name, str) and _is_storable(value)):
+                wanted = isinstance(value, str) if name == SCENE else _is_storable(value)
+                if not (isinstance(name, str) and wanted):
                     what = f"attribute {name!r} of {owner} is of type {type(value).__name__}"
-                    raise OutputError(path, what, "give text or real numbers, or remove it")
+                    remedy = "give text, a real number or a plain list of these, or remove it"
+                    raise OutputError(path, what, remedy)
 
 
 def _is_storable(value: object) -> bool:
-    if isinstance(value, (str, bytes)):
-        return True
+    if isinstance(value, str):
+        return "\0" not in value  # netCDF ends text there
+    if (
+        not isinstance(value, (int, float, np.number, list, tuple))
+        and type(value) is not np.ndarray
+    ):
+        return False
     try:
-        dtype = np.asarray(value).dtype
+        array = np.asarray(value)
     except Exception:  # uneven lists, or any error of a user's class
         return False
-    return dtype.kind in "US" or dtype.str[1:] in _NUMBERS
+    return array.ndim < 2 and (array.dtype.kind == "U" or array.dtype.str[1:] in _NUMBERS)
 
 
 def _raise_system_error(path: Path, size: int) -> None:
@@ -367,8 +374,7 @@ def _read_zarr(path: Path) -> dict[str, xr.Dataset]:
     """Open the groups of a Zarr store; those of this format have metadata with a checksum."""
     zarr_folder = zarr_of()
     sealed = _format_of(path, zarr_folder.attributes(path)) == VERSION
-    if sealed:
-        zarr_folder.metadata_of(path)
+    (zarr_folder.metadata_of if sealed else zarr_folder.check_nodes)(path)
     store = zarr_folder.ZarrFolder(path) if sealed else path
     nodes = _open_groups(store, engine="zarr", consolidated=sealed)
     nodes["/"].attrs.pop(zarr_folder.METADATA, None)

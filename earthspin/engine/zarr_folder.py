@@ -147,10 +147,22 @@ def _text(metadata: Mapping[str, Any]) -> str:
 
 def attributes(store: Path) -> dict[str, Any]:
     """Attributes of the root of a store; empty if another program wrote none that are read here."""
-    files = {path.name for path in store.iterdir()}
-    if ".zmetadata" in files:
+    if (store / ".zmetadata").exists():
         return dict(json.loads((store / ".zmetadata").read_bytes())["metadata"].get(".zattrs", {}))
-    return dict(json.loads((store / ".zattrs").read_bytes())) if ".zattrs" in files else {}
+    store.stat()  # raises an error if there is no store
+    return (
+        dict(json.loads((store / ".zattrs").read_bytes())) if (store / ".zattrs").exists() else {}
+    )
+
+
+def check_nodes(store: Path) -> None:
+    """Open all groups and arrays of a store without a hash, one after the other.
+
+    Zarr opens them at the same time, reports the error of one, and logs those of others later.
+    """
+    for name in (".zgroup", ".zarray", "zarr.json"):
+        for file in store.rglob(name):
+            zarr.open(file.parent, mode="r")
 
 
 def metadata_of(store: Path) -> dict[str, Any]:

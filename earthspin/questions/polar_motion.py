@@ -425,8 +425,9 @@ def polar_motion_from(
     if period is None or q is None:
         raise SceneError("period", period, "give period and quality_factor of the free wobble")
     step = _even_step(time)
-    if abs(known.get("step", step) - step) > SAME_DAY:
-        raise SceneError("time", f"steps of {step:g} d", f"the means are over {known['step']:g} d")
+    noted = _DAYS.read(known.get("step", step), Where("step"))
+    if abs(noted - step) > SAME_DAY:
+        raise SceneError("time", f"steps of {step:g} d", f"the means are over {noted:g} d")
     s = ex.chandler_frequency(_DAYS.read(period, Where("period")), _PURE.read(q, _Q))
     ends = ex.ends_of_steps(time, step)
     if fitted_to is not None:
@@ -447,8 +448,8 @@ def _given_start(chi: xr.Dataset, start: Any, first: float) -> tuple[float, floa
     They are taken from the argument, or else from the attributes of the excitation, or are zero.
     """
     if start is None:
-        noted = chi.attrs.get("start_day")
-        if noted is not None and abs(noted - first) > SAME_DAY:
+        noted = Number("d", "9131.5 d").read(chi.attrs.get("start_day", first), Where("start_day"))
+        if abs(noted - first) > SAME_DAY:
             problem = "the series begins at another day than was noted; give it"
             raise SceneError("start", None, problem)
         start = (chi.attrs.get("start_x", 0.0), chi.attrs.get("start_y", 0.0))

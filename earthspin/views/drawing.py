@@ -10,6 +10,7 @@ import io
 import os
 import re
 import sys
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -138,7 +139,9 @@ def _saved(figure: Figure) -> str:
     text, canvas, dpi = io.StringIO(), figure.canvas, figure.dpi
     try:
         # savefig would draw a figure with a layout twice, since it may also trim the margins.
-        FigureCanvasSVG(figure).print_svg(text, metadata={"Date": None})  # type: ignore[no-untyped-call]
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "Glyph .* missing")  # a browser sets the text
+            FigureCanvasSVG(figure).print_svg(text, metadata={"Date": None})  # type: ignore[no-untyped-call]
     finally:
         figure.set_canvas(canvas)
         figure.set_dpi(dpi)
@@ -255,7 +258,21 @@ def lines(ax: Axes, x: Any, values: xr.DataArray, **how: Any) -> None:
     """Draw one line for each label of the array's last dimension, in different colours."""
     labels = values[values.dims[-1]].values
     for colour, label, value in zip((*CYCLE, GREY), labels, values.values.T, strict=False):
-        ax.plot(x, value, color=colour, label=label, **how)
+        ax.plot(x, value, color=colour, label=literal(label), **how)
+
+
+#: Longest name in a figure; more would leave no room for the axes.
+_LONGEST = 40
+
+
+def literal(words: object) -> str:
+    """Spell a name so that matplotlib shows it as it is, cut if it is very long.
+
+    A dollar sign would begin a formula, and a legend leaves out what begins with an underscore.
+    """
+    text = str(words)
+    text = f"{text[:_LONGEST]}\u2026" if len(text) > _LONGEST else text
+    return re.sub("^_", "\u200b_", text).replace("$", r"\$")
 
 
 def rungs(ax: Axes, labels: Sequence[object]) -> None:

@@ -12,7 +12,7 @@ from earthspin.engine.accessor import inputs_of, members_needed
 from earthspin.engine.members import MEMBER
 from earthspin.errors import SceneError
 from earthspin.numerics.arrays import FloatArray
-from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, PageFigure, Views, axes
+from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, PageFigure, Views, axes, literal
 from earthspin.views.reading import Result
 from earthspin.views.tables import Table, short_exponents, tables_of, with_error
 
@@ -150,7 +150,7 @@ def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Ax
     ax.axvspan(low - middle, high - middle, color=RED, alpha=0.12, lw=0, zorder=0)
     ax.axvline(0, color=RED, lw=1)
     unit = f" ({number.units})" if number.units not in ("", "1") else ""
-    ax.set_xlabel(f"{number.words} minus {_digits(middle, high)}{unit}")
+    ax.set_xlabel(f"{literal(number.words)} minus {_digits(middle, high)}{unit}")
     ax.set_ylabel("members")
     ax.locator_params(axis="x", nbins=5)  # so few that they stay apart on a phone
     return ax
@@ -179,10 +179,10 @@ def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
     ax = axes(ax, 7.5, 1.2 + 0.32 * len(rows))
     place, left = np.arange(len(rows)), np.zeros(len(rows))
     for colour, i in zip(CYCLE, seen, strict=False):
-        ax.barh(place, share[:, i], 0.7, left, color=colour, label=inputs[i])
+        ax.barh(place, share[:, i], 0.7, left, color=colour, label=literal(inputs[i]))
         left = left + share[:, i]
     ax.barh(place, 1 - left, 0.7, left, color=GREY, alpha=0.3, label="rest")
-    ax.set_yticks(place, [number.words for number in rows])
+    ax.set_yticks(place, [literal(number.words) for number in rows])
     ax.invert_yaxis()
     ax.set(xlim=(0, 1), xlabel="share of the variance")
     ax.grid(axis="y", visible=False)

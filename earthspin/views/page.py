@@ -169,11 +169,7 @@ def figure_on_page(svg: str, name: str, words: str, width: str) -> Markup:
     """
     if not svg:
         return Markup()
-    svg = re.sub(r'\bid="', f'id="{name}-', svg)
-    svg = re.sub(r'(xlink:href="#|url\(#)', rf"\1{name}-", svg)
-    svg = _GREYS.sub(_mixture, svg)
-    for colour, called in _COLOURS.items():
-        svg = re.sub(colour, f"var(--{called})", svg, flags=re.IGNORECASE)
+    svg = re.sub("<[^>]*>", lambda tag: _on_page(tag[0], name), svg)
     svg = re.sub(
         r"<svg ",
         lambda _: f'<svg class="{width}" role="img" aria-label="{escape(words)}" ',
@@ -181,6 +177,16 @@ def figure_on_page(svg: str, name: str, words: str, width: str) -> Markup:
         count=1,
     )
     return Markup(svg)
+
+
+def _on_page(tag: str, name: str) -> str:
+    """Tag of a figure with its parts named after the figure, and the colours of the page."""
+    tag = re.sub(r'\bid="', f'id="{name}-', tag)
+    tag = re.sub(r'(xlink:href="#|url\(#)', rf"\1{name}-", tag)
+    tag = _GREYS.sub(_mixture, tag)
+    for colour, called in _COLOURS.items():
+        tag = re.sub(colour, f"var(--{called})", tag, flags=re.IGNORECASE)
+    return tag
 
 
 def _mixture(match: re.Match[str]) -> str:

@@ -71,7 +71,9 @@ def plot_declination(
     answer = answer_of(result)
     ax = axes(ax)
     for number, (label, row) in enumerate(along(answer, "perturber")):
-        _line_or_band(ax, row.declination, label, number, _colour(label, number), smooth_days)
+        _line_or_band(
+            ax, row.declination, drawing.literal(label), number, _colour(label, number), smooth_days
+        )
     ax.set_ylabel("declination (deg)")
     drawing.legend_above(ax)
     return ax
@@ -98,7 +100,7 @@ def plot_torque(
         _line_or_band(ax, torque, "", number, colour, smooth_days)
         if smooth_days:
             mean = torque.rolling(time=_samples(answer, smooth_days), center=True).mean()
-            words, over = f"{label}, mean over {smooth_days:g} d", 4 - 0.1 * number
+            words, over = f"{drawing.literal(label)}, mean over {smooth_days:g} d", 4 - 0.1 * number
             ax.plot(answer.time, mean, color=colour, lw=1.4, zorder=over, label=words)
         else:
             ax.axhline(float(torque.mean()), color=colour, lw=0.8, ls="--")

@@ -410,7 +410,7 @@ def million(low: float, high: float) -> dict[str, Any]:
 @pytest.mark.parametrize(
     ("members", "message"),
     [
-        (10**12, "give a number from 1 to 10000000"),
+        (10**12, "at most 10000000"),
         (
             {"body.j2": million(0.00108, 0.00109), "body.gm": million(3.98e14, 3.99e14)},
             r"'1000000000000 members \(1000000 times 1000000\)': .*at most 10000000.*'only'",
@@ -448,8 +448,8 @@ IMPOSSIBLE = [[a, b, -0.9] for a, b in combinations(("body.j2", "body.radius", "
 
 
 test_bad_members_are_refused = refused(
-    (0, "a number from 1 to"),
-    (-3, "a number from 1 to"),
+    (0, "whole number, 1 or more"),
+    (-3, "whole number, 1 or more"),
     (2.5, "how many, a table of distributions"),
     (True, "how many, a table of distributions"),
     ("nowhere.csv", "there is no such file"),
@@ -475,7 +475,7 @@ test_bad_members_are_refused = refused(
     ({"n": 3, "uncertainty": "sampled"}, "did you mean 'sample'"),
     ({"n": 3, "impossible": "ignore"}, "allowed: drop, refuse"),
     ({"n": 3, "uncertainty": "sample", "only": [3]}, "numbered from 0 to 2"),
-    ({"n": 3, "uncertainty": "sample", "seed": -1}, "a number from 0 to"),
+    ({"n": 3, "uncertainty": "sample", "seed": -1}, "whole number, 0 or more"),
     ({"n": 3, "uncertainty": "sample", "correlations": [["a", "b"]]}, "two names and a number"),
     ({"n": 3, "uncertainty": "sample", "correlations": [["a", "b", 0.5]]}, "allowed: anelastic"),
     ({"n": 3, "correlations": [["body.j2", "body.gm", 1.5]]}, "between -1 and 1"),
@@ -511,11 +511,25 @@ def test_sources_of_random_numbers_of_numpy() -> None:
         )
         xr.testing.assert_identical(first, again)
         assert not first.precession_rate.equals(other.precession_rate)
-    for wrong in (1.5, "a", True, np.random.PCG64(3)):
+    for wrong in (1.5, "a", True, np.timedelta64(3), np.random.PCG64(3)):
         with pytest.raises(SceneError, match=r"rng = .*a Generator or SeedSequence"):
             earthspin.ensemble("precession", 5, rng=wrong)
     with pytest.raises(SceneError, match="give either seed or rng"):
         earthspin.ensemble("precession", 5, seed=1, rng=1)
+
+
+def test_whole_numbers_of_numpy_are_those_of_python() -> None:
+    one, two, three = map(np.int64, (1, 2, 3))
+    answer = earthspin.ensemble("precession", three, block=two, seed=three, client=one)
+    xr.testing.assert_identical(answer, earthspin.ensemble("precession", 3, rng=3))
+    past = earthspin.long_term("-1 kyr", "0 kyr", "1 kyr")
+    xr.testing.assert_identical(earthspin.pole_stars(past, two), earthspin.pole_stars(past, 2))
+    assert earthspin.EARTH.replace(naif=(np.int32(399),)) == earthspin.EARTH.replace(naif=(399,))
+
+
+def test_the_address_of_a_scheduler_is_checked_if_one_block_needs_none() -> None:
+    with pytest.raises(SceneError, match="scheduler = 'nonsense': no scheduler answers"):
+        earthspin.ensemble("precession", 3, client="nonsense")
 
 
 def shifted(values: list[float], unit: str | None) -> xr.Dataset:

@@ -338,6 +338,22 @@ def test_killed_again_and_again(tmp_path: Path, times: int) -> None:
         assert bytes_of(store) == straight
 
 
+@pytest.mark.parametrize("step", ["missing_blocks", "finish"])
+def test_an_end_beside_the_blocks_says_what_is_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, step: str
+) -> None:
+    """While what is stored is read again, or compared at the end."""
+
+    def end(*_: object) -> None:
+        raise _EndError
+
+    monkeypatch.setattr(blocks, step, end)
+    with pytest.raises(_EndError) as error:
+        blocks.write(Squares(), tmp_path / "r.zarr")
+    (kept,) = error.value.__notes__
+    assert "stored in r.zarr.partial; run the same command" in kept
+
+
 # --- by a cluster --------------------------------------------------------------------------------
 
 

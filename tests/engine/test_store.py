@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 import xarray as xr
 import zarr
+from astropy import units as u
 
 import earthspin
 from earthspin import OutputError
@@ -137,6 +138,8 @@ def test_a_full_disk_leaves_the_old_store_and_nothing_else(
     large = xr.Dataset({"x": ("n", np.random.default_rng(1).random(1_000_000))})
     with pytest.raises(OutputError, match="No space left on device; the existing file is not"):
         store.write(large, path)
+    with pytest.raises(OutputError, match="No space left on device"):
+        store.write(large, tmp_path / "new" / "folder" / "r.zarr")
     monkeypatch.undo()
     time.sleep(0.5)
     assert list(tmp_path.iterdir()) == [path]
@@ -208,8 +211,12 @@ def test_files_have_units_for_machines_and_for_people(tmp_path: Path, kind: str)
 
 @pytest.mark.parametrize("kind", ["nc", "zarr"])
 @pytest.mark.parametrize(
-    "value", [object(), 1j, None, {"a": 1}, True, [[1], [2, 3]], 10**400],
-    ids=["object", "complex", "None", "dict", "bool", "uneven", "long"],
+    "value",
+    [
+        object(), 1j, None, {"a": 1}, True, [[1], [2, 3]], 10**400, 3 * u.m, [1, 2] * u.m, b"x",
+        xr.DataArray([1.0]), np.eye(2), [["a"]], np.ma.masked_array([1.0, 2.0], [0, 1]), "a\0b",
+    ],
+    ids=str,
 )  # fmt: skip
 def test_attributes_that_no_file_holds_are_refused(
     tmp_path: Path, kind: str, value: object
@@ -221,6 +228,8 @@ def test_attributes_that_no_file_holds_are_refused(
     for refused in (answer, variable):
         with pytest.raises(OutputError, match="note"):
             store.write(refused, path)
+    with pytest.raises(OutputError, match="scene"):
+        store.write(small().assign_attrs(scene=np.array([1.0, 2.0])), path)
     xr.testing.assert_identical(store.open(path), small())
 
 

@@ -1,11 +1,13 @@
 """Stored results that were damaged: nothing is read that is not what was written."""
 
+import gc
 import os
 import shutil
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Literal
 
 import netCDF4
 import numpy as np
@@ -297,6 +299,22 @@ def test_a_file_of_others_is_read_but_not_verified(tmp_path: Path, kind: str) ->
     assert same(store.open(path).load(), answer)
     with pytest.raises(OutputError, match="has no checksum"):
         earthspin.verify(path)
+
+
+@pytest.mark.parametrize("version", [2, 3])
+def test_damage_of_several_arrays_is_one_line(
+    tmp_path: Path, version: Literal[2, 3], caplog: pytest.LogCaptureFixture
+) -> None:
+    """Of a store of others, whose arrays Zarr opens at the same time."""
+    path = tmp_path / "r.zarr"
+    answer = xr.Dataset({name: ("n", [1.0]) for name in "abc"})
+    answer.to_zarr(path, zarr_format=version, consolidated=False)
+    for file in (*path.rglob(".zarray"), *path.glob("?/zarr.json")):
+        file.write_bytes(file.read_bytes()[:-9])
+    with pytest.raises(OutputError, match="it cannot be read"):
+        store.open(path)
+    gc.collect()  # a task is told of when it is deleted
+    assert not caplog.records
 
 
 def test_what_was_read_carries_no_checksum(tmp_path: Path) -> None:

@@ -1,17 +1,22 @@
 """Two writers, readers and threads at once, and writers that are killed: whole or not at all."""
 
+import asyncio
+import multiprocessing
 import subprocess
 import sys
 import textwrap
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
 
+import earthspin
 from earthspin import OutputError
+from earthspin.cli import main
 from earthspin.engine import drafts, store
 
 ROOT = Path(__file__).parents[2]
@@ -161,6 +166,44 @@ def test_what_is_no_path_is_named(path: object) -> None:
     for call in (store.open, store.verify, lambda p: store.write(small(), p)):
         with pytest.raises(TypeError, match="path is of type"):
             call(path)  # type: ignore[operator]
+
+
+def digests(_: int = 0) -> list[str]:
+    """Of all numbers and attributes of some answers."""
+    scenes = ("precession", "torque", "wobble", "long-term")
+    return [store.content_hash({"/": earthspin.run(scene)}) for scene in scenes]
+
+
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+def test_threads_asyncio_and_forks_give_the_same_bits() -> None:
+    expected = digests()
+    with ThreadPoolExecutor(16) as pool:
+        assert all(each == expected for each in pool.map(digests, range(16)))
+
+    async def together() -> list[list[str]]:
+        return await asyncio.gather(*(asyncio.to_thread(digests) for _ in range(3)))
+
+    assert asyncio.run(together()) == 3 * [expected]
+    with multiprocessing.get_context("fork").Pool(2) as processes:
+        assert processes.map(digests, range(2)) == 2 * [expected]
+
+
+@pytest.mark.parametrize("name", ["loop.nc", "loop.zarr", "loop/r.nc", "loop/r.zarr"])
+def test_a_loop_of_links_is_one_line(tmp_path: Path, name: str) -> None:
+    path = tmp_path / name
+    first = tmp_path / Path(name).parts[0]
+    first.symlink_to(tmp_path / "other")
+    (tmp_path / "other").symlink_to(first)
+    scene = earthspin.load_scene("torque", {"span": ["2000-01-01", "2000-01-03"]})
+    calls = [store.open, store.verify, lambda p: store.write(small(), p)]
+    if path.suffix == ".zarr":
+        calls += [lambda p: earthspin.write_series(scene, p)]
+        calls += [lambda p: earthspin.ensemble("precession", 2, path=p)]
+    for call in calls:
+        with pytest.raises(OutputError, match="Too many levels of symbolic links"):
+            call(path)
+    assert main(["run", "torque", "--out", str(path)]) == 2
+    assert {p.name for p in tmp_path.iterdir()} == {first.name, "other"}
 
 
 def test_a_name_that_no_file_can_have() -> None:

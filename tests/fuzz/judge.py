@@ -3,7 +3,6 @@
 import contextlib
 import inspect
 import io
-import logging
 import os
 import random
 import signal
@@ -35,8 +34,6 @@ MOST_SECONDS = 20.0
 def elsewhere() -> Iterator[None]:
     """Work in a folder of its own, where warnings are errors and no browser opens."""
     before = Path.cwd()
-    # zarr leaves a task behind for each file in a folder that is no store, which is told later
-    logging.getLogger("asyncio").setLevel(logging.CRITICAL)
     with (
         tempfile.TemporaryDirectory() as folder,
         mock.patch("webbrowser.open", return_value=False),

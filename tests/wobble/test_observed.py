@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.signal import lfilter
 
 import earthspin
-from earthspin import SceneError, UndefinedError
+from earthspin import SceneError, UndefinedError, UnitsError
 from earthspin.constants import ARCSEC, DAY, MAS, TROPICAL_YEAR
 from earthspin.sky.eop import read_polar_motion
 from earthspin.wobble import observed, record
@@ -223,6 +223,10 @@ def test_excitation_there_and_back(pole: xr.Dataset) -> None:
     wrong.chi1.attrs["units"] = "rad"
     with pytest.raises(SceneError, match="mas"):
         earthspin.polar_motion_from(wrong)
+    for name in ("step", "start_day", "start_x", "chandler_period"):
+        for value in ("1", np.nan, np.array([1.0, 2.0])):
+            with pytest.raises((SceneError, UnitsError), match=r"step|start|period"):
+                earthspin.polar_motion_from(chi.assign_attrs({name: value}))
     chi.attrs = {}
     with pytest.raises(SceneError, match="quality_factor"):
         earthspin.polar_motion_from(chi)
