@@ -78,7 +78,7 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
         work = Ensemble(question, in_memory=True)
         nodes = {"/": work.hold(), "plan": work.nominal_run.plan().dataset()}
         if named:
-            nodes[NEGLECTED] = work.nominal_run.tree(NEGLECTED)[NEGLECTED].to_dataset()
+            nodes[NEGLECTED] = work.nominal_run.tree(NEGLECTED).earthspin.section(NEGLECTED)
         return xr.DataTree.from_dict(nodes)
     tree = Run(question).tree(sections)
     if question.uncertainty == "sample":

@@ -50,7 +50,7 @@ ax.set(xlabel="across the view (rad/s)", ylabel="up the view (rad/s)", aspect="e
 # *Next:* look for a start whose advance is a third of a turn.
 
 tree = earthspin.run_tree("poinsot", sections=["poinsot"])
-rolling = tree["poinsot"].to_dataset(inherit=False)
+rolling = tree.earthspin.section("poinsot")
 advance = float(np.degrees(rolling.herpolhode_advance))
 
 fig, ax = plt.subplots(figsize=(4.8, 4.8))
