@@ -14,7 +14,7 @@ from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.members import MEMBER, Members
 from earthspin.engine.question import NEGLECTED, Key, Question, keys_of
 from earthspin.engine.run import ALL, Run
-from earthspin.errors import SceneError
+from earthspin.errors import SceneError, checked
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -172,10 +172,7 @@ def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
     signature = signature_of(question)
 
     def call(*args: Any, **kwargs: Any) -> xr.Dataset:
-        try:
-            values = dict(signature.bind(*args, **kwargs).arguments)
-        except TypeError as error:
-            raise TypeError(f"{question.call}() {error}") from None
+        values = dict(signature.bind(*args, **kwargs).arguments)
         return answer(question(**_with_span(question, values)))
 
     call.__name__ = call.__qualname__ = question.call
@@ -183,7 +180,7 @@ def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
     call.__module__ = question.__module__
     call.__signature__ = signature  # type: ignore[attr-defined]
     call.question = question  # type: ignore[attr-defined]
-    return call
+    return checked(call)
 
 
 def _with_span(question: type[Question], values: dict[str, Any]) -> dict[str, Any]:
