@@ -394,7 +394,7 @@ def _completion(options: Namespace) -> None:
         from argcomplete.shell_integration import shellcode
     except ImportError:
         raise MissingExtraError("argcomplete", "completion", "completion in the shell") from None
-    print(shellcode(["earthspin"], shell=options.shell))
+    print(shellcode(["earthspin"], shell=options.shell))  # its name  # nosec B604
 
 
 # --- what commands share -------------------------------------------------------------------------
