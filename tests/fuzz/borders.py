@@ -92,5 +92,6 @@ def odd(rng: Random) -> tuple[str, Callable[[], None]]:
 
 def page(name: str) -> None:
     """Draw the page of an answer with a perturber of a name."""
-    scene = Scene(compute="precession", perturbers=["sun", earthspin.MOON.replace(name=name)])
+    bodies, span = ["sun", earthspin.MOON.replace(name=name)], ["2000-01-01", "2000-01-03"]
+    scene = Scene(compute="torque", perturbers=bodies, span=span, step="6 h")
     scene_page(earthspin.run_tree(scene, ()))
