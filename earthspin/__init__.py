@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from importlib import import_module as _import_module
 
+from earthspin import engine as _engine
 from earthspin._lazy import submodule as _submodule
 from earthspin._version import __version__ as __version__
-from earthspin.engine import registry as _registry
 from earthspin.errors import checked as _checked
 from earthspin.questions import MODULES as _QUESTIONS
 
@@ -56,8 +56,8 @@ _HOME = {
 _MODULE_OF = _QUESTIONS | {name: module for module, names in _HOME.items() for name in names}
 
 # What answers call in packages above the engine, which knows none of these.
-_registry.FUNCTIONS |= {"load_scene": "earthspin.scenes", "plan": "earthspin.scenes"}
-_registry.METHODS |= {
+_engine.FUNCTIONS |= {"load_scene": "earthspin.scenes", "plan": "earthspin.scenes"}
+_engine.METHODS |= {
     "plot": "earthspin.views.answers",
     "to_iers_table": "earthspin.questions.forecast",
 }

@@ -1,6 +1,26 @@
-"""Import modules only when they are first used as attributes of their package."""
+"""Import modules only when they are first used."""
 
 from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+__all__ = ["erfa", "submodule", "xr"]
+
+
+class _Library:
+    """Library that is imported when one of its names is used, as importing it takes long."""
+
+    def __init__(self, name: str) -> None:
+        self.__name__ = name
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(import_module(self.__name__), name)
+
+
+if TYPE_CHECKING:
+    import erfa
+    import xarray as xr
+else:
+    erfa, xr = _Library("erfa"), _Library("xarray")
 
 
 def submodule(package: str, name: str) -> object:

@@ -1,9 +1,10 @@
-"""Conversion of dates (text, datetime, astropy and Skyfield times) to days of TDB.
+"""Reading of dates and of times over millennia: one reader for every form in which they are given.
 
-Inside, a time is a count of days from J2000.0 TDB: a float64 keeps it to a third of a microsecond
-over a century, where one Julian date keeps 40 microseconds. Regular grids are counted in whole
-microseconds and are exact. Plain dates mean TDB; whatever says that it is another scale (a time
-zone, a Time in UTC) is converted.
+A date is read as days from J2000.0 TDB in two parts, whose sum keeps a third of a microsecond over
+a century, where one Julian date keeps 40 microseconds. Regular grids are counted in whole
+microseconds and are exact. Plain dates mean TDB in the proleptic Gregorian calendar with a year 0;
+what says that it has another scale (a time zone, a Time in UTC) is converted. A limit on dates is
+that of the question: its ephemeris, table or model.
 """
 
 from __future__ import annotations
@@ -12,178 +13,190 @@ import datetime as dt
 import math
 import re
 import warnings
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, Self, TypeVar, cast
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.constants import J2000_JD, JULIAN_YEAR
-from earthspin.errors import SceneError, Where
+from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
+from earthspin.errors import SceneError, UnitsError, Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.units import Number, Plain, is_masked, pack, unpack
+from earthspin.units import Number, Plain, is_masked, pack, quantity, unpack
 
 J2000 = np.datetime64("2000-01-01T12:00:00", "us")
 MICROSECONDS_PER_DAY = 86_400_000_000
 FIRST_UTC = 2436934.5  # Julian date of 1960-01-01
-LAST_UTC = 2488069.5  # Julian date of 2100-01-01; later times need more than newer tables
 TABLES = "astropy-iers-data"  # the package that brings leap seconds and UT1
-LONGEST_STEP = 10_000 * JULIAN_YEAR  # s
-_Time = TypeVar("_Time", int, float)
-_ISO_DATE = re.compile(r"\d{4}-\d\d-\d\d([T ]\d\d(:\d\d(:\d\d(\.\d{1,6})?)?)?)?(Z|[-+]\d\d:?\d\d)?")
+#: Start of the year 1 and end of the year 9999, days from J2000.0.
+FIRST_DAY, END_DAY = -730_119.5, 2_921_939.5
+#: How far from J2000.0 a date may lie that is counted in microseconds, d.
+FARTHEST_DATE = 250_000 * JULIAN_YEAR / DAY
+#: How far from J2000.0 a time over millennia may lie, s.
+FARTHEST = 1e9 * JULIAN_YEAR
+MOST_TIMES = 10_000_000
+DURATION = "-65 kyr"
+EXAMPLES = "'2000-01-01T12:00' or '3000 BC'"
+_SECONDS = ("s", "ms", "us", "ns", "ps", "fs", "as")
+_DATE = re.compile(
+    r"""(?P<year>[-+]?\d{1,7})-(?P<day>\d\d-\d\d)
+        (?:[T ](?P<clock>\d\d(?::\d\d)?)(?::(?P<second>(?:[0-5]\d|60)(?:\.\d*)?))?
+           \s?(?P<zone>Z|UTC|[-+]\d\d:?[0-5]\d)?)?
+      | (?P<ad>A\.?D\.?\s?)?(?P<counted>\d{1,3}(?:[,\s]\d{3})+|\d{1,7})
+        (?(ad)|\s?(?:(?P<bc>B\.?C\.?(?:E\.?)?)|A\.?D\.?|C\.?E\.?))
+      | (?P<modified>M)?JD\s?(?P<julian>\d+)(?P<fraction>\.\d+)?""",
+    re.IGNORECASE | re.VERBOSE,
+)
 
 
-def microseconds(value: Any, where: Where) -> int:
-    """Convert one date to the whole number of microseconds from J2000.0 TDB.
-
-    Parameters
-    ----------
-    value : str, date, datetime, datetime64 or Time
-        Plain dates mean TDB. A Time of astropy is converted from its own scale, one of Skyfield
-        gives its TDB; a date with a time zone is UTC, and is converted, too.
-    where : Where
-        What is being read.
-
-    Raises
-    ------
-    SceneError
-        If it is no date.
-    """
-    if isinstance(value, str):
-        value = value.strip()
-        if not _ISO_DATE.fullmatch(value):
-            raise where.error(value, "write a date like '2000-01-01T12:00'")
-        if value[10:].endswith("Z") or re.search(r"[-+]\d\d:?\d\d$", value[10:]):
-            try:
-                value = dt.datetime.fromisoformat(value)
-            except ValueError:
-                raise where.error(value, "there is no such date") from None
-    if getattr(value, "shape", None) == () and hasattr(value, "dims"):
-        value = value.values[()]  # one time of a labelled series
-    if isinstance(value, dt.datetime) and value.tzinfo is not None:
-        try:
-            value = value.astimezone(dt.UTC).replace(tzinfo=None)
-        except OverflowError:
-            raise where.error(value, "there is no such date in UTC") from None
-        return int(_from_utc(value, where))
-    if is_time(value) or is_skyfield_time(value):
-        if value.shape != ():
-            raise where.error(f"{math.prod(value.shape)} times", "give one date")
-        return round(float(_days_of(value, where)) * MICROSECONDS_PER_DAY)
-    if not isinstance(value, (str, dt.date, np.datetime64)):
-        raise where.error(value, "write a date like '2000-01-01T12:00'")
-    try:
-        stamp = np.datetime64(cast(Any, value), "us")
-        year = int(np.datetime64(cast(Any, value), "Y").astype(np.int64)) + 1970
-    except (TypeError, ValueError):
-        raise where.error(value, "there is no such date") from None
-    if np.isnat(stamp):
-        raise where.error("NaT", "NaT is no date")
-    if not 1 <= year <= 9999:
-        raise where.error(value, "years run from 1 to 9999")
-    return int(np.asarray(stamp - J2000).astype(np.int64))
-
-
-def _from_utc(value: Any, where: Where) -> NDArray[np.int64]:
-    """Convert UTC, given as a datetime or an array of datetime64, to microseconds of TDB."""
-    from astropy.time import Time
-
-    with _tables_at_hand(), warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # what is wrong shows when it is brought to TDB
-        utc = Time(value, scale="utc")
-    days_tdb = _days_from_time(utc, where, str(value).splitlines()[0])
-    return np.asarray(np.rint(days_tdb * MICROSECONDS_PER_DAY), dtype=np.int64)
-
-
-def days(times: object, where: Where) -> FloatArray:
-    """Convert a list of times to days from J2000.0 TDB.
+def two_parts(value: Any, where: Where) -> tuple[Any, Any]:
+    """Read one date, or an array or list of dates, as days from J2000.0 TDB in two parts.
 
     Parameters
     ----------
-    times : Time (astropy's or Skyfield's), DataArray, pandas index, datetime64, or list of dates
+    value : str, date, datetime64, Time, or array of them
+        Text is ISO 8601 with any year, a year with its era (1 January), or a Julian date
+        ("JD 2451545.0", "MJD 51544.5"). Dates of pandas, cftime, astropy and Skyfield are read,
+        too, as are labelled arrays.
     where : Where
 
     Returns
     -------
-    ndarray, shape (n,)
+    whole, rest : float or ndarray
+        With the shape of the input.
 
     Raises
     ------
     SceneError
-        If one of them is no date, or there are none.
+        If one of them is no date.
     """
-    if is_time(times) or is_skyfield_time(times):
-        days_tdb = np.atleast_1d(_days_of(times, where))
-    else:
-        counts = _counts(times, where)
-        whole, rest = np.divmod(counts, MICROSECONDS_PER_DAY)
-        days_tdb = whole + rest / MICROSECONDS_PER_DAY
-    if days_tdb.ndim != 1 or days_tdb.size == 0:
-        raise where.error(f"shape {days_tdb.shape}", "give one or more times in one list")
-    return np.asarray(days_tdb, dtype=np.float64)
-
-
-def _counts(times: Any, where: Where) -> NDArray[np.int64]:
-    """Convert a list of dates to whole microseconds from J2000.0 TDB.
-
-    An astropy Time is not accepted.
-    """
-    if is_masked(times):
+    if is_masked(value):
         raise where.error("a masked time", "give times that are all known")
-    zone = getattr(times, "tz", None) or getattr(getattr(times, "dt", None), "tz", None)
-    if zone is not None:  # an index or series of pandas that says its zone
-        times = np.asarray(times, dtype="datetime64[us]")  # in UTC, as pandas keeps it
-        _check_years(times, where)
-        return np.atleast_1d(_from_utc(times, where))
+    if is_time(value):
+        return _from_astropy(value, where, value)
+    if is_skyfield_time(value):
+        if not np.all(np.isfinite(value.tdb_fraction)):
+            raise where.error("NaN", "NaN is no date")
+        return value.whole - J2000_JD, value.tdb_fraction
+    if isinstance(value, str):
+        return _from_text(value, where)
+    if type(value).__module__.startswith("cftime") and hasattr(value, "calendar"):
+        return _from_cftime(value, where)
+    if isinstance(value, (list, tuple)):
+        return _from_list(value, (len(value),), where)
+    stamps = value
+    zone = getattr(value, "tz", None) or getattr(getattr(value, "dt", None), "tz", None)
+    if zone is not None:  # pandas, in UTC as pandas stores it
+        stamps = getattr(value, "dt", value).tz_convert(None)
+    if hasattr(stamps, "to_numpy"):
+        stamps = stamps.to_numpy()
+    elif isinstance(stamps, dt.datetime):
+        zone = stamps.utcoffset()
+        stamps = np.datetime64(stamps.replace(tzinfo=None)) - np.timedelta64(zone or 0, "us")
+    elif isinstance(stamps, dt.date):
+        stamps = np.datetime64(stamps)
     try:
-        values = np.atleast_1d(np.asarray(getattr(times, "values", times)))
+        stamps = np.asarray(stamps)
+    except Exception:  # whatever somebody's class says of being no array
+        raise where.error(value, f"write a date like {EXAMPLES}") from None
+    if stamps.dtype.kind == "M":
+        if np.isnat(stamps).any():
+            raise where.error("NaT", "NaT is no date")
+        if zone is not None:
+            return _from_astropy(stamps, where, value)
+        return _from_datetime64(stamps, where)
+    elements = stamps.ravel().tolist()
+    if stamps.dtype.kind not in "OU" or (not stamps.ndim and elements[0] is value):
+        raise where.error(value, f"write a date like {EXAMPLES}")
+    return _from_list(elements, stamps.shape, where)
+
+
+def _from_list(values: Sequence[Any], shape: tuple[int, ...], where: Where) -> tuple[Any, Any]:
+    if any(isinstance(value, (list, tuple)) or getattr(value, "shape", ()) for value in values):
+        raise where.error("lists of lists", "give one or more times in one list")
+    parts = [two_parts(value, where) for value in values]
+    return tuple(np.moveaxis(np.reshape(parts, (*shape, 2)).astype(float), -1, 0))
+
+
+def _from_text(text: str, where: Where) -> tuple[Any, Any]:
+    date = _DATE.fullmatch(text.strip())
+    if date is None:
+        raise where.error(text, f"write a date like {EXAMPLES}")
+    if date["julian"]:
+        whole = int(date["julian"]) + (2400000.5 if date["modified"] else 0.0)
+        return whole - J2000_JD, float(date["fraction"] or 0)
+    year = int(date["year"] or re.sub(r"\D", "", date["counted"]))
+    if date["counted"] and year == 0:
+        raise where.error(text, "there is no year 0 with an era; 1 BC precedes AD 1")
+    if date["bc"]:
+        year = 1 - year
+    day, clock, second = date["day"] or "01-01", date["clock"] or "00:00", date["second"] or "00"
+    try:
+        minute = np.datetime64(f"{year:0{4 + (year < 0)}}-{day}T{clock}", "m")
+        zone = dt.time.fromisoformat("00:00" + (date["zone"] or "").upper().replace("UTC", "Z"))
     except ValueError:
-        raise where.error("uneven lists", "give one or more times in one list") from None
-    if values.dtype.kind != "M":
-        listed = [microseconds(t, where) for t in values.ravel().tolist()]
-        return np.array(listed, dtype=np.int64).reshape(values.shape)
-    _check_years(values, where)
-    return (values.astype("datetime64[us]") - J2000).astype(np.int64)
+        raise where.error(text, "there is no such date") from None
+    if zone.tzinfo is not None:
+        utc = minute - np.timedelta64(zone.utcoffset(), "m")
+        return _from_astropy(f"{utc}:{second}", where, text)
+    if second.startswith("60"):
+        raise where.error(text, "there is no such date; a leap second is UTC, so end it with Z")
+    whole, rest = _from_datetime64(minute, where)
+    return whole, rest + float(second) / DAY
 
 
-def _check_years(values: NDArray[np.datetime64], where: Where) -> None:
-    if np.isnat(values).any():
-        raise where.error("NaT", "NaT is no date")
-    for extreme in (values.min(), values.max()) if values.size else ():
-        microseconds(extreme, where)
+def _from_datetime64(stamps: Any, where: Where) -> tuple[Any, Any]:
+    unit, part = np.datetime_data(stamps.dtype)[0], 0.0
+    if unit in _SECONDS:  # NumPy itself does not round down near the first nanosecond
+        size = 1000 ** _SECONDS.index(unit)
+        count, part = np.divmod(stamps.astype(f"M8[{unit}]").astype(np.int64), size)
+        stamps, part = count.astype("M8[s]"), part / size
+    if np.any(np.abs(stamps.astype("M8[Y]").astype(np.int64)) > FARTHEST / JULIAN_YEAR):
+        raise where.error(stamps, "give at most 1 Gyr from J2000.0")
+    second = stamps.astype("M8[s]")
+    midnight = second.astype("M8[D]")
+    days = (midnight - J2000.astype("M8[D]")).astype(float)
+    return days - 0.5, ((second - midnight).astype(float) + part) / DAY
 
 
-def _days_from_time(time: Any, where: Where, shown: str = "") -> Any:
-    """Convert an astropy Time to days from J2000.0 TDB without loss of digits.
+def _from_cftime(date: Any, where: Where) -> tuple[float, float]:
+    """Convert a date of cftime, of which the integer `toordinal` is the Julian date of noon."""
+    if date.calendar not in ("standard", "gregorian", "proleptic_gregorian"):
+        problem = f"the days of the calendar '{date.calendar}' are not those of the real year"
+        raise where.error(str(date), f"{problem}; give 'standard' or 'proleptic_gregorian'")
+    second = 3600 * date.hour + 60 * date.minute + date.second + date.microsecond * 1e-6
+    return date.toordinal() - J2000_JD - 0.5, second / DAY
+
+
+def _from_astropy(value: Any, where: Where, given: object) -> tuple[Any, Any]:
+    """Convert an astropy Time, or UTC as text or datetime64, without loss of digits.
 
     UTC and UT1 are known from 1960 to a few years from now; outside they are refused.
     """
-    if is_masked(time):
-        raise where.error("a masked time", "give times that are all known")
-    try:
-        with _tables_at_hand(), warnings.catch_warnings():
-            warnings.simplefilter("error")
+    from astropy.time import Time
+    from astropy.utils import iers
+
+    with (
+        iers.conf.set_temp("auto_download", False),
+        iers.conf.set_temp("auto_max_age", None),
+        warnings.catch_warnings(),
+    ):
+        warnings.simplefilter("error")
+        try:
+            time = value if is_time(value) else Time(value, scale="utc")
             tdb = _with_tdb_minus_tt(time).tdb
-            days_tdb = (tdb.jd1 - J2000_JD) + tdb.jd2
-        # of the last day before it, the library does not warn
-        is_known = time.scale not in ("utc", "ut1") or np.min(time.jd) >= FIRST_UTC
-    except Exception:  # the library and ERFA have kinds of their own, warnings among them
-        is_known = False
-    if not is_known:
-        problem = f"{time.scale.upper()} is not known then; give TDB"
-        if FIRST_UTC < np.max(time.jd) < LAST_UTC:
-            problem += f", or install newer tables ({TABLES})"
-        raise where.error(shown or _as_given(time), problem) from None
-    return days_tdb
-
-
-def _as_given(time: Any) -> str:
-    """First time of an astropy Time as text, in its own format."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # "dubious year" of ERFA
-        return str(np.ravel(time.value)[0])
+            # of the last day before it, the library does not warn
+            if time.scale in ("utc", "ut1") and np.min(time.jd) < FIRST_UTC:
+                raise ValueError("not known")
+            return tdb.jd1 - J2000_JD, tdb.jd2
+        except Exception as error:  # kinds of the library and of ERFA, warnings among them
+            warnings.simplefilter("ignore")
+            if "end of day" in str(error):
+                raise where.error(given, "there is no such date: no leap second then") from None
+            scale = getattr(value, "scale", "utc").upper()
+            problem = f"{scale} is not known then; give TDB, or, soon to come, newer tables"
+            raise where.error(given, f"{problem} ({TABLES})") from None
 
 
 def _with_tdb_minus_tt(time: Any) -> Any:
@@ -201,72 +214,142 @@ def _with_tdb_minus_tt(time: Any) -> Any:
     return tt
 
 
-def _days_of(time: Any, where: Where) -> Any:
-    """Convert a time of astropy or Skyfield to days from J2000.0 TDB."""
-    if not is_skyfield_time(time):
-        return _days_from_time(time, where)
-    days_tdb = (time.whole - J2000_JD) + time.tdb_fraction
-    if not np.all(np.isfinite(days_tdb)):
-        raise where.error("NaN", "NaN is no date")
-    return days_tdb
-
-
 def is_skyfield_time(value: object) -> bool:
     """Return True for a Skyfield Time, without importing Skyfield."""
     return type(value).__module__ == "skyfield.timelib" and hasattr(value, "tdb_fraction")
 
 
-@contextmanager
-def _tables_at_hand() -> Iterator[None]:
-    """Make astropy use its installed tables of leap seconds and UT1, without a download.
-
-    The age of these tables is not checked.
-    """
-    from astropy.utils import iers
-
-    with iers.conf.set_temp("auto_download", False), iers.conf.set_temp("auto_max_age", None):
-        yield
-
-
 def is_time(value: object) -> bool:
     """Return True for an astropy Time, without importing astropy."""
-    return type(value).__module__.startswith("astropy.time") and hasattr(value, "scale")
+    return type(value).__module__.startswith("astropy.time") and hasattr(value, "sidereal_time")
 
 
 def datetime64(days_tdb: FloatArray) -> NDArray[np.datetime64]:
-    """Convert days from J2000.0 TDB to ``datetime64[us]``, the type of times in results."""
-    counts: NDArray[np.int64] = np.rint(days_tdb * MICROSECONDS_PER_DAY).astype(np.int64)
-    return J2000 + counts.astype("timedelta64[us]")
-
-
-def first_and_last(
-    value: Any, where: Where, read: Callable[[Any, Where], _Time], allowed: str
-) -> tuple[_Time, _Time]:
-    """Read the first and the last time of a span; refuse a last time before the first.
+    """Convert days from J2000.0 TDB to ``datetime64[us]``, the type of times in results.
 
     Raises
     ------
     SceneError
-        If there are not two times, or the second is before the first.
+        If a year is not from 1 to 9999, which files and plots of results need.
     """
-    if is_skyfield_time(value) and value.shape:
-        value = list(value)
-    pair = (
-        not is_skyfield_time(value)
-        and not isinstance(value, (str, Mapping, set))
-        and hasattr(value, "__len__")
-    )
-    if not pair or getattr(value, "ndim", 1) != 1 or len(value) != 2:
-        raise where.error(value, f"give {allowed}")
-    first, last = (read(time, where) for time in value)
-    if last < first:
-        problem = "it ends before it starts; put the earlier first"
-        raise where.error([str(time) for time in value], problem)
-    return first, last
+    outside = (days_tdb < FIRST_DAY) | (days_tdb >= END_DAY)
+    if np.any(outside):
+        problem = "the time axis of an answer holds the years 1 to 9999; choose dates within them"
+        raise SceneError("time", date_text(days_tdb[outside][0], "s"), problem)
+    counts: NDArray[np.int64] = np.rint(days_tdb * MICROSECONDS_PER_DAY).astype(np.int64)
+    return J2000 + counts.astype("timedelta64[us]")
+
+
+def date_text(day: float, unit: Literal["D", "s", "us"] = "D") -> str:
+    """Date as text, cut to a unit, of a time in days from J2000.0 TDB."""
+    if not abs(day) <= FARTHEST_DATE:
+        return f"{day:g} d from J2000.0"
+    count = np.timedelta64(round(float(day) * MICROSECONDS_PER_DAY), "us")
+    return str((J2000 + count).astype(f"M8[{unit}]"))
+
+
+def days(times: object, where: Where) -> FloatArray:
+    """Convert dates in any form that `two_parts` reads to days from J2000.0 TDB, shape (n,)."""
+    return np.atleast_1d(np.add(*two_parts(times, where)))
+
+
+def microseconds(value: Any, where: Where) -> int:
+    """Convert one date to the whole number of microseconds from J2000.0 TDB."""
+    whole, rest = two_parts(value, where)
+    if np.ndim(whole):
+        raise where.error(f"{np.size(whole)} times", "give one date")
+    _check_reach(whole, value, where)
+    day, part = divmod(float(whole), 1.0)
+    return int(day) * MICROSECONDS_PER_DAY + round((part + float(rest)) * MICROSECONDS_PER_DAY)
+
+
+def _check_reach(days: Any, given: object, where: Where) -> None:
+    if np.max(np.abs(days), initial=0.0) > FARTHEST_DATE:
+        raise where.error(given, "dates count in microseconds up to 250,000 years from J2000.0")
+
+
+def _epochs(value: Any, where: Where) -> Any:
+    """Read durations from J2000.0 or dates, one or several, as seconds from J2000.0 TDB.
+
+    Raises
+    ------
+    SceneError
+        If one of them is neither.
+    """
+    if isinstance(value, (list, tuple)):
+        times = np.array([seconds(time, where) for time in value], dtype=float)
+    elif _is_duration(value):
+        try:
+            times = quantity(value, "s", where, DURATION)
+        except UnitsError:
+            problem = f"give a time from J2000.0 like '{DURATION}', or a date like {EXAMPLES}"
+            raise where.error(value, problem) from None
+    else:
+        times = DAY * np.add(*two_parts(value, where))
+    if np.max(np.abs(times), initial=0.0) > FARTHEST:
+        raise where.error(value, "give at most 1 Gyr from J2000.0")
+    return times
+
+
+def seconds(value: Any, where: Where) -> float:
+    """Read one duration from J2000.0, or one date, as seconds from J2000.0 TDB."""
+    if isinstance(value, (int, float, list, tuple)) and not hasattr(value, "to_value"):
+        raise where.error(value, f"give it with its unit, like '{DURATION}', or a date")
+    time = _epochs(value, where)
+    if np.ndim(time):
+        raise where.error(value, f"give one time, like '{DURATION}'")
+    return float(time)
+
+
+def _is_duration(value: Any) -> bool:
+    if isinstance(value, str):
+        return not _DATE.fullmatch(value.strip())
+    is_quantity = hasattr(value, "to_value") and not is_time(value)
+    return is_quantity or isinstance(value, (dt.timedelta, np.timedelta64))
 
 
 @dataclass(frozen=True)
-class Span:
+class Ends:
+    """Base class of time spans, from a first to a last time.
+
+    Attributes
+    ----------
+    first, last : float
+        In the unit that `time` returns.
+    """
+
+    first: float
+    last: float
+
+    time: ClassVar[Any]
+    allowed: ClassVar[str]
+
+    @classmethod
+    def read(cls, value: Any, where: Where) -> Self:
+        """Read the first and the last time of a span.
+
+        Raises
+        ------
+        SceneError
+            If there are not two times, or the second is before the first.
+        """
+        if isinstance(value, cls):
+            return value
+        try:
+            ends = tuple(() if isinstance(value, (str, Mapping, set)) else value)
+        except TypeError:  # one time
+            ends = ()
+        if len(ends) != 2:
+            raise where.error(value, f"give {cls.allowed}")
+        first, last = (cls.time(end, where) for end in ends)
+        if last < first:
+            problem = "it ends before it starts; put the earlier first"
+            raise where.error([str(end) for end in ends], problem)
+        return cls(first, last)
+
+
+@dataclass(frozen=True)
+class Span(Ends):
     """Time span from a first to a last date.
 
     Attributes
@@ -278,15 +361,9 @@ class Span:
     first: int
     last: int
 
+    time = staticmethod(microseconds)
+    allowed = "two dates, like ['2000-01-01', '2001-01-01']"
     words, hint = "two dates", "tuple[Date, Date] | SkyfieldTime"
-
-    @classmethod
-    def read(cls, value: Any, where: Where) -> Span:
-        """Read the first and the last date of a span; refuse a last date before the first."""
-        if isinstance(value, Span):
-            return value
-        allowed = "two dates, like ['2000-01-01', '2001-01-01']"
-        return cls(*first_and_last(value, where, microseconds, allowed))
 
     def write(self) -> Plain:
         """Form stored in scene files: both dates as text, to the microsecond."""
@@ -296,6 +373,19 @@ class Span:
     def days(self) -> tuple[float, float]:
         """First and last date of the span, days from J2000.0 TDB."""
         return self.first / MICROSECONDS_PER_DAY, self.last / MICROSECONDS_PER_DAY
+
+
+@dataclass(frozen=True)
+class YearSpan(Ends):
+    """Time span over millennia, in seconds from J2000.0 TDB."""
+
+    time = staticmethod(seconds)
+    allowed = "two times, like ['-1 Myr', '0 kyr']"
+    words, hint = "two times from J2000.0, or two dates", "tuple[Epoch, Epoch]"
+
+    def write(self) -> Plain:
+        """Form stored in scene files: both times in seconds, with all digits."""
+        return [f"{self.first!r} s", f"{self.last!r} s"]
 
 
 @dataclass(frozen=True)
@@ -351,7 +441,9 @@ class Listed:
     @classmethod
     def times(cls, value: Any, where: Where) -> FloatArray:
         """Read a list of times in any form that the function `days` takes."""
-        return days(value, where).copy()
+        listed = days(value, where)
+        _check_reach(listed, "a date", where)
+        return listed
 
     @classmethod
     def read(cls, value: Any, where: Where) -> Self:
@@ -387,30 +479,37 @@ class TimeList(Listed):
         return self.listed[first:last:every]
 
 
+class YearList(Listed):
+    """List of times over millennia, stored in seconds from J2000.0 TDB."""
+
+    words, hint = "a list of times from J2000.0, or of dates", "Epochs"
+
+    @classmethod
+    def times(cls, value: Any, where: Where) -> FloatArray:
+        """Read a list of durations from J2000.0 or of dates; return seconds from J2000.0 TDB."""
+        return np.atleast_1d(_epochs(value, where))
+
+
 #: The times of a series.
 Epochs = TimeGrid | TimeList
 
 
-@dataclass(frozen=True)
-class Spacing(Number):
-    """Kind of input: a time step of at least a microsecond and less than 10,000 years."""
-
-    unit: str = "s"
-    example: str = "6 h"
-
-    def read(self, value: object, where: Where) -> float:
-        """Convert a time step to seconds, and refuse a step outside the allowed range."""
-        try:
-            step = super().read(value, where)
-        except SceneError as error:
-            if "finite" not in str(error):
-                raise
-            step = float("nan")
-        if not 1e-6 <= step < LONGEST_STEP:
-            problem = "a step is greater than zero: a microsecond or more, less than 10000 years"
-            raise where.error(value, problem)
-        return step
+#: Kind of input: a time step, in s.
+SPACING = Number("s", "6 h", low=1e-6, high=1e4 * JULIAN_YEAR, above=0.0)
+Step = Annotated[float, SPACING]
+#: A step between times over millennia, s.
+YearStep = Annotated[float, Number("s", "1 kyr", low=DAY, high=FARTHEST, plain=False)]
 
 
-#: A step between times, s.
-Step = Annotated[float, Spacing()]
+def grid(span: YearSpan, step: float, where: Where) -> FloatArray:
+    """Evenly spaced times that start at the beginning of a span and end within it.
+
+    Raises
+    ------
+    SceneError
+        If there would be more than `MOST_TIMES`.
+    """
+    count = math.floor((span.last - span.first) / step * (1 + 1e-12)) + 1
+    if count > MOST_TIMES:
+        raise where.error(f"{step / JULIAN_YEAR:g} yr", f"{count} times; give a longer step")
+    return np.asarray(span.first + step * np.arange(count))

@@ -30,7 +30,7 @@ from astropy.time import Time
 
 from earthspin.bodies import in_a_sentence
 from earthspin.constants import DAY, J2000_JD
-from earthspin.dates import datetime64, days
+from earthspin.dates import date_text, two_parts
 from earthspin.engine.question import Question, scene_of
 from earthspin.engine.variables import si
 from earthspin.errors import SceneError, UndefinedError, Where
@@ -185,9 +185,8 @@ def _rotation(model: Model, times: FloatArray) -> Solved:
     """Matrices from the ICRS to the principal axes of the body, and their errors, rad."""
     first = model.first
     if times.min() < first - MICROSECOND:
-        start, asked = datetime64(np.array([first, times.min()]))
-        problem = f"the rotation starts at {start} TDB; take a later time"
-        raise SceneError("obstime", str(asked), problem)
+        problem = f"the rotation starts at {date_text(first, 'us')} TDB; take a later time"
+        raise SceneError("obstime", date_text(times.min(), "us"), problem)
     answer = run(model.at(_tdb(np.array([first, *np.maximum(times, first)]))))
     answer = answer.isel(time=slice(1, None))
     # times of an answer are rounded to a microsecond
@@ -203,10 +202,23 @@ def _tdb(times: FloatArray) -> Time:
 
 def _at(model: Model, time: Any, where: Where) -> tuple[FloatArray, FloatArray]:
     """Rotation matrices from the ICRS, at times of astropy or Skyfield, and their errors, rad."""
-    flat = time.reshape(-1) if isinstance(time, Time) else time
-    solved = _solved(model, tuple(days(flat, where).tolist()))
+    times = np.add(*two_parts(time, where))
+    if times.size == 0:
+        return np.empty((*times.shape, 3, 3)), np.empty(times.shape)
+    solved = _solved(model, tuple(times.ravel().tolist()))
     warn_of_versions(model.versions, solved.versions, stacklevel=5)
-    return solved.matrix.reshape(*time.shape, 3, 3), solved.error.reshape(time.shape)
+    return solved.matrix.reshape(*times.shape, 3, 3), solved.error.reshape(times.shape)
+
+
+class _DateAttribute(TimeAttribute):  # type: ignore[misc]
+    """Attribute of an astropy frame that holds dates, read as in the questions."""
+
+    def convert_input(self, value: Any) -> tuple[Any, bool]:
+        """Convert dates to a Time, which keeps its scale if it is one already."""
+        if value is None or isinstance(value, Time):
+            return super().convert_input(value)  # type: ignore[no-any-return]
+        whole, rest = two_parts(value, Where("obstime"))
+        return Time(J2000_JD + whole, rest, format="jd", scale="tdb"), True
 
 
 class _ModelAttribute(Attribute):  # type: ignore[misc]
@@ -247,8 +259,6 @@ class _Computed:
         """Rotation matrices from the ICRS at the times of the frame, and their errors, rad."""
         if self.model is None:
             raise SceneError("model", None, f"{_give(self._words)}, as in model=answer")
-        if self.obstime.size == 0:
-            return np.empty((*self.obstime.shape, 3, 3)), np.empty(self.obstime.shape)
         return _at(self.model, self.obstime, Where("obstime"))
 
 
@@ -261,8 +271,8 @@ class EquatorOfDate(_Computed, BaseRADecFrame):  # type: ignore[misc]
     Parameters
     ----------
     obstime : Time
-        Time of the equator and equinox, J2000.0 by default; several times are allowed. A date given
-        as text is UTC in astropy.
+        Time of the equator and equinox, J2000.0 by default; several times are allowed. A plain date
+        is TDB, as in the questions.
     model : Dataset
         Answer of `long_term`: mean equator and equinox of date. Answer of `pole`: true equator of
         the figure axis, and its node on the ecliptic of date of IAU 2006; for another body than the
@@ -298,7 +308,7 @@ class EquatorOfDate(_Computed, BaseRADecFrame):  # type: ignore[misc]
     183.3 76.8
     """
 
-    obstime = TimeAttribute(default=Time(J2000_JD, format="jd", scale="tdb"))
+    obstime = _DateAttribute(default=Time(J2000_JD, format="jd", scale="tdb"))
     model = _ModelAttribute(default=None)
     _words = ("long-term", "pole")
 
@@ -330,7 +340,7 @@ class BodyFixed(_Computed, BaseCoordinateFrame):  # type: ignore[misc]
 
     default_representation = SphericalRepresentation
     default_differential = SphericalCosLatDifferential
-    obstime = TimeAttribute(default=Time(J2000_JD, format="jd", scale="tdb"))
+    obstime = _DateAttribute(default=Time(J2000_JD, format="jd", scale="tdb"))
     model = _ModelAttribute(default=None)
     _words = ("rotation",)
 
@@ -372,7 +382,7 @@ class SkyfieldFrame:
         return f"SkyfieldFrame({self.model})"
 
     def rotation_at(self, t: Any) -> FloatArray:
-        """Rotation matrix from the ICRF at the times of a Skyfield Time, (3, 3) or (3, 3, n)."""
+        """Rotation matrix from the ICRF at a Skyfield Time or other date, (3, 3) or (3, 3, n)."""
         return np.moveaxis(_at(self.model, t, Where("t"))[0], (-2, -1), (0, 1))
 
     def error_at(self, t: Any) -> u.Quantity:

@@ -9,6 +9,7 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
+from earthspin.engine import blocks
 from earthspin.engine.drafts import as_path
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.members import Members
@@ -93,7 +94,7 @@ def ensemble(
     work = Ensemble(request, block=block, in_memory=path is None)
     if path is None:
         return work.hold(client)
-    answer = open_store(work.write(path, client))
+    answer = open_store(blocks.write(work, path, client=client))
     return answer.to_dataset() if isinstance(answer, xr.DataTree) else answer
 
 

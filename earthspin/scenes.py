@@ -19,9 +19,8 @@ from earthspin.engine import answers, blocks
 from earthspin.engine.blocks import Series
 from earthspin.engine.members import TWICE
 from earthspin.engine.part import BLOCK as BY_BLOCK
-from earthspin.engine.plan import Plan
 from earthspin.engine.question import Question, keys_of, scene_of
-from earthspin.engine.run import Run
+from earthspin.engine.run import Plan, Run
 from earthspin.engine.store import open as open_file
 from earthspin.errors import SceneError, nearest, no_plain_file
 from earthspin.questions import MODULES
@@ -302,8 +301,10 @@ def run(scene: Any) -> xr.Dataset:
 
     Raises
     ------
+    OutputError
+        If the file cannot be read.
     EarthspinError
-        Whatever is wrong with the scene, the kernel or the body, in one line.
+        If the scene has a wrong key or value, or the question cannot be answered.
 
     Examples
     --------
@@ -337,7 +338,7 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
     Raises
     ------
     EarthspinError
-        Whatever is wrong, in one line; among it a section that the question does not have.
+        If the question lacks a section, or for the reasons of `run`.
 
     Examples
     --------
@@ -407,7 +408,7 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
     Raises
     ------
     EarthspinError
-        Whatever is wrong, in one line.
+        If the target cannot be written, or the answer has no blocks; or for the reasons of `run`.
 
     Examples
     --------

@@ -47,6 +47,12 @@ COMMON: dict[str, tuple[str, float]] = {
     "rad/s": ("rad/s", 1.0), "m3/s2": ("m3/s2", 1.0), "1/s": ("1/s", 1.0),
     "arcsec": ("rad", _ARCSEC), "mas": ("rad", _ARCSEC * 0.001),
 }  # fmt: skip
+#: Symbols of the units of time that are written as words, in singular or plural.
+_SYMBOLS = {
+    "second": "s", "minute": "min", "hour": "h", "day": "d", "week": "wk", "year": "yr",
+    "decade": "dayr", "century": "hyr", "centurie": "hyr", "millennium": "kyr", "millennia": "kyr",
+}  # fmt: skip
+_WORD = re.compile(rf"(?<![a-z])(?:julian )?({'|'.join(_SYMBOLS)})s?(?![a-z])", re.IGNORECASE)
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s+(\S.*?)\s*")
 
 
@@ -144,7 +150,7 @@ class _Target:
                 raise ValueError("no unit is that long")
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", u.UnitsWarning)
-                return float((1.0 * u.Unit(unit)).to_value(u.Unit(self.unit)))
+                return float((1.0 * u.Unit(_in_symbols(unit))).to_value(u.Unit(self.unit)))
         except (TypeError, ValueError, u.UnitConversionError):
             raise self.wrong(value) from None
 
@@ -160,6 +166,11 @@ def unit_factor(unit: str, target: str, where: Where, example: str) -> float:
     return _Target(target, where, example).factor(unit, unit)
 
 
+def _in_symbols(text: str) -> str:
+    """Replace the names of units of time by symbols: "12 hours" becomes "12 h"."""
+    return _WORD.sub(lambda match: _SYMBOLS[match[1].lower()], text)
+
+
 def _convert(value: Any, target: _Target) -> Any:
     if isinstance(value, (bool, np.bool_)):
         raise target.wrong(value)
@@ -168,7 +179,7 @@ def _convert(value: Any, target: _Target) -> Any:
     if isinstance(value, str):
         if len(value) > LONGEST_QUANTITY:
             raise target.wrong(value)
-        match = _NUMBER_AND_UNIT.fullmatch(value)
+        match = _NUMBER_AND_UNIT.fullmatch(_in_symbols(value))
         if match and match[2] in COMMON and COMMON[match[2]][0] == target.unit:
             return float(match[1]) * COMMON[match[2]][1]
         return _by_astropy(value, target)
@@ -224,7 +235,8 @@ def _by_astropy(value: Any, target: _Target) -> Any:
     try:
         with warnings.catch_warnings():  # several slashes, which are read from left to right
             warnings.simplefilter("ignore", u.UnitsWarning)
-            read = value.to(u.s) if hasattr(value, "jd1") else u.Quantity(value)
+            text = _in_symbols(value) if isinstance(value, str) else value
+            read = value.to(u.s) if hasattr(value, "jd1") else u.Quantity(text)
         if isinstance(value, str) and read.unit == u.dimensionless_unscaled and target.unit:
             raise ValueError("no unit")
         # Angles may become pure numbers of radians, nothing else changes kind.
@@ -334,7 +346,8 @@ class Number:
     def _range(self) -> str:
         unit = f" {self.unit}" if self.unit else ""
         if self.above == 0:
-            return "it is greater than zero"
+            reach = f": {max(self.low, 0):g} to {self.high:g}{unit}" if self.high < math.inf else ""
+            return f"it is greater than zero{reach}"
         if self.above > -math.inf:
             return f"it is greater than {self.above:g}{unit}"
         if self.high < math.inf:

@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from earthspin import EarthspinError, SceneError, UnitsError, units
+from earthspin.constants import DAY
 from earthspin.errors import Where
 from earthspin.units import COMMON, Number, Numbers, Several, Text, Whole, Word, kind_of
 
@@ -33,6 +34,27 @@ def test_arcsec_per_century_is_not_arcsec_per_cycle() -> None:
     assert np.isclose(rate, 50.404, rtol=1e-14, atol=0)
     with pytest.raises(UnitsError):
         units.quantity("5040.4 arcsec/cy", "arcsec/yr", Where("rate"), "50 arcsec/yr")
+
+
+@pytest.mark.parametrize(
+    ("words", "symbols"),
+    [
+        *[("12 hours", "12 h"), ("1 hour", "1 h"), ("12hours", "12 h"), ("30 minutes", "30 min")],
+        *[("1 second", "1 s"), ("3 Days", "3 d"), ("2 weeks", "14 d"), ("2 Julian years", "2 yr")],
+        *[("3 centuries", "300 yr"), ("1 century", "100 yr"), ("1 decade", "10 yr")],
+        *[("2 millennia", "2 kyr"), ("1 millennium", "1 kyr")],
+    ],
+)
+def test_units_of_time_are_read_as_words(words: str, symbols: str) -> None:
+    for unit in ("s", "d"):
+        found = [units.quantity(text, unit, Where("it"), "6 h") for text in (words, symbols)]
+        assert found[0] == found[1]
+    labelled = xr.DataArray([1.0], dims="n", attrs={"units": words.split(maxsplit=1)[-1]})
+    if words[1] == " ":
+        size = units.quantity(labelled, "s", Where("it"), "6 h").item()
+        assert size * int(words[0]) == found[0] * DAY
+    with pytest.raises(UnitsError):
+        units.quantity("5 lightyears", "s", Where("it"), "6 h")
 
 
 @pytest.mark.parametrize("unit", COMMON)

@@ -39,7 +39,7 @@ JOURNAL: dict[str, Any] = {
 #: What a label says of the unit of its numbers, as a word of its own.
 UNIT = re.compile(
     r"(?<![\w$])(m|cm|km|kg|s|h|d|day|days|yr|year|years|century|cycles|turns|TDB|deg|degrees|rad|1/s|"
-    r"rad/s|rad²/s²|arcsec|mas|µas|%|ratio|relative|number|ppm|N\sm|m²/s²|kg\sm²|kg/m³)(?![\w$])"
+    r"rad/s|rad²/s²|arcsec|mas|µas|%|relative|over|flattening|degree|number|ppm|N\sm|m²/s²|kg\sm²|kg/m³)(?![\w$])"
 )
 
 

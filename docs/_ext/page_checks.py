@@ -80,6 +80,9 @@ def faults_of_pages(folder: Path) -> Iterator[str]:
             yield f"{name}: needs the network, {far[0]}"
         if dead := re.findall(r'mathvariant="(?!normal)[^"]+"', text):
             yield f"{name}: a formula with {dead[0]}, which browsers do not draw"
+        for words in re.findall(r"<dt><strong>([^<]*[ `][^<]*)</strong>", text):
+            if not re.fullmatch(r"\**\w+(, \**\w+)*", words):
+                yield f"{name}: prose is shown as the name of a parameter, {words!r}"
         if "<mi>&</mi>" in text:
             yield f"{name}: a formula with a bare &"
 

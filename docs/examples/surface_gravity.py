@@ -9,8 +9,8 @@ import numpy as np
 from earthspin.bodies import EARTH, Body
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, key
-from earthspin.engine.variables import Labels, Neglected, Value, Variables, labels, number
+from earthspin.engine.question import Question, key
+from earthspin.engine.variables import Neglected, Variables, labels, number
 from earthspin.units import FloatArray, Whole
 
 
@@ -40,8 +40,8 @@ def surface(body: Body, points: int) -> FloatArray:
 class Gravity(Variables, along=("latitude",)):
     """Gravity by latitude."""
 
-    gravity: Value = number("m/s2", "gravity, attraction and spin together")
-    latitude: Labels = labels()
+    gravity = number("m/s2", "gravity, attraction and spin together")
+    latitude = labels()
 
 
 @part
@@ -62,6 +62,6 @@ def neglected() -> Neglected:
     return Neglected(what="a density that grows inwards")
 
 
-define_parts(SurfaceGravity, answer=gravity, sections={"neglected": neglected}, parts=(surface,))
-
-surface_gravity = public_call(SurfaceGravity)
+surface_gravity = public_call(
+    SurfaceGravity, answer=gravity, sections=(neglected,), parts=(surface,)
+)

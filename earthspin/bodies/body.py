@@ -167,7 +167,7 @@ class Body(FromMass):
     reference: Annotated[str, Text()] = ""
     obliquity: InitVar[Any] = None
 
-    words: ClassVar[str] = 'the name of a body, like "mars", or a table of its numbers'
+    words: ClassVar[str] = 'a Body, a name like "mars", or a table of numbers'
     hint: ClassVar[str] = "Body | str | Mapping[str, Any] | VectorFunction"
     by_name: ClassVar[bool] = True
     #: Converter of each field; unit of each numeric field; and the numeric fields that may be

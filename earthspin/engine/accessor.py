@@ -10,12 +10,15 @@ from itertools import product
 from types import MethodType
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
-from earthspin.engine.plan import Plan
-from earthspin.engine.registry import METHODS, registered
-from earthspin.engine.spread import quantiles, sensitivity
+from earthspin.engine import METHODS, registered
+from earthspin.engine.members import MEMBER
 from earthspin.errors import SceneError, nearest
+from earthspin.numerics import sampling
+from earthspin.units import real_numbers
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,6 +30,7 @@ if TYPE_CHECKING:
 
 #: Suffix of the names of errors.
 _ERROR = "_error"
+_SHARE_ERROR = "95 % half-width, from the number of members, of the share of the variance"
 _NO_VECTOR = "the answer has no vector in the GCRS"
 
 
@@ -77,10 +81,9 @@ class Answer:
         return question
 
     @property
-    def plan(self) -> Plan:
+    def plan(self) -> Any:
         """Plan of the question: functions that run, and functions left out, with the reasons."""
-        plan: Plan = registered("plan")(self.scene)
-        return plan
+        return registered("plan")(self.scene)
 
     def section(self, name: str) -> xr.Dataset:
         """Return a section of a tree that `run_tree` returned, as a Dataset.
@@ -221,7 +224,19 @@ class Answer:
         >>> print(period.round(2).values)
         [25712.07 25712.08 25712.1 ]
         """
-        return quantiles(self.dataset, shares)
+        try:
+            wanted = np.atleast_1d(real_numbers(shares))
+        except Exception:  # somebody's class may raise anything
+            wanted = np.empty(0)
+        if not (wanted.ndim == 1 and wanted.size and ((wanted >= 0) & (wanted <= 1)).all()):
+            raise SceneError("quantiles", shares, "give numbers between 0 and 1")
+        variables = {}
+        for name, array in _members(self.dataset, "quantiles").items():
+            values = sampling.quantiles(array.values.astype(float), wanted)
+            variables[name] = (("quantile", *array.dims[1:]), values, array.attrs)
+        attrs = {"long_name": "share of the members below", "units": "1"}
+        labels = {"quantile": ("quantile", wanted, attrs)} | _other_labels(self.dataset)
+        return xr.Dataset(variables, labels, dict(self.dataset.attrs))
 
     def sensitivity(self) -> xr.Dataset:
         """Compute how much each ensemble input contributes to the variance of each result.
@@ -253,7 +268,33 @@ class Answer:
         >>> print(float(share.sel(input="body.dynamical_flattening").round(3)))
         1.0
         """
-        return sensitivity(self.dataset)
+        answer, outputs = self.dataset, _members(self.dataset, "sensitivity")
+        columns, count, needed = inputs_of(answer), answer.sizes[MEMBER], members_needed(answer)
+        if count < needed:
+            problem = f"{len(columns)} inputs need at least {needed} members"
+            raise SceneError("sensitivity", f"{count} members", problem)
+        classes = [array for array in columns.values() if array.dtype.kind == "U"]
+        numbers = [array for array in columns.values() if array.dtype.kind != "U"]
+        inputs = np.stack(numbers, axis=1) if numbers else np.empty((count, 0))
+        no_slope = {"no_slope": "inputs that are names have no slope"} if classes else {}
+        variables: dict[str, Any] = {}
+        for name in (name for name in outputs if "_error" not in name):
+            array = outputs[name]
+            shares = sampling.shares_of_variance(inputs, array.values.astype(float), classes)
+            what, rest = array.attrs.get("long_name", name), array.dims[1:]
+            slope_units = f"{array.attrs.get('units', '1')} per unit of the input"
+            along = ("input", *rest)
+            for ending, values, dims, meaning, units in (
+                ("slope", shares.slope, along, "change per unit of the input", slope_units),
+                ("share", shares.share, along, "share of the variance", "1"),
+                ("share_error", shares.error, along, _SHARE_ERROR, "1"),
+                ("unexplained", shares.unexplained, rest, "variance not explained by the fit", "1"),
+            ):
+                attrs = {"long_name": f"{meaning}, of the {what}", "units": units}
+                attrs |= no_slope if ending == "slope" else {}
+                variables[f"{name}_{ending}"] = (dims, values, attrs)
+        labels = {"input": ("input", [*columns], {"long_name": "input of the members"})}
+        return xr.Dataset(variables, labels | _other_labels(answer), dict(answer.attrs))
 
 
 def _without_inherited(node: xr.DataTree) -> xr.Dataset:
@@ -280,3 +321,53 @@ def _spread(dataset: xr.Dataset) -> xr.Dataset:
             column = array.sel(dict(zip(along, labels, strict=True)), drop=True)
             columns["_".join([str(name), *map(str, labels)])] = column
     return xr.Dataset(columns)
+
+
+# --- members of an ensemble -----------------------------------------------------------------------
+
+
+def is_ensemble(answer: xr.Dataset | xr.DataTree) -> bool:
+    """Return True if a result is an ensemble, that is, has the dimension `member`."""
+    return MEMBER in answer.dims and any("input" in c.attrs for c in answer.coords.values())
+
+
+def inputs_of(answer: xr.Dataset) -> dict[str, NDArray[Any]]:
+    """Input values of all members of an ensemble by input name; numbers come before names.
+
+    An input of several numbers has one entry for each number.
+    """
+    inputs = [array for array in answer.coords.values() if "input" in array.attrs]
+    numbers = {
+        f"{array.attrs['input']}{'' if array.ndim == 1 else f'.{k}'}": column
+        for array in inputs
+        if array.dtype.kind in "fiu"
+        for k, column in enumerate(array.values.reshape(array.sizes[MEMBER], -1).T)
+    }
+    texts = {str(array.attrs["input"]): array for array in inputs if array.dtype.kind not in "fiu"}
+    return numbers | {name: array.values.astype(str) for name, array in texts.items()}
+
+
+def members_needed(answer: xr.Dataset) -> int:
+    """Smallest number of ensemble members from which `sensitivity` can be computed.
+
+    It is 2, plus 1 for each input that is a number, plus k - 1 for each input with k names.
+    """
+    columns = inputs_of(answer).values()
+    classes = [len(np.unique(column)) for column in columns if column.dtype.kind == "U"]
+    return 2 + len(columns) + sum(classes) - 2 * len(classes)
+
+
+def _members(answer: xr.Dataset, what: str) -> dict[str, xr.DataArray]:
+    """Select the numerical variables that differ between members, with `member` first."""
+    if not is_ensemble(answer):
+        problem = "it is not an ensemble; earthspin.ensemble makes one"
+        raise SceneError(what, answer.attrs.get("title", "a Dataset"), problem)
+    return {
+        str(name): array.transpose(MEMBER, ...)
+        for name, array in answer.data_vars.items()
+        if MEMBER in array.dims and array.dtype.kind in "fiu"
+    }
+
+
+def _other_labels(answer: xr.Dataset) -> dict[Any, Any]:
+    return {name: array for name, array in answer.coords.items() if MEMBER not in array.dims}

@@ -12,7 +12,7 @@ import numpy as np
 
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.members import MEMBER, Members
-from earthspin.engine.question import NEGLECTED, Key, Question, keys_of
+from earthspin.engine.question import NEGLECTED, Key, Question, define_parts, keys_of
 from earthspin.engine.run import ALL, Run
 from earthspin.errors import SceneError, checked
 
@@ -118,35 +118,31 @@ def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
     }
     if not linear_errors:
         raise question.error("uncertainty", "sample", _NO_ERROR)
-    plain = question.replace(uncertainty=None, n=None)
     count = MEMBERS if question.n is None else question.n
     members = Members(n=count, published=True)
-    sample = Ensemble(plain.replace(members=members), in_memory=True).hold()
+    drawn = question.replace(uncertainty=None, n=None, members=members)
+    sample = Ensemble(drawn, in_memory=True).hold()
     sampled: dict[str, Any] = {}
     for name, linear in linear_errors.items():
-        values = sample[name]
-        if MEMBER not in values.dims:
-            width, shift = np.zeros(answer[name].shape), 0.0
-        else:
+        number, values = answer[name], sample[name]
+        units, width, shift = number.attrs.get("units", "1"), np.zeros(number.shape), 0.0
+        if MEMBER in values.dims:
             low, middle, high = np.quantile(values.values, (_ENDS[0], 0.5, _ENDS[1]), axis=0)
             width = (high - low) / 2
-            shift = float(np.max(np.abs(middle - answer[name].values)))
-        units = answer[name].attrs.get("units", "1")
+            shift = float(np.max(np.abs(middle - number.values)))
+        meaning = f"95 % half-width of the {number.attrs['long_name']}"
         attrs = {
-            "long_name": f"95 % half-width of the {answer[name].attrs['long_name']} from "
-            f"{count} members",
+            "long_name": f"{meaning} from {count} members",
             "units": units,
             "members": count,
             "middle_of_the_sample": f"{shift:.3g} {units} at most from {name}",
         }
-        if linear.attrs.get("units") == units and linear.dims == answer[name].dims:
-            difference = float(np.max(np.abs(linear.values - width), initial=0.0))
-            words = f"{difference:.3g} {units} at most from {linear.name}"
-            attrs["difference_from_linear"] = words
-        sampled[f"{name}_error_sampled"] = (answer[name].dims, width, attrs)
+        if linear.attrs.get("units") == units and linear.dims == number.dims:
+            size = float(np.max(np.abs(linear.values - width), initial=0.0))
+            attrs["difference_from_linear"] = f"{size:.3g} {units} at most from {linear.name}"
+        sampled[f"{name}_error_sampled"] = (number.dims, width, attrs)
     inputs = ", ".join(str(c.attrs["input"]) for c in sample.coords.values() if "input" in c.attrs)
-    summary = {"sampled": f"{count} members in {inputs}"}
-    return answer.assign(sampled).assign_attrs(summary)
+    return answer.assign(sampled).assign_attrs(sampled=f"{count} members in {inputs}")
 
 
 def _linear_error(answer: xr.Dataset, name: str) -> xr.DataArray | None:
@@ -158,22 +154,34 @@ def _linear_error(answer: xr.Dataset, name: str) -> xr.DataArray | None:
 
 # --- the public function of a question ------------------------------------------------------------
 
-#: Arguments of a call that give the two ends of a span.
-ENDS = ("start", "stop")
+#: Arguments of a call that give the two ends of a span, with their meaning.
+ENDS = {
+    "start": "First time; plain dates mean TDB, others are converted.",
+    "stop": "Last time, which is included if the step meets it.",
+}
 
 
-def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
-    """Make the public Python function that answers a question of the given class.
+def public_call(question: type[Question], **parts: Any) -> Callable[..., xr.Dataset]:
+    """Make the public Python function that answers a question of the given class by its parts.
 
     Parameters
     ----------
     question : type
+    **parts
+        The parts for its answer and sections; see `define_parts`.
     """
+    define_parts(question, **parts)
     signature = signature_of(question)
 
     def call(*args: Any, **kwargs: Any) -> xr.Dataset:
-        values = dict(signature.bind(*args, **kwargs).arguments)
-        return answer(question(**_with_span(question, values)))
+        values = signature.bind(*args, **kwargs).arguments
+        ends = {end: values.pop(end, None) for end in ENDS if end in question.positional}
+        missing = [end for end, value in ends.items() if value is None]
+        if len(missing) == 1:
+            raise SceneError(missing[0], None, "give both start and stop, or times")
+        if ends and not missing:
+            values["span"] = tuple(ends.values())
+        return answer(question(**values))
 
     call.__name__ = call.__qualname__ = question.call
     call.__doc__ = docstring_of(question)
@@ -181,19 +189,6 @@ def public_call(question: type[Question]) -> Callable[..., xr.Dataset]:
     call.__signature__ = signature  # type: ignore[attr-defined]
     call.question = question  # type: ignore[attr-defined]
     return checked(call)
-
-
-def _with_span(question: type[Question], values: dict[str, Any]) -> dict[str, Any]:
-    """Replace the arguments `start` and `stop` by `span`; raise an error if one is missing."""
-    if "start" not in question.positional:
-        return values
-    ends = {end: values.pop(end, None) for end in ENDS}
-    missing = [end for end, value in ends.items() if value is None]
-    if len(missing) == len(ENDS):
-        return values
-    if missing:
-        raise SceneError(missing[0], None, "give both start and stop, or times")
-    return values | {"span": tuple(ends.values())}
 
 
 def arguments_of(question: type[Question]) -> dict[str, Key | None]:
@@ -229,31 +224,46 @@ def _as_written(value: Any) -> Any:
 
 def docstring_of(question: type[Question]) -> str:
     """Make the docstring of a question's public function from its class and its arguments."""
-    head, _, rest = inspect.cleandoc(question.__doc__ or "").partition("\n")
-    lines = [head, "", "Parameters", "----------"]
-    for name, entry in arguments_of(question).items():
+    text, *sections = re.split(r"\n\n(\w+)\n-{4,}\n", inspect.cleandoc(question.__doc__ or ""))
+    of_class = dict(zip(sections[::2], sections[1::2], strict=True))
+    arguments, parameters = arguments_of(question), list[str]()
+    for name, entry in arguments.items():
         if entry is None:
-            lines += [f"{name} : date", f"    {_END[name]}"]
+            parameters += [f"{name} : date", f"    {ENDS[name]}"]
             continue
         optional = "" if entry.required else ", optional"
         default = f" Default: {entry.default_words}." if entry.default_words else ""
-        lines.append(f"{name} : {entry.kind.words}{optional}")
+        parameters.append(f"{name} : {entry.kind.words}{optional}")
         sentence = f"{entry.doc[:1].upper()}{entry.doc[1:]}.{default}"
-        lines += textwrap.wrap(sentence, 88, initial_indent="    ", subsequent_indent="    ")
-    notes = ["", "Notes", "-----", *SOURCE_TEXT] if _NUMBERED.search(head + rest) else []
-    before, heading, after = rest.rstrip().partition("\nExamples\n")
-    return "\n".join([*lines, before.rstrip(), *notes, f"{heading}{after}", ""])
+        parameters += textwrap.wrap(sentence, 88, initial_indent="    ", subsequent_indent="    ")
+    raises = [
+        f"{error}\n    {case}" for error, (key, case) in _RAISES.items() if key in ("", *arguments)
+    ]
+    if own := of_class.pop("Raises", ""):
+        raises.append(own.rstrip())
+    notes = "\n".join(SOURCE_TEXT) if _NUMBERED.search(text + "".join(of_class.values())) else ""
+    examples = of_class.pop("Examples", "")
+    ordered = {
+        "Parameters": "\n".join(parameters), **of_class, "Raises": "\n".join(raises),
+        "Notes": notes, "Examples": examples,
+    }  # fmt: skip
+    blocks = (
+        f"{title}\n{'-' * len(title)}\n{body.rstrip()}" for title, body in ordered.items() if body
+    )
+    return "\n\n".join([text, *blocks, ""])
 
 
+#: Errors that several questions raise: the key that a question must have, if any, and the case.
+_RAISES = {
+    "SceneError": ("", "If a key is unknown or missing, or its value is not allowed."),
+    "UnitsError": ("", "If a unit has the wrong dimension."),
+    "BodyError": ("body", "If a body lacks a needed number, or its numbers contradict each other."),
+    "KernelError": ("ephemeris", "If a kernel cannot be read, or lacks one of the bodies."),
+    "CoverageError": ("ephemeris", "If the kernel does not cover the dates."),
+}
 #: Note of docstrings that cite an equation of the source text by its number.
 SOURCE_TEXT = (
     "Numbers such as I.8.7 are equations and sections of the source text, Appendix I,",
     '"Rigid Body Dynamics", sections I.1 to I.9; docs/equations.md maps each to its function.',
 )
 _NUMBERED = re.compile(r"\bI\.\d")
-
-
-_END = {
-    "start": "First time; plain dates mean TDB, others are converted.",
-    "stop": "Last time, which is included if the step meets it.",
-}

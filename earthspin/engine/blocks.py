@@ -24,7 +24,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import islice
+from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -82,63 +82,45 @@ class Layout:
         return last - first
 
 
-class Unfinished:
-    """A partly written Zarr store, in a folder that this process has locked.
+def missing_blocks(folder: Path, layout: Layout) -> list[int]:
+    """Return the numbers of the blocks that are not done, and remove their damaged chunks.
 
     Parameters
     ----------
     folder : Path
-        Folder whose name ends in `PARTIAL`.
+        Folder whose name ends in `PARTIAL`, which this process has locked.
     layout : Layout
-
-    Attributes
-    ----------
-    missing : list of int
-        Numbers of the blocks that are not done. Their damaged chunks are removed.
-    length : int
-        Number of finished epochs or members: total length of the finished blocks.
 
     Raises
     ------
     OutputError
         If the metadata, or a variable that is not written in blocks, is damaged.
     """
+    zarr_folder = zarr_of()
+    try:
+        return sorted(zarr_folder.missing_blocks(folder / STORE, layout.along))
+    except OutputError:
+        raise _damaged(folder, "what its blocks share is") from None
 
-    def __init__(self, folder: Path, layout: Layout) -> None:
-        from earthspin.engine import zarr_folder
 
-        self.folder, self.layout, self.store = folder, layout, folder / STORE
-        try:
-            metadata = zarr_folder.verify_shared(self.store, layout.along)
-        except OutputError:
-            raise _damaged(folder, "what its blocks share is") from None
-        self.missing = list[int]()
-        for number in range(layout.count):
-            damaged = zarr_folder.damaged_chunks(self.store, metadata, layout.along, number)
-            for chunk in damaged:
-                (self.store / chunk).unlink(missing_ok=True)
-            if damaged:
-                self.missing.append(number)
-        self.length = layout.size - sum(map(layout.length, self.missing))
+def finish(folder: Path, layout: Layout, target: Path) -> None:
+    """Verify a complete store, and move it to its target.
 
-    def finish(self, target: Path) -> None:
-        """Verify the complete store, and move it to its target.
-
-        Raises
-        ------
-        OutputError
-            If a file differs from what was written; the next run makes its block again.
-        """
-        from earthspin.engine import zarr_folder
-
-        for stray in self.store.rglob("*.partial"):  # a chunk whose writer was killed
-            stray.unlink()
-        if Unfinished(self.folder, self.layout).missing:
-            problem = "a block differs from what was just written"
-            raise OutputError(self.folder, problem, "check the disk and run it again")
-        zarr_folder.close(self.store)
-        drafts.put_in_place(self.store, target, self.folder)
-        drafts.remove(self.folder)
+    Raises
+    ------
+    OutputError
+        If a file differs from what was written; the next run makes its block again.
+    """
+    zarr_folder = zarr_of()
+    store = folder / STORE
+    for stray in store.rglob("*.partial"):  # a chunk whose writer was killed
+        stray.unlink()
+    if missing_blocks(folder, layout):
+        problem = "a block differs from what was just written"
+        raise OutputError(folder, problem, "check the disk and run it again")
+    zarr_folder.close(store)
+    drafts.put_in_place(store, target, folder)
+    drafts.remove(folder)
 
 
 def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) -> None:
@@ -157,8 +139,7 @@ def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) ->
     OutputError
         If the folder does not exist, or the block does not fit into the store.
     """
-    from earthspin.engine import zarr_folder
-
+    zarr_folder = zarr_of()
     store = folder / STORE
     if not store.is_dir():
         raise OutputError(folder, "it was removed while it was written", "run it again")
@@ -209,11 +190,9 @@ def refuse_another(folder: Path, request: Mapping[str, str]) -> None:
     if not _is_begun(folder):
         return
     try:
-        begun = json.loads((folder / REQUEST).read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError):
-        begun = None
-    if not isinstance(begun, dict):
-        raise _damaged(folder, f"its {REQUEST} is")
+        begun = dict(json.loads((folder / REQUEST).read_text(encoding="utf-8")).items())
+    except (OSError, ValueError, AttributeError, RecursionError):
+        raise _damaged(folder, f"its {REQUEST} is") from None
     differ = [name for name in {**request, **begun} if request.get(name) != begun.get(name)]
     if differ:
         what = " and ".join(name.replace("_", " ") for name in differ)
@@ -242,8 +221,7 @@ def begin(folder: Path, request: Mapping[str, str], layout: Layout, first: xr.Da
     OutputError
         If the complete store does not fit on the disk.
     """
-    from earthspin.engine import zarr_folder
-
+    zarr_folder = zarr_of()
     whole = first.nbytes / layout.length(0) * layout.size
     drafts.refuse_what_does_not_fit(folder, whole, f"{layout.size} {layout.along}s")
     node = spelled(first).assign_attrs({FORMAT: VERSION, MADE_OF: digest(request)})
@@ -290,13 +268,11 @@ class Work(Protocol):
     def request(self) -> Mapping[str, str]:
         """Texts that determine the result: the question and the software versions, by name."""
 
-    def first(self) -> xr.Dataset:
-        """Compute the first block (number 0), with the attributes of the whole result."""
-
     def make(self, number: int) -> xr.Dataset:
         """Compute one block of the result, given the number of the block.
 
-        The dimension of the layout is the first dimension of every variable that has it.
+        The dimension of the layout is the first dimension of every variable that has it. Block 0
+        has the attributes of the whole result.
         """
 
 
@@ -348,8 +324,9 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
             drafts.remove(folder)  # a run that was killed after its last block can have left it
             return verify(place)
         if not (folder / STORE).exists():
-            begin(folder, request, layout, work.first())
-        _complete(work, Unfinished(folder, layout), target, client)
+            begin(folder, request, layout, work.make(0))
+        _complete(work, folder, client)
+        finish(folder, layout, target)
     return place
 
 
@@ -365,37 +342,33 @@ def hold(work: Work, *, client: object = None) -> xr.Dataset:
     import xarray as xr
 
     _check_client(client)
-    layout = work.layout
+    layout, blocks = work.layout, dict[int, Any]()
     with progress(work.what, layout.size) as advance:
-        blocks = {0: work.first()}
-        advance(layout.length(0))
-        for number, block in _blocks(work, list(range(1, layout.count)), client):
+        others = _blocks(work, list(range(1, layout.count)), client)
+        for number, block in chain([(0, work.make(0))], others):
             blocks[number] = block
             advance(layout.length(number))
-    first, *others = (blocks[n] for n in range(layout.count))
-    if not others:
-        return first
-    whole = xr.concat(
-        [first, *others], layout.along, data_vars="minimal", coords="minimal", compat="override",
-        join="override", combine_attrs="override",
+    whole: xr.Dataset = xr.concat(
+        [blocks[n] for n in range(layout.count)], layout.along, data_vars="minimal",
+        coords="minimal", compat="override", join="override", combine_attrs="override",
     )  # fmt: skip
-    return whole.assign_attrs(first.attrs)
+    return whole.assign_attrs(blocks[0].attrs)
 
 
-def _complete(work: Work, store: Unfinished, target: Path, client: object) -> None:
-    """Compute the missing blocks of an unfinished store; then finish the store."""
-    layout, done = work.layout, store.length
+def _complete(work: Work, folder: Path, client: object) -> None:
+    """Compute the missing blocks of an unfinished store."""
+    layout, missing = work.layout, missing_blocks(folder, work.layout)
+    done = layout.size - sum(map(layout.length, missing))
     try:
         with progress(work.what, layout.size, done) as advance:
-            for number, _ in _blocks(work, store.missing, client, store.folder):
+            for number, _ in _blocks(work, missing, client, folder):
                 done += layout.length(number)
                 advance(layout.length(number))
     except BaseException as ended:
         if not isinstance(ended, Exception):  # interrupted from outside, as by Ctrl-C
-            state = f"{done} of {layout.size} are stored in {store.folder.name}"
+            state = f"{done} of {layout.size} are stored in {folder.name}"
             ended.add_note(f"{state}; run the same command to continue")
         raise
-    store.finish(target)
 
 
 def _blocks(
@@ -525,13 +498,10 @@ class Series:
     @cached_property
     def _run(self) -> Run:
         """Run that keeps the results which all blocks share."""
-        return Run(self.question, block=self._block(0))
+        return Run(self.question, block=Block(*self.layout.bounds(0)))
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in vars(self).items() if name != "_run"}
-
-    def _block(self, number: int) -> Block:
-        return Block(*self.layout.bounds(number))
 
     @cached_property
     def request(self) -> Mapping[str, str]:
@@ -539,13 +509,9 @@ class Series:
         ends = [*self.question.graph.answer, NEGLECTED]
         return request_of(self.question, self._run.provenance(ends, but=[BLOCK]))
 
-    def first(self) -> xr.Dataset:
-        """Compute the first block of times, with the attributes of the whole series."""
-        return self.make(0)
-
     def make(self, number: int) -> xr.Dataset:
         """Compute one block of consecutive times, by its number."""
-        return self._run.again(block=self._block(number)).answer()
+        return self._run.again(block=Block(*self.layout.bounds(number))).answer()
 
 
 def request_of(question: Question, provenance: Mapping[str, str]) -> dict[str, str]:

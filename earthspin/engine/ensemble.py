@@ -10,12 +10,10 @@ number of members, and a member has the same bits alone.
 from __future__ import annotations
 
 import time
-from collections import OrderedDict
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
-from functools import cached_property
-from pathlib import Path
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -87,7 +85,6 @@ class Ensemble:
         nominal = {name: getattr(question, name) for name in question.by_body}
         self.full_question, self.question = question, question.replace(members=None, **nominal)
         self._length = block
-        self._runs: OrderedDict[Names, Run] = OrderedDict()
         members, where = question.members or Members(), question.where("members")
         for name in members.distributions.keys() & members.values.keys():
             raise where.at(name).error("...", TWICE)
@@ -95,10 +92,8 @@ class Ensemble:
         distributions |= members.distributions
         self.inputs = inputs_of(self.question, [*distributions, *members.values], where)
         if not self.inputs:
-            problem = (
-                "no input of this question has a published uncertainty; name the inputs to vary"
-            )
-            raise where.error(None, problem)
+            problem = "no input of this question has a published uncertainty"
+            raise where.error(None, f"{problem}; name the inputs to vary")
         self.named = {name: entry for name, entry in self.inputs.items() if entry.named}
         self.numbers = {name: entry for name, entry in self.inputs.items() if not entry.named}
         n = members.count(where)
@@ -118,8 +113,8 @@ class Ensemble:
 
     def __getstate__(self) -> dict[str, Any]:
         _ = self.layout, self.width  # computed once, before workers receive copies
-        state = vars(self) | {"_runs": OrderedDict()}
-        return {n: value for n, value in state.items() if n not in ("nominal", "descriptions")}
+        results = ("nominal", "descriptions", "run")
+        return {name: value for name, value in vars(self).items() if name not in results}
 
     # --- size and run time -----------------------------------------------------------------------
 
@@ -130,14 +125,14 @@ class Ensemble:
             few = Ensemble(self.full_question.replace(members=first), block=1)
         except SceneError:  # the first members cannot exist; the others are checked after drawing
             return
-        self._runs = few._runs  # for the same questions
+        self.run = few.run  # for the same questions
         together = ROW if few.width > 1 else 1
+        _ = few.descriptions  # which do not depend on the number of members
         begun = time.perf_counter()
         answer = few.make(0)
         days = (time.perf_counter() - begun) / together * self.which.size / 86_400
-        self._refuse_size(
-            sum(array.nbytes for array in answer.variables.values() if MEMBER in array.dims)
-        )
+        varying = (array for array in answer.variables.values() if MEMBER in array.dims)
+        self._refuse_size(sum(array.nbytes for array in varying))
         if days > LONGEST_IN_MEMORY:
             problem = (
                 f"they take about {days:.2g} days, and {LONGEST_IN_MEMORY} is allowed in memory; "
@@ -150,9 +145,9 @@ class Ensemble:
         size = 2 * member * self.which.size  # of all blocks, and of the whole made of them
         if size > LARGEST_IN_MEMORY:
             problem = (
-                f"they need about {size / 1e9:.3g} GB of memory, and {LARGEST_IN_MEMORY / 1e9:g} "
-                "are allowed; give a path to write them to a store"
+                f"they need about {size / 1e9:.3g} GB of memory, and {LARGEST_IN_MEMORY / 1e9:g}"
             )
+            problem += " are allowed; give a path to write them to a store"
             raise self.question.error("members", self.which.size, problem)
 
     # --- members that cannot exist ---------------------------------------------------------------
@@ -214,24 +209,13 @@ class Ensemble:
         EarthspinError
             If the names do not fit the other keys of the question.
         """
-        if not names:
-            return self.question
         keys = (entry.key for entry in self.named.values())
         return self.question.replace(**dict(zip(keys, names, strict=True)))
 
-    def run(self, names: Names) -> Run:
+    @cached_property
+    def run(self) -> Callable[[Names], Run]:
         """Run of the question with the given names and its own numbers, kept for its results."""
-        if names not in self._runs:
-            self._runs[names] = Run(self.variant(names))
-            if len(self._runs) > LARGEST_NUMBER_OF_RUNS:
-                self._runs.popitem(last=False)
-        self._runs.move_to_end(names)
-        return self._runs[names]
-
-    def _changed(self, names: Names, values: Mapping[str, Any]) -> xr.Dataset:
-        """Numbers of the answer for other inputs; only what depends on these is computed again."""
-        run = self.run(names)
-        return run.again(with_values(run.question, self.numbers, values)).numbers()
+        return lru_cache(LARGEST_NUMBER_OF_RUNS)(lambda names: Run(self.variant(names)))
 
     @property
     def nominal_run(self) -> Run:
@@ -244,22 +228,18 @@ class Ensemble:
         return self.nominal_run.answer()
 
     @cached_property
-    def descriptions(self) -> dict[Names, dict[str, Mapping[str, Any]]]:
-        """Attributes by the names of each group: of variables, of the whole answer, and sources."""
-        descriptions: dict[Names, dict[str, Mapping[str, Any]]] = {}
+    def descriptions(self) -> dict[str, dict[Names, Mapping[str, Any]]]:
+        """Attributes of variables, attributes of the whole, and sources: by names of the groups."""
+        descriptions: dict[str, dict[Names, Mapping[str, Any]]] = {}
         for names in self.groups:
             run = self.run(names)
             answer = run.answer()
-            descriptions[names] = {
-                _WHOLE: answer.attrs,
-                _SOURCES: run.provenance([*run.graph.answer, NEGLECTED]),
-                **{str(name): array.attrs for name, array in answer.variables.items()},
-            }
+            described = {str(name): array.attrs for name, array in answer.variables.items()}
+            described[_WHOLE] = answer.attrs
+            described[_SOURCES] = run.provenance([*run.graph.answer, NEGLECTED])
+            for name, attributes in described.items():
+                descriptions.setdefault(name, {})[names] = attributes
         return descriptions
-
-    def _described(self, name: str) -> dict[Names, Mapping[str, Any]]:
-        """Attributes of one variable, or of the whole answer, in those groups that have it."""
-        return {names: each[name] for names, each in self.descriptions.items() if name in each}
 
     # --- work of `blocks` ------------------------------------------------------------------------
 
@@ -294,7 +274,7 @@ class Ensemble:
         """Texts that identify the run: question, software versions and checksums of files."""
         sources = {
             f"{name} of {', '.join(names)}" if names else name: source
-            for names, provenance in self._described(_SOURCES).items()
+            for names, provenance in self.descriptions[_SOURCES].items()
             for name, source in provenance.items()
         }
         return request_of(self.full_question, sources)
@@ -311,18 +291,14 @@ class Ensemble:
             self._refuse_size(self.nominal.nbytes)
         return blocks.hold(self, client=client)
 
-    def write(self, path: str | Path, client: object = None) -> Path:
-        """Compute the ensemble into a Zarr store, or continue an unfinished store."""
-        return blocks.write(self, path, client=client)
-
-    def first(self) -> xr.Dataset:
-        """Compute the first block of members, with the attributes of the whole ensemble.
+    def _with_attributes(self, block: xr.Dataset) -> xr.Dataset:
+        """Give the first block the attributes of the whole ensemble.
 
         Texts that differ between names are listed with the names.
         """
-        block = self.make(0).assign_attrs(_joined(self._described(_WHOLE)))
+        block = block.assign_attrs(_joined(self.descriptions[_WHOLE]))
         for name in block.variables:
-            attributes = self._described(str(name))
+            attributes = self.descriptions.get(str(name), {})
             if len(attributes) > 1:
                 block[name].attrs = _joined(attributes)
         question = self.full_question
@@ -344,7 +320,8 @@ class Ensemble:
         order = np.argsort(np.concatenate([indices for indices, _ in pieces]))
         if (np.diff(order) != 1).any():
             block = block.isel({MEMBER: order} if MEMBER in block.dims else {})
-        return block.assign_coords(self._labels(slice(first, last), block))
+        block = block.assign_coords(self._labels(slice(first, last), block))
+        return block if number else self._with_attributes(block)
 
     # --- members of a block ----------------------------------------------------------------------
 
@@ -374,8 +351,9 @@ class Ensemble:
     def _answer(self, names: Names, values: Mapping[str, Any], indices: IntArray) -> xr.Dataset:
         """Compute the answer for one member, or for several members with equal names."""
         which = _list_of_numbers(self.which[indices].tolist())
-        try:
-            answer = self._changed(names, values)
+        run = self.run(names)
+        try:  # only what depends on the values is computed again
+            answer = run.again(with_values(run.question, self.numbers, values)).numbers()
         except EarthspinError as error:
             error.args = (f"member {which}: {error}",)
             raise
@@ -390,9 +368,8 @@ class Ensemble:
 
         An input with the name of a result, such as theta, is labelled ``<name>_given``.
         """
-        labels: dict[str, Any] = {
-            MEMBER: (MEMBER, self.which[which], {"long_name": "number of the member"})
-        }
+        labels = dict[str, Any]()
+        labels[MEMBER] = (MEMBER, self.which[which], {"long_name": "number of the member"})
         for name, entry in self.inputs.items():
             values, label = self.values[name][which], name.replace(".", "_")
             dims = (MEMBER, *(f"{label}_{k}" for k in range(values.ndim - 1)))

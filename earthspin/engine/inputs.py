@@ -155,21 +155,17 @@ def with_values(
     for name, (key, element, field, *_) in inputs.items():
         if field:
             fields.setdefault((key, element), {})[field] = values[name]
-        elif element is None:
-            changes[key] = values[name]
         else:
             numbers = changes.get(key, getattr(question, key))
             changes[key] = _with_number(numbers, element, values[name])
     bodies: dict[str, Any] = {}
     for (key, element), numbers in fields.items():  # the numbers of a body change at once
         body = bodies.get(key, getattr(question, key))
-        if element is None:
-            bodies[key] = body.replace(**numbers)
-        else:
-            bodies[key] = _with_item(body, element, body[element].replace(**numbers))
+        changed = (body if element is None else body[element]).replace(**numbers)
+        bodies[key] = changed if element is None else _with_item(body, element, changed)
     question = question.replace(**bodies)
     if any(hasattr(values[name], "dims") for name, entry in inputs.items() if not entry.field):
-        return question.holding(**changes)
+        return question.replace(changes)
     return question.replace(**changes)
 
 
@@ -177,8 +173,13 @@ def _with_item(items: tuple[Any, ...], index: int, item: Any) -> tuple[Any, ...]
     return (*items[:index], item, *items[index + 1 :])
 
 
-def _with_number(sequence: Any, index: int, value: Any) -> Any:
-    """Return a list with one number replaced, by a number or by one value for each member."""
+def _with_number(sequence: Any, index: int | None, value: Any) -> Any:
+    """Return a list with one number replaced, by a number or by one value for each member.
+
+    Without an index, the value takes the place of the whole.
+    """
+    if index is None:
+        return value
     if hasattr(sequence, "numbers"):
         return replace(sequence, numbers=_with_item(sequence.numbers, index, value))
     labelled = hasattr(value, "dims")

@@ -64,10 +64,10 @@ class Distribution:
     @classmethod
     def read(cls, value: Mapping[str, Any], where: Where) -> Distribution:
         """Read a distribution from a table like ``{ normal = [0.00327, 2e-9] }``."""
-        if len(value) != 1 or next(iter(value)) not in _SHAPES:
+        shape, numbers = next(iter(value.items()), ("", ()))
+        if len(value) != 1 or shape not in _SHAPES:
             problem = f"give one of {', '.join(_SHAPES)}, like normal = [1, 2]"
             raise where.error(dict(value), problem)
-        ((shape, numbers),) = value.items()
         if isinstance(numbers, np.ndarray) and numbers.ndim:
             numbers = numbers.tolist() if type(numbers) is np.ndarray else list(numbers)
         many = len(numbers) if isinstance(numbers, (list, tuple)) else 0
@@ -173,13 +173,12 @@ class Listed(NamedTuple):
         if array.dims[:1] != (MEMBER,):
             dims = f"dimensions {', '.join(map(str, array.dims)) or 'none'}"
             raise where.error(dims, f"the first dimension must be '{MEMBER}'")
-        values = array.values
+        values, unit = array.values, array.attrs.get("units")
         if values.dtype.kind not in "fiu":
             return cls(_names(values.astype(object), where))
         if not np.isfinite(values).all():
             whole = np.isfinite(values.reshape(len(values), -1)).all(axis=1)
             raise where.error(f"member {int(np.argmin(whole))}", "give finite numbers")
-        unit = array.attrs.get("units")
         return cls(values.astype(float), unit if unit is None else str(unit))
 
     def checked(self, kind: Any, where: Where) -> NDArray[Any]:
@@ -202,9 +201,8 @@ class Listed(NamedTuple):
 
     def write(self) -> Any:
         """Convert the values to the form in which scene files store them."""
-        if self.values.dtype.kind == "U":
-            return self.values.tolist()
-        return pack(self.values) | ({} if self.unit is None else {"unit": self.unit})
+        unit = {} if self.unit is None else {"unit": self.unit}
+        return self.values.tolist() if self.values.dtype.kind == "U" else pack(self.values) | unit
 
 
 @dataclass(frozen=True, eq=False)
@@ -273,25 +271,26 @@ class Members:
             if value.get(name) is not None
         }
         published = settings.pop("uncertainty", None) is not None
-        distributions = _distributions(inputs, where)
+        distributions: dict[str, Distribution] = {}
+        for name, distribution in _distributions(inputs, where):
+            if name in distributions:  # in a dotted and in a nested spelling
+                raise where.at(name).error(list(distribution.numbers), TWICE)
+            distributions[name] = distribution
         return cls(**settings, published=published, distributions=distributions)
 
     def write(self) -> dict[str, Any]:
         """Convert the specification to a table for a scene file; `read` restores all values."""
-        options = {
+        table: dict[str, Any] = {
+            "seed": self.seed,
+            "impossible": self.impossible,
             "n": self.n,
             "uncertainty": "sample" if self.published else "",
             "only": list(self.only),
             "correlations": [list(correlation) for correlation in self.correlations],
-        }
-        values = {name: entry.write() for name, entry in self.values.items()}
-        return {
-            "seed": self.seed,
-            "impossible": self.impossible,
-            **{name: value for name, value in options.items() if value},
             **{name: {each.shape: list(each.numbers)} for name, each in self.distributions.items()},
-            **({"values": values} if values else {}),
+            "values": {name: entry.write() for name, entry in self.values.items()},
         }
+        return {name: value for name, value in table.items() if value or name == "seed"}
 
     # --- drawing ---------------------------------------------------------------------------------
 
@@ -305,9 +304,7 @@ class Members:
         SceneError
             If these disagree, none of them is given, or the members that are computed are too many.
         """
-        grids = [
-            len(entry.numbers) for entry in self.distributions.values() if entry.shape == "grid"
-        ]
+        grids = [len(d.numbers) for d in self.distributions.values() if d.shape == "grid"]
         points = math.prod(grids)
         counts = {"n": self.n} if self.n is not None else {}
         counts |= {name: len(entry.values) for name, entry in self.values.items()}
@@ -327,8 +324,7 @@ class Members:
             problem = f"the grid has {points} points: give a multiple of {points}"
             raise where.at("n").error(n, problem)
         if max((*self.only, 0)) >= n:
-            problem = f"members are numbered from 0 to {n - 1}"
-            raise where.at("only").error(max(self.only), problem)
+            raise where.at("only").error(max(self.only), f"members are numbered from 0 to {n - 1}")
         return int(n)
 
 
@@ -355,9 +351,8 @@ def _read_file(path: Path) -> xr.Dataset:
                 return dataset.load()
     except Exception as error:  # pandas and xarray raise many types for damaged files
         raise OutputError(path, f"it cannot be read: {error}") from None
-    raise OutputError(
-        path, "it is not a file of members", "its name must end in .csv, .nc or .zarr"
-    )
+    remedy = "its name must end in .csv, .nc or .zarr"
+    raise OutputError(path, "it is not a file of members", remedy)
 
 
 def _values_of(dataset: Any, where: Where) -> dict[str, Listed]:
@@ -391,33 +386,19 @@ def _whole_number(value: Any, where: Where, low: int, high: int = LARGEST_COUNT)
     return int(value)
 
 
-def _distributions(inputs: Mapping[str, Any], where: Where) -> dict[str, Distribution]:
-    """Read the distributions of all inputs; refuse a name in dotted and in nested spelling."""
-    distributions: dict[str, Distribution] = {}
-    for name, entry in _entries(inputs, where):
-        distribution = Distribution.read(entry, where.at(name))
-        if name in distributions:
-            raise where.at(name).error(list(distribution.numbers), TWICE)
-        distributions[name] = distribution
-    return distributions
-
-
-def _entries(
+def _distributions(
     table: Mapping[str, Any], where: Where, before: str = ""
-) -> Iterator[tuple[str, Mapping[str, Any]]]:
-    """Yield the name and the entry of each varying input in a table.
+) -> Iterator[tuple[str, Distribution]]:
+    """Yield the name and the distribution of each varying input in a table of tables.
 
     TOML turns a dotted name into a table within a table.
     """
     for name, entry in table.items():
-        full = f"{before}{name}"
-        if not isinstance(entry, Mapping):
-            raise where.at(full).error(entry, "give a table like normal = [1, 2]")
-        inner = [*entry.values()]
+        inner = entry.values()
         if inner and not set(entry) & set(_SHAPES) and all(isinstance(i, Mapping) for i in inner):
-            yield from _entries(entry, where, f"{full}.")
+            yield from _distributions(entry, where, f"{before}{name}.")
         else:
-            yield full, entry
+            yield f"{before}{name}", Distribution.read(entry, where.at(f"{before}{name}"))
 
 
 def _list(value: Any, where: Where) -> list[Any]:

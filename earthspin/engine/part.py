@@ -10,10 +10,9 @@ from __future__ import annotations
 import inspect
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Mapping
-from dataclasses import dataclass
-from functools import cache, cached_property, update_wrapper
+from functools import cache, cached_property, partial, update_wrapper
 from threading import Lock
-from typing import Any, Generic, ParamSpec, TypeVar, overload
+from typing import Any, Generic, NamedTuple, ParamSpec, TypeVar, overload
 
 from earthspin.engine.variables import Variable, Variables
 
@@ -36,8 +35,7 @@ BLOCK = "block"
 STORED = 4
 
 
-@dataclass(frozen=True)
-class Block:
+class Block(NamedTuple):
     """One block of a long series: the epochs with indices from `first` to `last` - 1."""
 
     first: int
@@ -70,18 +68,20 @@ class Part(Generic[P, R]):
     def __init__(
         self,
         function: Callable[P, R],
-        unless: tuple[Reason, ...],
+        unless: Reason | tuple[Reason, ...] = (),
         describe: Describer | None = None,
         same_for: SameFor | None = None,
         loads: tuple[str, ...] = (),
     ) -> None:
-        self.function, self.unless, self.loads = function, unless, loads
+        self.function, self.loads = function, loads
+        self.unless = unless if isinstance(unless, tuple) else (unless,)
         self.describe, self.same_for = describe, same_for
         self._stored: OrderedDict[Hashable, R] = OrderedDict()
         self._lock = Lock()
         self.gives = _schema_of(function)
         self.name = function.__name__
-        self.does = _first_sentence(function)
+        line = (function.__doc__ or "").strip().split("\n")[0].rstrip(".")
+        self.does = line[:1].lower() + line[1:] if line[1:2].islower() else line
         update_wrapper(self, function)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
@@ -91,16 +91,15 @@ class Part(Generic[P, R]):
     def stored_or_computed(self, inputs: Mapping[str, Any]) -> tuple[R, bool]:
         """Return the result for given inputs, and whether an earlier result was reused."""
         key = None if self.same_for is None else self.same_for(**inputs)
-        if key is None:
-            return self.function(**inputs), False  # type: ignore[call-arg]
         with self._lock:
-            if key in self._stored:
+            if key is not None and key in self._stored:
                 return self._stored[key], True
         result = self.function(**inputs)  # type: ignore[call-arg]
-        with self._lock:
-            self._stored[key] = result
-            if len(self._stored) > STORED:
-                self._stored.popitem(last=False)
+        if key is not None:
+            with self._lock:
+                self._stored[key] = result
+                if len(self._stored) > STORED:
+                    self._stored.popitem(last=False)
         return result, False
 
     def __reduce__(self) -> str:
@@ -127,38 +126,20 @@ class Part(Generic[P, R]):
 
     def reason(self, keys: dict[str, Any]) -> str | None:
         """Return the reason (text) to omit this part for given inputs, else None."""
-        for condition in self.unless:
-            why = condition(**_arguments(condition, keys))
-            if why is not None:
-                return why
-        return None
+        reasons = (condition(**_arguments(condition, keys)) for condition in self.unless)
+        return next((why for why in reasons if why is not None), None)
 
     def description(self, keys: dict[str, Any]) -> str:
         """Describe what this part does for the given inputs, for the table of a plan."""
-        return (
-            self.does if self.describe is None else self.describe(**_arguments(self.describe, keys))
-        )
+        describe = self.describe
+        return self.does if describe is None else describe(**_arguments(describe, keys))
 
 
 @overload
 def part(function: Callable[P, R], /) -> Part[P, R]: ...
 @overload
-def part(
-    *,
-    unless: Reason | tuple[Reason, ...] = ...,
-    describe: Describer | None = ...,
-    same_for: SameFor | None = ...,
-    loads: tuple[str, ...] = ...,
-) -> Callable[[Callable[P, R]], Part[P, R]]: ...
-def part(
-    function: Callable[P, R] | None = None,
-    /,
-    *,
-    unless: Reason | tuple[Reason, ...] = (),
-    describe: Describer | None = None,
-    same_for: SameFor | None = None,
-    loads: tuple[str, ...] = (),
-) -> Part[P, R] | Callable[[Callable[P, R]], Part[P, R]]:
+def part(**options: Any) -> Callable[[Callable[P, R]], Part[P, R]]: ...
+def part(function: Callable[P, R] | None = None, /, **options: Any) -> Any:
     """Make a `Part` from a typed function; a decorator.
 
     Parameters
@@ -177,11 +158,7 @@ def part(
         Modules that the function, or what it calls, imports when it runs, if this takes long. A run
         imports them before its first part, so that the run time of the part is that of its work.
     """
-    reasons = unless if isinstance(unless, tuple) else (unless,)
-
-    if function is None:
-        return lambda function: Part(function, reasons, describe, same_for, loads)
-    return Part(function, reasons, describe, same_for, loads)
+    return partial(Part, **options) if function is None else Part(function, **options)
 
 
 def _arguments(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any]:
@@ -203,9 +180,3 @@ def _schema_of(function: Callable[..., Any]) -> Mapping[str, Variable]:
 def _parameters(function: Callable[..., Any], default: object) -> tuple[str, ...]:
     parameters = inspect.signature(function).parameters.values()
     return tuple(entry.name for entry in parameters if entry.default is default)
-
-
-def _first_sentence(function: Callable[..., Any]) -> str:
-    """First line of a function's docstring, in lower case, without the final full stop."""
-    line = (function.__doc__ or "").strip().split("\n")[0].rstrip(".")
-    return line[:1].lower() + line[1:] if line[1:2].islower() else line

@@ -50,17 +50,17 @@ class Key:
     ----------
     name : str
     kind : Kind
-    doc : str
     shown : object
         Default as a user would write it; MISSING if the key is required.
+    doc : str
     setting : bool
         Whether the key belongs in the question's own table.
     """
 
     name: str
     kind: Kind[Any]
-    doc: str
     shown: Any
+    doc: str
     setting: bool
 
     @property
@@ -164,13 +164,12 @@ class Question:
         dataclass(frozen=True, init=False, eq=False, repr=False)(cls)
 
     def __init__(self, **values: Any) -> None:
-        self._fill(values)
+        self._fill(values, {})
 
     def _fill(
         self,
         values: Mapping[str, Any],
-        *,
-        known: Mapping[str, Any] | None = None,
+        known: Mapping[str, Any],
         source: str = "",
         in_scene: bool = False,
         typed: Collection[str] = (),
@@ -179,11 +178,12 @@ class Question:
 
         Values in `known` were read before and are not read again.
         """
-        known = known or {}
         keys = keys_of(type(self))
         for name, value in values.items():
             if name not in keys:
-                raise SceneError(name, value, unknown_key(type(self), name), source=source)
+                problem = f"compute = '{self.word}' has no such key: delete or rename it"
+                problem += f"; {nearest(name, keys)}"
+                raise SceneError(name, value, problem, source=source)
         chosen = {name: value for name, value in values.items() if value is not None}
         object.__setattr__(self, "given", frozenset({*chosen, *known}))
         object.__setattr__(self, "read_from", source)
@@ -194,18 +194,12 @@ class Question:
                 value = _read(entry.kind, chosen[name], where)
             elif name in known:
                 value = known[name]
-            elif entry.required:
+            elif entry.shown is MISSING:
                 raise where.error(None, f"required: {entry.doc} ({entry.kind.words})")
             else:
                 value = entry.default
             object.__setattr__(self, name, value)
         object.__setattr__(self, "title", self.title or self.word)
-        self._check_groups()
-        self.check()
-        return self
-
-    def _check_groups(self) -> None:
-        """Raise an error if keys are given that exclude one another, as `times` and `span`."""
         groups = [group for group in self.exclusive if self.given & set(group)]
         if len(groups) > 1:
             ways = ", or ".join(" and ".join(group) for group in self.exclusive)
@@ -215,6 +209,8 @@ class Question:
             raise self.error("uncertainty", "sample", problem)
         if self.n is not None and self.uncertainty != "sample":
             raise self.error("n", self.n, "it is only used with uncertainty = 'sample'")
+        self.check()
+        return self
 
     def check(self) -> None:
         """Raise an error if the values of the keys do not fit together; subclasses override it."""
@@ -234,9 +230,8 @@ class Question:
     def unused(self) -> str:
         """Satellites of the question's body that the answer leaves out, in words; may be empty."""
         satellites = getattr(getattr(self, "body", None), "satellites", ())
-        if self.with_satellites or not satellites:
-            return ""
-        return f"the satellites {', '.join(satellite.name for satellite in satellites)}"
+        names = ", ".join(satellite.name for satellite in satellites)
+        return f"the satellites {names}" if names and not self.with_satellites else ""
 
     given: ClassVar[frozenset[str]]
     read_from: ClassVar[str]
@@ -265,23 +260,19 @@ class Question:
         SceneError, UnitsError
             If a key is unknown, missing or wrong.
         """
-        keys, values = keys_of(cls), {"title": title} if title else {}
-        for name, value in table.items():
-            if cls.table and name == cls.table:
-                if not isinstance(value, Mapping):
-                    raise SceneError(name, value, f"it is a table: [{name}]", source=source)
-                own = {setting for setting, entry in keys.items() if entry.setting}
-                for inner in value:
-                    if inner not in own:
-                        problem = nearest(inner, own)
-                        raise SceneError(f"{name}.{inner}", value[inner], problem, source=source)
-                values |= value
-            elif name in keys and keys[name].setting:
+        values: dict[str, Any] = ({"title": title} if title else {}) | dict(table)
+        settings = values.pop(cls.table, {}) if cls.table else {}
+        if not isinstance(settings, Mapping):
+            raise SceneError(cls.table, settings, f"it is a table: [{cls.table}]", source=source)
+        own = {name for name, entry in keys_of(cls).items() if entry.setting}
+        for name, value in values.items():
+            if name in own:
                 problem = f"it belongs in the table [{cls.table}]"
                 raise SceneError(name, value, problem, source=source)
-            else:
-                values[name] = value
-        return cls.__new__(cls)._fill(values, source=source, in_scene=True, typed=typed)
+        for name, value in settings.items():
+            if name not in own:
+                raise SceneError(f"{cls.table}.{name}", value, nearest(name, own), source=source)
+        return cls.__new__(cls)._fill(values | dict(settings), {}, source, True, typed)
 
     def to_table(self, *, given: bool = False) -> dict[str, Any]:
         """Convert the question to a table for a scene file, with the values of all keys.
@@ -293,19 +284,15 @@ class Question:
         """
         table: dict[str, Any] = {"compute": self.word}
         own: dict[str, Any] = {}
-        omitted = set(keys_of(type(self))) - self.given if given else self._superseded_keys()
-        for name, entry in keys_of(type(self)).items():
+        keys = keys_of(type(self))
+        used = next((group for group in self.exclusive if self.given & set(group)), None)
+        without_effect = set[str]().union(*self.exclusive).difference(used) if used else set()
+        omitted = keys.keys() - self.given if given else without_effect
+        for name, entry in keys.items():
             value = getattr(self, name)
             if value is not None and name not in omitted:
                 (own if entry.setting else table)[name] = entry.kind.write(value)
         return table | ({self.table: own} if own else {})
-
-    def _superseded_keys(self) -> set[str]:
-        """Names of keys that have no effect, because the user gave alternative keys."""
-        used = next((group for group in self.exclusive if self.given & set(group)), None)
-        if used is None:
-            return set()
-        return {name for group in self.exclusive for name in group} - set(used)
 
     def keys(self) -> dict[str, Any]:
         """Return a dict of the values of all inputs (keys) of this question, by input name."""
@@ -319,24 +306,20 @@ class Question:
         """
         return {}
 
-    def replace(self, **changes: Any) -> Self:
-        """Return a copy of the question with some keys changed; all checks are repeated."""
-        return self._changed(changes, {})
-
-    def holding(self, **arrays: Any) -> Self:
-        """Return a copy of the question with arrays of member values in some keys, unchecked.
+    def replace(self, arrays: Mapping[str, Any] | None = None, /, **changes: Any) -> Self:
+        """Return a copy of the question with some keys changed; all checks are repeated.
 
         Parameters
         ----------
-        **arrays
-            Labelled arrays for keys in `together` of `define_parts`, whose numbers were checked.
+        arrays : mapping, optional
+            Labelled arrays of member values, whose numbers were checked, for keys in `together` of
+            `define_parts`.
+        **changes
+            Values of other keys, as a user writes them.
         """
-        return self._changed({}, arrays)
-
-    def _changed(self, changes: Mapping[str, Any], arrays: Mapping[str, Any]) -> Self:
-        before = {name: getattr(self, name) for name in self.given if name not in changes}
-        values, question = {"title": self.title} | dict(changes), type(self).__new__(type(self))
-        return question._fill(values, known=before | dict(arrays), source=self.read_from)
+        known = {name: getattr(self, name) for name in self.given if name not in changes}
+        values, question = {"title": self.title} | changes, type(self).__new__(type(self))
+        return question._fill(values, known | dict(arrays or {}), self.read_from)
 
     def _repr_html_(self) -> str:
         """HTML table of all keys: their values, whether these were given, and their meaning."""
@@ -349,11 +332,9 @@ class Question:
         return card(f"{self.title}: compute = {self.word}", rows)
 
     def __repr__(self) -> str:
-        shown = [
-            f"{name}={_shown(getattr(self, name), entry.kind)!r}"
-            for name, entry in keys_of(type(self)).items()
-            if name in self.given and getattr(self, name) is not None
-        ]
+        values = {n: v for n, v in self.keys().items() if n in self.given and v is not None}
+        kinds = {name: entry.kind for name, entry in keys_of(type(self)).items()}
+        shown = (f"{name}={_shown(value, kinds[name])!r}" for name, value in values.items())
         return f"{type(self).__name__}({', '.join(shown)})"
 
 
@@ -367,22 +348,10 @@ def keys_of(question: type[Question]) -> dict[str, Key]:
         shared = [entry.name for entry in fields(Question) if entry.name != "title"]  # type: ignore[arg-type]
         entries = sorted(fields(question), key=lambda entry: entry.name in shared)  # type: ignore[arg-type]
         question.key_table = {
-            entry.name: Key(
-                name=entry.name,
-                kind=kind_of(hints[entry.name]),
-                doc=entry.metadata["doc"],
-                shown=entry.default,
-                setting=entry.metadata["setting"],
-            )
+            entry.name: Key(entry.name, kind_of(hints[entry.name]), entry.default, **entry.metadata)
             for entry in entries
         }
     return question.key_table
-
-
-def unknown_key(question: type[Question], name: str) -> str:
-    """Return the error message for an unknown key, with the most similar known keys."""
-    allowed = nearest(name, keys_of(question))
-    return f"compute = '{question.word}' has no such key: delete or rename it; {allowed}"
 
 
 # --- text of a scene ------------------------------------------------------------------------------
@@ -403,30 +372,7 @@ def scene_text(question: Question) -> str:
     """Write a question, with the values of all its inputs, as the text of a scene file."""
     import tomli_w
 
-    packed: list[str] = []
-    text = tomli_w.dumps(_without_bytes(question.to_table(), packed))
-    for number, data in enumerate(packed):
-        text = text.replace(f'"{_PACKED.format(number)}"', f'"{data}"', 1)
-    return text
-
-
-#: Placeholder for packed arrays while tomli_w writes a scene, since it writes long text slowly.
-_PACKED = "earthspin: packed array {}"
-
-
-def _without_bytes(value: Any, packed: list[str]) -> Any:
-    """Copy a table with encoded arrays replaced by placeholders; append the arrays to `packed`."""
-    if isinstance(value, list):
-        return [_without_bytes(item, packed) for item in value]
-    if not isinstance(value, dict):
-        return value
-    short = {
-        name: _without_bytes(item, packed) for name, item in value.items() if name != "float64"
-    }
-    if "float64" in value:
-        packed.append(value["float64"])
-        short["float64"] = _PACKED.format(len(packed) - 1)
-    return short
+    return tomli_w.dumps(question.to_table())
 
 
 # --- what a question is made of ------------------------------------------------------------------
@@ -471,7 +417,7 @@ def define_parts(
     question: type[Question],
     *,
     answer: Parts,
-    sections: Mapping[str, Parts],
+    sections: Iterable[Parts] | Mapping[str, Parts],
     parts: Iterable[Part[..., Any]] = (),
     together: tuple[str, ...] = (),
     widest: int = 1,
@@ -483,8 +429,9 @@ def define_parts(
     question : type
     answer : Part or tuple of Part
         Parts whose variables a call returns; the first must run.
-    sections : mapping of str to Part or tuple of Part
-        Parts of further results by name of the section; `neglected` is required.
+    sections : iterable or mapping of Part or tuple of Part
+        Parts of further results; a section has the name of its first part, or that in the mapping.
+        `neglected` is required.
     parts : iterable of Part
         Intermediate parts.
     together : tuple of str
@@ -498,6 +445,10 @@ def define_parts(
         If a parameter of a part is neither a key nor a part, a key and a part share a name, or the
         part `neglected` is missing.
     """
+    if not isinstance(sections, Mapping):
+        sections = {
+            (group if isinstance(group, Part) else group[0]).name: group for group in sections
+        }
     groups = {
         name: group if isinstance(group, tuple) else (group,)
         for name, group in {"answer": answer, **sections}.items()
@@ -510,10 +461,8 @@ def define_parts(
     for part in all_parts:
         for parameter in (*part.needs, *part.uses):
             if parameter not in names | keys | {BLOCK}:
-                raise TypeError(
-                    f"{question.__name__}: {part.name} takes '{parameter}', which is neither a "
-                    "key nor a part; add it"
-                )
+                problem = f"takes '{parameter}', which is neither a key nor a part; add it"
+                raise TypeError(f"{question.__name__}: {part.name} {problem}")
     if NEGLECTED not in names:
         raise TypeError(f"{question.__name__} has no part '{NEGLECTED}'")
     ends = {name: tuple(part.name for part in group) for name, group in groups.items()}
@@ -525,16 +474,13 @@ def define_parts(
 
 def describe_keys(question: type[Question]) -> str:
     """Describe all keys (inputs) of a question as text: allowed values, meaning, default."""
-    lines = []
-    for in_table in (False, True):
-        chosen = [entry for entry in keys_of(question).values() if entry.setting is in_table]
-        if chosen and in_table:
-            lines += ["", f"[{question.table}]"]
-        for entry in chosen:
-            default = f" (default: {entry.default_words})" if entry.default_words else ""
-            default = " (must be given)" if entry.required else default
-            lines.append(f"{entry.name}: {entry.kind.words}")
-            lines += textwrap.wrap(
-                f"{entry.doc}{default}", 92, initial_indent="    ", subsequent_indent="    "
-            )
+    lines: list[str] = []
+    heading = ["", f"[{question.table}]"]
+    for entry in sorted(keys_of(question).values(), key=lambda entry: entry.setting):
+        if entry.setting:
+            lines, heading = lines + heading, []
+        default = f" (default: {entry.default_words})" if entry.default_words else ""
+        default = " (must be given)" if entry.required else default
+        meaning = textwrap.fill(f"{entry.doc}{default}", 88)
+        lines += [f"{entry.name}: {entry.kind.words}", textwrap.indent(meaning, "    ")]
     return "\n".join(lines)

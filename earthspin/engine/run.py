@@ -7,23 +7,130 @@ without the calls.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Self
+from itertools import groupby
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from earthspin._version import __version__, version
-from earthspin.engine.plan import IMPORTS, NOT_REQUESTED, Plan
+from earthspin.card import card
+from earthspin.engine.part import Part
 from earthspin.engine.question import NEGLECTED, SCENE, Question, scene_text
 from earthspin.engine.variables import CONVENTIONS, Neglected, Variables, error_of
 from earthspin.errors import SceneError, UndefinedError, nearest
 
 if TYPE_CHECKING:
+    import pandas as pd
     import xarray as xr
 
 #: Word that requests all sections that apply.
 ALL = "all"
+#: Row of the run time for importing modules; the run times of parts exclude it.
+IMPORTS = "imports"
+#: Status of a part whose result of an earlier run was used.
+REUSED = "reused"
+#: Reason for leaving out a part that could run.
+NOT_REQUESTED = "its section was not requested"
+
+
+class Row(NamedTuple):
+    """One row in the table of a plan: part (function), status, reason and run time in s."""
+
+    part: str
+    status: str
+    reason: str
+    seconds: float | None = None
+
+    @property
+    def run_time(self) -> str:
+        """Run time of the part as text; empty before the run."""
+        if self.status == REUSED:
+            return REUSED
+        return "" if self.seconds is None else f"{self.seconds * 1e3:.1f} ms"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Plan of a run: functions (parts) that run, and those left out, with the reasons.
+
+    Attributes
+    ----------
+    question : Question
+    parts : tuple of Part
+        Parts in the order in which they run.
+    sections : tuple of str
+        Sections that are computed besides the answer.
+    left_out : dict of str to str
+        Reasons for leaving out the other parts, by title of the part.
+    seconds : mapping of str to float
+        Run time of each part by name, without imports, and that of imports under `IMPORTS`; empty
+        before the run.
+    reused : frozenset of str
+        Names of parts whose result of an earlier run was reused.
+    """
+
+    question: Question
+    parts: tuple[Part[..., Any], ...]
+    sections: tuple[str, ...]
+    left_out: dict[str, str]
+    seconds: Mapping[str, float]
+    reused: frozenset[str]
+
+    @property
+    def rows(self) -> list[Row]:
+        """Rows of the plan's table: imports and the parts that run, then those left out."""
+        status, keys = "ran" if self.seconds else "runs", self.question.keys()
+        note = "modules loaded on first use, once in each process"
+        cost = self.seconds.get(IMPORTS)
+        rows = [] if cost is None else [Row(IMPORTS, status, note, cost)]
+        for part in self.parts:
+            state = REUSED if part.name in self.reused else status
+            does = part.description(keys)
+            rows.append(Row(part.title, state, does, self.seconds.get(part.name)))
+        return rows + [Row(title, "left out", why) for title, why in self.left_out.items()]
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return the table of this plan as a pandas DataFrame."""
+        import pandas as pd
+
+        return pd.DataFrame(self.rows)
+
+    def dataset(self) -> xr.Dataset:
+        """Return the table of this plan as a Dataset along `part`."""
+        import xarray as xr
+
+        part, status, reason, seconds = map(list, zip(*self.rows, strict=True))
+        why = "description of the part, or reason for leaving it out"
+        run_time = {"units": "s", "long_name": "run time of the part"}
+        columns = {
+            "status": ("part", status, {"long_name": "whether the part ran"}),
+            "reason": ("part", reason, {"long_name": why}),
+            "run_time": ("part", [cost or 0.0 for cost in seconds], run_time),
+        }
+        return xr.Dataset(columns, {"part": ("part", part, {"long_name": "part of the plan"})})
+
+    def __str__(self) -> str:
+        width = max(len(row.part) for row in self.rows)
+        lines = [f"{self.question.title}: compute = {self.question.word}"]
+        in_order = f"{'ran' if self.seconds else 'runs'}, in this order"
+        for is_left_out, rows in groupby(self.rows, lambda row: row.status == "left out"):
+            lines += ["", "left out" if is_left_out else in_order]
+            for row in rows:
+                cost = f"  [{row.run_time}]" if row.run_time else ""
+                lines.append(f"  {row.part:<{width}}  {row.reason}{cost}")
+        return "\n".join(lines)
+
+    __repr__ = __str__
+
+    def _repr_html_(self) -> str:
+        rows = [(row.part, row.status, row.reason, row.run_time) for row in self.rows]
+        return card(self.question.title, rows)
+
+
+# --- run ------------------------------------------------------------------------------------------
 
 
 class Run:
@@ -128,19 +235,16 @@ class Run:
             If a section does not exist, or does not apply.
         """
         names, graph = self._named(sections), self.graph
-        ends = [
-            *graph.answer,
-            NEGLECTED,
-            *(part for name in names for part in graph.sections[name]),
-        ]
+        of_sections = (part for name in names for part in graph.sections[name])
+        ends = [*graph.answer, NEGLECTED, *of_sections]
         parts = tuple(graph.parts[name] for name in self.behind(ends) if name in graph.parts)
         left_out = {
             part.title: self.why_not(name) or NOT_REQUESTED
             for name, part in graph.parts.items()
             if part not in parts
         }
-        seconds, reused = dict(self._seconds), frozenset(self._reused)
-        return Plan(self.question, parts, tuple(names), left_out, seconds, reused)
+        ran = dict(self._seconds), frozenset(self._reused)
+        return Plan(self.question, parts, tuple(names), left_out, *ran)
 
     def _named(self, sections: str | Iterable[str]) -> list[str]:
         """Names of the requested sections that apply, without duplicates, in standard order."""
@@ -149,12 +253,13 @@ class Run:
             wanted = [sections] if isinstance(sections, str) else [*sections]
         except Exception:  # not iterable
             raise SceneError("sections", sections, f"give names, or '{ALL}'") from None
-        if isinstance(sections, str) and sections == ALL:
-            return [name for name in known if not all(map(self.why_not, known[name]))]
+        applicable = [name for name in known if not all(map(self.why_not, known[name]))]
+        if wanted == [ALL] and isinstance(sections, str):
+            return applicable
         for name in wanted:
             if not isinstance(name, str) or name not in known:  # type: ignore[redundant-expr]
                 raise SceneError("sections", name, nearest(name, [*known, ALL]))
-            if all(map(self.why_not, known[name])):
+            if name not in applicable:
                 why = self.why_not(known[name][0])
                 raise SceneError("sections", name, f"it does not apply: {why}")
         return [name for name in known if name in wanted]
@@ -182,9 +287,25 @@ class Run:
 
     # --- answers ---------------------------------------------------------------------------------
 
-    def numbers(self) -> xr.Dataset:
-        """Merge the results of all parts of the answer into a Dataset without attributes."""
-        return self._merged(self.graph.answer)
+    def numbers(self, names: Iterable[str] = (), effects: Sequence[str] = ()) -> xr.Dataset:
+        """Merge the results of some parts into a Dataset without attributes.
+
+        Parameters
+        ----------
+        names : iterable of str
+            Names of the parts, of which those that are left out are omitted; by default, those of
+            the answer.
+        effects : sequence of str
+            Labels of the neglected effects.
+        """
+        results = [self[name] for name in names or self.graph.answer if not self.why_not(name)]
+        merged, *others = (
+            self.neglected.dataset(effects) if isinstance(result, Neglected) else result
+            for result in results
+        )
+        for other in others:
+            merged = merged.merge(other, join="exact", combine_attrs="override")
+        return merged.copy()
 
     def answer(self) -> xr.Dataset:
         """Return the answer as a Dataset, with title, references and other attributes."""
@@ -209,7 +330,7 @@ class Run:
         nodes = {"/": answer}
         for name in names:
             parts = self.graph.sections[name]
-            nodes[name] = self._merged(parts, effects)
+            nodes[name] = self.numbers(parts, effects)
             sources = self.provenance(parts)
             nodes[name].attrs |= {key: sources[key] for key in sources if key not in answer.attrs}
         return xr.DataTree.from_dict(nodes | {"plan": self.plan(names).dataset()})
@@ -235,17 +356,6 @@ class Run:
             if not self.behind([name]).keys() & {*but}:
                 sources |= getattr(self[name], "provenance", {})
         return sources
-
-    def _merged(self, names: Iterable[str], effects: Sequence[str] = ()) -> xr.Dataset:
-        """Merge the results of those of the named parts that are not left out into one Dataset."""
-        results = [self[name] for name in names if not self.why_not(name)]
-        merged, *others = (
-            self.neglected.dataset(effects) if isinstance(result, Neglected) else result
-            for result in results
-        )
-        for other in others:
-            merged = merged.merge(other, join="exact", combine_attrs="override")
-        return merged.copy()
 
     def _load_modules(self, names: Iterable[str]) -> None:
         """Import what some parts need before they run, so that their run times are of the work."""
@@ -297,9 +407,8 @@ def in_range(what: str) -> Iterator[None]:
         with np.errstate(over="raise", divide="raise", invalid="raise"):
             yield
     except ArithmeticError as error:
-        raise UndefinedError(
-            f"numbers are too large or too small to compute with ({what}: {error}); check the input"
-        ) from error
+        problem = f"numbers are too large or too small to compute with ({what}: {error})"
+        raise UndefinedError(f"{problem}; check the input") from error
 
 
 def _is_same(old: object, new: object) -> bool:
@@ -312,32 +421,30 @@ def _is_same(old: object, new: object) -> bool:
 
 def _described(question: Question) -> dict[str, str]:
     """Attributes of a result that follow from its question: title, references, bodies, versions."""
-    attributes = {
-        "Conventions": CONVENTIONS,
-        "title": question.title,
-        "source": f"earthspin {__version__}",
-        "history": f"earthspin {__version__}: compute = {question.word}",
-        "references": "",
-        "earthspin_version": __version__,
-        "numpy_version": version("numpy"),
-        "compute": question.word,
-    }
     references: list[str] = []
+    bodies: dict[str, str] = {}
     for name, value in question.keys().items():
         items = value if isinstance(value, tuple) else (value,)
-        if items and all(hasattr(item, "reference") for item in items):
-            references += [item.reference for item in items if item.reference]
+        references += filter(None, (getattr(item, "reference", "") for item in items))
         if items and all(hasattr(item, "changes") for item in items):
-            attributes[name] = " ".join(body.name for body in items)
-            alone = items[0] is value
+            bodies[name] = " ".join(body.name for body in items)
             changes = [
-                body.changes if alone else f"{body.name}: {body.changes}"
+                body.changes if body is value else f"{body.name}: {body.changes}"
                 for body in items
                 if body.changes
             ]
             if changes:
-                attributes[f"{name}_changes"] = "; ".join(changes)
-        elif isinstance(value, tuple) and value and all(isinstance(item, str) for item in value):
-            attributes[name] = " ".join(value)
-    attributes["references"] = "; ".join(dict.fromkeys(references))
-    return attributes
+                bodies[f"{name}_changes"] = "; ".join(changes)
+        elif items is value and items and all(isinstance(item, str) for item in items):
+            bodies[name] = " ".join(items)
+    return {
+        "Conventions": CONVENTIONS,
+        "title": question.title,
+        "source": f"earthspin {__version__}",
+        "history": f"earthspin {__version__}: compute = {question.word}",
+        "references": "; ".join(dict.fromkeys(references)),
+        "earthspin_version": __version__,
+        "numpy_version": version("numpy"),
+        "compute": question.word,
+        **bodies,
+    }

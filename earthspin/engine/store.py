@@ -19,6 +19,7 @@ import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,7 +27,7 @@ import numpy as np
 from earthspin.engine.drafts import as_path, check_identity, identity, mismatch_error, replacing
 from earthspin.engine.question import SCENE, scene_of
 from earthspin.engine.variables import IN_FILES
-from earthspin.errors import MissingExtraError, OutputError, in_bytes, one_line
+from earthspin.errors import EarthspinError, MissingExtraError, OutputError, in_bytes, one_line
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -208,16 +209,14 @@ def spelled(node: xr.Dataset) -> xr.Dataset:
 
 def _write_zarr(result: xr.Dataset | xr.DataTree, path: Path) -> None:
     """Write a result with its sections to a Zarr store, one group for each section."""
-    from earthspin.engine import zarr_folder
-
-    groups = _groups(result)
+    groups, zarr_folder = _groups(result), zarr_of()
     zarr_folder.write(groups, path, {name: encoding_of(node) for name, node in groups.items()})
     zarr_folder.seal(path)
     zarr_folder.close(path)
 
 
-def zarr_of() -> Any:
-    """Import and return the module `zarr`; raise an error if it is not installed.
+def zarr_of() -> ModuleType:
+    """Import and return the module `zarr_folder`; raise an error if zarr is not installed.
 
     Raises
     ------
@@ -225,10 +224,10 @@ def zarr_of() -> Any:
         If zarr is not installed.
     """
     try:
-        import zarr
+        from earthspin.engine import zarr_folder
     except ImportError:
         raise MissingExtraError("zarr", "zarr", "a result in chunks") from None
-    return zarr
+    return zarr_folder
 
 
 def open(path: str | Path) -> xr.Dataset | xr.DataTree:
@@ -310,9 +309,7 @@ def verify(path: str | Path) -> Path:
     """
     place = as_path(path)
     if place.suffix == ".zarr":
-        zarr_of()
-        from earthspin.engine import zarr_folder
-
+        zarr_folder = zarr_of()
         with _reading(place):
             attrs = zarr_folder.attributes(place)
             if _format_of(place, attrs) == VERSION:
@@ -362,36 +359,28 @@ def _reading(path: Path) -> Iterator[None]:
 
 def _read(path: Path) -> dict[str, xr.Dataset]:
     """Read all groups of a file by their paths; units stay in the spelling of files."""
-    if path.suffix == ".zarr":
-        zarr_of()
     with _reading(path):
         return _read_zarr(path) if path.suffix == ".zarr" else _read_netcdf(path)
 
 
 def _read_zarr(path: Path) -> dict[str, xr.Dataset]:
     """Open the groups of a Zarr store; those of this format have metadata with a checksum."""
-    import xarray as xr
-
-    from earthspin.engine import zarr_folder
-
+    zarr_folder = zarr_of()
     sealed = _format_of(path, zarr_folder.attributes(path)) == VERSION
     if sealed:
         zarr_folder.metadata_of(path)
-    store: Any = zarr_folder.ZarrFolder(path) if sealed else path
-    options: dict[str, Any] = {"engine": "zarr", "consolidated": sealed}
-    nodes = xr.open_groups(store, decode_times=_coder(), **options)
+    store = zarr_folder.ZarrFolder(path) if sealed else path
+    nodes = _open_groups(store, engine="zarr", consolidated=sealed)
     nodes["/"].attrs.pop(zarr_folder.METADATA, None)
     return nodes
 
 
 def _read_netcdf(path: Path) -> dict[str, xr.Dataset]:
     """Read a netCDF file completely, and compare it with the checksum of its content."""
-    import xarray as xr
-
     if path.is_fifo():
         raise OutputError(path, "it is a pipe", "give a file")
     with _NETCDF:
-        nodes = xr.open_groups(path, decode_times=_coder(), engine="netcdf4")
+        nodes = _open_groups(path, engine="netcdf4")
         try:
             for node in nodes.values():
                 node.load()
@@ -404,18 +393,18 @@ def _read_netcdf(path: Path) -> dict[str, xr.Dataset]:
     return nodes
 
 
-def _coder() -> xr.coders.CFDatetimeCoder:
-    """Coder that reads times in microseconds, as they were written."""
+def _open_groups(store: Any, **options: Any) -> dict[str, xr.Dataset]:
+    """Open all groups of a file by their paths; times are in microseconds, as they were written."""
     import xarray as xr
 
-    return xr.coders.CFDatetimeCoder(time_unit="us")
+    return xr.open_groups(store, decode_times=xr.coders.CFDatetimeCoder(time_unit="us"), **options)
 
 
-def _unreadable(path: Path, error: Exception) -> OutputError:
-    """Make the error for a file that cannot be read, or return the `OutputError` behind it."""
+def _unreadable(path: Path, error: Exception) -> EarthspinError:
+    """Make the error for a file that cannot be read, or return the `EarthspinError` behind it."""
     cause: BaseException | None = error
     while cause is not None:
-        if isinstance(cause, OutputError):
+        if isinstance(cause, EarthspinError):
             return cause
         cause = cause.__cause__ or cause.__context__  # xarray 2025 replaces errors of the store
     reason = one_line(error) or type(error).__name__

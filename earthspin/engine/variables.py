@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import MISSING, dataclass, field, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Self, dataclass_transform
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
@@ -88,110 +88,74 @@ def si(array: xr.DataArray) -> xr.DataArray:
 
 # --- declarations ---------------------------------------------------------------------------------
 
-#: A number, an array along the declared dimensions, a labelled array, or text.
-Value = Any
-#: Labels along a dimension: an array, a list, or a labelled array of another answer.
-Labels = Any
-
-
-#: A number with its half-width.
-Pair = Estimate | tuple[Any, Any]
-
 #: Suffixes of the names of a field's variables, with patterns of their long names, in order.
-_ALONE = {"": "{}"}
-_WITH_ERROR = {"": "{}", "_error": "95 % half-width of the {}"}
-_WITH_SHARES = {
-    **_WITH_ERROR,
+_ERROR = {"": "{}", "_error": "95 % half-width of the {}"}
+_SHARES = {
     "_error_method": "95 % half-width of the {} from averaging and sampling",
     "_error_input": "95 % half-width of the {} from the uncertainties of the inputs",
 }
-_PHASES = {"_in_phase": "{}, in phase", "_out_of_phase": "{}, out of phase"}
 
 
 @dataclass(frozen=True)
 class Variable:
-    """Declaration of one variable of a result: unit, meaning, dimensions and error.
+    """Declaration of a variable of a result, or of a field that defines several variables.
 
     Attributes
     ----------
-    dims : tuple of str
-        Dimensions; the labelled arrays of a body add further ones.
     units : str
         Unit as astropy.units parses it; "1" for pure numbers, "" for text and dates.
     long_name : str
         Meaning in plain words.
-    attrs : tuple of pairs
-        Further attributes, such as cell_methods or references.
+    along : tuple of str or None
+        Dimensions; those of the class if None.
     error : str
         Names of the variables that hold the error, if not ``<name>_error``.
     no_error : str
         Why there is no error.
     short : str
         Label of tables and axes.
+    default : object
+        Default value; ``...`` if a value is required. A field whose value is None is omitted from
+        the answer.
+    endings : mapping of str to str
+        Suffixes of the names of a field's variables, with patterns of their long names; empty for
+        labels.
+    attrs : mapping of str to str
+        Further attributes, such as cell_methods or references.
+    dims : tuple of str
+        Dimensions in an answer; the labelled arrays of a body add further ones.
     """
 
-    dims: tuple[str, ...]
     units: str
-    long_name: str
-    attrs: tuple[tuple[str, str], ...] = ()
+    long_name: str = ""
+    along: tuple[str, ...] | None = None
     error: str = ""
     no_error: str = ""
     short: str = ""
+    default: Any = ...
+    endings: Mapping[str, str] = field(default_factory=dict)
+    attrs: Mapping[str, str] = field(default_factory=dict)
+    dims: tuple[str, ...] = ()
 
     def attributes(self, name: str, others: Iterable[str]) -> dict[str, Any]:
         """Attributes of this variable: unit, meaning, and the names of its error variables."""
-        attributes = {"long_name": self.long_name}
-        if self.units:
-            attributes["units"] = self.units
-        companions = [other for other in others if other.startswith(f"{name}_error")]
-        if companions or self.error:
-            attributes["ancillary_variables"] = self.error or " ".join(companions)
-        if self.no_error:
-            attributes["no_error"] = self.no_error
-        return attributes | dict(self.attrs)
+        errors = self.error or " ".join(n for n in others if n.startswith(f"{name}_error"))
+        attributes = {"long_name": self.long_name, "units": self.units}
+        attributes |= {"ancillary_variables": errors, "no_error": self.no_error}
+        return {key: text for key, text in attributes.items() if text} | dict(self.attrs)
 
 
 class SchemaError(Exception):
     """Error raised if a part returns variables that it does not declare (a program defect)."""
 
 
-@dataclass(frozen=True)
-class Field:
-    """Declaration of one field of a `Variables` class, which defines one or more variables.
-
-    Attributes
-    ----------
-    variable : Variable
-        Declaration of the field's main variable.
-    along : tuple of str or None
-        Dimensions; those of the class if None.
-    endings : mapping of str to str
-        Suffixes of the names of the field's variables, with patterns of their long names; empty
-        for labels.
-    default : object
-        Default value; a field whose value is None is omitted from the answer.
-    """
-
-    variable: Variable
-    along: tuple[str, ...] | None
-    endings: Mapping[str, str]
-    default: Any
+#: Options of a field; others are attributes of its variables.
+_OPTIONS = {"along", "error", "no_error", "short", "default"}
 
 
-def _field(
-    endings: Mapping[str, str],
-    units: str,
-    long_name: str,
-    *,
-    along: tuple[str, ...] | None = None,
-    error: str = "",
-    no_error: str = "",
-    short: str = "",
-    default: Any = MISSING,
-    **attrs: str,
-) -> Any:
-    variable = Variable((), units, long_name, tuple(attrs.items()), error, no_error, short)
-    return Field(variable, along, endings, default)
+def _field(endings: Mapping[str, str], units: str, long_name: str, options: dict[str, Any]) -> Any:
+    attrs = {name: options.pop(name) for name in [*options] if name not in _OPTIONS}
+    return Variable(units, long_name, endings=endings, attrs=attrs, **options)
 
 
 def number(units: str, long_name: str, **options: Any) -> Any:
@@ -216,7 +180,7 @@ def number(units: str, long_name: str, **options: Any) -> Any:
     **options
         Further attributes, such as cell_methods.
     """
-    return _field(_ALONE, units, long_name, **options)
+    return _field({"": "{}"}, units, long_name, options)
 
 
 def measured(units: str, long_name: str, *, split: bool = False, **options: Any) -> Any:
@@ -231,17 +195,18 @@ def measured(units: str, long_name: str, *, split: bool = False, **options: Any)
     split : bool
         Also declare the contributions of the method and of the inputs to the half-width.
     """
-    return _field(_WITH_SHARES if split else _WITH_ERROR, units, long_name, **options)
+    return _field(_ERROR | _SHARES if split else _ERROR, units, long_name, options)
 
 
 def amplitude(units: str, long_name: str, **options: Any) -> Any:
     """Declare a pair of variables: in-phase and out-of-phase amplitudes, as in IERS tables."""
-    return _field(_PHASES, units, long_name, **options)
+    phases = {"_in_phase": "{}, in phase", "_out_of_phase": "{}, out of phase"}
+    return _field(phases, units, long_name, options)
 
 
 def words(long_name: str, **options: Any) -> Any:
     """Declare a field of a `Variables` class that holds text or dates, which have no unit."""
-    return _field(_ALONE, "", long_name, **options)
+    return number("", long_name, **options)
 
 
 def labels(long_name: str = "", units: str = "", **options: Any) -> Any:
@@ -257,24 +222,22 @@ def labels(long_name: str = "", units: str = "", **options: Any) -> Any:
     **options
         Further attributes.
     """
-    return _field({}, units, long_name, **options)
+    return _field({}, units, long_name, options)
 
 
-@dataclass_transform(
-    kw_only_default=True, field_specifiers=(number, measured, amplitude, words, labels)
-)
 class Variables:
     """Base class for the set of variables that one part (function) adds to a result.
 
     Options of a subclass apply to all of its fields: `along`, the dimensions; `error`, the variable
     that holds the error of every number without its own; or `no_error`, why these have no error.
-    An instance takes the values by name, in SI units.
+    An instance takes the values by name, in SI units: numbers, text, labelled arrays, or arrays
+    along the declared dimensions.
     """
 
     #: Default dimensions of the fields.
     dims: ClassVar[tuple[str, ...]] = ()
     #: The fields by name, with inherited fields first.
-    fields: ClassVar[Mapping[str, Field]] = {}
+    fields: ClassVar[Mapping[str, Variable]] = {}
     #: The variables by name, in the order of an answer.
     schema: ClassVar[Mapping[str, Variable]] = {}
 
@@ -283,16 +246,14 @@ class Variables:
     ) -> None:
         """Collect the fields that a subclass declares."""
         cls.dims = cls.dims if along is None else along
-        own = {name: entry for name, entry in vars(cls).items() if isinstance(entry, Field)}
+        own = {name: entry for name, entry in vars(cls).items() if isinstance(entry, Variable)}
         cls.fields, schema = {**cls.fields, **own}, dict(cls.schema)
         for name, entry in own.items():
             dims = cls.dims if entry.along is None else entry.along
-            variable = replace(entry.variable, dims=dims)
-            half_width = Variable(dims, variable.units, "")
             for ending, meaning in entry.endings.items():
-                declared = half_width if ending.startswith("_error") else variable
-                long_name = meaning.format(variable.long_name)
-                schema[name + ending] = replace(declared, long_name=long_name)
+                declared = Variable(entry.units) if ending.startswith("_error") else entry
+                long_name = meaning.format(entry.long_name)
+                schema[name + ending] = replace(declared, dims=dims, long_name=long_name)
         for name, variable in schema.items():
             has_error = variable.error or variable.no_error or f"{name}_error" in schema
             if variable.units and not has_error and "_error" not in name and name != error:
@@ -301,7 +262,7 @@ class Variables:
 
     def __init__(self, **values: Any) -> None:
         unknown = values.keys() - self.fields.keys()
-        missing = {n for n, entry in self.fields.items() if entry.default is MISSING} - {*values}
+        missing = {n for n, entry in self.fields.items() if entry.default is ...} - {*values}
         if unknown or missing:
             problem = f"{type(self).__name__}: unknown {sorted(unknown)}, missing {sorted(missing)}"
             raise SchemaError(problem)
@@ -343,8 +304,7 @@ class Variables:
                 for dim, own in value.coords.items():
                     known = coords.setdefault(dim, own.variable)
                     if hasattr(known, "equals") and not known.equals(own.variable):
-                        problem = f"labels along '{dim}' differ between variables"
-                        raise SchemaError(problem)
+                        raise SchemaError(f"labels along '{dim}' differ between variables")
                 value = value.variable
             else:
                 value = xr.Variable(declared.dims, value)
@@ -384,10 +344,9 @@ class Variables:
             elif hasattr(value, "dims"):  # labelled arrays keep their own attributes
                 coords[name] = value
             else:
-                label = entry.variable
-                attrs = {"units": label.units} if label.units else {}
-                attrs |= {"long_name": label.long_name} if label.long_name else {}
-                coords[name] = (name, value, attrs | dict(label.attrs))
+                own = {"units": entry.units, "long_name": entry.long_name}
+                attrs = {key: text for key, text in own.items() if text} | dict(entry.attrs)
+                coords[name] = (name, value, attrs)
         return values, coords
 
 
@@ -479,20 +438,13 @@ class Neglected:
         effects : sequence of str
             Labels that the answer has along `effect`; included effects have size 0.
         """
+        import xarray as xr
+
         names = list(effects) or sorted(self.sizes, key=lambda effect: -abs(self.sizes[effect]))
-        notes = {
-            "references": self.source,
-            "of_unknown_size": self.unknown,
-            "zero_in_the_mean": "; ".join(self.periodic),
-        }
-        attrs = {name: words for name, words in notes.items() if words}
-
-        class Effects(Variables, along=("effect",), no_error=BOUND):
-            """Variables of the dataset of neglected effects."""
-
-            neglected_effect: Value = number(self.unit, self.what)
-            effect: Labels = labels()
-
-        sizes = [float(self.sizes.get(name, 0.0)) for name in names]
-        laid = Effects(neglected_effect=sizes, effect=np.array(names, dtype=str))
-        return laid.with_attributes(neglected_effect=attrs).dataset()
+        sizes = np.array([self.sizes.get(name, 0.0) for name in names]) * from_si(self.unit)
+        attrs = {"long_name": self.what, "units": self.unit, "no_error": BOUND}
+        attrs |= {"references": self.source, "of_unknown_size": self.unknown}
+        attrs |= {"zero_in_the_mean": "; ".join(self.periodic)}
+        sized = ("effect", sizes, {name: words for name, words in attrs.items() if words})
+        labelled = ("effect", np.array(names, dtype=str))
+        return xr.Dataset({"neglected_effect": sized}, {"effect": labelled})

@@ -59,19 +59,15 @@ def write(groups: Mapping[str, xr.Dataset], path: Path, encoding: Mapping[str, A
         Encoding of the variables of each group, by path; the codec is added.
     """
     for number, (group, node) in enumerate(groups.items()):
-        coded = {
-            name: entry | {"compressors": (_CODEC,), "filters": _filters(node.variables[name])}
-            for name, entry in encoding[group].items()
-        }
+        coded = {}
+        for name, entry in encoding[group].items():
+            # Shuffled, the bytes of equal weight of all numbers stand side by side.
+            kind, size = node.variables[name].dtype.kind, node.variables[name].dtype.itemsize
+            filters = (numcodecs.Shuffle(size),) if kind in "fiuM" else ()
+            coded[name] = entry | {"compressors": (_CODEC,), "filters": filters}
         mode: Any = "a" if number else "w"
         with zarr.config.set({"threading.max_workers": 1}):
             node.to_zarr(path, mode=mode, group=group, encoding=coded, **OPTIONS)
-
-
-def _filters(variable: xr.Variable) -> tuple[Any, ...]:
-    """Filters of a variable before compression: bytes of equal weight of numbers side by side."""
-    is_number = variable.dtype.kind in "fiuM"
-    return (numcodecs.Shuffle(variable.dtype.itemsize),) if is_number else ()
 
 
 def write_region(node: xr.Dataset, store: Path, region: Mapping[str, slice]) -> None:
@@ -191,56 +187,37 @@ def verify(store: Path) -> None:
         raise mismatch_error(store, "its numbers or words")
 
 
-def verify_shared(store: Path, along: str) -> dict[str, Any]:
-    """Compare what all blocks of an unfinished store share: metadata, and arrays without blocks.
+def missing_blocks(store: Path, along: str) -> set[int]:
+    """Find the blocks of an unfinished store that are not complete; remove their damaged chunks.
 
     Parameters
     ----------
     store : Path
     along : str
-        Dimension that is divided into blocks.
+        Dimension that is divided into blocks, the first of every array that has it.
 
     Returns
     -------
-    dict of str to dict
-        See `metadata_of`.
+    set of int
+        Numbers of the blocks.
 
     Raises
     ------
     OutputError
-        If anything is missing or damaged.
+        If what all blocks share is damaged: metadata, or arrays without blocks.
     """
-    metadata = metadata_of(store)
+    metadata, missing = metadata_of(store), set[int]()
     for name in _arrays(metadata):
-        if along not in metadata[f"{name}/.zattrs"][DIMENSIONS]:
-            for chunk in _chunks(metadata[f"{name}/.zarray"]):
-                _check_chunk(store, name, chunk, metadata[f"{name}/.zarray"])
-    return metadata
-
-
-def damaged_chunks(store: Path, metadata: Mapping[str, Any], along: str, number: int) -> list[str]:
-    """List the files of a block that are missing or damaged.
-
-    Parameters
-    ----------
-    store : Path
-    metadata : mapping of str to dict
-        See `metadata_of`.
-    along : str
-        Dimension that is divided into blocks, the first of every array that has it.
-    number : int
-        Number of the block.
-    """
-    damaged = []
-    for name in _arrays(metadata):
-        dimensions = metadata[f"{name}/.zattrs"][DIMENSIONS]
-        if along in dimensions:
-            chunk = ".".join([str(number)] + ["0"] * (len(dimensions) - 1))
+        array, in_blocks = metadata[f"{name}/.zarray"], metadata[f"{name}/.zattrs"][DIMENSIONS]
+        for chunk in _chunks(array):
             try:
-                _check_chunk(store, name, chunk, metadata[f"{name}/.zarray"])
+                _check_chunk(store, name, chunk, array)
             except OutputError:
-                damaged.append(f"{name}/{chunk}")
-    return damaged
+                if along not in in_blocks:
+                    raise
+                (store / name / chunk).unlink(missing_ok=True)
+                missing.add(int(chunk.partition(".")[0]))
+    return missing
 
 
 def _arrays(metadata: Mapping[str, Any]) -> list[str]:

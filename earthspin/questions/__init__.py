@@ -1,7 +1,8 @@
 """One module for each question that a user can ask, and modules for what several questions share.
 
 Parts, the functions that answer a question, convert between labelled data and the arrays of the
-physics packages. They import modules when they run, so that a question loads only what it needs.
+physics packages. Modules that load large libraries are imported when they are first used, so that a
+question loads only what it needs.
 """
 
 #: Every question by its public call, in the order in which they are listed, and the module of each.

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin._version import version
 from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.bodies.checks import OF_AVERAGE, largest, refuse_fast_axis
@@ -24,10 +24,6 @@ from earthspin.sky.poles import FixedPole, IAU2006Pole, MovingPole, angle, rotat
 from earthspin.torque import average, cassini, rates
 from earthspin.torque.average import Window, best_window, precessing_torque, window_mean_and_error
 from earthspin.torque.gravity import torque_from_declination
-
-if TYPE_CHECKING:
-    import xarray as xr
-
 
 #: Time between samples. One day is enough, since torques have no strong period below four days:
 #: with two days the rate is the same to 1e-12, with four days it differs by 3e-6.
@@ -133,8 +129,6 @@ def _varying_masses(body: Body, perturbers: tuple[Body, ...]) -> xr.DataArray | 
     """Values of GM of all perturbers in one array if any GM is an array; otherwise None."""
     if not any(hasattr(p.gm, "dims") for p in perturbers):
         return None
-    import xarray as xr
-
     return xr.concat(xr.broadcast(*(xr.DataArray(p.gm_on(body)) for p in perturbers)), "perturber")
 
 
@@ -222,12 +216,12 @@ class MeanTorques:
     cases: Mapping[str, int] = field(default_factory=dict)
 
 
-def _same_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> Hashable:
-    """Samples from which means are computed; None if these samples are not stored."""
-    return torque_samples if torque_samples.are_stored else None
-
-
-@part(unless=exact_means, same_for=_same_means)
+@part(
+    unless=exact_means,
+    same_for=lambda torque_samples, perturbers: (
+        torque_samples if torque_samples.are_stored else None
+    ),
+)
 def window_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> MeanTorques:
     """Mean torques, computed as weighted means of samples in a time window, with errors.
 
@@ -419,8 +413,6 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
 
 def _labeller(means: MeanTorques) -> Callable[[FloatArray], xr.DataArray]:
     """Return a function that labels the arrays of `means` by perturber and by case."""
-    import xarray as xr
-
     dims, shape = ("perturber", *means.cases), (len(means.labels), *means.cases.values())
     labels = {"perturber": means.labels}
     return lambda values: xr.DataArray(np.reshape(values, shape), labels, dims)

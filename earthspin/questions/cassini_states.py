@@ -15,17 +15,8 @@ from earthspin.bodies.planets import LEFT_OUT_OF_STATES, PRECESSING_ORBITS
 from earthspin.constants import NORMAL_95
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, key
-from earthspin.engine.variables import (
-    Labels,
-    Neglected,
-    Pair,
-    Value,
-    Variables,
-    labels,
-    measured,
-    number,
-)
+from earthspin.engine.question import Question, key
+from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import SceneError, nearest
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.elements import refuse_overlap, size_and_motion
@@ -65,10 +56,8 @@ class CassiniStates(
     body: Body = key(MOON, doc="body with the spin axis")
     orbit: Annotated[Orbit | None, Orbit] = key(
         None,
-        doc=(
-            "orbit with the period of its node; if not given, that of the body, or the "
-            "mean orbit of a moon or of Mercury"
-        ),
+        doc="orbit with the period of its node; if not given, that of the body, or the mean "
+        "orbit of a moon or of Mercury",
     )
 
     def check(self) -> None:
@@ -151,15 +140,15 @@ def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
 class States(Variables, along=("state",), no_error="it is so or not"):
     """Obliquity, tilt to the mean orbit normal, and stability of each Cassini state of a body."""
 
-    obliquity: Pair = measured(
+    obliquity = measured(
         "deg",
         "angle from the normal of the orbit to the axis",
         comment="half-widths from the uncertainty of the body's numbers",
     )
-    tilt: Pair = measured("deg", "angle from the pole of the orbit's plane to the axis")
-    towards_pole: Value = number("1", "whether the axis leans from the normal towards that pole")
-    stable: Value = number("1", "whether an axis beside it stays")
-    state: Labels = labels("number of the state after Peale (1969)", "1")
+    tilt = measured("deg", "angle from the pole of the orbit's plane to the axis")
+    towards_pole = number("1", "whether the axis leans from the normal towards that pole")
+    stable = number("1", "whether an axis beside it stays")
+    state = labels("number of the state after Peale (1969)", "1")
 
 
 @part
@@ -215,11 +204,6 @@ def neglected(body: Body, own_orbit: Orbit) -> Neglected:
     )
 
 
-define_parts(
-    CassiniStates,
-    answer=states,
-    sections={"neglected": neglected},
-    parts=(own_orbit, locking),
+cassini_states = public_call(
+    CassiniStates, answer=states, sections=(neglected,), parts=(own_orbit, locking)
 )
-
-cassini_states = public_call(CassiniStates)

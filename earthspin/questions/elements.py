@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from earthspin.bodies import Body
 from earthspin.bodies.checks import extent, overlap
+from earthspin.bodies.orbit import Orbit
 from earthspin.errors import SceneError, nearest
 from earthspin.sky.elements import Ellipse, Plane
 
@@ -78,8 +79,7 @@ def _add_chain(
 
 def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
     """Name of the body that `member` orbits; an empty text if that body is not in the list."""
-    assert member.orbit is not None
-    about = member.orbit.about
+    about: str = member.needed("orbit").about
     if about:
         if about not in known or about == member.name:
             others = [name for name in known if name != member.name]
@@ -110,8 +110,7 @@ def _refuse_circles(centres: Mapping[str, str]) -> None:
 
 def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
     """Ellipse of the orbit of `member` about the body `centre`, from its orbital elements."""
-    orbit = member.orbit
-    assert orbit is not None
+    orbit: Orbit = member.needed("orbit")
     a, motion = size_and_motion(member, centre)
     refuse_overlap(member, centre, a)
     node = 0.0 if orbit.node_period is None else 2 * math.pi / orbit.node_period
@@ -139,10 +138,10 @@ def refuse_overlap(member: Body, centre: Body, a: float, advice: str = "") -> No
     SceneError
         If they do.
     """
-    assert member.orbit is not None
     reach, names = extent(member) + extent(centre), (f"'{member.name}'", f"'{centre.name}'")
-    if inside := overlap(a * (1 - member.orbit.e), reach, *names):
-        shown = f"a = {a:.6g} m, e = {member.orbit.e:g}"
+    e = member.needed("orbit").e
+    if inside := overlap(a * (1 - e), reach, *names):
+        shown = f"a = {a:.6g} m, e = {e:g}"
         raise SceneError(f"{member.name}.orbit", shown, f"{inside}{advice}")
 
 
@@ -155,8 +154,7 @@ def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
         If semi-major axis and period contradict each other, or one of them is missing and does not
         follow from the masses.
     """
-    orbit = member.orbit
-    assert orbit is not None
+    orbit: Orbit = member.needed("orbit")
     a, period = orbit.a, orbit.period
     gm = member.gm_on(centre) + centre.gm_on(member)
     many = hasattr(gm, "dims")

@@ -9,27 +9,20 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import EARTH, Body
 from earthspin.bodies.orbit import Epoch
 from earthspin.constants import DAY, MAS, NORMAL_95
-from earthspin.dates import Spacing, datetime64
+from earthspin.dates import SPACING, date_text, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, key
+from earthspin.engine.question import Question, key
 from earthspin.engine.run import Run
-from earthspin.engine.variables import (
-    Labels,
-    Neglected,
-    Pair,
-    Value,
-    Variables,
-    labels,
-    measured,
-    number,
-    words,
-)
+from earthspin.engine.variables import Neglected, Variables, labels, measured, number, words
 from earthspin.errors import SceneError, SeriesError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.nutation.core_nutation import LONGEST as FARTHEST
+from earthspin.nutation.core_nutation import predict, too_short
 from earthspin.questions.observed_pole import MJD, Daily, TableFile, complex_pole, labelled_series
 from earthspin.questions.reasons import no_iau_model
 from earthspin.sky.eop import (
@@ -41,12 +34,11 @@ from earthspin.sky.eop import (
     read_pole_offsets,
 )
 from earthspin.units import Number, Plain, pack, unpack
+from earthspin.wobble import forecast as model
 from earthspin.wobble.forecast import COMPONENTS, LONGEST, NEWEST_BIAS, SKILL
 from earthspin.wobble.forecast import Forecast as Predicted
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from earthspin.engine.accessor import Answer
     from earthspin.sky.iers_table import PoleTable
 
@@ -154,7 +146,7 @@ class Forecast(
     days: Annotated[float, Number("d", "365 d", above=0.0)] = key(
         365.0, doc="horizon, 730 days at most"
     )
-    step: Annotated[float, Spacing(example="1 d")] = key(
+    step: Annotated[float, replace(SPACING, example="1 d")] = key(
         "1 d", doc="time between two epochs, a whole number of days"
     )
     origin: Annotated[float, Epoch()] | None = key(
@@ -233,21 +225,18 @@ def record(file: str | Path | GivenSeries, origin: float | None) -> Record:
     if np.any(abs(steps - 1) > _MIDNIGHT):
         wrong = whole.time[:-1][abs(steps - 1) > _MIDNIGHT][0]
         problem = "a forecast needs one row for each day"
-        raise SceneError("file", f"a step of {steps.max():g} d after {_day(wrong)}", problem)
+        raise SceneError("file", f"a step of {steps.max():g} d after {date_text(wrong)}", problem)
     if origin is None:
         return whole
     first, last = whole.time[[0, -1]]
     if not first <= origin < last + 1:
-        problem = f"the observed rows cover {_day(first)} to {_day(last)}; choose a day inside"
-        raise SceneError("origin", _day(origin), problem)
+        problem = (
+            f"the observed rows cover {date_text(first)} to {date_text(last)}; choose a day inside"
+        )
+        raise SceneError("origin", date_text(origin), problem)
     count = int(np.floor(origin - first + _MIDNIGHT)) + 1
     newest = whole.newest and count == whole.time.size
     return replace(whole, time=whole.time[:count], p=whole.p[:count], newest=newest)
-
-
-def _day(time: float) -> str:
-    """Calendar date, as text, of a time in days from J2000.0."""
-    return str(datetime64(np.array([time]))[0])[:10]
 
 
 @part(loads=("scipy.linalg",))
@@ -255,8 +244,6 @@ def predicted(
     record: Record, days: float, parameters: str | None, excitation: GivenSeries | None
 ) -> Predicted:
     """Predict polar motion and the covariance of its error for each day after the origin."""
-    from earthspin.wobble import forecast as model
-
     if excitation is not None:
         pole, chi = _from_common_day(record, excitation)
         return model.forecast_with_excitation(pole, chi, int(days), record.newest)
@@ -288,9 +275,9 @@ def _from_common_day(record: Record, excitation: GivenSeries) -> tuple[ComplexAr
 class ForecastPole(Daily):
     """Forecast of polar motion."""
 
-    x: Pair = measured("arcsec", "coordinate of the pole towards the prime meridian")
-    y: Pair = measured("arcsec", "coordinate of the pole towards 90 degrees west")
-    correlation_xy: Value = number(
+    x = measured("arcsec", "coordinate of the pole towards the prime meridian")
+    y = measured("arcsec", "coordinate of the pole towards 90 degrees west")
+    correlation_xy = number(
         "1", "correlation of the errors of x and y", no_error="it belongs to the errors"
     )
 
@@ -326,9 +313,9 @@ def ahead(
     sx, sy = np.sqrt(covariance[:, 0, 0]), np.sqrt(covariance[:, 1, 1])
     source = {
         "references": record.name,
-        "comment": f"observations up to {_day(newest)}",
-        "origin": _day(newest if origin is None else origin),
-        "newest_row": _day(newest),
+        "comment": f"observations up to {date_text(newest)}",
+        "origin": date_text(newest if origin is None else origin),
+        "newest_row": date_text(newest),
         "age_of_newest_row": f"{0.0 if origin is None else origin - newest:g} d at the origin",
         "parameters": f"{kind}: {fast}",
     }
@@ -338,7 +325,7 @@ def ahead(
         )
     if excitation is not None:
         source["excitation"] = (
-            f"given from {_day(excitation.rows[0, 0])} to {_day(excitation.rows[0, -1])}"
+            f"given from {date_text(excitation.rows[0, 0])} to {date_text(excitation.rows[0, -1])}"
         )
     return ForecastPole(
         time=datetime64(_days_ahead(record, days, step)),
@@ -351,9 +338,9 @@ def ahead(
 class Components(Daily):
     """Parts of the forecast polar motion: Chandler, annual and semiannual wobble, and slow pole."""
 
-    component_x: Pair = measured("mas", "part of x", along=("component", "time"))
-    component_y: Pair = measured("mas", "part of y", along=("component", "time"))
-    component: Labels = labels(default=list(COMPONENTS))
+    component_x = measured("mas", "part of x", along=("component", "time"))
+    component_y = measured("mas", "part of y", along=("component", "time"))
+    component = labels(default=list(COMPONENTS))
 
 
 def not_separated(excitation: GivenSeries | None) -> str | None:
@@ -383,20 +370,20 @@ _COUNTED = "counted over the origins of the table"
 class Skill(Variables, along=("case", "coordinate"), no_error=_COUNTED):
     """Measured errors of past forecasts of polar motion, by number of days after the origin."""
 
-    mean_absolute_error: Value = number("mas", "mean absolute error of the forecast", short="MAE")
-    root_mean_square: Value = number("mas", "root mean square error of the forecast", short="RMS")
-    coverage: Value = number("1", "share of 95 % intervals that contain the observed pole")
-    other_mean_absolute_error: Value = number(
+    mean_absolute_error = number("mas", "mean absolute error of the forecast", short="MAE")
+    root_mean_square = number("mas", "root mean square error of the forecast", short="RMS")
+    coverage = number("1", "share of 95 % intervals that contain the observed pole")
+    other_mean_absolute_error = number(
         "mas",
         "mean absolute error of Bulletin A on the same releases, or of least squares with "
         "autoregression on the same origins",
         short="other MAE",
     )
-    skill_set: Value = words("table and origins", along=("case",))
-    horizon: Value = number("d", "days after the origin", along=("case",))
-    origins: Value = number("1", "number of origins", along=("case",))
-    case: Labels = labels()
-    coordinate: Labels = labels(default=["x", "y"])
+    skill_set = words("table and origins", along=("case",))
+    horizon = number("d", "days after the origin", along=("case",))
+    origins = number("1", "number of origins", along=("case",))
+    case = labels()
+    coordinate = labels(default=["x", "y"])
 
 
 @part
@@ -422,8 +409,8 @@ def skill() -> Skill:
 class BulletinA(Daily):
     """Polar motion x and y as predicted in Bulletin A of the IERS."""
 
-    bulletin_a_x: Pair = measured("arcsec", "x predicted by Bulletin A")
-    bulletin_a_y: Pair = measured("arcsec", "y predicted by Bulletin A")
+    bulletin_a_x = measured("arcsec", "x predicted by Bulletin A")
+    bulletin_a_y = measured("arcsec", "y predicted by Bulletin A")
 
 
 def not_in_file(file: str | Path | GivenSeries, origin: float | None, days: float) -> str | None:
@@ -455,8 +442,8 @@ def bulletin_a(
 class AheadOffsets(Daily):
     """Forecast of the celestial pole offsets."""
 
-    dX: Pair = measured("mas", "X of the celestial pole minus that of IAU 2006/2000A")
-    dY: Pair = measured("mas", "Y of the celestial pole minus that of IAU 2006/2000A")
+    dX = measured("mas", "X of the celestial pole minus that of IAU 2006/2000A")
+    dY = measured("mas", "Y of the celestial pole minus that of IAU 2006/2000A")
 
 
 def offsets_until(file: str | Path, last: float | None) -> PoleSeries:
@@ -467,16 +454,11 @@ def offsets_until(file: str | Path, last: float | None) -> PoleSeries:
 
 def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Predict celestial pole offsets and their half-widths at given dates, shape (n, 2) each."""
-    from earthspin.nutation.core_nutation import predict
-
     return predict(table.mjd, table.x, table.y, table.x_error, table.y_error, mjd)
 
 
 def no_offsets(file: str | Path | GivenSeries, origin: float | None, days: float) -> str | None:
     """Return the reason (text) to omit celestial pole offsets without a forecast, else None."""
-    from earthspin.nutation.core_nutation import LONGEST as FARTHEST
-    from earthspin.nutation.core_nutation import too_short
-
     if isinstance(file, GivenSeries):
         return "polar motion has no celestial pole offsets; name a table"
     try:
@@ -501,7 +483,7 @@ def pole_offsets(
     table = offsets_until(file, float(record.time[-1]))
     time = _days_ahead(record, days, step)
     value, error = (pair.T for pair in predicted_offsets(table, time + MJD))
-    newest = _day(table.mjd[-1] - MJD)
+    newest = date_text(table.mjd[-1] - MJD)
     source = {
         "references": f"IERS {table.name}",
         "comment": f"observations up to {newest}",
@@ -526,20 +508,12 @@ def neglected(excitation: GivenSeries | None) -> Neglected:
     )
 
 
-define_parts(
+forecast = public_call(
     Forecast,
     answer=ahead,
-    sections={
-        "components": components,
-        "skill": skill,
-        "bulletin_a": bulletin_a,
-        "pole_offsets": pole_offsets,
-        "neglected": neglected,
-    },
+    sections=(components, skill, bulletin_a, pole_offsets, neglected),
     parts=(record, predicted),
 )
-
-forecast = public_call(Forecast)
 
 
 def to_iers_table(answer: Answer) -> PoleTable:

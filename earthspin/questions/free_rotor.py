@@ -4,22 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, setting
-from earthspin.engine.variables import Labels, Neglected, Value, labels, number
+from earthspin.engine.question import Question, setting
+from earthspin.engine.variables import Neglected, labels, number
 from earthspin.errors import Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.times import FromStart, Seconds, instants
-from earthspin.rotor.euler import KEYS
+from earthspin.rotor.euler import KEYS, axis_stability
 from earthspin.units import Duration, Numbers, Plain, Whole, quantity
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 @dataclass(frozen=True)
@@ -131,28 +129,24 @@ _SERIES = ("time", "component")
 class Rotation(FromStart, along=_SERIES, error="relative_error"):
     """Angular velocity, angular momentum, attitude and energy of a free body in time."""
 
-    omega_body: Value = number("rad/s", "angular velocity along the principal axes")
-    angular_momentum_body: Value = number("kg m2 / s", "angular momentum along the principal axes")
-    omega_inertial: Value = number(
+    omega_body = number("rad/s", "angular velocity along the principal axes")
+    angular_momentum_body = number("kg m2 / s", "angular momentum along the principal axes")
+    omega_inertial = number(
         "rad/s", "angular velocity along inertial axes, those of the body at t = 0"
     )
-    attitude: Value = number("1", "unit quaternion, body to inertial", along=("time", "quaternion"))
-    energy: Value = number(
-        "J", "kinetic energy of rotation", along=("time",), short="kinetic energy"
-    )
-    relative_error: Value = number(
+    attitude = number("1", "unit quaternion, body to inertial", along=("time", "quaternion"))
+    energy = number("J", "kinetic energy of rotation", along=("time",), short="kinetic energy")
+    relative_error = number(
         "1",
         "95 % half-width of each quantity relative to its largest value, for exact inputs",
         along=(),
     )
-    quaternion: Labels = labels(default=["w", "x", "y", "z"])
+    quaternion = labels(default=["w", "x", "y", "z"])
 
 
 @part(loads=("scipy.special",))
 def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> Rotation:
     """Compute angular velocity, angular momentum, attitude and energy of a free rotor in time."""
-    import xarray as xr
-
     from earthspin.rotor import triaxial
 
     many = {dim for number in (omega, *moments.numbers) for dim in getattr(number, "dims", ())[:1]}
@@ -186,48 +180,35 @@ class Poinsot(
 ):
     """Ellipsoids, polhode and herpolhode of Poinsot's construction, for one free body."""
 
-    inertia_ellipsoid: Value = number("rad/s", "semi-axes of the inertia ellipsoid")
-    momentum_ellipsoid: Value = number(
-        "rad/s", "semi-axes of the ellipsoid of constant angular momentum"
+    inertia_ellipsoid = number("rad/s", "semi-axes of the inertia ellipsoid")
+    momentum_ellipsoid = number("rad/s", "semi-axes of the ellipsoid of constant angular momentum")
+    polhode = number(
+        "rad/s", "path of the angular velocity in the body", along=("polhode_point", "component")
     )
-    polhode: Value = number(
-        "rad/s",
-        "path of the angular velocity in the body",
-        along=("polhode_point", "component"),
-    )
-    polhode_period: Value = number(
-        "s", "period of the polhode", along=(), short="period of the polhode"
-    )
-    invariable_plane_distance: Value = number(
+    polhode_period = number("s", "period of the polhode", along=(), short="period of the polhode")
+    invariable_plane_distance = number(
         "rad/s",
         "distance of the invariable plane from the centre, 2T/L",
         along=(),
         short="distance of the invariable plane",
     )
-    herpolhode: Value = number(
-        "rad/s",
-        "path of the angular velocity in the invariable plane",
-        along=("time", "in_plane"),
+    herpolhode = number(
+        "rad/s", "path of the angular velocity in the invariable plane", along=("time", "in_plane")
     )
-    herpolhode_radius: Value = number(
-        "rad/s", "radii between which the herpolhode runs", along=("bound",)
-    )
-    growth_rate: Value = number(
-        "1/s", "growth rate of a small tilt away from each axis; 0 if stable"
-    )
+    herpolhode_radius = number("rad/s", "radii between which the herpolhode runs", along=("bound",))
+    growth_rate = number("1/s", "growth rate of a small tilt away from each axis; 0 if stable")
     #: Only where the polhode has a period: not on the separatrix, nor where omega stands still.
-    herpolhode_advance: Value | None = number(
+    herpolhode_advance = number(
         "rad", "advance of the herpolhode in one period of the polhode", along=(), default=None
     )
-    in_plane: Labels = labels(default=["x", "y"])
-    bound: Labels = labels(default=["inner", "outer"])
+    in_plane = labels(default=["x", "y"])
+    bound = labels(default=["inner", "outer"])
 
 
 @part(unless=several_starts)
 def poinsot(moments: Moments, omega: FloatArray, instants: FloatArray) -> Poinsot:
     """Compute ellipsoids, polhode and herpolhode of Poinsot's construction for a free rotor."""
     from earthspin.rotor import poinsot as construction
-    from earthspin.rotor.euler import axis_stability
 
     motion = moments.values, omega.tolist()
     path = construction.polhode(*motion)
@@ -253,13 +234,11 @@ def neglected() -> Neglected:
     return Neglected(what="nothing: the question is about a rigid body without torque")
 
 
-define_parts(
+free_rotor = public_call(
     FreeRotor,
-    answer=(free_rotation,),
-    sections={"poinsot": poinsot, "neglected": neglected},
+    answer=free_rotation,
+    sections=(poinsot, neglected),
     parts=(instants,),
     together=("moments", "omega"),
     widest=4096,
 )
-
-free_rotor = public_call(FreeRotor)

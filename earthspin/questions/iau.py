@@ -13,12 +13,8 @@ from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95
 from earthspin.dates import Epochs, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import define_parts
 from earthspin.engine.variables import (
-    Labels,
     Neglected,
-    Pair,
-    Value,
     Variables,
     amplitude,
     labels,
@@ -29,8 +25,8 @@ from earthspin.engine.variables import (
 from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.nutation import analysis
 from earthspin.nutation import budget as flat
-from earthspin.nutation.analysis import ANGLES, polynomials, precession_angles
 from earthspin.nutation.budget import Budget, budget_of
 from earthspin.progress import progress
 from earthspin.questions.observed_pole import ObservedSizes, ObservedSky, observed_sky
@@ -52,10 +48,11 @@ from earthspin.questions.path import (
     rigid,
     steady_figure,
 )
-from earthspin.questions.pulls import PULLS, Pulls, start_of
+from earthspin.questions.pulls import PULLS, Pulls
 from earthspin.questions.reasons import neglected_rates
 from earthspin.questions.sky import unmeasured
 from earthspin.questions.times import Dated
+from earthspin.sky import iau
 
 if TYPE_CHECKING:
     from earthspin.nutation.response import Response
@@ -75,11 +72,6 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
         adds sections: `residuals` (computed pole minus that of the IAU over `time`), the
         largest nutations, the free core nutation, the angles of precession, and H and C as
         implied by the rate of the IAU.
-
-    Raises
-    ------
-    EarthspinError
-        Whatever is wrong, in one line.
 
     Examples
     --------
@@ -113,87 +105,75 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
 
 @part
 def rates_by_effect(
-    pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
+    pole_analysis: PoleComparison, pulls: Pulls, effects: tuple[str, ...]
 ) -> Budget:
     """Compute the contribution of each effect to the precession rates at J2000.0.
 
     Each effect is switched off in turn.
     """
-    from earthspin.sky.iau import precession_rates
-
     done, on = pole_analysis, rigid(effects)
     without = {}
     with progress("budget", len(on)) as advance:
         for effect in on:
             rest = [e for e in on if e != effect]
-            path = path_over(body, pulls, rest, done.start, done.days)
+            path = path_over(pulls, rest, done.start, done.days)
             without[effect] = done.analysis.secular(steady_figure(path, done.days))
             advance(1)
     # What is off has no share, nor has a transfer function: T = 1 at rest in space.
     off = [effect for effect in EFFECTS if effect not in on]
-    u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    return budget_of(done.ours, done.theirs, without, off, precession_rates(0.0).psi_a, u_h)
+    u_h = pulls.body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    return budget_of(done.ours, done.theirs, without, off, iau.precession_rates(0.0).psi_a, u_h)
 
 
 _PUBLISHED = "the table that it stands in gives none"
 _ADOPTED = "a model that was adopted, exact by definition"
 
 
-class EffectRates(Variables):
+class EffectRates(Variables, no_error="a measure of error itself"):
     """Contribution of each effect to the rates of psi_A and omega_A, and the unexplained rest."""
 
-    psi_rate: Pair = measured(
+    psi_rate = measured(
         "arcsec/yr",
         "contribution to the rate of psi_A at J2000.0, by switching off",
         along=("effect",),
     )
-    psi_rate_published: Value = number(
+    psi_rate_published = number(
         "arcsec/yr",
         "published contribution; 0 where the table has none",
         along=("effect",),
         no_error=_PUBLISHED,
     )
-    omega_rate: Pair = measured(
-        "arcsec/yr", "contribution to the rate of omega_A", along=("effect",)
-    )
-    psi_rate_total: Pair = measured("arcsec/yr", "computed rate of psi_A at J2000.0")
-    omega_rate_total: Pair = measured("arcsec/yr", "computed rate of omega_A at J2000.0")
-    psi_rate_iau: Value = number(
-        "arcsec/yr", "rate of psi_A at J2000.0, IAU 2006", no_error=_ADOPTED
-    )
-    omega_rate_iau: Value = number(
-        "arcsec/yr", "rate of omega_A at J2000.0, IAU 2006", no_error=_ADOPTED
-    )
-    closure: Value = number(
+    omega_rate = measured("arcsec/yr", "contribution to the rate of omega_A", along=("effect",))
+    psi_rate_total = measured("arcsec/yr", "computed rate of psi_A at J2000.0")
+    omega_rate_total = measured("arcsec/yr", "computed rate of omega_A at J2000.0")
+    psi_rate_iau = number("arcsec/yr", "rate of psi_A at J2000.0, IAU 2006", no_error=_ADOPTED)
+    omega_rate_iau = number("arcsec/yr", "rate of omega_A at J2000.0, IAU 2006", no_error=_ADOPTED)
+    closure = number(
         "arcsec/yr",
         "computed rate plus the published non-linear term minus the IAU's rate",
         error="psi_rate_total_error",
     )
-    omega_closure: Value = number(
+    omega_closure = number(
         "arcsec/yr", "computed rate of omega_A minus the IAU's", error="omega_rate_total_error"
     )
-    omega_closure_with_tides: Value = number(
+    omega_closure_with_tides = number(
         "arcsec/yr",
         "the same with the published effect of tides in obliquity",
         error="omega_rate_total_error",
     )
-    closure_over_flattening: Value = number(
-        "1",
-        "closure over what one standard deviation of H makes of the rate",
-        no_error="a measure of error itself",
+    closure_over_flattening = number(
+        "1", "closure over what one standard deviation of H makes of the rate"
     )
-    closure_over_uncertainty: Value = number(
-        "1",
-        "closure over one standard deviation of H and the error of the analysis together",
-        no_error="a measure of error itself",
+    closure_over_uncertainty = number(
+        "1", "closure over one standard deviation of H and the error of the analysis together"
     )
-    psi_rate_analysis_error: Value = number(
+    psi_rate_analysis_error = number(
         "arcsec/yr", "error of the analysis, found from the rate of the IAU's own pole"
     )
-    omega_rate_analysis_error: Value = number(
+    omega_rate_analysis_error = number(
         "arcsec/yr", "error of the analysis, found from the IAU's rate of omega_A"
     )
-    effect: Labels = labels()
+    effect = labels()
 
 
 @part
@@ -263,28 +243,24 @@ def differences(
     nonrigid_shift: Shift,
     pulls: Pulls,
     epochs: Epochs,
-    body: Body,
     effects: tuple[str, ...],
     predicted_shift: Shift | None = None,
 ) -> Differences:
     """Compute time series of computed pole minus IAU pole, for different sets of effects."""
-    from earthspin.nutation.analysis import complex_nutation, without_line
-    from earthspin.sky import iau
-
     done = pole_analysis
     days, ends, iau_eta = iau_nutation(pulls, epochs)
-    own_start, _ = start_of(body, pulls)
+    body = pulls.body
 
     def axes_of(on: list[str], start: FloatArray) -> dict[str, FloatArray]:
-        return path_over(body, pulls, on, start, ends).at(days * DAY, semidiurnal=False)
+        return path_over(pulls, on, start, ends).at(days * DAY, semidiurnal=False)
 
     def eta_of(pole: FloatArray) -> ComplexArray:
-        return complex_nutation(iau.nutation_of(pole, days))
+        return analysis.complex_nutation(iau.nutation_of(pole, days))
 
     # Each model as `pole` returns it, start included.
     models = {
-        "first-order": eta_of(axes_of([], own_start)["angular_momentum"]),
-        "rigid": eta_of(axes_of(rigid(effects), own_start)["figure"]),
+        "first-order": eta_of(axes_of([], pulls.start)["angular_momentum"]),
+        "rigid": eta_of(axes_of(rigid(effects), pulls.start)["figure"]),
     }
     from_mean_pole = axes_of(rigid(effects), done.start)
     for name, shift in (("nonrigid", nonrigid_shift), ("predicted", predicted_shift)):
@@ -302,7 +278,7 @@ def differences(
         days=days,
         models=tuple(models),
         plain=plain,
-        fitted=without_line(centuries, plain.reshape(days.size, -1)).reshape(plain.shape),
+        fitted=analysis.without_line(centuries, plain.reshape(days.size, -1)).reshape(plain.shape),
         chosen=2 if NONRIGID.name in effects else 1,
         error=error,
         unfitted_error=np.hypot(error, precession),
@@ -319,18 +295,18 @@ _UNFITTED_HALF_WIDTH = "95 % half-width of a residual without a fit, from H and 
 class Residuals(Dated, error="residual_error"):
     """Time series of computed pole minus IAU pole, with and without a fitted trend removed."""
 
-    dpsi_sineps: Value = number("mas", _LONGITUDE)
-    deps: Value = number("mas", _OBLIQUITY)
-    residual_error: Value = number("mas", _HALF_WIDTH, along=())
-    dpsi_sineps_unfitted: Value = number(
+    dpsi_sineps = number("mas", _LONGITUDE)
+    deps = number("mas", _OBLIQUITY)
+    residual_error = number("mas", _HALF_WIDTH, along=())
+    dpsi_sineps_unfitted = number(
         "mas",
         "computed pole minus the IAU's in longitude times sin(eps), nothing removed",
         error="unfitted_error",
     )
-    deps_unfitted: Value = number(
+    deps_unfitted = number(
         "mas", "computed pole minus the IAU's in obliquity, nothing removed", error="unfitted_error"
     )
-    unfitted_error: Value = number("mas", _UNFITTED_HALF_WIDTH)
+    unfitted_error = number("mas", _UNFITTED_HALF_WIDTH)
 
 
 @part
@@ -349,30 +325,24 @@ def residuals(differences: Differences) -> Residuals:
     )
 
 
-class ResidualSizes(Variables, along=("model", "direction")):
+class ResidualSizes(Variables, along=("model", "direction"), error="residual_size_error"):
     """Root mean square and maximum of computed minus IAU pole, for different sets of effects."""
 
-    residual_rms: Value = number(
-        "mas",
-        "root mean square after removal of a constant and a rate",
-        error="residual_size_error",
-        short="rms",
+    residual_rms = number(
+        "mas", "root mean square after removal of a constant and a rate", short="rms"
     )
-    residual_maximum: Value = number(
-        "mas",
-        "largest after removal of a constant and a rate",
-        error="residual_size_error",
-        short="largest",
+    residual_maximum = number(
+        "mas", "largest after removal of a constant and a rate", short="largest"
     )
-    residual_rms_unfitted: Value = number(
+    residual_rms_unfitted = number(
         "mas",
         "root mean square of the poles as `pole` returns them, without a fit",
         short="rms without a fit",
     )
-    residual_size_error: Value = number("mas", _HALF_WIDTH, along=())
-    residual_rms_unfitted_error: Value = number("mas", _UNFITTED_HALF_WIDTH, along=())
-    model: Labels = labels()
-    direction: Labels = labels(default=["dpsi_sineps", "deps"])
+    residual_size_error = number("mas", _HALF_WIDTH, along=())
+    residual_rms_unfitted_error = number("mas", _UNFITTED_HALF_WIDTH, along=())
+    model = labels()
+    direction = labels(default=["dpsi_sineps", "deps"])
 
 
 @part
@@ -403,111 +373,99 @@ _FIT = "part of a fit; left_in_phase and left_out_of_phase are its residuals"
 class Nutation(Variables, along=("term",)):
     """Largest circular nutation terms of the computed pole and of the IAU pole."""
 
-    period: Value = number(
+    period = number(
         "d", "period of the circle in space, negative if retrograde", no_error=_ARGUMENTS
     )
-    rigid: Pair = amplitude("mas", "computed rigid amplitude", error="amplitude_error")
-    iau: Pair = amplitude("mas", MERGED, error="amplitude_error")
-    amplitude_error: Value = number(
+    rigid = amplitude("mas", "computed rigid amplitude", error="amplitude_error")
+    iau = amplitude("mas", MERGED, error="amplitude_error")
+    amplitude_error = number(
         "mas", "95 % half-width of an amplitude, without the neighbour's share"
     )
-    neighbour: Value = words(NEIGHBOUR)
-    neighbour_in_phase: Value = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
-    neighbour_out_of_phase: Value = number(
-        "mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES
-    )
-    ratio: Pair = amplitude(
+    neighbour = words(NEIGHBOUR)
+    neighbour_in_phase = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
+    neighbour_out_of_phase = number("mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES)
+    ratio = amplitude(
         "1", "ratio of IAU 2000A to the computed rigid amplitude", error="ratio_error"
     )
-    ratio_error: Value = number("1", "95 % half-width of the ratio")
-    transfer: Pair = amplitude(
+    ratio_error = number("1", "95 % half-width of the ratio")
+    transfer = amplitude(
         "1",
         "fitted resonance formula",
         no_error=_FIT,
         comment="the prograde annual term is not fitted: IAU 2000A includes an atmospheric tide of "
         "0.11 mas there",
     )
-    left: Pair = amplitude(
+    left = amplitude(
         "uas",
         "IAU 2000A minus response times rigid amplitude",
         no_error="a measure of error itself; errors common to both analyses cancel",
     )
-    term: Labels = labels()
+    term = labels()
 
 
 @part
 def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation:
     """Compare the thirty largest circular nutation terms of the computed pole and the IAU pole."""
-    from earthspin.nutation.analysis import phases
-
     order, terms = largest_terms(pole_analysis, LARGEST)
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
     rigid, real = ours.amplitude[order], theirs.amplitude[order]
     transfer, ratio = core_response.transfer(ours.frequency[order]), real / rigid
     return Nutation(
         **terms,
-        rigid=phases(rigid),
+        rigid=analysis.phases(rigid),
         ratio=(ratio.real, ratio.imag),
         ratio_error=np.hypot(1, np.abs(ratio)) * terms["amplitude_error"] / np.abs(rigid),
         transfer=(transfer.real, transfer.imag),
-        left=phases(real - transfer * rigid),
+        left=analysis.phases(real - transfer * rigid),
     )
 
 
-_LEFT = "part of a fit; its residuals measure it"
 _ABSORBING = "the response that absorbs what it can"
 
 
-class Core(Variables):
+class Core(Variables, no_error="part of a fit; its residuals measure it"):
     """Parameters of the free core nutation from a fit of the resonance formula to IAU 2000A."""
 
-    core_nutation_period: Pair = measured(
+    core_nutation_period = measured(
         "d",
         "period of the free core nutation in space",
         comment="IAU 2000A is the product of a response and a rigid series, so that the fit only "
         "recovers what was built into it; it is no new measurement",
     )
-    core_nutation_quality: Pair = measured("1", "quality factor of the free core nutation")
-    strength_real: Value = number(
-        "1", "fitted strength, real part", along=("mode",), no_error=_LEFT
-    )
-    strength_imaginary: Value = number(
-        "1", "fitted strength, imaginary part", along=("mode",), no_error=_LEFT
-    )
-    core_nutation_period_absorbing: Value = number(
+    core_nutation_quality = measured("1", "quality factor of the free core nutation")
+    strength_real = number("1", "fitted strength, real part", along=("mode",))
+    strength_imaginary = number("1", "fitted strength, imaginary part", along=("mode",))
+    core_nutation_period_absorbing = number(
         "d",
         f"the same by {_ABSORBING}",
         no_error="short of core_nutation_period by what the response absorbs",
     )
-    response_rms: Value = number(
-        "uas", f"root mean square of the residuals of {_ABSORBING}", no_error=_LEFT
-    )
-    response_maximum: Value = number("uas", f"largest residual of {_ABSORBING}", no_error=_LEFT)
-    apart_rms: Value = number(
+    response_rms = number("uas", f"root mean square of the residuals of {_ABSORBING}")
+    response_maximum = number("uas", f"largest residual of {_ABSORBING}")
+    apart_rms = number(
         "uas",
         "root mean square of the residuals of the response that may not absorb additive terms, "
         "these taken away, the prograde year left out",
-        no_error=_LEFT,
     )
-    added_period: Value = number(
+    added_period = number(
         "d",
         "period of the circle in space, negative if retrograde",
         along=("added_to",),
         no_error=_ARGUMENTS,
     )
-    added: Pair = amplitude(
+    added = amplitude(
         "uas", "IAU 2000A less that response", along=("added_to",), error="added_error"
     )
-    added_error: Value = number(
+    added_error = number(
         "uas",
         "95 % half-width of what is added, from the period of the core nutation",
         along=("added_to",),
     )
-    added_published: Pair = amplitude(
+    added_published = amplitude(
         "uas", "what its authors add to a response", along=("added_to",), no_error=_PUBLISHED
     )
-    mode: Labels = labels(default=["constant", "chandler", "core", "inner-core"])
-    added_to: Labels = labels()
+    mode = labels(default=["constant", "chandler", "core", "inner-core"])
+    added_to = labels()
 
 
 @part
@@ -515,7 +473,6 @@ def core(
     pole_analysis: PoleComparison, core_response: Response, response_apart: ResponseFit
 ) -> Core:
     """Return the parameters of the free core nutation fitted to IAU 2000A, and fit residuals."""
-    from earthspin.nutation.analysis import phases, term_names
     from earthspin.nutation.response import added_half_width
 
     apart, alone = response_apart, response_apart.response
@@ -533,70 +490,71 @@ def core(
         response_maximum=float(np.max(left)),
         apart_rms=float(np.sqrt(np.mean(np.abs(beside) ** 2))),
         added_period=2 * np.pi / ours.frequency[rows],
-        added=phases(apart.left[rows]),
+        added=analysis.phases(apart.left[rows]),
         added_error=added_half_width(alone, ours.frequency[rows], ours.amplitude[rows]),
-        added_published=phases(apart.added[rows]),
-        added_to=term_names(ours.multiples[rows]),
+        added_published=analysis.phases(apart.added[rows]),
+        added_to=analysis.term_names(ours.multiples[rows]),
     )
 
 
 class Angles(Variables, along=("angle", "degree")):
     """Polynomial coefficients of the precession angles: computed values and those of IAU 2006."""
 
-    angle_coefficient: Value = number(
+    angle_coefficient = number(
         "arcsec",
         "coefficient of (t/century)^degree, computed pole, ecliptic of IAU 2006",
         comment="eps_A, chi_A and p_A need the ecliptic of date, which torques do not give",
     )
-    angle_coefficient_iau: Value = number(
+    angle_coefficient_iau = number(
         "arcsec",
         "coefficient of (t/century)^degree, IAU 2006, fitted in the same way",
         no_error=_ADOPTED,
     )
-    angle_coefficient_error: Value = number(
+    angle_coefficient_error = number(
         "arcsec", "95 % half-width of the computed coefficients, from the analysis and H"
     )
-    angle: Labels = labels()
-    degree: Labels = labels("power of time")
+    angle = labels()
+    degree = labels("power of time")
 
 
 @part
 def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
     """Fit polynomials to the precession angles of the computed pole and the IAU pole."""
-    from earthspin.nutation.analysis import SLOW_DEGREE
-    from earthspin.sky import iau
-
     t = pole_analysis.days / DAYS_PER_CENTURY
     ecliptic = iau.ecliptic_of_date(pole_analysis.days)
     # what the analysis makes of the pole of IAU 2006 shows what it misses
     ours, again = (
-        polynomials(t, precession_angles(*path.at(t), ecliptic), SLOW_DEGREE)
+        analysis.polynomials(
+            t, analysis.precession_angles(*path.at(t), ecliptic), analysis.SLOW_DEGREE
+        )
         for path in (pole_analysis.ours, pole_analysis.theirs)
     )
-    theirs = polynomials(t, iau.precession_angles(pole_analysis.days), SLOW_DEGREE)
+    theirs = analysis.polynomials(
+        t, iau.precession_angles(pole_analysis.days), analysis.SLOW_DEGREE
+    )
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    of_h = NORMAL_95 * u_h * np.abs(ours) * (np.arange(SLOW_DEGREE + 1) > 0)
+    of_h = NORMAL_95 * u_h * np.abs(ours) * (np.arange(analysis.SLOW_DEGREE + 1) > 0)
     return Angles(
         angle_coefficient=ours,
         angle_coefficient_iau=theirs,
         angle_coefficient_error=np.hypot(again - theirs, of_h),
-        angle=list(ANGLES),
-        degree=np.arange(SLOW_DEGREE + 1.0),
+        angle=list(analysis.ANGLES),
+        degree=np.arange(analysis.SLOW_DEGREE + 1.0),
     )
 
 
 class Inferred(Variables, along=("origin",)):
     """Dynamical flattening H and C/(M a2) of the Earth, according to three sources."""
 
-    flattening: Pair = measured(
+    flattening = measured(
         "1",
         "dynamical flattening H",
         short="H = (C-A)/C",
         comment="PREM gives C from densities, and its H is J2 divided by that C/(M a2); the "
         "observed moment was among its data",
     )
-    polar_moment: Pair = measured("1", "C/(M a2)", short="C/(M a2)")
-    origin: Labels = labels()
+    polar_moment = measured("1", "C/(M a2)", short="C/(M a2)")
+    origin = labels()
 
 
 @part
@@ -625,20 +583,18 @@ def neglected(effects: tuple[str, ...]) -> Neglected:
     return neglected_rates(rigid(effects))
 
 
-define_parts(
+compare_iau = public_call(
     IAU,
     answer=budget,
-    sections={
-        "residuals": residuals,
-        "residual_sizes": residual_sizes,
-        "observed": observed,
-        "nutation": nutation,
-        "core": core,
-        "angles": angles,
-        "inferred_flattening": inferred_flattening,
-        "neglected": neglected,
-    },
+    sections=(
+        residuals,
+        residual_sizes,
+        observed,
+        nutation,
+        core,
+        angles,
+        inferred_flattening,
+        neglected,
+    ),
     parts=(*PULLS, rates_by_effect, core_response, *INTERIOR, differences, observed_sky),
 )
-
-compare_iau = public_call(IAU)

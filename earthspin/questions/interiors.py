@@ -11,15 +11,9 @@ from earthspin.bodies.kinds import Layers
 from earthspin.engine.part import part
 from earthspin.engine.question import Question
 from earthspin.errors import nearest
+from earthspin.interior import named
 from earthspin.interior.layers import LayeredBody
-from earthspin.interior.named import (
-    ANELASTIC_EXPONENT,
-    CORE_NUTATION,
-    INTERIORS,
-    K_CMB_OUT_OF_PHASE,
-    Interior,
-    with_layers,
-)
+from earthspin.interior.named import Interior
 from earthspin.interior.ocean_and_anelasticity import FES2004_SOURCE
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import ladder
@@ -44,8 +38,8 @@ def interior_of(body: Body) -> Interior | None:
     own = body.interior
     if isinstance(own, LayeredBody):
         usual = BODIES[body.name].interior if body.is_as_named else None
-        return with_layers(own, INTERIORS.get(str(usual)))
-    return INTERIORS.get(str(own))
+        return named.with_layers(own, named.INTERIORS.get(str(usual)))
+    return named.INTERIORS.get(str(own))
 
 
 def of_another_body(layers: LayeredBody, body: Body) -> str | None:
@@ -73,8 +67,8 @@ def refuse_unknown(question: Question, body: Body) -> None:
         If the name is unknown; the message suggests the nearest one.
     """
     name = body.interior
-    if isinstance(name, str) and name not in ("none", *INTERIORS):
-        raise question.error("body.interior", name, nearest(name, INTERIORS))
+    if isinstance(name, str) and name not in ("none", *named.INTERIORS):
+        raise question.error("body.interior", name, nearest(name, named.INTERIORS))
 
 
 def no_interior(body: Body) -> str | None:
@@ -117,10 +111,9 @@ def layers(interior: LayeredBody | None, body: Body) -> LayeredBody:
 
 #: The rung that is used if a question needs a single predicted response.
 CHOSEN = "core-ellipticity"
+_OF_CORE = (named.CORE_NUTATION.source, named.K_CMB_OUT_OF_PHASE.source)
 #: Sources of the numbers that a prediction uses besides the layers.
-SOURCES = "; ".join(
-    (CORE_NUTATION.source, K_CMB_OUT_OF_PHASE.source, FES2004_SOURCE, ANELASTIC_EXPONENT.source)
-)
+SOURCES = "; ".join((*_OF_CORE, FES2004_SOURCE, named.ANELASTIC_EXPONENT.source))
 
 
 @dataclass(frozen=True)
@@ -197,4 +190,4 @@ def predict(body: Body, coupling: bool, anelastic_exponent: float) -> Prediction
 @part(unless=no_layers)
 def prediction(body: Body) -> Prediction:
     """Predict the response of the interior from its layers."""
-    return predict(body, False, ANELASTIC_EXPONENT.value)
+    return predict(body, False, named.ANELASTIC_EXPONENT.value)

@@ -4,25 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Any, Self
+from typing import Annotated, Any, Self
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import MOON, SUN, Body, in_a_sentence
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
+from earthspin.dates import YearList, YearSpan, YearStep, grid
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import define_parts, key
-from earthspin.engine.variables import (
-    Labels,
-    Neglected,
-    Pair,
-    Value,
-    Variables,
-    labels,
-    measured,
-    number,
-)
+from earthspin.engine.question import key
+from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, of_perturber
@@ -41,10 +34,6 @@ from earthspin.sky.orbit_table import OrbitTable, shipped
 from earthspin.torque import rates
 from earthspin.torque.gravity import dot
 from earthspin.units import FileName, Number, Plain, pack, unpack
-from earthspin.years import YearList, YearSpan, YearStep, grid
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 # --- orbits --------------------------------------------------------------------------------------
 
@@ -53,7 +42,8 @@ if TYPE_CHECKING:
 OWN = "own"
 
 
-#: Names of the arrays of a table in a scene.
+#: Names of the words and of the arrays of a table in a scene.
+_WORDS = ("name", "source", "sha256")
 _ARRAYS = ("edges", "coefficients", "axes", "errors")
 
 
@@ -77,8 +67,8 @@ class OrbitChoice(FileName):
         """Return a word or path unchanged; convert an `OrbitTable` to a dict of all its numbers."""
         if isinstance(value, str):
             return value
-        numbers = {name: pack(getattr(value, name)) for name in _ARRAYS}
-        return {"name": value.name, "source": value.source, "sha256": value.sha256} | numbers
+        words = {name: getattr(value, name) for name in _WORDS}
+        return words | {name: pack(getattr(value, name)) for name in _ARRAYS}
 
     def begins(self, head: bytes) -> bool:
         """Return True if the first bytes `head` begin a NumPy archive or a text table."""
@@ -87,7 +77,7 @@ class OrbitChoice(FileName):
 
 def _table_of(table: Mapping[str, Any], where: Where) -> OrbitTable:
     """Build an `OrbitTable` from the dict in which a scene file stores it."""
-    wanted = {"name", "source", "sha256", *_ARRAYS}
+    wanted = {*_WORDS, *_ARRAYS}
     if set(table) != wanted:
         raise where.error(sorted(table), f"an orbit table needs {', '.join(sorted(wanted))}")
     edges, coefficients, axes, errors = (unpack(table[name], where) for name in _ARRAYS)
@@ -95,15 +85,8 @@ def _table_of(table: Mapping[str, Any], where: Where) -> OrbitTable:
     shapes = coefficients.shape[:2] == (4, windows) and errors.shape == (2, windows)
     if not shapes or axes.shape != (3, 3) or coefficients.ndim != 3:
         raise where.error("a table", "the shapes of its arrays do not fit together")
-    return OrbitTable(
-        name=str(table["name"]),
-        edges=edges,
-        coefficients=coefficients,
-        axes=axes,
-        source=str(table["source"]),
-        errors=errors,
-        sha256=str(table["sha256"]),
-    )
+    name, source, sha256 = (str(table[key]) for key in _WORDS)
+    return OrbitTable(name, edges, coefficients, axes, source, errors, sha256)
 
 
 @part
@@ -155,8 +138,8 @@ class LongTerm(
 
     Raises
     ------
-    EarthspinError
-        Whatever is wrong, in one line; times outside the orbit's table are refused.
+    CoverageError
+        If times lie outside the table of the orbit.
 
     Examples
     --------
@@ -187,18 +170,14 @@ class LongTerm(
     )
     j2_rate: Annotated[float, Number("1/s", "-8.8e-16 1/s")] | None = key(
         None,
-        doc=(
-            "relative rate of J2 at J2000.0, which decays from 2 to 10 kyr; 0 switches it "
-            "off; that of the body if not given"
-        ),
+        doc="relative rate of J2 at J2000.0, which decays from 2 to 10 kyr; 0 switches it off; "
+        "that of the body if not given",
     )
     obliquity_shift: Shift = key("0 deg", doc="change of the initial obliquity at J2000.0")
     longitude_shift: Shift = key(
         "0 deg",
-        doc=(
-            "rotation of the initial axis about the normal of the orbit, in the direction "
-            "of the orbital motion"
-        ),
+        doc="rotation of the initial axis about the normal of the orbit, in the direction of "
+        "the orbital motion",
     )
 
     @property
@@ -292,10 +271,7 @@ def numbers(
 
 @part
 def strength(
-    numbers: SideBySide,
-    mean_torques: MeanTorques,
-    body: Body,
-    orbit_table: OrbitTable,
+    numbers: SideBySide, mean_torques: MeanTorques, body: Body, orbit_table: OrbitTable
 ) -> Strength:
     """Compute the constant of precession at J2000.0, and parameters of its change in time.
 
@@ -394,56 +370,40 @@ def readings(solved: solutions.Solved, wanted: FloatArray, body: Body) -> readin
 class LongTermSeries(FromStart, along=("epoch",)):
     """Obliquity, precession, eccentricity, poles and precession rates at every epoch."""
 
-    obliquity: Pair = measured(
+    obliquity = measured(
         "deg",
         "angle from the orbit's normal to the spin axis",
         comment="half-widths from method, orbit, start, and the assumed uncertainty of tides and "
         "figure in the past",
     )
-    longitude_of_perihelion: Pair = measured(
+    longitude_of_perihelion = measured(
         "deg", "longitude of perihelion from the moving equinox, without jumps"
     )
-    general_precession: Pair = measured(
-        "deg", "p_A, precession of the equinox along the moving orbit"
-    )
-    psi_A: Pair = measured("deg", "precession of the equator along the orbit of J2000.0")
-    omega_A: Pair = measured("deg", "inclination of the equator to the orbit of J2000.0")
-    eccentricity: Pair = measured("1", "eccentricity of the orbit")
-    climatic_precession: Pair = measured(
+    general_precession = measured("deg", "p_A, precession of the equinox along the moving orbit")
+    psi_A = measured("deg", "precession of the equator along the orbit of J2000.0")
+    omega_A = measured("deg", "inclination of the equator to the orbit of J2000.0")
+    eccentricity = measured("1", "eccentricity of the orbit")
+    climatic_precession = measured(
         "1", "eccentricity times the sine of the longitude of perihelion"
     )
-    coprecession: Pair = measured(
-        "1", "eccentricity times the cosine of the longitude of perihelion"
+    coprecession = measured("1", "eccentricity times the cosine of the longitude of perihelion")
+    pole = number("1", "unit vector of the spin axis", along=("epoch", "component"), frame="GCRS")
+    pole_error = number("arcsec", "95 % half-width of the direction of the pole")
+    ecliptic_pole = number(
+        "1", "unit normal of the orbit", along=("epoch", "component"), frame="GCRS"
     )
-    pole: Value = number(
-        "1",
-        "unit vector of the spin axis",
-        along=("epoch", "component"),
-        error="pole_error",
-        frame="GCRS",
-    )
-    pole_error: Value = number("arcsec", "95 % half-width of the direction of the pole")
-    ecliptic_pole: Value = number(
-        "1",
-        "unit normal of the orbit",
-        along=("epoch", "component"),
-        error="ecliptic_pole_error",
-        frame="GCRS",
-    )
-    ecliptic_pole_error: Value = number(
-        "arcsec", "95 % half-width of the direction of the orbit's normal"
-    )
-    precession_rate: Pair = measured(
+    ecliptic_pole_error = number("arcsec", "95 % half-width of the direction of the orbit's normal")
+    precession_rate = measured(
         "arcsec/yr",
         "rate of precession in longitude along the moving orbit",
         along=("perturber", "epoch"),
     )
-    precession_period: Pair = measured(
+    precession_period = measured(
         "yr", "period of one full turn at that rate", along=("perturber", "epoch"), short="period"
     )
-    epoch: Labels = labels("Julian years from J2000.0 (TDB)", "yr")
-    component: Labels = labels(default=["x", "y", "z"])
-    perturber: Labels = labels()
+    epoch = labels("Julian years from J2000.0 (TDB)", "yr")
+    component = labels(default=["x", "y", "z"])
+    perturber = labels()
 
 
 #: Numbers that are read off the solution by their names.
@@ -489,11 +449,8 @@ def series(
             perturber=names,
         )
         .with_attributes(
-            obliquity={
-                "orbit": orbit_table.source,
-                "orbit_of": orbit_table.name,
-                **north_note(body),
-            },
+            obliquity=north_note(body)
+            | {"orbit": orbit_table.source, "orbit_of": orbit_table.name},
             pole_error={
                 "method": f"Newton's method in time, {solved.path.windows.order} nodes in each "
                 f"window of {window:.0f} yr",
@@ -516,11 +473,11 @@ _ONE_AT_A_TIME = (
 class Budget(Variables, along=("cause", "epoch"), no_error="a share of an error"):
     """Contribution of each cause to the errors of obliquity, perihelion and pole."""
 
-    obliquity_share: Value = number("arcsec", "share of the error of the obliquity")
-    longitude_share: Value = number("deg", "share of the error of the longitude of perihelion")
-    pole_share: Value = number("arcsec", "share of the error of the pole's direction")
-    cause: Labels = labels()
-    epoch: Labels = labels()
+    obliquity_share = number("arcsec", "share of the error of the obliquity")
+    longitude_share = number("deg", "share of the error of the longitude of perihelion")
+    pole_share = number("arcsec", "share of the error of the pole's direction")
+    cause = labels()
+    epoch = labels()
 
     def dataset(self) -> xr.Dataset:
         """Build the Dataset of error contributions, with a comment that explains these numbers."""
@@ -548,15 +505,13 @@ def budget(readings: reading.Readings, numbers: SideBySide, series: xr.Dataset) 
 class Matrices(FromStart, along=("epoch", "axis", "component"), error="matrix_error"):
     """Precession matrices from the GCRS to mean equator and equinox of date."""
 
-    matrix: Value = number(
-        "1", "precession matrix from the GCRS to mean equator and equinox of date"
-    )
-    matrix_error: Value = number(
+    matrix = number("1", "precession matrix from the GCRS to mean equator and equinox of date")
+    matrix_error = number(
         "arcsec", "95 % half-width of the directions of equinox and pole", along=("epoch",)
     )
-    epoch: Labels = labels()
-    axis: Labels = labels(default=["equinox", "90 deg east", "pole"])
-    component: Labels = labels(default=["x", "y", "z"])
+    epoch = labels()
+    axis = labels(default=["equinox", "90 deg east", "pole"])
+    component = labels(default=["x", "y", "z"])
 
 
 @part
@@ -587,19 +542,14 @@ def neglected() -> Neglected:
     )
 
 
-define_parts(
+long_term = public_call(
     LongTerm,
-    answer=(series,),
-    sections={"budget": budget, "matrices": matrices, "neglected": neglected},
-    parts=(
-        places, sky, stretch, wanted, *MEANS, orbit_table,
-        numbers, strength, solved, readings,
-    ),
+    answer=series,
+    sections=(budget, matrices, neglected),
+    parts=(places, sky, stretch, wanted, *MEANS, orbit_table, numbers, strength, solved, readings),
     together=(
         *("body", "perturbers", "tides", "ellipticity", "j2_rate"),
         *("obliquity_shift", "longitude_shift"),
     ),
     widest=64,
-)  # fmt: skip
-
-long_term = public_call(LongTerm)
+)

@@ -11,8 +11,8 @@ from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, key
-from earthspin.engine.variables import Labels, Neglected, Value, Variables, labels, number
+from earthspin.engine.question import Question, key
+from earthspin.engine.variables import Neglected, Variables, labels, number
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import Yielding, elastic, yielding
 from earthspin.interior.modes import free_modes, mode_period, numbers_of, parts_of
@@ -41,8 +41,8 @@ class LoveNumbers(
 
     Raises
     ------
-    EarthspinError
-        Whatever is wrong, in one line; among it a liquid surface.
+    SceneError
+        If the layers of the body are not known, or its surface is liquid.
 
     Examples
     --------
@@ -64,8 +64,7 @@ class LoveNumbers(
     interior: LayeredInterior | None = key(None, doc="layers; those of the body if not given")
     body: Body = key(EARTH, doc="body with the layers, the spin and the dynamical flattening")
     period: Annotated[float, Number("s", "1 d", low=200.0, high=1e12)] | None = key(
-        None,
-        doc="period of the deformation; elastic at the seismic period of 1 s if not given",
+        None, doc="period of the deformation; elastic at the seismic period of 1 s if not given"
     )
     anelastic_exponent: Annotated[float, Number("", "0.09", low=0.0, high=0.5)] = key(
         ANELASTIC_EXPONENT.value, doc="exponent of frequency in the quality factor"
@@ -90,13 +89,13 @@ def _numbers(response: Yielding) -> ComplexArray:
 class Love(Variables, along=("love",), no_error=FROM_LAYERS):
     """Love numbers at one period of the tide."""
 
-    love_number: Value = number("1", "Love number of degree two", short="real part")
-    love_number_imaginary: Value = number(
+    love_number = number("1", "Love number of degree two", short="real part")
+    love_number_imaginary = number(
         "1",
         "imaginary part of the Love number, negative where the body lags",
         short="imaginary part",
     )
-    love: Labels = labels(default=list(_FIELDS))
+    love = labels(default=list(_FIELDS))
 
 
 @part
@@ -119,13 +118,11 @@ PERIODS = np.geomspace(200.0, 30 * JULIAN_YEAR, 25)
 class ByPeriod(Variables, along=("love", "love_period"), no_error=FROM_LAYERS):
     """Complex Love numbers for several periods of the tide, and those of the elastic body."""
 
-    elastic_love_number: Value = number("1", "Love number of the elastic body", along=("love",))
-    love_number_by_period: Value = number("1", "Love number")
-    love_number_by_period_imaginary: Value = number(
-        "1", "imaginary part, negative where the body lags"
-    )
-    love: Labels = labels(default=list(_FIELDS))
-    love_period: Labels = labels("period of what deforms the body", "d", default=PERIODS / DAY)
+    elastic_love_number = number("1", "Love number of the elastic body", along=("love",))
+    love_number_by_period = number("1", "Love number")
+    love_number_by_period_imaginary = number("1", "imaginary part, negative where the body lags")
+    love = labels(default=list(_FIELDS))
+    love_period = labels("period of what deforms the body", "d", default=PERIODS / DAY)
 
 
 @part
@@ -150,7 +147,7 @@ def not_turning(body: Body) -> str | None:
 class Compliances(Variables, along=("number",), no_error=FROM_LAYERS):
     """Compliances, ellipticities and coupling numbers of a body, as values with names."""
 
-    number_value: Value = number(
+    number_value = number(
         "1",
         "number of the body, in units of its moments",
         short="value",
@@ -158,7 +155,7 @@ class Compliances(Variables, along=("number",), no_error=FROM_LAYERS):
         "xi, zeta; fluid core: gamma, beta, delta; inner core: theta, chi, nu), for a wobble of "
         "size 1 of mantle, fluid core and inner core",
     )
-    number: Labels = labels()
+    number = labels()
 
 
 @part(unless=not_turning)
@@ -174,13 +171,13 @@ def compliances(layers: LayeredBody, body: Body) -> Compliances:
 class Modes(Variables, along=("free_mode",), no_error=FROM_LAYERS):
     """Periods of the free modes (wobbles and nutations) of a layered elastic body."""
 
-    compliance_mode_period: Value = number(
+    compliance_mode_period = number(
         "d",
         "period of a free mode of the elastic body: of a nutation in space, negative if "
         "retrograde; else in the body",
         short="period",
     )
-    free_mode: Labels = labels()
+    free_mode = labels()
 
 
 @part(unless=not_turning)
@@ -205,16 +202,6 @@ def neglected() -> Neglected:
     return Neglected(what="rotation and ellipticity of the body, about one per cent")
 
 
-define_parts(
-    LoveNumbers,
-    answer=love,
-    sections={
-        "by_period": by_period,
-        "compliances": compliances,
-        "modes": modes,
-        "neglected": neglected,
-    },
-    parts=(layers,),
+love_numbers = public_call(
+    LoveNumbers, answer=love, sections=(by_period, compliances, modes, neglected), parts=(layers,)
 )
-
-love_numbers = public_call(LoveNumbers)

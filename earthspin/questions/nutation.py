@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
@@ -13,12 +12,9 @@ from earthspin.constants import DAYS_PER_CENTURY
 from earthspin.dates import Epochs
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import define_parts, setting
+from earthspin.engine.question import setting
 from earthspin.engine.variables import (
-    Labels,
     Neglected,
-    Pair,
-    Value,
     Variables,
     amplitude,
     labels,
@@ -30,6 +26,7 @@ from earthspin.interior.modes import mode_period
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import ladder
+from earthspin.nutation.analysis import complex_nutation, phases, responses, without_line
 from earthspin.nutation.ladder import Spread, spread_of
 from earthspin.progress import progress
 from earthspin.questions.interiors import SOURCES, Prediction, no_layers, predict
@@ -49,6 +46,7 @@ from earthspin.questions.path import (
     steady_figure,
 )
 from earthspin.questions.pulls import PULLS, Pulls
+from earthspin.sky import iau
 from earthspin.units import Number
 
 #: Terms of the table: the largest circles.
@@ -80,8 +78,8 @@ class NutationLadder(
 
     Raises
     ------
-    EarthspinError
-        Whatever is wrong, in one line; among it a body whose layers are not known.
+    SceneError
+        If the layers of the body are not known.
 
     Examples
     --------
@@ -95,10 +93,8 @@ class NutationLadder(
 
     coupling: Literal["none", "inferred"] = setting(
         "none",
-        doc=(
-            "coupling at the boundaries of the core in a last rung; its numbers are "
-            "inferred from nutation"
-        ),
+        doc="coupling at the boundaries of the core in a last rung; its numbers are inferred "
+        "from nutation",
     )
     anelastic_exponent: Annotated[float, Number("", "0.09", low=0.0, high=0.2)] = setting(
         ANELASTIC_EXPONENT.value, doc="exponent of frequency in the mantle's quality factor"
@@ -124,22 +120,6 @@ def models(body: Body, coupling: str, anelastic_exponent: float) -> Prediction:
     return predict(body, coupling == "inferred", anelastic_exponent)
 
 
-@dataclass(frozen=True)
-class RungResiduals:
-    """Root mean square of predicted pole minus IAU 2000A, after removal of a linear trend.
-
-    Attributes
-    ----------
-    rms : dict of str to ndarray, shape (2,)
-        Of dpsi sin(eps0) and deps, rad, by rung.
-    error : dict of str to float
-        95 % half-width of either angle, rad, from the inputs of the interior, H and integration.
-    """
-
-    rms: dict[str, FloatArray]
-    error: dict[str, float]
-
-
 @part(loads=("scipy.special",))
 def interior_spread(models: Prediction) -> Spread:
     """Vary the uncertain inputs of the interior, and draw them at random."""
@@ -153,16 +133,16 @@ def left(
     interior_spread: Spread,
     pulls: Pulls,
     epochs: Epochs,
-    body: Body,
     effects: tuple[str, ...],
-) -> RungResiduals:
-    """Compute the residuals of predicted pole minus IAU pole for each model."""
-    from earthspin.nutation.analysis import complex_nutation, responses, without_line
-    from earthspin.sky import iau
+) -> dict[str, FloatArray]:
+    """Compute the residuals of predicted pole minus IAU pole for each model.
 
+    They are root mean squares of dpsi sin(eps0) and deps after removal of a linear trend, and the
+    half-width of either from the inputs of the interior, H and integration, rad.
+    """
     done = pole_analysis
     days, ends, theirs = iau_nutation(pulls, epochs)
-    path = path_over(body, pulls, effects, done.start, ends)
+    path = path_over(pulls, effects, done.start, ends)
     own = complex_nutation(iau.nutation_of(steady_figure(path, days), days))
     circles = done.our_circles
     factors = {name: models.transfer(name, circles.frequency) - 1 for name in models.rungs}
@@ -171,17 +151,17 @@ def left(
         added = np.array([*responses(circles, iau.delaunay_arguments(at), factors).values()])
         return np.stack([added.real, added.imag], axis=-1).swapaxes(0, 1)
 
-    error = residual_error(done, body, theirs, days)
+    error = residual_error(done, pulls.body, theirs, days)
     sampled = slice(None, None, max(1, days.size // DAYS_OF_ERRORS))
     phases = circles.multiples @ iau.delaunay_arguments(days[sampled])
     terms_at_days = circles.amplitude[:, np.newaxis] * np.exp(1j * phases)
-    rms, errors = {}, {}
+    residuals = {}
     with progress("residuals", len(factors)) as advance:
         for name, shift in zip(factors, iau.at_days(shifts, days).swapaxes(0, 1), strict=True):
             eta = own + shift[:, 0] + 1j * shift[:, 1] - theirs
             plain = np.stack([eta.real, eta.imag], axis=1)
             residual = without_line(days / DAYS_PER_CENTURY, plain)
-            rms[name] = np.sqrt(np.mean(residual**2, axis=0))
+            rms = np.sqrt(np.mean(residual**2, axis=0))
             of_interior = interior_spread.rms_half_width(
                 name,
                 circles.frequency,
@@ -189,9 +169,9 @@ def left(
                 residual[sampled, 0] + 1j * residual[sampled, 1],
                 days[sampled],
             )
-            errors[name] = math.hypot(error, of_interior)
+            residuals[name] = np.array([*rms, math.hypot(error, of_interior)])
             advance(1)
-    return RungResiduals(rms, errors)
+    return residuals
 
 
 _RMS = "root mean square of computed minus IAU 2000A in"
@@ -206,7 +186,7 @@ _ADDS = "what the model adds, or what it is"
 class RungSizes(Variables, along=("rung",), error="rms_error"):
     """Root mean square of predicted pole minus IAU 2000A, for each model of the ladder."""
 
-    rms_dpsi_sineps: Value = number(
+    rms_dpsi_sineps = number(
         "mas",
         f"{_RMS} {_LONGITUDE}",
         references=SOURCES,
@@ -214,21 +194,21 @@ class RungSizes(Variables, along=("rung",), error="rms_error"):
         comment="H is the observed one throughout; the rungs up to 'anelastic' take no other "
         "number from the motion of the pole",
     )
-    rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
-    rms_error: Value = number("mas", _RMS_ERROR)
-    adds: Value = words(_ADDS, short="what it adds")
-    rung: Labels = labels()
+    rms_deps = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
+    rms_error = number("mas", _RMS_ERROR)
+    adds = words(_ADDS, short="what it adds")
+    rung = labels()
 
 
 @part
-def rung_sizes(left: RungResiduals, models: Prediction) -> RungSizes:
+def rung_sizes(left: dict[str, FloatArray], models: Prediction) -> RungSizes:
     """Compute the root mean square of predicted pole minus IAU 2000A, for each ladder model."""
     names = models.ladder
-    longitude, obliquity = np.array([left.rms[name] for name in names]).T
+    longitude, obliquity, error = np.array([left[name] for name in names]).T
     return RungSizes(
         rms_dpsi_sineps=longitude,
         rms_deps=obliquity,
-        rms_error=np.array([left.error[name] for name in names]),
+        rms_error=error,
         adds=np.array([ladder.RUNGS[name] for name in names]),
         rung=names,
     )
@@ -237,31 +217,31 @@ def rung_sizes(left: RungResiduals, models: Prediction) -> RungSizes:
 class ModelSizes(Variables, along=("model",), error="model_rms_error"):
     """Root mean square of predicted pole minus IAU 2000A, for two models outside the ladder."""
 
-    model_rms_dpsi_sineps: Value = number(
+    model_rms_dpsi_sineps = number(
         "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
     )
-    model_rms_deps: Value = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
-    model_rms_error: Value = number("mas", _RMS_ERROR)
-    model_adds: Value = words(
+    model_rms_deps = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
+    model_rms_error = number("mas", _RMS_ERROR)
+    model_adds = words(
         _ADDS,
         short="what it adds",
         comment="a core in a rigid mantle has a far shorter nutation of its own; the H of "
         "hydrostatic equilibrium is one per cent too small",
     )
-    model: Labels = labels()
+    model = labels()
 
 
 @part
-def beside(left: RungResiduals) -> ModelSizes:
+def beside(left: dict[str, FloatArray]) -> ModelSizes:
     """Compute the root mean square of predicted pole minus IAU 2000A for two more models.
 
     They are a fluid core in a rigid mantle, and a body with the H of hydrostatic equilibrium.
     """
-    longitude, obliquity = np.array([left.rms[name] for name in ladder.BESIDE]).T
+    longitude, obliquity, error = np.array([left[name] for name in ladder.BESIDE]).T
     return ModelSizes(
         model_rms_dpsi_sineps=longitude,
         model_rms_deps=obliquity,
-        model_rms_error=np.array([left.error[name] for name in ladder.BESIDE]),
+        model_rms_error=error,
         model_adds=np.array(list(ladder.BESIDE.values())),
         model=list(ladder.BESIDE),
     )
@@ -273,41 +253,37 @@ def beside(left: RungResiduals) -> ModelSizes:
 class Terms(Variables, along=("term",)):
     """Amplitudes of the largest circular nutation terms, from each model and from IAU 2000A."""
 
-    period: Value = number(
+    period = number(
         "d",
         "period of the circle in space, negative if retrograde",
         no_error="it follows from the adopted arguments of IERS 2003",
     )
-    predicted: Pair = amplitude(
+    predicted = amplitude(
         "mas",
         "predicted amplitude",
         along=("rung", "term"),
         error="predicted_error",
         comment="the half-widths do not hold the sizes of what a rung leaves out",
     )
-    predicted_error: Value = number(
+    predicted_error = number(
         "mas",
         "95 % half-width of a predicted amplitude, from the numbers of the inside",
         along=("rung", "term"),
     )
-    iau: Pair = amplitude("mas", MERGED, error="amplitude_error")
-    amplitude_error: Value = number(
+    iau = amplitude("mas", MERGED, error="amplitude_error")
+    amplitude_error = number(
         "mas", "95 % half-width of an amplitude from its analysis, without the neighbour's share"
     )
-    neighbour: Value = words(NEIGHBOUR)
-    neighbour_in_phase: Value = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
-    neighbour_out_of_phase: Value = number(
-        "mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES
-    )
-    rung: Labels = labels()
-    term: Labels = labels()
+    neighbour = words(NEIGHBOUR)
+    neighbour_in_phase = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
+    neighbour_out_of_phase = number("mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES)
+    rung = labels()
+    term = labels()
 
 
 @part
 def terms(pole_analysis: PoleComparison, models: Prediction, interior_spread: Spread) -> Terms:
     """Compute the largest circular nutation terms of each model, in phase and out of phase."""
-    from earthspin.nutation.analysis import phases
-
     order, columns = largest_terms(pole_analysis, LARGEST)
     circles, names = pole_analysis.our_circles, models.ladder
     frequency, own = circles.frequency[order], circles.amplitude[order]
@@ -326,9 +302,9 @@ def terms(pole_analysis: PoleComparison, models: Prediction, interior_spread: Sp
 class Modes(Variables, along=("mode",)):
     """Periods and quality factors of the free modes (wobbles and nutations) of each model."""
 
-    mode_rung: Value = words("rung that has the mode", short="rung")
-    mode_name: Value = words("name of the mode", short="mode")
-    mode_period: Pair = measured(
+    mode_rung = words("rung that has the mode", short="rung")
+    mode_name = words("name of the mode", short="mode")
+    mode_period = measured(
         "d",
         "period: of a nutation in space, negative if retrograde; else in the body",
         short="period",
@@ -336,13 +312,13 @@ class Modes(Variables, along=("mode",)):
         "core and the inner core, the ocean, the loss in the mantle, and numbers inferred from "
         "nutation",
     )
-    mode_quality: Value = number(
+    mode_quality = number(
         "1",
         "quality factor of the mode; infinite where nothing is lost",
         no_error="it follows from published quality factors, which have none",
         short="Q",
     )
-    mode: Labels = labels()
+    mode = labels()
 
 
 @part
@@ -375,10 +351,10 @@ class Transfer(
 ):
     """Transfer function from rigid to non-rigid nutation, for each model of the ladder."""
 
-    transfer_real: Value = number("1", "nutation over that of a rigid body, real part")
-    transfer_imaginary: Value = number("1", "nutation over that of a rigid body, imaginary part")
-    rung: Labels = labels()
-    frequency: Labels = labels(
+    transfer_real = number("1", "nutation over that of a rigid body, real part")
+    transfer_imaginary = number("1", "nutation over that of a rigid body, imaginary part")
+    rung = labels()
+    frequency = labels(
         "frequency in space, cycles per rotation of the body", "1", default=_IN_SPACE
     )
 
@@ -399,17 +375,9 @@ def neglected() -> Neglected:
     return Neglected.cited(ladder.LEFT_OUT, "change of the largest term that is concerned")
 
 
-define_parts(
+nutation_ladder = public_call(
     NutationLadder,
     answer=rung_sizes,
-    sections={
-        "beside": beside,
-        "terms": terms,
-        "modes": modes,
-        "transfer": transfer,
-        "neglected": neglected,
-    },
+    sections=(beside, terms, modes, transfer, neglected),
     parts=(*PULLS, iau_pole, pole_analysis, models, interior_spread, left),
 )
-
-nutation_ladder = public_call(NutationLadder)

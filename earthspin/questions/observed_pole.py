@@ -5,27 +5,28 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin._lazy import xr
 from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, J2000_JD, MAS
 from earthspin.dates import Epochs, Span, days
 from earthspin.engine.part import part
 from earthspin.engine.question import Question, key, setting
-from earthspin.engine.variables import Labels, Value, Variables, labels, number, si
+from earthspin.engine.variables import Variables, labels, number, si
 from earthspin.errors import SceneError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.nutation import core_nutation
+from earthspin.nutation.analysis import without_line
 from earthspin.questions.reasons import no_iau_model
 from earthspin.questions.times import days_of
 from earthspin.sky.columns import is_table
 from earthspin.sky.eop import CARRIED, PoleSeries, read_pole_offsets
 from earthspin.units import FileName
-
-if TYPE_CHECKING:
-    import xarray as xr
+from earthspin.wobble.excitation import pole_of
 
 #: Modified Julian date of J2000.0.
 MJD = J2000_JD - 2400000.5
@@ -63,7 +64,7 @@ class OfTable(Question):
 class Daily(Variables, along=("time",)):
     """Base class of results given at days of a table of the observed pole, or after them."""
 
-    time: Labels = labels("time", standard_name="time", comment="0h UTC in daily tables")
+    time = labels("time", standard_name="time", comment="0h UTC in daily tables")
 
 
 def not_observed(body: Body) -> str | None:
@@ -93,8 +94,6 @@ def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     SceneError
         If there are no x and y with units along time, or the days are not ascending.
     """
-    from earthspin.wobble.excitation import pole_of
-
     time, x, y = labelled_series(pole, ("x", "y"), ("arcsec", "mas"))
     for name, values in (("x", x), ("y", y)):
         largest = float(abs(values).max())
@@ -215,8 +214,6 @@ class ObservedSky:
         error : float
             95 % half-width of a residual of the models.
         """
-        from earthspin.nutation.analysis import without_line
-
         series = {IAU: np.zeros((self.rows.size, 2)), **models}
         residual = np.stack([model[self.rows] - self.offsets for model in series.values()], axis=1)
         without_core = residual + self.core[:, np.newaxis]
@@ -241,8 +238,6 @@ class ObservedSky:
 @part(unless=not_observed_then)
 def observed_sky(epochs: Epochs) -> ObservedSky:
     """Interpolate the observed celestial pole offsets and their free core nutation to the dates."""
-    from earthspin.nutation import core_nutation
-
     table = observed_series()
     time = table.mjd - MJD
     days = days_of(epochs)
@@ -267,22 +262,20 @@ _AS_RETURNED = "nothing removed"
 class ObservedSizes(Variables, along=("model", "direction"), error="observed_size_error"):
     """Root mean square of the differences between models and the observed celestial pole."""
 
-    observed_rms: Value = number("mas", f"{_RMS}, {_LINE}", short="rms")
-    observed_rms_without_core: Value = number(
-        "mas", f"{_RMS}, {_LINE}, {_CORE}", short="rms without FCN"
-    )
-    observed_rms_unfitted: Value = number(
+    observed_rms = number("mas", f"{_RMS}, {_LINE}", short="rms")
+    observed_rms_without_core = number("mas", f"{_RMS}, {_LINE}, {_CORE}", short="rms without FCN")
+    observed_rms_unfitted = number(
         "mas", f"{_RMS}, {_AS_RETURNED}", short="rms as returned", no_error=_AS_RETURNED
     )
-    observed_rms_without_core_unfitted: Value = number(
+    observed_rms_without_core_unfitted = number(
         "mas", f"{_RMS}, {_CORE}", short="rms as returned, without FCN", no_error=_AS_RETURNED
     )
-    observed_size_error: Value = number(
+    observed_size_error = number(
         "mas",
         "95 % half-width of a residual of the model, from H and integration; the noise of the "
         "observations is in each rms",
         along=(),
     )
-    observed_dates: Value = number("1", "dates compared", along=(), no_error="a count")
-    model: Labels = labels()
-    direction: Labels = labels(default=["dpsi_sineps", "deps"])
+    observed_dates = number("1", "dates compared", along=(), no_error="a count")
+    model = labels()
+    direction = labels(default=["dpsi_sineps", "deps"])

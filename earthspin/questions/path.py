@@ -12,14 +12,7 @@ from numpy.typing import NDArray
 
 from earthspin.bodies import Body
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
-from earthspin.constants import (
-    ARCSEC,
-    ARCSEC_PER_YEAR,
-    DAY,
-    EPSILON_0,
-    JULIAN_YEAR,
-    NORMAL_95,
-)
+from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
 from earthspin.dates import Epochs, Span, Step
 from earthspin.engine.part import part
 from earthspin.engine.question import key
@@ -29,18 +22,19 @@ from earthspin.motion.axes import AxisPath
 from earthspin.motion.effects import GEODESIC, NONRIGID
 from earthspin.motion.forces import fastest_sweep
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.nutation.analysis import followed, on_fixed_ecliptic
+from earthspin.nutation import analysis
+from earthspin.nutation.analysis import Circles, PoleAnalysis, Secular
 from earthspin.nutation.budget import published_effects
 from earthspin.progress import progress
 from earthspin.questions.interiors import CHOSEN, Prediction, no_layers, prediction
-from earthspin.questions.pulls import AxisMotion, Pulls, forces_of, start_of
+from earthspin.questions.pulls import AxisMotion, Pulls, forces_of
 from earthspin.questions.reasons import no_iau_model
 from earthspin.questions.satellites import drifts, obliquity_of, swings
 from earthspin.questions.times import days_of
+from earthspin.sky import iau
 from earthspin.sky.kernel import DRIFT_FROM, growth
 
 if TYPE_CHECKING:
-    from earthspin.nutation.analysis import Circles, PoleAnalysis, Secular
     from earthspin.nutation.response import Response
 
 
@@ -60,11 +54,7 @@ SERIES = "coefficients of the adopted series"
 
 @part
 def axis_path(
-    pulls: Pulls,
-    epochs: Epochs,
-    body: Body,
-    effects: tuple[str, ...],
-    interior_shift: Shift | None = None,
+    pulls: Pulls, epochs: Epochs, effects: tuple[str, ...], interior_shift: Shift | None = None
 ) -> AxisPath:
     """Integrate the axes of the body from J2000.0 to all dates, by Picard iteration.
 
@@ -72,45 +62,12 @@ def axis_path(
     that of the IAU.
     """
     pulls.sky.check_times(epochs.span(), pulls.targets)
-    own, epoch = start_of(body, pulls)
-    axis = own if interior_shift is None else interior_shift.start
+    axis, epoch = pulls.start if interior_shift is None else interior_shift.start, pulls.epoch
     first, last = epochs.span()
     span = first * DAY, last * DAY
-    forces = forces_of(body, pulls, effects)
+    forces = forces_of(pulls, effects)
     with progress("pole", axes.window_count(epoch, span, axes.WINDOW)) as advance:
         return axes.axis_path(forces, axis, epoch, span, limits=pulls.limits, advance=advance)
-
-
-@dataclass(frozen=True)
-class Errors:
-    """95 % half-widths of the directions of the axes at some times, by cause, rad.
-
-    Attributes
-    ----------
-    method, given, kernel, response, satellites : ndarray, shape (t,)
-        Errors from the integration, from the uncertainty of H, from the positions of the bodies,
-        from the response of the interior (0 for a rigid body), and from the nodes of the body's
-        satellites, which stay at their mean (0 without satellites).
-    """
-
-    method: FloatArray
-    given: FloatArray
-    kernel: FloatArray
-    response: FloatArray
-    satellites: FloatArray
-
-    @property
-    def total(self) -> FloatArray:
-        """Total error of the axis directions, rad: root sum of squares over all causes."""
-        return np.asarray(
-            np.sqrt(
-                self.method**2
-                + self.given**2
-                + self.kernel**2
-                + self.response**2
-                + self.satellites**2
-            )
-        )
 
 
 def direction_errors(
@@ -118,11 +75,10 @@ def direction_errors(
     figure: FloatArray,
     days: FloatArray,
     epochs: Epochs,
-    body: Body,
     pulls: Pulls,
     shift: Shift | None,
-) -> Errors:
-    """Errors of the directions of the axes along an integrated path, by cause.
+) -> dict[str, FloatArray]:
+    """95 % half-widths of the directions of the axes along a path: the total, and those by cause.
 
     Parameters
     ----------
@@ -133,12 +89,17 @@ def direction_errors(
         Their times, days from J2000.0.
     epochs : TimeGrid or TimeList
         All times of the series; the error of the positions depends on the most distant ones.
-    body : Body
     pulls : Pulls
     shift : Shift or None
         Response of the interior; None for a rigid body.
+
+    Returns
+    -------
+    dict of str to ndarray, shape (t,)
+        By variable, rad. The total also holds the errors from the response of the interior and from
+        the nodes of the body's satellites, which stay at their mean.
     """
-    _, epoch = start_of(body, pulls)
+    body, epoch = pulls.body, pulls.epoch
     positions = pulls.sky.positions(np.array([epoch / DAY]))
     distance = {name: float(np.linalg.norm(position)) for name, position in positions.items()}
     drift = max(pulls.sky.drift(name, far) for name, far in distance.items())
@@ -146,29 +107,32 @@ def direction_errors(
     speed = fastest_sweep(body.number("dynamical_flattening"), float(body.spin_rate), nearest)
     of_sky = axes.error_of_sky(path, figure, drift, speed, DRIFT_FROM)
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    return Errors(
-        method=np.full(len(figure), np.nan if pulls.sky.unmeasured else path.error),
-        given=axes.error_of_input(path, figure, u_h),
-        kernel=max(map(growth, epochs.span())) * of_sky,
-        response=np.zeros(len(figure)) if shift is None else shift.half_width(days),
-        satellites=drift_of_nodes(body, pulls, days * DAY - epoch),
-    )
+    causes = {
+        "direction_error_method": np.full(
+            days.size, np.nan if pulls.sky.unmeasured else path.error
+        ),
+        "direction_error_input": axes.error_of_input(path, figure, u_h),
+        "direction_error_kernel": max(map(growth, epochs.span())) * of_sky,
+    }
+    response = np.zeros(days.size) if shift is None else shift.half_width(days)
+    errors = (*causes.values(), response, drift_of_nodes(pulls, days * DAY - epoch))
+    return {"direction_error": np.sqrt(sum(error**2 for error in errors)), **causes}
 
 
-def drift_of_nodes(body: Body, pulls: Pulls, since: FloatArray) -> FloatArray:
+def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
     """Largest displacement of the axis by the nodes of satellites, and by C if that is open, rad.
 
     Parameters
     ----------
-    body : Body
     pulls : Pulls
     since : ndarray, shape (t,)
         Times from the start, s.
     """
+    body = pulls.body
     obliquity = obliquity_of(body) if body.satellites else None
     if obliquity is None:
         return np.zeros(since.size)
-    nutations = swings(body, pulls.mean_pull(body.orbital_period), obliquity)
+    nutations = swings(body, pulls.mean_pull(), obliquity)
     total = np.sum([*drifts(nutations, since).values(), np.zeros(since.size)], axis=0)
     published = LEFT_OUT_OF_RATES.get(body.name, {}) if body.is_as_named else {}
     for rate in published.values():
@@ -176,39 +140,19 @@ def drift_of_nodes(body: Body, pulls: Pulls, since: FloatArray) -> FloatArray:
     return np.asarray(total)
 
 
-@dataclass(frozen=True)
-class LongitudeCycles:
-    """Continuous longitude of an axis along a path, from which whole turns are restored.
+def continuous_longitude(
+    path: AxisPath, first: float, ecliptic: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Start times (s) of the windows of a path, and longitude of the angular momentum then (rad).
 
-    Attributes
-    ----------
-    times : ndarray, shape (w,)
-        Start times of the windows, s.
-    psi : ndarray, shape (w,)
-        Continuous longitude at these times, rad.
+    The longitude is continuous, and equals the principal value at the time `first`, s.
     """
-
-    times: FloatArray
-    psi: FloatArray
-
-    def unwrapped(self, psi: FloatArray, times: FloatArray) -> FloatArray:
-        """Add whole turns to longitudes, shape (t, k), so that they are continuous along the path.
-
-        `times` are in s, shape (t,).
-        """
-        return followed(psi, np.interp(times, self.times, self.psi)[:, np.newaxis])
-
-
-def longitude_cycles(path: AxisPath, first: float, ecliptic: FloatArray) -> LongitudeCycles:
-    """Compute the continuous longitude of the angular momentum along a path.
-
-    It equals the principal value at the time `first`, s.
-    """
-    psi = np.unwrap(on_fixed_ecliptic(path.at_starts(), ecliptic)[:, 0])
+    psi = np.unwrap(analysis.on_fixed_ecliptic(path.at_starts(), ecliptic)[:, 0])
     times = path.windows.edges[:-1]
-    principal = on_fixed_ecliptic(path.at(np.array([first]))["angular_momentum"], ecliptic)[0, 0]
+    axis = path.at(np.array([first]))["angular_momentum"]
+    principal = analysis.on_fixed_ecliptic(axis, ecliptic)[0, 0]
     difference = np.interp(first, times, psi) - principal
-    return LongitudeCycles(times, psi - 2 * np.pi * np.rint(difference / (2 * np.pi)))
+    return times, psi - 2 * np.pi * np.rint(difference / (2 * np.pi))
 
 
 # --- comparison with the IAU ---------------------------------------------------------------------
@@ -265,20 +209,15 @@ def steady_figure(path: AxisPath, days: FloatArray) -> FloatArray:
 
 
 def path_over(
-    body: Body,
-    pulls: Pulls,
-    effects: Sequence[str],
-    start: FloatArray,
-    days: FloatArray,
+    pulls: Pulls, effects: Sequence[str], start: FloatArray, days: FloatArray
 ) -> AxisPath:
     """Integrate the motion of the rigid body's axes over a range of days.
 
     Positions of the perturbers are stored for the next run.
     """
-    _, epoch = start_of(body, pulls)
-    forces = forces_of(body, pulls, rigid(effects), keep=True)
+    forces = forces_of(pulls, rigid(effects), keep=True)
     span = days[0] * DAY, days[-1] * DAY
-    return axes.axis_path(forces, start, epoch, span, limits=pulls.limits)
+    return axes.axis_path(forces, start, pulls.epoch, span, limits=pulls.limits)
 
 
 def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, ComplexArray]:
@@ -298,15 +237,12 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
     EarthspinError
         If the series does not fit into memory, or lies outside the source of positions.
     """
-    from earthspin.nutation.analysis import complex_nutation
-    from earthspin.sky import iau
-
     days = days_of(epochs)
     first, last = epochs.span()
     ends = np.array([min(first, 0.0), max(last, 0.0)])
     pulls.sky.check_times(ends, pulls.targets)
     angles = iau.at_days(lambda at: iau.nutation_of(iau.true_pole(at), at), days)
-    return days, ends, complex_nutation(angles)
+    return days, ends, analysis.complex_nutation(angles)
 
 
 def residual_error(
@@ -316,11 +252,9 @@ def residual_error(
 
     It is due to the integration, the uncertainty of H, and interpolation.
     """
-    from earthspin.sky.iau import node_error
-
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     error = math.hypot(analysed.path.error, NORMAL_95 * u_h * float(np.max(np.abs(eta))))
-    between_nodes = node_error(days)
+    between_nodes = iau.node_error(days)
     return math.hypot(error, between_nodes) if between_nodes else error
 
 
@@ -367,15 +301,10 @@ def analysed_days(limits: tuple[float, float]) -> tuple[FloatArray, float]:
 
 
 @part(
-    unless=no_iau_model,
-    same_for=lambda pulls: pulls.limits,
-    loads=("earthspin.sky.iau", "scipy.sparse.linalg"),
+    unless=no_iau_model, same_for=lambda pulls: pulls.limits, loads=("erfa", "scipy.sparse.linalg")
 )
 def iau_pole(pulls: Pulls) -> IAUPole:
     """Analyse pole and nutation of the IAU over 150 years, as far as positions are known."""
-    from earthspin.nutation.analysis import PoleAnalysis, complex_nutation
-    from earthspin.sky import iau
-
     days, covered = analysed_days((pulls.limits[0] / DAY, pulls.limits[1] / DAY))
     if covered < SHORTEST_SPAN:
         raise UndefinedError(
@@ -383,55 +312,44 @@ def iau_pole(pulls: Pulls) -> IAUPole:
             f"analysis of nutation needs {SHORTEST_SPAN * DAY / JULIAN_YEAR:.0f}; give a longer "
             "ephemeris, or remove the effect nonrigid"
         )
-    analysis = PoleAnalysis(
-        days, iau.delaunay_arguments(days), iau.delaunay_rates(), iau.fixed_ecliptic()
-    )
+    arguments = iau.delaunay_arguments(days)
+    analyse = PoleAnalysis(days, arguments, iau.delaunay_rates(), iau.fixed_ecliptic())
     pole, original = iau.pole_and_nutation(days)
-    return IAUPole(
-        days,
-        complex_nutation(iau.nutation_of(pole, days)),
-        analysis,
-        analysis.secular(pole),
-        analysis.circles(complex_nutation(original)),
-    )
+    nutation = analysis.complex_nutation(iau.nutation_of(pole, days))
+    circles = analyse.circles(analysis.complex_nutation(original))
+    return IAUPole(days, nutation, analyse, analyse.secular(pole), circles)
 
 
 @part(unless=no_iau_model)
-def pole_analysis(
-    body: Body, pulls: Pulls, effects: tuple[str, ...], iau_pole: IAUPole
-) -> PoleComparison:
+def pole_analysis(pulls: Pulls, effects: tuple[str, ...], iau_pole: IAUPole) -> PoleComparison:
     """Separate the computed pole over 150 years into precession and circular terms, as the IAU's.
 
     The initial axis is corrected so that the mean poles agree at the start.
     """
-    from earthspin.nutation.analysis import CENTURY, complex_nutation, shifted_start
-    from earthspin.sky import iau
-
-    days, analysis = iau_pole.days, iau_pole.analysis
-    start, epoch = start_of(body, pulls)
+    days, analyse = iau_pole.days, iau_pole.analysis
+    start, epoch = pulls.start, pulls.epoch
 
     def integrate(start: FloatArray) -> tuple[AxisPath, FloatArray]:
-        path = path_over(body, pulls, effects, start, days)
+        path = path_over(pulls, effects, start, days)
         return path, steady_figure(path, days)
 
     with progress("analysis", 2) as advance:
         _, pole = integrate(start)
         advance(1)
-        start = shifted_start(
-            start, analysis.secular(pole), iau_pole.secular, analysis.ecliptic, epoch / CENTURY
-        )
+        ours, centuries = analyse.secular(pole), epoch / analysis.CENTURY
+        start = analysis.shifted_start(start, ours, iau_pole.secular, analyse.ecliptic, centuries)
         path, pole = integrate(start)
         advance(1)
-    eta = complex_nutation(iau.nutation_of(pole, days))
+    eta = analysis.complex_nutation(iau.nutation_of(pole, days))
     return PoleComparison(
         days=days,
         start=start,
         epoch=epoch,
         path=path,
-        analysis=analysis,
-        ours=analysis.secular(pole),
+        analysis=analyse,
+        ours=analyse.secular(pole),
         theirs=iau_pole.secular,
-        our_circles=analysis.circles(eta),
+        our_circles=analyse.circles(eta),
         their_circles=iau_pole.circles,
         difference=eta - iau_pole.nutation,
     )
@@ -448,22 +366,19 @@ def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp
         Variables of a table of terms: periods, amplitudes of IAU 2000A with their half-widths, and
         the neighbours that this span does not separate from them.
     """
-    from earthspin.nutation.analysis import amplitude_error, neighbours_of, phases, term_names
-    from earthspin.sky import iau
-
     ours = analysed.our_circles
     order = np.argsort(-np.abs(ours.amplitude))[:count]
     at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
-    near = neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
-    neighbour_in, neighbour_out = phases(near.amplitude[order])
+    near = analysis.neighbours_of(ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch)
+    neighbour_in, neighbour_out = analysis.phases(near.amplitude[order])
     return order, {
         "period": 2 * np.pi / ours.frequency[order],
-        "iau": phases(analysed.their_circles.amplitude[order]),
-        "amplitude_error": amplitude_error(ours.frequency[order]),
+        "iau": analysis.phases(analysed.their_circles.amplitude[order]),
+        "amplitude_error": analysis.amplitude_error(ours.frequency[order]),
         "neighbour": [near.names[row] for row in order],
         "neighbour_in_phase": neighbour_in,
         "neighbour_out_of_phase": neighbour_out,
-        "term": term_names(ours.multiples[order]),
+        "term": analysis.term_names(ours.multiples[order]),
     }
 
 
@@ -528,25 +443,23 @@ class ResponseFit:
 
 @part(loads=("earthspin.nutation.response",))
 def response_apart(
-    pole_analysis: PoleComparison, pulls: Pulls, body: Body, effects: tuple[str, ...]
+    pole_analysis: PoleComparison, pulls: Pulls, effects: tuple[str, ...]
 ) -> ResponseFit:
     """Fit the resonance formula to IAU 2000A without its geodesic nutation and added terms."""
-    from earthspin.nutation.analysis import complex_nutation
     from earthspin.nutation.response import added_to
-    from earthspin.sky import iau
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles.amplitude
     torques = ours.amplitude
     if GEODESIC.name in effects:
         # The interior does not respond to a rotation of the frame, which is no torque.
         rest = [effect for effect in effects if effect != GEODESIC.name]
-        path = path_over(body, pulls, rest, pole_analysis.start, pole_analysis.days)
+        path = path_over(pulls, rest, pole_analysis.start, pole_analysis.days)
         pole = steady_figure(path, pole_analysis.days)
-        eta = complex_nutation(iau.nutation_of(pole, pole_analysis.days))
+        eta = analysis.complex_nutation(iau.nutation_of(pole, pole_analysis.days))
         torques = pole_analysis.analysis.circles(eta).amplitude
     theirs = theirs - (ours.amplitude - torques)
     added = added_to(ours.multiples)
-    response = _response_between(ours, torques, theirs - added, body)
+    response = _response_between(ours, torques, theirs - added, pulls.body)
     left = theirs - response.transfer(ours.frequency) * torques
     return ResponseFit(response, _circles_for_fit(ours), torques, left, added)
 
@@ -584,8 +497,6 @@ class Shift:
 
         Nutation does not move the angular momentum.
         """
-        from earthspin.sky import iau
-
         precession = self.rate * (days * DAY - self.epoch)
         nutation = self.circles.at(iau.delaunay_arguments(days))
         for name, axis in directions.items():
@@ -603,8 +514,6 @@ def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[
 
     Its errors follow from the difference from the IAU pole.
     """
-    from earthspin.sky import iau
-
     circles = replace(analysed.our_circles, amplitude=amplitude)
     published, sine = published_effects(), np.sin(EPSILON_0.value * ARCSEC)
     # The published rate of the response is applied. The rates of effects that are switched off are

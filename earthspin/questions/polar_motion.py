@@ -4,28 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_YEAR, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import define_parts, setting
+from earthspin.engine.question import setting
 from earthspin.engine.run import in_range
-from earthspin.engine.variables import (
-    Labels,
-    Neglected,
-    Pair,
-    Value,
-    Variables,
-    labels,
-    measured,
-    number,
-)
+from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
+from earthspin.mass.figure import polar_radius
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.questions.observed_pole import (
     MJD,
@@ -39,12 +32,9 @@ from earthspin.questions.observed_pole import (
 from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
 from earthspin.sky.eop import PoleSeries, read_polar_motion
 from earthspin.units import Days, FileName, Number, Numbers, Several, Text, Word, kind_of
+from earthspin.wobble import excitation as ex
 from earthspin.wobble.record import WobbleFit, envelope
 from earthspin.wobble.record import spectrum as amplitude_spectrum
-
-if TYPE_CHECKING:
-    import xarray as xr
-
 
 #: How the free wobble is found.
 Method = Literal["burg", "likelihood"]
@@ -68,8 +58,8 @@ class PolarMotion(OfTable, word="polar-motion", call="polar_motion", table="pola
 
     Raises
     ------
-    EarthspinError
-        Whatever is wrong with the file or the span, in one line.
+    SeriesError
+        If the file is no known table, or has gaps; CoverageError if it does not cover the span.
 
     Examples
     --------
@@ -90,9 +80,9 @@ class PolarMotion(OfTable, word="polar-motion", call="polar_motion", table="pola
 class ObservedPole(Daily):
     """Observed coordinates x and y of the pole in time, with errors."""
 
-    x: Pair = measured("arcsec", "coordinate of the pole towards the prime meridian")
-    y: Pair = measured("arcsec", "coordinate of the pole towards 90 degrees west")
-    polar_radius: Value = number(
+    x = measured("arcsec", "coordinate of the pole towards the prime meridian")
+    y = measured("arcsec", "coordinate of the pole towards 90 degrees west")
+    polar_radius = number(
         "m", "polar radius of the body", along=(), no_error="a given number of the body"
     )
 
@@ -106,8 +96,6 @@ def pole_table(file: str, kind: str | None) -> PoleSeries:
 @part(unless=not_observed)
 def observed_pole(pole_table: PoleSeries, body: Body, span: Span | None) -> ObservedPole:
     """Return the observed polar motion of a table of the IERS within the requested span."""
-    from earthspin.mass.figure import polar_radius
-
     series = within(pole_table, span)
     source = {"references": f"IERS {series.name}", "repairs": series.repairs or "none"}
     return ObservedPole(
@@ -126,37 +114,35 @@ class FreeWobble(
 ):
     """Period and amplitude of the free wobble, amplitudes of the annual wobble, and mean pole."""
 
-    chandler_period: Pair = measured("d", "period of the free wobble", along=(), short="period")
-    chandler_amplitude: Pair = measured(
+    chandler_period = measured("d", "period of the free wobble", along=(), short="period")
+    chandler_amplitude = measured(
         "mas",
         "amplitude of the free wobble",
         cell_methods="middle: mean (one beat of the wobbles)",
         comment="mean over one beat of the free and the annual wobble",
     )
-    chandler_phase: Value = number(
-        "deg", "phase of the free wobble against a steady one of its period"
-    )
-    annual_amplitude: Value = number(
+    chandler_phase = number("deg", "phase of the free wobble against a steady one of its period")
+    annual_amplitude = number(
         "mas", "amplitude of the annual wobble, prograde", error="chandler_amplitude_error"
     )
-    annual_retrograde_amplitude: Value = number(
+    annual_retrograde_amplitude = number(
         "mas", "amplitude of the annual wobble, retrograde", error="chandler_amplitude_error"
     )
-    mean_pole: Value = number("mas", "mean position of the pole", along=("middle", "axis"))
-    chandler_quality_factor: Value = number(
+    mean_pole = number("mas", "mean position of the pole", along=("middle", "axis"))
+    chandler_quality_factor = number(
         "1",
         "quality factor of the free wobble",
         along=(),
         error="chandler_quality_factor_low chandler_quality_factor_high",
     )
-    chandler_quality_factor_low: Value = number(
+    chandler_quality_factor_low = number(
         "1", "lower end of its 95 % interval", along=(), no_error=_END
     )
-    chandler_quality_factor_high: Value = number(
+    chandler_quality_factor_high = number(
         "1", "upper end of its 95 % interval", along=(), no_error=_END, comment="infinite if open"
     )
-    middle: Labels = labels("middle of a window")
-    axis: Labels = labels(default=["x", "y"])
+    middle = labels("middle of a window")
+    axis = labels(default=["x", "y"])
 
 
 @part(loads=("earthspin.wobble.observed",))
@@ -172,8 +158,6 @@ def _free_wobble(
     time: FloatArray, p: ComplexArray, fit: WobbleFit, window: float | None
 ) -> FreeWobble:
     """Return the fitted period and quality factor, and wobble amplitudes in sliding windows."""
-    from earthspin.wobble.excitation import coordinates_of
-
     wobbles = envelope(time, p, fit.period, window)
     low, high = fit.quality_bounds
     return FreeWobble(
@@ -182,7 +166,7 @@ def _free_wobble(
         chandler_phase=np.unwrap(np.angle(wobbles.chandler)),
         annual_amplitude=abs(wobbles.annual) * MAS,
         annual_retrograde_amplitude=abs(wobbles.annual_retrograde) * MAS,
-        mean_pole=np.column_stack(coordinates_of(wobbles.drift)) * MAS,
+        mean_pole=np.column_stack(ex.coordinates_of(wobbles.drift)) * MAS,
         chandler_quality_factor=fit.quality_factor,
         chandler_quality_factor_low=low,
         chandler_quality_factor_high=high,
@@ -197,10 +181,10 @@ class Spectrum(
 ):
     """Prograde and retrograde amplitude spectrum of polar motion."""
 
-    spectral_amplitude: Value = number(
+    spectral_amplitude = number(
         "mas", "amplitude of a sinusoid, prograde if the frequency is positive"
     )
-    frequency: Labels = labels("cycles per day, negative if retrograde", "1/d")
+    frequency = labels("cycles per day, negative if retrograde", "1/d")
 
 
 @part
@@ -222,14 +206,9 @@ def neglected() -> Neglected:
     )
 
 
-define_parts(
-    PolarMotion,
-    answer=observed_pole,
-    sections={"chandler": chandler, "spectrum": spectrum, "neglected": neglected},
-    parts=(pole_table,),
+polar_motion = public_call(
+    PolarMotion, answer=observed_pole, sections=(chandler, spectrum, neglected), parts=(pole_table,)
 )
-
-polar_motion = public_call(PolarMotion)
 
 
 # --- calls on labelled series --------------------------------------------------------------------
@@ -303,11 +282,9 @@ def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArr
 
     The excitation is the mean over each step between dates; pole and excitation are in mas.
     """
-    from earthspin.wobble.excitation import ends_of_steps
-
     time, p = complex_pole(pole)
     middles, driving = _complex_excitation(chi)
-    ends = ends_of_steps(middles, _even_step(middles))
+    ends = ex.ends_of_steps(middles, _even_step(middles))
     step = _even_step(time)
     first = np.searchsorted(ends, time[0] - SAME_DAY)
     start = np.searchsorted(time, ends[first] - SAME_DAY) if first < ends.size else time.size
@@ -327,24 +304,22 @@ def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArr
 
 def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     """Return the times of an excitation series, days from J2000.0, and chi1 + i chi2, mas."""
-    from earthspin.wobble.excitation import excitation_of
-
     time, chi1, chi2 = labelled_series(chi, ("chi1", "chi2"), ("mas",))
-    return time, excitation_of(chi1, chi2) / MAS
+    return time, ex.excitation_of(chi1, chi2) / MAS
 
 
 class Excitation(Daily, no_error="the table from which it is read gives none"):
     """Excitation of polar motion."""
 
-    chi1: Value = number("mas", "excitation, towards the prime meridian")
-    chi2: Value = number("mas", "excitation, towards 90 degrees east")
+    chi1 = number("mas", "excitation, towards the prime meridian")
+    chi2 = number("mas", "excitation, towards 90 degrees east")
 
 
 class DrivenPole(Daily, no_error="excitation and free wobble are given without errors"):
     """Polar motion that results from a given excitation."""
 
-    x: Value = number("arcsec", "pole, towards the prime meridian")
-    y: Value = number("arcsec", "pole, towards 90 degrees west")
+    x = number("arcsec", "pole, towards the prime meridian")
+    y = number("arcsec", "pole, towards 90 degrees west")
 
 
 @in_range("excitation")
@@ -377,8 +352,6 @@ def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100
     >>> print(seen.time.size, chi.time.size)
     1828 1827
     """
-    from earthspin.wobble import excitation as ex
-
     days, q = _DAYS.read(period, Where("period")), _PURE.read(quality_factor, _Q)
     time, p = complex_pole(ds)
     step = _even_step(time)
@@ -445,8 +418,6 @@ def polar_motion_from(
     >>> print(abs(again.x - seen.x).max().values < 1e-12)
     True
     """
-    from earthspin.wobble import excitation as ex
-
     time, driving = _complex_excitation(chi)
     known = chi.attrs
     period = known.get("chandler_period") if period is None else period
@@ -461,10 +432,8 @@ def polar_motion_from(
     if fitted_to is not None:
         if start is not None:
             raise SceneError("start", start, "it is fitted to the pole; leave it or fitted_to out")
-        from earthspin.wobble.excitation import fitted_start
-
         ends, observed, driving = _together(fitted_to, chi)
-        begin = fitted_start(ends, observed, driving, s)
+        begin = ex.fitted_start(ends, observed, driving, s)
     else:
         begin = complex(ex.pole_of(*_given_start(chi, start, ends[0])))
     x, y = ex.coordinates_of(ex.polar_motion_from(driving, step, s, begin))

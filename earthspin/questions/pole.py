@@ -2,32 +2,33 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import Any, Literal
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import BODIES, PLANETS, Body, in_a_sentence
 from earthspin.constants import DAY
 from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import Block, part
-from earthspin.engine.question import define_parts, key
-from earthspin.engine.variables import Labels, Neglected, Value, labels, number
+from earthspin.engine.question import key
+from earthspin.engine.variables import Neglected, labels, number
 from earthspin.motion.axes import AXES, AxisPath
 from earthspin.motion.effect_sizes import axis_displacements
 from earthspin.motion.effects import LARGEST_CORE_NUTATION, NONRIGID, RESPONSE
-from earthspin.nutation.analysis import on_fixed_ecliptic
+from earthspin.numerics.arrays import FloatArray
+from earthspin.nutation.analysis import followed, on_fixed_ecliptic
 from earthspin.questions.interiors import SOURCES, no_layers
 from earthspin.questions.path import (
     INTERIOR,
     SHORTEST_SPAN,
-    LongitudeCycles,
     Shift,
     analysed_days,
     axis_path,
+    continuous_longitude,
     direction_errors,
     drift_of_nodes,
-    longitude_cycles,
 )
 from earthspin.questions.pulls import (
     EFFECTS_DOC,
@@ -41,16 +42,12 @@ from earthspin.questions.pulls import (
     own_kernel,
     start_error,
     start_note,
-    start_of,
     switched_off,
 )
 from earthspin.questions.reasons import no_iau_model, north_note, not_the_iaus_earth
 from earthspin.questions.satellites import no_satellites
 from earthspin.questions.sky import Sky
 from earthspin.questions.times import SPAN_DOC, Dated, days_of
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "step")):
@@ -75,8 +72,8 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
 
     Raises
     ------
-    EarthspinError
-        Whatever is wrong, in one line; a spin that is too slow is refused.
+    UndefinedError
+        If the spin is too slow for the figure axis to follow the angular momentum.
 
     Examples
     --------
@@ -94,10 +91,8 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
     effects: Effects = key("known", doc=EFFECTS_DOC)
     response: Literal["fitted", "predicted"] = key(
         "fitted",
-        doc=(
-            "source of the response of the interior for the effect nonrigid: fitted to "
-            "IAU 2000A, or predicted from the layers of the body"
-        ),
+        doc="source of the response of the interior for the effect nonrigid: fitted to IAU "
+        "2000A, or predicted from the layers of the body",
     )
 
     def check(self) -> None:
@@ -168,29 +163,22 @@ def interior_shift(as_fitted: Shift | None = None, as_predicted: Shift | None = 
     return shift
 
 
+_COMPONENT: Any = {"along": ("time", "axis"), "frame": "GCRS"}
+
+
 class Directions(Dated, error="direction_error"):
     """Unit vectors of the angular momentum, rotation and figure axes in time, with errors."""
 
-    X: Value = number(
-        "1", "first component of the unit vector of the axis", along=("time", "axis"), frame="GCRS"
-    )
-    Y: Value = number(
-        "1", "second component of the unit vector of the axis", along=("time", "axis"), frame="GCRS"
-    )
-    Z: Value = number(
-        "1", "third component of the unit vector of the axis", along=("time", "axis"), frame="GCRS"
-    )
-    direction_error: Value = number("arcsec", "95 % half-width of the directions, from all shares")
-    direction_error_method: Value = number(
-        "arcsec", "share of direction_error from the integration"
-    )
-    direction_error_input: Value = number(
-        "arcsec", "share of direction_error from the uncertainty of H"
-    )
-    direction_error_kernel: Value = number(
+    X = number("1", "first component of the unit vector of the axis", **_COMPONENT)
+    Y = number("1", "second component of the unit vector of the axis", **_COMPONENT)
+    Z = number("1", "third component of the unit vector of the axis", **_COMPONENT)
+    direction_error = number("arcsec", "95 % half-width of the directions, from all shares")
+    direction_error_method = number("arcsec", "share of direction_error from the integration")
+    direction_error_input = number("arcsec", "share of direction_error from the uncertainty of H")
+    direction_error_kernel = number(
         "arcsec", "share of direction_error from the positions of the bodies"
     )
-    axis: Labels = labels()
+    axis = labels()
 
 
 @part
@@ -198,7 +186,6 @@ def axes(
     axis_path: AxisPath,
     epochs: Epochs,
     pulls: Pulls,
-    body: Body,
     effects: tuple[str, ...],
     interior_shift: Shift | None = None,
     block: Block | None = None,
@@ -207,7 +194,7 @@ def axes(
     now = days_of(epochs, block, "pole.zarr")
     directions = axis_path.at(now * DAY)
     figure = directions["figure"]
-    errors = direction_errors(axis_path, figure, now, epochs, body, pulls, interior_shift)
+    errors = direction_errors(axis_path, figure, now, epochs, pulls, interior_shift)
     if interior_shift is not None:
         interior_shift.apply(directions, now)
     vectors = np.stack([directions[axis] for axis in AXES], axis=1)
@@ -218,17 +205,14 @@ def axes(
         X=vectors[..., 0],
         Y=vectors[..., 1],
         Z=vectors[..., 2],
-        direction_error=errors.total,
-        direction_error_method=errors.method,
-        direction_error_input=errors.given,
-        direction_error_kernel=errors.kernel,
+        **errors,
     ).with_attributes(
         no_error=pulls.sky.no_error,
         direction_error={
             "method": f"Gauss windows of {window:g} d with {axis_path.windows.order} nodes",
             "evaluations": axis_path.evaluations,
-            **start_note(body),
-            **idle_note(body, effects),
+            **start_note(pulls.body),
+            **idle_note(pulls.body, effects),
         },
     )
 
@@ -236,7 +220,7 @@ def axes(
 class ResponseError(Dated):
     """Error of the axis directions that is due to the response of the interior."""
 
-    direction_error_response: Value = number(
+    direction_error_response = number(
         "arcsec",
         "share of direction_error from the response of the interior: its residual, and the "
         "closure of the rates, against IAU 2006/2000A",
@@ -262,7 +246,7 @@ def response_error(
 class SatelliteError(Dated):
     """Error of the axis directions because the nodes of satellites stay at their mean."""
 
-    direction_error_satellites: Value = number(
+    direction_error_satellites = number(
         "arcsec",
         "share of direction_error from the nodes of the satellites, whose nutation of the planet "
         "is left out",
@@ -271,14 +255,11 @@ class SatelliteError(Dated):
 
 @part(unless=no_satellites)
 def satellite_error(
-    axes: xr.Dataset, pulls: Pulls, body: Body, epochs: Epochs, block: Block | None = None
+    axes: xr.Dataset, pulls: Pulls, epochs: Epochs, block: Block | None = None
 ) -> SatelliteError:
     """Compute the error of the axis directions that is due to the nodes of satellites."""
-    _, epoch = start_of(body, pulls)
-    days = days_of(epochs, block, "pole.zarr")
-    return SatelliteError(
-        time=axes.time, direction_error_satellites=drift_of_nodes(body, pulls, days * DAY - epoch)
-    )
+    since = days_of(epochs, block, "pole.zarr") * DAY - pulls.epoch
+    return SatelliteError(time=axes.time, direction_error_satellites=drift_of_nodes(pulls, since))
 
 
 def no_longitude(body: Body) -> str | None:
@@ -294,22 +275,22 @@ def no_longitude(body: Body) -> str | None:
 class Angles(Dated, along=("time", "axis"), error="direction_error"):
     """Longitude psi and inclination eps of the axes, relative to the body's orbit at J2000.0."""
 
-    psi: Value = number("arcsec", "precession and nutation in longitude along the orbit of J2000.0")
-    eps: Value = number("arcsec", "angle of the axis from the normal of that orbit")
-    axis: Labels = labels()
+    psi = number("arcsec", "precession and nutation in longitude along the orbit of J2000.0")
+    eps = number("arcsec", "angle of the axis from the normal of that orbit")
+    axis = labels()
 
 
 @part(unless=no_longitude)
-def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> LongitudeCycles:
+def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> tuple[FloatArray, FloatArray]:
     """Count whole turns of the angular momentum's longitude psi, from the first time."""
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
-    return longitude_cycles(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
+    return continuous_longitude(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
 
 
 @part(unless=no_longitude)
 def pole_angles(
     axes: xr.Dataset,
-    turns: LongitudeCycles,
+    turns: tuple[FloatArray, FloatArray],
     epochs: Epochs,
     body: Body,
     block: Block | None = None,
@@ -318,7 +299,8 @@ def pole_angles(
     vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     angles = on_fixed_ecliptic(vectors.reshape(-1, 3), ecliptic).reshape(*vectors.shape[:2], 2)
-    psi = turns.unwrapped(angles[..., 0], days_of(epochs, block, "pole.zarr") * DAY)
+    near = np.interp(days_of(epochs, block, "pole.zarr") * DAY, *turns)
+    psi = followed(angles[..., 0], near[:, np.newaxis])
     return Angles(time=axes.time, axis=axes.axis, psi=psi, eps=angles[..., 1]).with_attributes(
         eps=north_note(body)
     )
@@ -340,10 +322,9 @@ def neglected(
     """
     off = switched_off(body, perturbers, effects)
     forces, further = each_added(sky, body, perturbers, effects, off)
-    _, epoch = start_of(body, pulls)
-    moved = axis_displacements(axis_path, epoch, forces, further)
+    moved = axis_displacements(axis_path, pulls.epoch, forces, further)
     if {*off} - {*further}:
-        reach = max(abs(day * DAY - epoch) for day in epochs.span())
+        reach = max(abs(day * DAY - pulls.epoch) for day in epochs.span())
         moved |= drift_by_planets(body, reach)
     sizes = {name: size for name, size in moved.items() if size}
     unknown = [name for name in off if name not in moved]
@@ -372,11 +353,9 @@ def neglected(
     )
 
 
-define_parts(
+pole = public_call(
     Pole,
     answer=(axes, response_error, satellite_error, pole_angles),
-    sections={"neglected": neglected},
+    sections=(neglected,),
     parts=(*PULLS, axis_path, turns, *INTERIOR, as_fitted, as_predicted, interior_shift),
 )
-
-pole = public_call(Pole)

@@ -10,17 +10,8 @@ from earthspin.constants import DAY, DAYS_PER_YEAR, NORMAL_95
 from earthspin.dates import Span, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import define_parts, setting
-from earthspin.engine.variables import (
-    Labels,
-    Neglected,
-    Pair,
-    Value,
-    Variables,
-    labels,
-    measured,
-    number,
-)
+from earthspin.engine.question import setting
+from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import UndefinedError
 from earthspin.interior.named import OBSERVED_CORE_NUTATION
 from earthspin.nutation import core_nutation as core
@@ -49,8 +40,9 @@ class PoleOffsets(OfTable, word="pole-offsets", call="pole_offsets", table="pole
 
     Raises
     ------
-    EarthspinError
-        Whatever is wrong with the file or the span, in one line.
+    SeriesError
+        If the file is no known table, or fails its checks; CoverageError if it does not cover the
+        span.
 
     Examples
     --------
@@ -70,8 +62,8 @@ class PoleOffsets(OfTable, word="pole-offsets", call="pole_offsets", table="pole
 class ObservedOffsets(Daily):
     """Observed celestial pole offsets."""
 
-    dX: Pair = measured("mas", "observed X of the celestial pole minus that of IAU 2006/2000A")
-    dY: Pair = measured("mas", "observed Y of the celestial pole minus that of IAU 2006/2000A")
+    dX = measured("mas", "observed X of the celestial pole minus that of IAU 2006/2000A")
+    dY = measured("mas", "observed Y of the celestial pole minus that of IAU 2006/2000A")
 
 
 @part(unless=not_observed)
@@ -93,13 +85,14 @@ def observed_offsets(offset_table: PoleSeries) -> ObservedOffsets:
     ).with_attributes(dX=source, dY=source)
 
 
-_TEST = "a test, in which noise alone passes in 1 % of the windows"
-
-
-class CoreNutation(Variables, along=("middle",)):
+class CoreNutation(
+    Variables,
+    along=("middle",),
+    no_error="a test, in which noise alone passes in 1 % of the windows",
+):
     """Amplitude and phase of the free core nutation in sliding windows."""
 
-    core_nutation_amplitude: Pair = measured(
+    core_nutation_amplitude = measured(
         "uas",
         "amplitude of the free core nutation",
         cell_methods="middle: mean (one window)",
@@ -107,17 +100,13 @@ class CoreNutation(Variables, along=("middle",)):
         comment="a constant, a line and a retrograde circle of the published period are fitted in "
         "each window; half-widths from the noise at the same frequency in the other sense",
     )
-    core_nutation_phase: Pair = measured(
+    core_nutation_phase = measured(
         "deg", "phase of the free core nutation against a steady circle of its published period"
     )
-    detection_limit: Value = number(
-        "uas", "amplitude that noise alone exceeds in 1 % of the windows", no_error=_TEST
-    )
-    detected: Value = number(
-        "1", "1 where the amplitude is above the detection limit, else 0", no_error=_TEST
-    )
-    window_length: Value = number("d", "length of a window", along=(), no_error="it is chosen")
-    middle: Labels = labels("middle of a window")
+    detection_limit = number("uas", "amplitude that noise alone exceeds in 1 % of the windows")
+    detected = number("1", "1 where the amplitude is above the detection limit, else 0")
+    window_length = number("d", "length of a window", along=(), no_error="it is chosen")
+    middle = labels("middle of a window")
 
 
 def shorter_than_a_window(span: Span | None, window: float | None) -> str | None:
@@ -161,14 +150,14 @@ def core_nutation(offset_table: PoleSeries, window: float | None) -> CoreNutatio
 class CorePeriod(Variables):
     """Period of the free core nutation, from the observed offsets since 1984."""
 
-    core_nutation_period: Pair = measured(
+    core_nutation_period = measured(
         "d",
         "period of the free core nutation in space, negative because retrograde",
         comment="maximum likelihood of an oscillator driven at random, beside seasonal terms, "
         "a cubic drift and red noise; random excitation limits how well the period is known",
         short="period",
     )
-    core_nutation_period_published: Pair = measured(
+    core_nutation_period_published = measured(
         "d",
         "published period of the free core nutation",
         references=OBSERVED_CORE_NUTATION.source,
@@ -209,11 +198,9 @@ def neglected() -> Neglected:
     )
 
 
-define_parts(
+pole_offsets = public_call(
     PoleOffsets,
     answer=observed_offsets,
-    sections={"core_nutation": core_nutation, "period": period, "neglected": neglected},
+    sections=(core_nutation, period, neglected),
     parts=(offset_table,),
 )
-
-pole_offsets = public_call(PoleOffsets)

@@ -6,34 +6,26 @@ from dataclasses import replace
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import Body, all_of, in_a_sentence
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.dates import Span, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import define_parts, key
-from earthspin.engine.variables import (
-    Labels,
-    Neglected,
-    Pair,
-    Value,
-    Variables,
-    labels,
-    measured,
-    number,
-    words,
-)
+from earthspin.engine.question import key
+from earthspin.engine.variables import Neglected, Variables, labels, measured, number, words
 from earthspin.mass import figure
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import budget as calendar
-from earthspin.nutation.budget import closure, published_effects
+from earthspin.nutation.budget import closure, prem_polar_moment, published_effects
 from earthspin.questions import reasons
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, Samples
 from earthspin.questions.reasons import north_note, observed_wobble
 from earthspin.questions.satellites import describe_pole, swings
 from earthspin.questions.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
 from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
+from earthspin.sky import iau
 from earthspin.sky.sources import SourceName
 from earthspin.torque import rates
 from earthspin.torque.average import convergence_curve
@@ -57,11 +49,6 @@ class Precession(PerturbedBody, word="precession", call="precession"):
         `reference_epoch`. `earthspin.run_tree` adds the sections: convergence of the
         average, models of the figure, the free wobble, the seasons, IAU 2006, standstills of the
         Moon, and what is neglected.
-
-    Raises
-    ------
-    EarthspinError
-        Whatever is wrong, in one line.
 
     Examples
     --------
@@ -91,32 +78,28 @@ _OVER_WINDOW = "time: mean (weighted by the taper)"
 class Rates(Variables, along=("perturber",)):
     """Precession rate, precession period and mean torque of each perturber."""
 
-    precession_rate: Pair = measured(
+    precession_rate = measured(
         "arcsec/yr",
         "rate of precession in longitude along the fixed orbit",
         split=True,
         short="rate",
         cell_methods=_OVER_WINDOW,
     )
-    precession_period: Pair = measured(
-        "yr", "period of one full turn of precession", short="period"
-    )
-    rate_ratio: Value = number(
+    precession_period = measured("yr", "period of one full turn of precession", short="period")
+    rate_ratio = number(
         "1",
         "ratio of the rate to that of the first perturber",
         no_error="a ratio of two rates that each carry their own error",
     )
-    mean_torque: Pair = measured(
-        "N m", "magnitude of the mean torque vector", cell_methods=_OVER_WINDOW
-    )
-    obliquity: Value = number(
+    mean_torque = measured("N m", "magnitude of the mean torque vector", cell_methods=_OVER_WINDOW)
+    obliquity = number(
         "deg",
         "angle between spin axis and orbit normal at the epoch",
         along=(),
         no_error="an angle between a pole and a plane that are given",
     )
-    reference_epoch: Value = words("epoch that the averages refer to (TDB)", along=())
-    perturber: Labels = labels()
+    reference_epoch = words("epoch that the averages refer to (TDB)", along=())
+    perturber = labels()
 
 
 @part
@@ -154,19 +137,17 @@ def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Bod
 class Convergence(Variables, no_error="the curve itself shows the error of each window"):
     """Precession rate for averaging windows of different lengths, to show the convergence."""
 
-    rate_by_window: Value = number(
+    rate_by_window = number(
         "arcsec/yr", "rate of precession by all perturbers", along=("window", "window_cycles")
     )
-    window_length: Value = number("yr", "length of the averaging window", along=("window_cycles",))
-    window: Labels = labels()
-    window_cycles: Labels = labels("length of the averaging window in cycles")
+    window_length = number("yr", "length of the averaging window", along=("window_cycles",))
+    window = labels()
+    window_cycles = labels("length of the averaging window in cycles")
 
 
 @part(unless=reasons.many_pulls)
 def convergence(torque_samples: Samples, mean_rates: MeanRates, body: Body) -> Convergence:
     """Compute the precession rate for averaging windows of different lengths and tapers."""
-    import xarray as xr
-
     window = torque_samples.window
     cycles = np.linspace(1.0, window.cycles, CURVE_POINTS)
     total = torque_samples.precessing.sum(axis=1)
@@ -203,21 +184,17 @@ class FigureModels(
 ):
     """Dynamical flattening, precession period and wobble period, for three figure models."""
 
-    h_by_model: Value = number("1", "dynamical flattening (C - A)/C", short="H = (C-A)/C")
-    period_by_model: Value = number(
-        "yr", "period of one full turn of precession", short="precession"
-    )
-    wobble_by_model: Value = number("d", "period of the rigid free wobble", short="wobble")
-    moment_difference: Value = number("kg m2", "C - A from J2", along=())
-    polar_moment_factor: Value = number("1", "C/(M a2) from J2 and H", along=())
-    j2_from_moment_difference: Value = number("1", "J2 computed back from C - A", along=())
+    h_by_model = number("1", "dynamical flattening (C - A)/C", short="H = (C-A)/C")
+    period_by_model = number("yr", "period of one full turn of precession", short="precession")
+    wobble_by_model = number("d", "period of the rigid free wobble", short="wobble")
+    moment_difference = number("kg m2", "C - A from J2", along=())
+    polar_moment_factor = number("1", "C/(M a2) from J2 and H", along=())
+    j2_from_moment_difference = number("1", "J2 computed back from C - A", along=())
 
 
 @part(unless=(no_figure, reasons.many_pulls))
 def figure_models(mean_torques: MeanTorques, mean_rates: MeanRates, body: Body) -> FigureModels:
     """Compute H from three models of the figure, and the precession and free wobble for each H."""
-    import xarray as xr
-
     j2, measured_h = body.needed("j2"), body.needed("dynamical_flattening")
     by_mccullough = figure.h_mccullough(body.needed("flattening"))
     models = (by_mccullough, figure.h_homogeneous(j2), measured_h)
@@ -247,8 +224,8 @@ def is_sphere(body: Body) -> str | None:
 class FreeWobble(Variables, no_error="its relative error is that of free_wobble_period"):
     """Period of the free wobble of the body, if it is rigid."""
 
-    free_wobble_period: Pair = measured("d", "period of the rigid free wobble, A/(C - A)")
-    free_wobble_period_sidereal: Value = number(
+    free_wobble_period = measured("d", "period of the rigid free wobble, A/(C - A)")
+    free_wobble_period_sidereal = number(
         "1", "period of the rigid free wobble in turns of the body, its sidereal days"
     )
 
@@ -268,22 +245,22 @@ def free_wobble(body: Body) -> FreeWobble:
 class Seasons(Variables, no_error="its relative error is that of general_precession"):
     """Motion of the equinox, tropical year, and drift of the calendar relative to the seasons."""
 
-    general_precession: Pair = measured(
+    general_precession = measured(
         "arcsec/yr",
         "general precession in longitude: motion of the equinox along the moving ecliptic",
     )
-    general_precession_period: Pair = measured(
+    general_precession_period = measured(
         "yr", "period of one full turn of the equinox", short="period"
     )
-    time_per_degree: Value = number("yr", "time in which the equinox moves by one degree")
-    tropical_year: Value = number("d", "tropical year, the period of the seasons")
-    time_per_day_of_drift: Value = number(
+    time_per_degree = number("yr", "time in which the equinox moves by one degree")
+    tropical_year = number("d", "tropical year, the period of the seasons")
+    time_per_day_of_drift = number(
         "yr", "time in which years of 365.25 d drift by a day against the seasons"
     )
-    time_per_dropped_leap_day: Value = number(
+    time_per_dropped_leap_day = number(
         "yr", "time in which the Gregorian calendar drops one leap day, 400/3"
     )
-    time_per_day_of_gregorian_drift: Value = number(
+    time_per_day_of_gregorian_drift = number(
         "yr", "time in which Gregorian years drift by a day against the seasons"
     )
 
@@ -296,12 +273,10 @@ def seasons(
 
     For the Earth as it is, the published effects that the rate leaves out are included.
     """
-    from earthspin.sky.iau import precession_rates
-
     rate, error = mean_rates.total()
     another = reasons.not_the_iaus_earth(body, perturbers)
     published = 0.0 if another else sum(published_effects().values())
-    chi_rate = precession_rates(mean_torques.epoch / DAY).chi_a
+    chi_rate = iau.precession_rates(mean_torques.epoch / DAY).chi_a
     general = calendar.general_precession(rate + published, chi_rate, mean_torques.obliquity)
     year = calendar.tropical_year(general, body.needed("orbital_period"))
     period = rates.period(general), rates.period_error(general, error)
@@ -328,16 +303,14 @@ def seasons(
 class BesideIAU(Variables):
     """Computed precession rate minus that of IAU 2006, and the part that remains unexplained."""
 
-    iau_rate: Value = number(
+    iau_rate = number(
         "arcsec/yr",
         "rate of psi_A in IAU 2006 at the same epoch",
         no_error="a model that was adopted, exact by definition",
     )
-    difference_from_iau: Pair = measured("arcsec/yr", "computed rate minus the IAU's")
-    closure: Pair = measured(
-        "arcsec/yr", "difference that remains after all published contributions"
-    )
-    period_from_prem: Value = number(
+    difference_from_iau = measured("arcsec/yr", "computed rate minus the IAU's")
+    closure = measured("arcsec/yr", "difference that remains after all published contributions")
+    period_from_prem = number(
         "yr",
         "precession period with all known effects, if C is that of PREM instead of J2/H",
         no_error="the difference from the period with the observed H measures it",
@@ -350,11 +323,8 @@ def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> Be
 
     The observed H contains the observed precession; H = J2 M a2/C with C of PREM does not.
     """
-    from earthspin.nutation.budget import prem_polar_moment
-    from earthspin.sky.iau import precession_rates
-
     rate, error = mean_rates.total()
-    iau_rate = precession_rates(mean_torques.epoch / DAY).psi_a
+    iau_rate = iau.precession_rates(mean_torques.epoch / DAY).psi_a
     unexplained = closure(rate, iau_rate)
     h, j2, radius = (body.needed(name) for name in ("dynamical_flattening", "j2", "radius"))
     h_of_prem = j2 / prem_polar_moment(radius, j2)
@@ -369,24 +339,22 @@ def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> Be
 class Standstills(Variables, along=("standstill",)):
     """Dates of lunar standstills, with the extreme declinations of the Moon."""
 
-    standstill_kind: Value = words("major or minor", short="kind")
-    standstill_declination: Pair = measured(
+    standstill_kind = words("major or minor", short="kind")
+    standstill_declination = measured(
         "deg", "extreme declination, mean equator of date", short="extreme declination"
     )
-    standstill: Labels = labels("day of the extreme declination (TDB)")
+    standstill = labels("day of the extreme declination (TDB)")
 
 
 @part(unless=reasons.no_moon)
 def standstills(sky: Sky, stretch: Stretch, body: Body) -> Standstills:
     """Find major and minor lunar standstills, with dates and extreme declinations."""
-    from earthspin.sky.iau import find_standstills
-
     moon = {"moon": sky.targets["moon"]}
 
     def declination(days: FloatArray) -> FloatArray:
         return sky.radec(body, days, moon)["moon"][1]
 
-    extremes = find_standstills(declination, stretch.first, stretch.last)
+    extremes = iau.find_standstills(declination, stretch.first, stretch.last)
     errors = [sky.error(moon["moon"], (extreme.day,))[0] for extreme in extremes]
     return Standstills(
         standstill_kind=np.array([extreme.kind for extreme in extremes], dtype=str),
@@ -420,21 +388,19 @@ def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -
     return reasons.neglected_rates()
 
 
-define_parts(
+precession = public_call(
     Precession,
-    answer=(precession_rates,),
-    sections={
-        "convergence": convergence,
-        "figure_models": figure_models,
-        "free_wobble": (free_wobble, observed_wobble),
-        "seasons": seasons,
-        "iau_2006": iau_2006,
-        "standstills": standstills,
-        "neglected": neglected,
-    },
+    answer=precession_rates,
+    sections=(
+        convergence,
+        figure_models,
+        (free_wobble, observed_wobble),
+        seasons,
+        iau_2006,
+        standstills,
+        neglected,
+    ),
     parts=(places, sky, stretch, *MEANS),
     together=("body", "perturbers"),
     widest=16384,
 )
-
-precession = public_call(Precession)

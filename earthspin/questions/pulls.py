@@ -116,10 +116,11 @@ def own_kernel(ephemeris: str) -> Ephemeris | None:
 
 @dataclass(frozen=True)
 class Pulls:
-    """GM and positions of all perturbers, and the time range in which the positions are known.
+    """A body with GM and positions of its perturbers, and the times at which these are known.
 
     Attributes
     ----------
+    body : Body
     sky : Sky
     gm : dict of str to float
         GM, m3 s-2, of the question's perturbers, followed by the planets.
@@ -129,6 +130,7 @@ class Pulls:
         First and last time for which all positions are available, s from J2000.0 TDB.
     """
 
+    body: Body
     sky: Sky
     gm: dict[str, float]
     targets: dict[str, Place]
@@ -136,6 +138,16 @@ class Pulls:
     _stored: dict[tuple[float, float, int], dict[str, FloatArray]] = field(
         default_factory=dict, repr=False
     )
+
+    @property
+    def epoch(self) -> float:
+        """Start of the integration: J2000.0, or the nearest time with positions, s from J2000.0."""
+        return min(max(0.0, self.limits[0]), self.limits[1])
+
+    @property
+    def start(self) -> FloatArray:
+        """Figure axis at the start of the integration, shape (3,)."""
+        return np.asarray(self.body.needed("pole").true(self.epoch / DAY))
 
     def positions(
         self, names: Sequence[str], times: FloatArray, keep: bool
@@ -148,12 +160,13 @@ class Pulls:
             known |= self.sky.positions(times / DAY, missing)
         return known
 
-    def mean_pull(self, period: float | None) -> float:
-        """Sum of GM <1/r3> of the perturbers over a period about J2000.0, in s, s-2.
+    def mean_pull(self) -> float:
+        """Sum of GM <1/r3> of the perturbers over an orbit of the body about J2000.0, s-2.
 
-        Without a period it is that at J2000.0. The period is cut to the times that are covered.
+        Without an orbital period it is that at J2000.0. The period is cut to the times that are
+        covered.
         """
-        half = (period or 0.0) / 2
+        half = (self.body.orbital_period or 0.0) / 2
         first, last = (min(max(end, self.limits[0]), self.limits[1]) for end in (-half, half))
         times = np.linspace(first, last, PULL_SAMPLES, endpoint=False)
         positions = self.sky.positions(times / DAY)
@@ -175,12 +188,12 @@ def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str
                 masses[name] = float(BODIES[name].gm_on(body))
                 targets[name] = sky.place(BODIES[name])
     start, end = sky.coverage(targets)
-    return Pulls(sky, masses, targets, (start * DAY, end * DAY))
+    return Pulls(body, sky, masses, targets, (start * DAY, end * DAY))
 
 
-def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = False) -> Forces:
+def forces_of(pulls: Pulls, effects: Sequence[str], keep: bool = False) -> Forces:
     """Build the forces that move the axes of a body, including only the given effects."""
-    near = tuple(pulls.sky.targets)
+    body, near = pulls.body, tuple(pulls.sky.targets)
     forces = Forces(
         figure=figure_of(body, 2 * math.pi / body.number("spin_period")),
         gm={name: pulls.gm[name] for name in near},
@@ -190,7 +203,7 @@ def forces_of(body: Body, pulls: Pulls, effects: Sequence[str], keep: bool = Fal
         mean_pole=lambda times: body.needed("pole").mean(times / DAY),
     )
     forces = switched_on(forces, body, effects)
-    turn = common_turn(body, pulls.mean_pull(body.orbital_period)) if body.satellites else None
+    turn = common_turn(body, pulls.mean_pull()) if body.satellites else None
     if turn is not None:
         forces = replace(forces, torques=(*forces.torques, turning(turn)))
     names = tuple(forces.gm)
@@ -231,15 +244,6 @@ def switched_on(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:
         if name in effects:
             forces = effect.switch_on(forces, body)
     return forces
-
-
-def start_of(body: Body, pulls: Pulls) -> tuple[FloatArray, float]:
-    """Figure axis at the start of the integration, and the time of the start, s from J2000.0.
-
-    The epoch is J2000.0, or the nearest time that the kernel covers.
-    """
-    epoch = min(max(0.0, pulls.limits[0]), pulls.limits[1])
-    return body.needed("pole").true(epoch / DAY), epoch
 
 
 def start_note(body: Body) -> dict[str, str]:
@@ -313,8 +317,8 @@ def each_added(
     except EarthspinError:
         off = [name for name in off if name != PLANETS.name]
         pulling = pulls(sky, body, perturbers, on)
-    added = {name: forces_of(body, pulling, (*on, name), keep=True) for name in off}
-    return forces_of(body, pulling, on, keep=True), added
+    added = {name: forces_of(pulling, (*on, name), keep=True) for name in off}
+    return forces_of(pulling, on, keep=True), added
 
 
 #: Samples of half a synodic orbit; the mean over it converges exponentially.

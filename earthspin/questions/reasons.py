@@ -10,7 +10,7 @@ import numpy as np
 from earthspin.bodies import Body, in_a_sentence, proper
 from earthspin.constants import DAY, NORMAL_95, PUBLISHED_EFFECTS
 from earthspin.engine.part import part
-from earthspin.engine.variables import Neglected, Pair, Variables, measured
+from earthspin.engine.variables import Neglected, Variables, measured
 from earthspin.nutation.budget import published_effects
 
 
@@ -103,7 +103,7 @@ def neglected_rates(modelled: Collection[str] = ()) -> Neglected:
 class ObservedWobble(Variables):
     """Observed period of the free wobble, as a variable of a result (Dataset)."""
 
-    observed_period: Pair = measured("d", "observed period of the free wobble")
+    observed_period = measured("d", "observed period of the free wobble")
 
 
 def not_observed(body: Body) -> str | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -14,24 +14,17 @@ from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import Block, part
-from earthspin.engine.question import define_parts, key
-from earthspin.engine.variables import Labels, Neglected, Value, labels, number, words
+from earthspin.engine.question import key
+from earthspin.engine.variables import Neglected, labels, number, words
 from earthspin.errors import SceneError
 from earthspin.mass.figure import polar_moment
+from earthspin.motion import solution
 from earthspin.motion.effect_sizes import attitude_displacements
 from earthspin.motion.effects import NONRIGID, SECOND_ORDER
 from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY, Rigid
 from earthspin.motion.forces import Forces
 from earthspin.motion.march import FINEST, Masses
-from earthspin.motion.solution import (
-    COARSEST,
-    KINDS,
-    Motion,
-    RotationSeries,
-    State,
-    shares_of,
-    start_of,
-)
+from earthspin.motion.solution import COARSEST, KINDS, Motion, RotationSeries, State
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress
 from earthspin.questions.pulls import (
@@ -80,11 +73,6 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
         `component`, with their errors, the largest up to that time. `earthspin.run_tree` adds
         `divergence`, how fast neighbouring rotations part.
 
-    Raises
-    ------
-    EarthspinError
-        Whatever is wrong, in one line.
-
     Examples
     --------
     >>> import earthspin
@@ -99,8 +87,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
     span: Span = key(("2000-01-01T12:00:00", "2000-02-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("6 h", doc="interval between dates")
     start_attitude: Annotated[FloatArray, Numbers("", "1", (4,))] | None = key(
-        None,
-        doc="quaternion (w, x, y, z), principal axes (C last) to ICRF, at the first date",
+        None, doc="quaternion (w, x, y, z), principal axes (C last) to ICRF, at the first date"
     )
     start_omega: Annotated[FloatArray, Numbers("rad/s", "1e-4 rad/s", (3,))] | None = key(
         None, doc="angular velocity along the principal axes, C last, at the first date"
@@ -205,11 +192,9 @@ def pulling(
     start_omega: FloatArray | None,
 ) -> Pulling:
     """Build the torques of all perturbers on the body, and estimate the torque error."""
-    from earthspin.motion.solution import relative_tide_error
-
     days = epochs.span()
     pulls.sky.check_times(days, pulls.targets)
-    forces = forces_of(_spinning(body, start_omega), pulls, _acting(effects))
+    forces = forces_of(replace(pulls, body=_spinning(body, start_omega)), _acting(effects))
     if isinstance(pulls.sky.source, Elements):
         places = [place for place in pulls.sky.targets.values() if isinstance(place, ByElements)]
         rounding = max(place.rounding(day) for place in places for day in days)
@@ -218,7 +203,8 @@ def pulling(
     doubts = []
     for name, place in pulls.sky.targets.items():
         angle, far = pulls.sky.error(place, days)
-        doubts.append(relative_tide_error(float(np.linalg.norm(positions[name])), far, angle))
+        distance = float(np.linalg.norm(positions[name]))
+        doubts.append(solution.relative_tide_error(distance, far, angle))
     doubt = float(np.max(doubts))  # NaN if one is
     return Pulling(forces, doubt, no_error=pulls.sky.no_error)
 
@@ -297,8 +283,6 @@ def rotor(
 
     It includes copies of the body in which one uncertain input is changed.
     """
-    from earthspin.motion import solution
-
     begin, end = epochs.span()
     epoch = begin * DAY
     body = _spinning(body, start_omega)
@@ -328,7 +312,7 @@ def rotor(
         rigid,
         changed,
         solution.masses(pulling.forces, epoch),
-        start_of(rigid, attitude, omega),
+        solution.start_of(rigid, attitude, omega),
         begin,
         end,
         moment,
@@ -363,34 +347,34 @@ def _share(units: str, name: str, cause: str) -> Any:
 class Attitudes(Dated, along=("time", "component")):
     """Attitude, spin and angular momentum in time, with their errors in total and by cause."""
 
-    attitude: Value = number(
+    attitude = number(
         "1",
         "unit quaternion, body to ICRF",
         along=("time", "quaternion"),
         error="attitude_error",
         short="quaternion, body to ICRF",
     )
-    attitude_error: Value = _error("deg", "the angle of the attitude")
-    attitude_error_method: Value = _share("deg", "attitude", "method")
-    attitude_error_input: Value = _share("deg", "attitude", "input")
-    attitude_error_kernel: Value = _share("deg", "attitude", "kernel")
-    omega: Value = number(
+    attitude_error = _error("deg", "the angle of the attitude")
+    attitude_error_method = _share("deg", "attitude", "method")
+    attitude_error_input = _share("deg", "attitude", "input")
+    attitude_error_kernel = _share("deg", "attitude", "kernel")
+    omega = number(
         "rad/s",
         "angular velocity along the principal axes",
         frame="principal axes of the body, C last",
         short="spin in the body",
     )
-    omega_error: Value = _error("rad/s", "the angular velocity")
-    omega_error_method: Value = _share("rad/s", "omega", "method")
-    omega_error_input: Value = _share("rad/s", "omega", "input")
-    omega_error_kernel: Value = _share("rad/s", "omega", "kernel")
-    angular_momentum: Value = number("kg m2 / s", "angular momentum along the ICRF", frame="ICRF")
-    angular_momentum_error: Value = _error("kg m2 / s", "the angular momentum, C as given")
-    angular_momentum_error_method: Value = _share("kg m2 / s", "angular_momentum", "method")
-    angular_momentum_error_input: Value = _share("kg m2 / s", "angular_momentum", "input")
-    angular_momentum_error_kernel: Value = _share("kg m2 / s", "angular_momentum", "kernel")
-    component: Labels = labels(default=["x", "y", "z"])
-    quaternion: Labels = labels(default=["w", "x", "y", "z"])
+    omega_error = _error("rad/s", "the angular velocity")
+    omega_error_method = _share("rad/s", "omega", "method")
+    omega_error_input = _share("rad/s", "omega", "input")
+    omega_error_kernel = _share("rad/s", "omega", "kernel")
+    angular_momentum = number("kg m2 / s", "angular momentum along the ICRF", frame="ICRF")
+    angular_momentum_error = _error("kg m2 / s", "the angular momentum, C as given")
+    angular_momentum_error_method = _share("kg m2 / s", "angular_momentum", "method")
+    angular_momentum_error_input = _share("kg m2 / s", "angular_momentum", "input")
+    angular_momentum_error_kernel = _share("kg m2 / s", "angular_momentum", "kernel")
+    component = labels(default=["x", "y", "z"])
+    quaternion = labels(default=["w", "x", "y", "z"])
 
 
 def _followed(motion: Motion, rotor: Rotor, seconds: FloatArray, begin: float) -> RotationSeries:
@@ -427,7 +411,7 @@ def turning(
     series = _followed(motion, rotor, seconds, begin)
     back = np.argsort(order, kind="stable")
     size = rotor.polar_moment * abs(rotor.body.unit)
-    shares = shares_of(series, rotor.changed, rotor.pulling.doubt)
+    shares = solution.shares_of(series, rotor.changed, rotor.pulling.doubt)
     errors = {
         f"{name}_error{share and f'_{share}'}": factor * error[kind][back]
         for kind, (name, factor) in enumerate(zip(KINDS, (1.0, 1.0, size), strict=True))
@@ -458,29 +442,23 @@ def turning(
 class Growth(Dated):
     """Growth in time of the distance between two rotations that start almost equal."""
 
-    growth: Value = number(
+    growth = number(
         "1",
         "natural logarithm of how far neighbouring rotations have parted",
         no_error="its scatter is growth_rate_error",
     )
-    growth_rate: Value = number(
-        "1/s", "mean rate of growth; Lyapunov's exponent if chaotic", along=()
-    )
-    growth_rate_error: Value = number(
+    growth_rate = number("1/s", "mean rate of growth; Lyapunov's exponent if chaotic", along=())
+    growth_rate_error = number(
         "1/s",
         "95 % half-width of the rate, from its scatter between stretches of the span",
         along=(),
     )
-    course: Value = words(
-        "chaotic, if neighbours part faster than by powers of time; regular", along=()
-    )
+    course = words("chaotic, if neighbours part faster than by powers of time; regular", along=())
     #: Only where the motion is chaotic.
-    lyapunov_time: Value | None = number(
+    lyapunov_time = number(
         "d", "time in which neighbours part e times as far", along=(), default=None
     )
-    lyapunov_time_error: Value | None = number(
-        "d", "95 % half-width of that time", along=(), default=None
-    )
+    lyapunov_time_error = number("d", "95 % half-width of that time", along=(), default=None)
 
 
 def one_date(span: Span, times: TimeList | None) -> str | None:
@@ -548,7 +526,7 @@ def node_drifts(body: Body, pulls: Pulls, epochs: Epochs) -> dict[str, float]:
     if obliquity is None:
         return {}
     begin, end = epochs.span()
-    nutations = swings(body, pulls.mean_pull(body.orbital_period), obliquity)
+    nutations = swings(body, pulls.mean_pull(), obliquity)
     return largest_drifts(nutations, (end - begin) * DAY)
 
 
@@ -590,11 +568,9 @@ def neglected(
     )
 
 
-define_parts(
+rotation = public_call(
     Rotation,
-    answer=(turning,),
-    sections={"divergence": divergence, "neglected": neglected},
+    answer=turning,
+    sections=(divergence, neglected),
     parts=(*PULLS, pulling, rotor, motion, parting, effect_changes, node_drifts),
 )
-
-rotation = public_call(Rotation)

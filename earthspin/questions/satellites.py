@@ -9,12 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import Body, Numeric, all_of, in_a_sentence
 from earthspin.constants import JULIAN_YEAR, NORMAL_95
 from earthspin.errors import BodyError
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.poles import angle
-from earthspin.torque.laplace import Node, Planet, Satellites, laplace_tilts, nodes, shares
+from earthspin.torque.laplace import Planet, Satellites, laplace_tilts, nodes, shares
 
 #: Relative half-width of the contribution of satellites, 95 %: eccentricities, and differences from
 #: an integration of spin and orbit normals (0.13 % for Saturn over 60,000 years).
@@ -112,8 +113,6 @@ def carried(body: Body, pull: Numeric, obliquity: float) -> Carried:
     """
     if not body.satellites:
         return Carried()
-    import xarray as xr
-
     _refuse_sphere(body)
     names = ("gm", "radius", "j2", "dynamical_flattening", "spin_rate")
     numbers = xr.broadcast(
@@ -184,7 +183,8 @@ def swings(body: Body, pull: Numeric, obliquity: float) -> dict[str, Swing]:
     nutations = {}
     for satellite, node in zip(body.satellites, nodes(planet, _satellites(body)), strict=True):
         if node.swing:
-            rate = _rate(node, sine)
+            # infinite for an upright pole, whose longitude is not defined
+            rate = node.rate * math.sin(node.swing) / sine if sine else math.inf
             nutations[f"node of {satellite.name}"] = Swing(rate, node.swing, node.rate)
     return nutations
 
@@ -255,14 +255,6 @@ def common_turn(body: Body, pull: float) -> FloatArray | None:
     alone = 1.5 * pull * math.cos(obliquity) * body.number("dynamical_flattening") / body.spin_rate
     more = alone * (carried(body, pull, obliquity).rate - 1)
     return np.asarray(-more * body.needed("pole").orbit_normal(body.orbit_pole))
-
-
-def _rate(node: Node, sine: float) -> float:
-    """Largest rate in longitude of the motion on a circle about the mean pole, rad/s.
-
-    It is infinite for an upright pole, whose longitude is not defined.
-    """
-    return node.rate * math.sin(node.swing) / sine if sine else math.inf
 
 
 def _planet(columns: list[Any], obliquity: float) -> Planet:

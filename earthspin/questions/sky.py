@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
@@ -20,23 +20,14 @@ from earthspin.engine.question import Question, key
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.elements import EllipseChain, all_by_elements, ellipse_chains
+from earthspin.sky import sources
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
 from earthspin.sky.ephemeris import NAMED_KERNELS
+from earthspin.sky.iau import Nutation, true_equator
 from earthspin.sky.poles import Pole, rotate, spherical
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
-from earthspin.sky.sources import (
-    SourceName,
-    describe_position,
-    describe_source,
-    is_measured,
-    is_vector_function,
-    open_source,
-    place_of,
-)
+from earthspin.sky.sources import SourceName
 from earthspin.units import FileName
-
-if TYPE_CHECKING:
-    from earthspin.sky.iau import Nutation
 
 
 class KernelName(FileName):
@@ -51,7 +42,7 @@ class KernelName(FileName):
         """Read an ephemeris, given by name, by path, or as a Skyfield kernel."""
         if hasattr(value, "spk") and hasattr(value, "path"):
             value = value.path
-        if is_vector_function(value):
+        if sources.is_vector_function(value):
             raise where.error(
                 value,
                 "it is the position of one body; give it to a perturber, like "
@@ -143,7 +134,7 @@ class PerturbedBody(Question):
 
 def unmeasured(body: Body) -> bool:
     """Return True if `body.position` is set but not from a kernel, so its error is unknown."""
-    return body.position is not None and not is_measured(body.position)
+    return body.position is not None and not sources.is_measured(body.position)
 
 
 @dataclass(frozen=True)
@@ -312,8 +303,6 @@ class Sky:
             return pole.equator(body.orbit_pole, days, nutation)
 
         if isinstance(self.source, OfDate):
-            from earthspin.sky.iau import true_equator
-
             targets = self.targets if targets is None else targets
             earth_equator = true_equator if true else None
             frame = earth_equator if pole.of_the_iau else equator
@@ -344,7 +333,7 @@ def _place(source: Source, name: str, chain: EllipseChain) -> Place:
     """NAIF code, trajectory or ellipses with which a source of positions finds a body."""
     if chain.ellipses:
         return ByElements(chain.ellipses, source.code(chain.start.naif, name))
-    return place_of(source, name, chain.start.naif, chain.start.position)
+    return sources.place_of(source, name, chain.start.naif, chain.start.position)
 
 
 @part
@@ -368,10 +357,10 @@ def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple
     """Describe in words where the positions of the body and its perturbers come from."""
     if all_by_elements(body, perturbers):
         return "positions from orbital elements; no kernel is opened"
-    phrases = [f"positions {describe_source(source, ephemeris)}"]
+    phrases = [f"positions {sources.describe_source(source, ephemeris)}"]
     phrases += [f"{name} by the elements of its orbit" for name in ellipse_chains(body, perturbers)]
     phrases += [
-        f"{member.name} by {describe_position(member.position)}"
+        f"{member.name} by {sources.describe_position(member.position)}"
         for member in (body, *perturbers)
         if member.position is not None
     ]
@@ -386,7 +375,7 @@ def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
             name: ByElements(chain.ellipses, CENTRE) for name, chain in places.targets.items()
         }
         return Sky(Elements(), CENTRE, ellipses, places.reach)
-    opened = open_source(source, ephemeris)
+    opened = sources.open_source(source, ephemeris)
     centre = _place(opened, places.body.name, EllipseChain(places.body))
     targets = {name: _place(opened, name, chain) for name, chain in places.targets.items()}
     for name, place in targets.items():

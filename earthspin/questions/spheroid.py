@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import numpy as np
 
 from earthspin.bodies import EARTH, Body, all_of, proper
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, key, setting
-from earthspin.engine.variables import Labels, Neglected, Value, Variables, labels, number
+from earthspin.engine.question import Question, key, setting
+from earthspin.engine.variables import Neglected, Variables, labels, number
+from earthspin.mass.figure import eccentricity_squared
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.times import SideBySide
 from earthspin.units import Number, Numbers
-
-if TYPE_CHECKING:
-    pass
 
 
 class Spheroid(
@@ -69,23 +67,23 @@ _FRAME = "principal axes of the spheroid, z along its axis"
 class Field(Variables, along=_VECTOR, error="relative_error"):
     """Potential, attraction and torque of a spheroid at given points, with their relative error."""
 
-    position: Value = number(
+    position = number(
         "m", "coordinates of the point from the centre", no_error="as it was given", frame=_FRAME
     )
-    potential: Value = number(
+    potential = number(
         "J/kg",
         "gravitational potential",
         along=("point",),
         comment="of a homogeneous spheroid with the mass, radius and flattening of the body",
     )
-    attraction: Value = number("m/s2", "acceleration of gravity", frame=_FRAME)
-    torque: Value = number("N m", "torque of the point mass on the spheroid", frame=_FRAME)
-    relative_error: Value = number(
+    attraction = number("m/s2", "acceleration of gravity", frame=_FRAME)
+    torque = number("N m", "torque of the point mass on the spheroid", frame=_FRAME)
+    relative_error = number(
         "1",
         "95 % half-width of potential, attraction and torque relative to their sizes",
         along=("point",),
     )
-    component: Labels = labels(default=["x", "y", "z"])
+    component = labels(default=["x", "y", "z"])
 
 
 @part(loads=("scipy.special",))
@@ -111,8 +109,6 @@ def field(body: Body, position: FloatArray, point_mass: float) -> Field:
 @part
 def neglected(body: Body, position: FloatArray) -> Neglected:
     """Effect of the assumption of uniform density; real bodies have a smaller J2."""
-    from earthspin.mass.figure import eccentricity_squared
-
     if body.labelled or body.j2 is None:
         return Neglected(
             what=f"a density that grows inwards: this {proper(body.name)} has no single J2 "
@@ -131,12 +127,6 @@ def neglected(body: Body, position: FloatArray) -> Neglected:
     )
 
 
-define_parts(
-    Spheroid,
-    answer=(field,),
-    sections={"neglected": neglected},
-    together=("body", "point_mass"),
-    widest=16_384,
+spheroid_field = public_call(
+    Spheroid, answer=field, sections=(neglected,), together=("body", "point_mass"), widest=16384
 )
-
-spheroid_field = public_call(Spheroid)

@@ -4,25 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Annotated, Any, Self
+from typing import Annotated, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin._lazy import xr
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
 from earthspin.dates import Epochs, Span, Step, TimeGrid, TimeList
 from earthspin.engine.part import Block, part
 from earthspin.engine.question import key
-from earthspin.engine.variables import Labels, Variables, labels
+from earthspin.engine.variables import Variables, labels
 from earthspin.errors import SceneError, in_bytes
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.sky import PerturbedBody
 from earthspin.units import LONGEST_IN_MEMORY as LONGEST_IN_MEMORY
 from earthspin.units import Numbers
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: Seconds from the start of a motion.
 Seconds = Annotated[FloatArray, Numbers("s", "1 s", (None,))]
@@ -44,14 +42,14 @@ class Series(PerturbedBody):
 class Dated(Variables, along=("time",)):
     """Base class of results given at the dates of a time series."""
 
-    time: Labels = labels("time (TDB)", standard_name="time", axis="T")
+    time = labels("time (TDB)", standard_name="time", axis="T")
 
 
 class FromStart(Variables, along=("time",)):
     """Base class of results given at times from the start of a motion, in axes of the body."""
 
-    time: Labels = labels("time from the start", "s")
-    component: Labels = labels(default=["x", "y", "z"])
+    time = labels("time from the start", "s")
+    component = labels(default=["x", "y", "z"])
 
 
 @part
@@ -71,10 +69,7 @@ BYTES_PER_TIME = 128
 
 
 def days_of(
-    epochs: Epochs,
-    block: Block | None = None,
-    store: str = "",
-    bodies: Iterable[Body] = (),
+    epochs: Epochs, block: Block | None = None, store: str = "", bodies: Iterable[Body] = ()
 ) -> FloatArray:
     """Days from J2000.0 TDB of one block of a time series, or of the whole series.
 
@@ -137,8 +132,6 @@ class SideBySide:
         arrays = {name: value for name, value in values.items() if hasattr(value, "dims")}
         if not arrays:
             return cls(values)
-        import xarray as xr
-
         joint = dict(zip(arrays, xr.broadcast(*arrays.values()), strict=True))
         first = next(iter(joint.values()))
         numbers = {
@@ -154,8 +147,6 @@ class SideBySide:
 
     def lay(self, values: NDArray[Any], *dims: str) -> xr.DataArray:
         """Build a DataArray of the values, with the common dimensions followed by `dims`."""
-        import xarray as xr
-
         if values.ndim < len(self.dims) + len(dims):
             many = np.shape(next(iter(self.numbers.values())))
             values = np.broadcast_to(values, (*many, *values.shape))

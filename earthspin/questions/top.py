@@ -8,8 +8,8 @@ import numpy as np
 
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, setting
-from earthspin.engine.variables import Labels, Neglected, Value, Variables, labels, number, words
+from earthspin.engine.question import Question, setting
+from earthspin.engine.variables import Neglected, Variables, labels, number, words
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.times import FromStart, Seconds, SideBySide, instants
 from earthspin.top.start import HeavyTop
@@ -101,17 +101,9 @@ def numbers(
     psi: float,
 ) -> SideBySide:
     """Broadcast the moments and initial values of one or more tops to arrays of one shape."""
-    return SideBySide.of(
-        transverse_moment=transverse_moment,
-        axial_moment=axial_moment,
-        weight_moment=weight_moment,
-        theta=theta,
-        spin=spin,
-        phi_rate=phi_rate,
-        theta_rate=theta_rate,
-        phi=phi,
-        psi=psi,
-    )
+    moments = (transverse_moment, axial_moment, weight_moment)
+    start = (theta, spin, phi_rate, theta_rate, phi, psi)
+    return SideBySide.of(**dict(zip(_OF_THE_TOP, (*moments, *start), strict=True)))
 
 
 @part
@@ -135,30 +127,28 @@ ERROR_POINTS = 64
 class Motion(FromStart, error="relative_error"):
     """Motion of a top in time: Euler angles, attitude, angular velocity and shape of the path."""
 
-    theta: Value = number("rad", "angle from the vertical to the axis")
-    phi: Value = number("rad", "azimuth of the axis about the vertical")
-    psi: Value = number("rad", "rotation angle of the body about its axis")
-    attitude: Value = number("1", "unit quaternion, body to inertial", along=("time", "quaternion"))
-    omega_body: Value = number(
+    theta = number("rad", "angle from the vertical to the axis")
+    phi = number("rad", "azimuth of the axis about the vertical")
+    psi = number("rad", "rotation angle of the body about its axis")
+    attitude = number("1", "unit quaternion, body to inertial", along=("time", "quaternion"))
+    omega_body = number(
         "rad/s", "angular velocity along the principal axes", along=("time", "component")
     )
-    pattern: Value = words("wave, cusp, loop, steady or sleeping", along=())
-    nutation_period: Value = number(
+    pattern = words("wave, cusp, loop, steady or sleeping", along=())
+    nutation_period = number(
         "s",
         "period of the nutation, the oscillation of theta",
         along=(),
         short="period of nutation",
     )
-    mean_precession_rate: Value = number(
-        "rad/s", "mean rate of phi", along=(), short="mean precession"
-    )
-    relative_error: Value = number(
+    mean_precession_rate = number("rad/s", "mean rate of phi", along=(), short="mean precession")
+    relative_error = number(
         "1",
         "95 % half-width of theta relative to itself, of the others relative to their largest "
         "values, from rounding of the initial values and of the closed form",
         along=(),
     )
-    quaternion: Labels = labels(default=["w", "x", "y", "z"])
+    quaternion = labels(default=["w", "x", "y", "z"])
 
 
 @part
@@ -192,8 +182,8 @@ class Turning(
 ):
     """Smallest and largest inclination theta of the top's axis, where its nutation turns back."""
 
-    turning_angle: Value = number("rad", "smallest and largest theta")
-    turning: Labels = labels(default=["upper", "lower"])
+    turning_angle = number("rad", "smallest and largest theta")
+    turning = labels(default=["upper", "lower"])
 
 
 @part
@@ -209,10 +199,10 @@ class Potential(
 ):
     """Effective potential of a heavy top, as a function of the inclination of its axis."""
 
-    effective_potential: Value = number(
+    effective_potential = number(
         "rad2 / s2", "effective potential V, where alpha = theta'^2 + V is constant"
     )
-    inclination: Labels = labels("angle from the vertical", "deg")
+    inclination = labels("angle from the vertical", "deg")
 
 
 @part
@@ -233,13 +223,11 @@ def neglected() -> Neglected:
     return Neglected(what="nothing: the question is about a rigid top without friction")
 
 
-define_parts(
+heavy_top = public_call(
     Top,
-    answer=(euler_angles,),
-    sections={"turning": turning, "potential": potential, "neglected": neglected},
+    answer=euler_angles,
+    sections=(turning, potential, neglected),
     parts=(instants, numbers, heavy_top_start, motion),
     together=_OF_THE_TOP,
     widest=4096,
 )
-
-heavy_top = public_call(Top)

@@ -3,29 +3,26 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import Block, part
-from earthspin.engine.question import define_parts, key
-from earthspin.engine.variables import Labels, Neglected, Pair, Value, labels, measured, number
+from earthspin.engine.question import key
+from earthspin.engine.variables import Neglected, labels, measured, number
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.reasons import no_iau_model
 from earthspin.questions.satellites import largest_torques_of_satellites
 from earthspin.questions.sky import Sky, places, sky
 from earthspin.questions.times import SPAN_DOC, Dated, Series, days_of, epochs
+from earthspin.sky.iau import NUTATION_NODE_STEP, Nutation
 from earthspin.sky.sources import OF_DATE, SourceName
 from earthspin.torque.gravity import largest_torque_on_figure, torque_error, torque_from_declination
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from earthspin.sky.iau import Nutation
 
 
 class Torque(Series, word="torque", call="torque_series", positional=("start", "stop", "step")):
@@ -37,11 +34,6 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
         Over `time` and `perturber`: `right_ascension`, `declination` (deg), `distance` (m),
         `torque` (N m, `component` x, y, z), `torque_magnitude` and its error; bounds on
         directions and distances for each perturber.
-
-    Raises
-    ------
-    EarthspinError
-        Whatever is wrong, in one line.
 
     Examples
     --------
@@ -86,8 +78,6 @@ def source_has_equator(source: SourceName) -> str | None:
 @part(unless=(on_mean_equator, source_has_equator))
 def nutation(epochs: Epochs) -> Nutation:
     """Interpolated IAU nutation for the true equator."""
-    from earthspin.sky.iau import Nutation
-
     start, end = epochs.span()
     return Nutation(start, end, epochs.size)
 
@@ -95,24 +85,22 @@ def nutation(epochs: Epochs) -> Nutation:
 class Torques(Dated, along=("time", "perturber")):
     """Positions of the perturbers, and their torques on the body, in time."""
 
-    right_ascension: Value = number("deg", "right ascension, geometric", error="direction_error")
-    declination: Value = number("deg", "declination, geometric", error="direction_error")
-    distance: Value = number("m", "distance between the centres")
-    torque: Value = number(
+    right_ascension = number("deg", "right ascension, geometric", error="direction_error")
+    declination = number("deg", "declination, geometric", error="direction_error")
+    distance = number("m", "distance between the centres")
+    torque = number(
         "N m",
         "torque on the equatorial bulge",
         along=("time", "perturber", "component"),
         error="torque_magnitude_error",
     )
-    torque_magnitude: Pair = measured("N m", "magnitude of the torque")
-    direction_error: Value = number(
+    torque_magnitude = measured("N m", "magnitude of the torque")
+    direction_error = number(
         "arcsec", "bound on right ascension and declination", along=("perturber",)
     )
-    distance_error: Value = number(
-        "m", "bound on the distance from the kernel", along=("perturber",)
-    )
-    perturber: Labels = labels()
-    component: Labels = labels(default=["x", "y", "z"])
+    distance_error = number("m", "bound on the distance from the kernel", along=("perturber",))
+    perturber = labels()
+    component = labels(default=["x", "y", "z"])
 
 
 @part
@@ -126,8 +114,6 @@ def torques(
     block: Block | None = None,
 ) -> Torques:
     """Compute declination, distance and torque of each perturber at every time."""
-    import xarray as xr
-
     now = days_of(epochs, block, "series.zarr", (body, *perturbers))
     names = list(sky.targets)
     seen = sky.radec(body, now, true=equator == "true", nutation=nutation)
@@ -179,7 +165,7 @@ def torques(
 def _equator_words(equator: str, nutation: Nutation | None) -> str:
     """Describe the model of the equator in words, for the attributes of the result."""
     if nutation is not None:
-        return f"IAU {nutation.model} nutation, a node each {nutation.spacing:g} d"
+        return f"IAU 2000A nutation, a node each {NUTATION_NODE_STEP:g} d"
     return "mean equator" if equator == "mean" else "IAU 2000A nutation at each time"
 
 
@@ -223,13 +209,11 @@ def neglected(
     return Neglected(sizes, "N m", "largest torque that the model leaves out", body.reference)
 
 
-define_parts(
+torque_series = public_call(
     Torque,
-    answer=(torques,),
-    sections={"neglected": neglected},
+    answer=torques,
+    sections=(neglected,),
     parts=(places, sky, epochs, nutation, nearest),
     together=("body",),
     widest=256,
 )
-
-torque_series = public_call(Torque)

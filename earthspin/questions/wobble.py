@@ -7,34 +7,24 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import EARTH, Body, Numeric, all_of
 from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY
 from earthspin.engine.answers import public_call
 from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, key, setting
-from earthspin.engine.variables import (
-    Neglected,
-    Pair,
-    Value,
-    Variables,
-    measured,
-    number,
-    words,
-)
+from earthspin.engine.question import Question, key, setting
+from earthspin.engine.variables import Neglected, Variables, measured, number, words
 from earthspin.interior.named import ANELASTIC_EXPONENT, EXPONENT_RANGE, Interior
 from earthspin.questions import interiors
 from earthspin.questions.reasons import observed_wobble
 from earthspin.rotor.axisymmetric import free_wobble_error
 from earthspin.units import Number
 from earthspin.wobble import ladder, propagation
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _FIGURE = ("dynamical_flattening", "j2", "triaxiality")
 _SPIN = ("gm", "radius", "spin_period")
@@ -61,11 +51,6 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
         `period_solar` (d of 86400 s) with its 95 % half-width, `period_sidereal`, `factor`,
         `quality_factor`. `earthspin.run_tree` adds the sections: the observed period, the
         sensitivity of the last rung, the free core nutation, and the Love numbers.
-
-    Raises
-    ------
-    EarthspinError
-        Whatever is wrong, in one line.
 
     Examples
     --------
@@ -174,8 +159,6 @@ class Inside:
 
     def label(self, value: Numeric) -> xr.DataArray:
         """Convert an array with one value per body to a DataArray like those of the inputs."""
-        import xarray as xr
-
         array = np.asarray(value)
         return xr.DataArray(array, dims=self.dims[len(self.dims) - array.ndim :])
 
@@ -195,18 +178,11 @@ def inside(
     ocean_love_number: Numeric | None = None,
 ) -> Inside:
     """Collect the inputs of the non-rigid wobble models: figure, interior and ocean of the body."""
-    import xarray as xr
-
     interior = interiors.interior_of(body)
     assert interior is not None
     names = (*_FIGURE, *_SPIN)
-    own = {
-        "k2": k2,
-        "core_fraction": core_fraction,
-        "core_ellipticity": core_ellipticity,
-        "ocean": ocean_love_number,
-        "anelastic_exponent": anelastic_exponent,
-    }
+    chosen = (k2, core_fraction, core_ellipticity, ocean_love_number, anelastic_exponent)
+    own = dict(zip(_INTERIOR.values(), chosen, strict=True))
     own = {name: value for name, value in own.items() if value is not None}
     given = {name: body.needed(name) for name in names} | own
     numbers = xr.broadcast(*map(xr.DataArray, given.values()))
@@ -229,28 +205,26 @@ class Rungs(
 ):
     """Period of the free wobble from each model of the ladder, from rigid to deformable."""
 
-    period_solar: Pair = measured("d", "period of the free wobble in days of 86400 s")
-    period_sidereal: Value = number(
+    period_solar = measured("d", "period of the free wobble in days of 86400 s")
+    period_sidereal = number(
         "1",
         "period of the free wobble in turns of the body, its sidereal days",
         short="sidereal days",
     )
-    factor: Value = number("1", "ratio of the period to that of the rung before")
-    quality_factor: Value = number(
+    factor = number("1", "ratio of the period to that of the rung before")
+    quality_factor = number(
         "1",
         "quality factor of the free wobble",
         comment="infinite without dissipation; the exponent of anelasticity is a free choice, "
         "so the anelastic rung is a check of consistency, not a prediction",
         short="Q",
     )
-    rung_formula: Value = words("formula for the turns of the body per wobble, with its source")
+    rung_formula = words("formula for the turns of the body per wobble, with its source")
 
 
 @part
 def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
     """Compute the free wobble period for each model of the ladder, from rigid to deformable."""
-    import xarray as xr
-
     h, j2 = body.needed("dynamical_flattening"), body.needed("j2")
     turns = ladder.rigid_turns(body.needed("flattening"), h, j2, body.triaxiality)
     quality: dict[str, Numeric] = dict.fromkeys(turns, np.inf)
@@ -292,8 +266,6 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
 
 def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric]:
     """95 % half-widths of the rigid wobble periods, from the errors of flattening and of H."""
-    import xarray as xr
-
     spread: dict[str, Numeric] = {}
     for name, value in turns.items():
         from_flattening = name == "flattening"
@@ -310,8 +282,6 @@ def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric
 
 def _stacked(values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
     """Stack the arrays of a mapping along a new dimension, labelled by the keys of the mapping."""
-    import xarray as xr
-
     return xr.concat(
         xr.broadcast(*map(xr.DataArray, values.values())),
         dim=xr.Variable(dim, list(values)),
@@ -329,10 +299,10 @@ class Sensitivity(Variables, along=("input",), no_error="a share of an error, or
     The period is that of the most detailed model; errors are 95 % half-widths.
     """
 
-    days_per_unit: Value = number("d", "change of the last rung per unit of the input")
-    input_value: Value = number("1", "value of the input")
-    input_half_width: Value = number("1", "95 % half-width of the input")
-    days_from_input: Value = number(
+    days_per_unit = number("d", "change of the last rung per unit of the input")
+    input_value = number("1", "value of the input")
+    input_half_width = number("1", "95 % half-width of the input")
+    days_from_input = number(
         "d", "95 % half-width of the last rung from the uncertainty of the input"
     )
 
@@ -353,14 +323,12 @@ def sensitivity(inside: Inside) -> Sensitivity:
 
 
 class CoreNutation(
-    Variables,
-    along=("core_shape",),
-    no_error="its relative error is that of free_core_nutation",
+    Variables, along=("core_shape",), no_error="its relative error is that of free_core_nutation"
 ):
     """Period of the free core nutation, for different shapes of the core."""
 
-    free_core_nutation: Pair = measured("d", "period of the free core nutation in space")
-    free_core_nutation_sidereal: Value = number(
+    free_core_nutation = measured("d", "period of the free core nutation in space")
+    free_core_nutation_sidereal = number(
         "1", "period of the free core nutation in turns of the body"
     )
 
@@ -410,7 +378,7 @@ def neglected(body: Body, inside: Inside | None = None) -> Neglected:
     )
 
 
-define_parts(
+wobble_ladder = public_call(
     Wobble,
     answer=wobble_rungs,
     sections={
@@ -423,5 +391,3 @@ define_parts(
     together=("body", *_INTERIOR),
     widest=1024,
 )
-
-wobble_ladder = public_call(Wobble)

@@ -45,11 +45,6 @@ class AngularMomentum:
     mass: ComplexArray
     motion: ComplexArray
 
-    @property
-    def chi(self) -> ComplexArray:
-        """Excitation of polar motion chi1 + i chi2, the sum of mass and motion terms, rad."""
-        return self.mass + self.motion
-
     def daily(self) -> AngularMomentum:
         """Average the angular momentum functions over each day from 0h to 0h, dated at noon.
 

@@ -17,6 +17,7 @@ from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.errors import SceneError, UndefinedError
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.kepler import eccentric_anomaly
+from earthspin.sky.iau import fixed_ecliptic
 from earthspin.sky.poles import Direction, Pole, fixed_equator
 from earthspin.sky.protocol import BY_ELEMENTS, Place, checked
 
@@ -66,8 +67,6 @@ class Plane:
         if word == "icrf":
             return cls(tuple(np.eye(3).ravel().tolist()))
         if word == "ecliptic":
-            from earthspin.sky.iau import fixed_ecliptic
-
             return cls(tuple(fixed_ecliptic().ravel().tolist()))
         if pole is None:
             raise UndefinedError(f"plane = '{word}' needs the body's pole; give it")

@@ -23,6 +23,7 @@ import numpy as np
 
 from earthspin._version import version
 from earthspin.constants import J2000_JD, MAS
+from earthspin.dates import date_text
 from earthspin.errors import (
     CoverageError,
     KernelError,
@@ -32,24 +33,12 @@ from earthspin.errors import (
     no_plain_file,
 )
 from earthspin.numerics.arrays import FloatArray
-from earthspin.sky.kernel import (
-    AGAIN,
-    BLOCK,
-    DRIFT,
-    PUBLISHED,
-    Epochs,
-    Records,
-    Table,
-    check_summaries,
-    check_words,
-    drift_is_measured,
-    growth,
-    largest_difference,
-)
+from earthspin.sky import kernel
+from earthspin.sky.kernel import AGAIN, drift_is_measured
 from earthspin.sky.protocol import Place, Trajectory, checked, measured_code, words
 
 #: Kernels with a name; any other kernel is given by its path.
-NAMED_KERNELS = tuple(PUBLISHED)
+NAMED_KERNELS = tuple(kernel.PUBLISHED)
 
 #: A step in the chain from the barycentre to a body: a segment (centre, target), or a trajectory.
 Step: TypeAlias = "tuple[int, int] | Trajectory"
@@ -82,16 +71,16 @@ class Ephemeris:
         self.path = Path(path)
         self.name = name or self.path.name
         self.evaluations: Counter[Step] = Counter()
-        self._published = None if name is None else PUBLISHED.get(name)
-        kernel = _open_spk(self.path)
+        self._published = None if name is None else kernel.PUBLISHED.get(name)
+        spk = _open_spk(self.path)
         self._file = self.path.resolve()
-        weakref.finalize(self, kernel.close)
-        self._segments = {(s.center, s.target): s for s in kernel.segments}
-        if len(self._segments) < len(kernel.segments):
+        weakref.finalize(self, spk.close)
+        self._segments = {(s.center, s.target): s for s in spk.segments}
+        if len(self._segments) < len(spk.segments):
             problem = "it holds several segments for one body"
             raise KernelError(path, problem, "cut out one span with `python -m jplephem excerpt`")
-        self._records = {step: Records(s, self.path) for step, s in self._segments.items()}
-        self._tables: dict[tuple[int, int], Table] = {
+        self._records = {step: kernel.Records(s, self.path) for step, s in self._segments.items()}
+        self._tables: dict[tuple[int, int], kernel.Table] = {
             step: records.table() for step, records in self._records.items()
         }
 
@@ -187,15 +176,15 @@ class Ephemeris:
         self.check_times(days, {*targets.values(), centre})
         self.check_records(days, {*targets.values(), centre})
         positions = {label: np.empty((days.size, 3)) for label in targets}
-        for first in range(0, days.size, BLOCK):
-            block = slice(first, first + BLOCK)
-            epochs, steps = Epochs(days[block]), dict[Step, FloatArray]()
+        for first in range(0, days.size, kernel.BLOCK):
+            block = slice(first, first + kernel.BLOCK)
+            epochs, steps = kernel.Epochs(days[block]), dict[Step, FloatArray]()
             for label, place in targets.items():
                 positions[label][block] = self._difference(place, centre, epochs, steps).T
         return positions
 
     def _difference(
-        self, target: Place, centre: Place, epochs: Epochs, steps: dict[Step, FloatArray]
+        self, target: Place, centre: Place, epochs: kernel.Epochs, steps: dict[Step, FloatArray]
     ) -> FloatArray:
         """Position of a target relative to a centre, m, shape (3, n).
 
@@ -216,7 +205,7 @@ class Ephemeris:
             raise KernelError(self.path, f"it puts {where} in the middle of {seen_from}", AGAIN)
         return total
 
-    def _step_positions(self, step: Step, epochs: Epochs) -> FloatArray:
+    def _step_positions(self, step: Step, epochs: kernel.Epochs) -> FloatArray:
         if not isinstance(step, tuple):
             return checked(step.positions(epochs.days), step, epochs.days).T
         with np.errstate(all="ignore"):  # overflow is refused below
@@ -256,8 +245,8 @@ class Ephemeris:
         codes = measured_code(centre), measured_code(target)
         if codes[0] is None or codes[1] is None:
             return math.nan, math.nan
-        mas, metres = largest_difference(codes[0], codes[1])
-        return growth(day) * mas * MAS, growth(day) * metres
+        mas, metres = kernel.largest_difference(codes[0], codes[1])
+        return kernel.growth(day) * mas * MAS, kernel.growth(day) * metres
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
         """Relative error of the spin axis motion due to the position error of a perturber.
@@ -270,7 +259,7 @@ class Ephemeris:
         """
         codes = measured_code(centre), measured_code(target)
         if codes[0] is not None and codes[1] is not None and drift_is_measured(codes[0], codes[1]):
-            return DRIFT
+            return kernel.DRIFT
         angle, metres = self.error(target, centre)
         return 2 * angle + 3 * metres / distance
 
@@ -289,8 +278,8 @@ class Ephemeris:
             others = sorted(words(place) for place in places if not isinstance(place, int))
             raise CoverageError(
                 " with ".join([self.name, *others]),
-                (_date(np.min(days)), _date(np.max(days))),
-                (_date(start), _date(end)),
+                (date_text(np.min(days), "s"), date_text(np.max(days), "s")),
+                (date_text(start, "s"), date_text(end, "s")),
             )
 
     def check_records(self, days: FloatArray, places: Iterable[Place]) -> None:
@@ -320,35 +309,36 @@ def _sha256(path: Path, same: tuple[int, ...]) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def open_ephemeris(kernel: str | os.PathLike[str] | Any) -> Ephemeris:
-    """Open a kernel from its name, its path, or an open Skyfield kernel.
+def open_ephemeris(
+    kernel: str | os.PathLike[str], reader: type[Ephemeris] | None = None
+) -> Ephemeris:
+    """Open a kernel from its name or its path.
 
     Parameters
     ----------
-    kernel : str, path, or Skyfield SpiceKernel
+    kernel : str or path
         ``"de421"`` (in the package skyfield-data), ``"de440"`` (needs the extra of that name), or
         the path of any .bsp file.
+    reader : type, optional
+        Class of the result; `Ephemeris` by default.
 
     Raises
     ------
     SceneError
-        If `kernel` is neither a known name nor a path.
+        If `kernel` is a name, but none of the known ones.
     MissingExtraError
         If the package that contains the named kernel is not installed.
     KernelError
         If the file is invalid.
     """
-    if hasattr(kernel, "spk") and hasattr(kernel, "path"):  # Skyfield's SpiceKernel
-        return Ephemeris(kernel.path)
-    if not isinstance(kernel, (str, os.PathLike)):
-        raise SceneError("ephemeris", kernel, "it is a name, a path, or a Skyfield kernel")
+    reader = reader or Ephemeris
     text = os.fspath(kernel)
     if text.lower() in NAMED_KERNELS:
-        return Ephemeris(find_kernel(text.lower()), name=text.lower())
+        return reader(find_kernel(text.lower()), name=text.lower())
     if "/" not in text and os.sep not in text and not Path(text).suffix:
         problem = f"{nearest(text, NAMED_KERNELS)}, or the path of a .bsp file"
         raise SceneError("ephemeris", text, problem)
-    return Ephemeris(text)
+    return reader(text)
 
 
 def find_kernel(name: str) -> Path:
@@ -397,32 +387,23 @@ def _open_spk(path: Path) -> Any:
             raise KernelError(path, f"it cannot be read: {error.strerror}") from None
         try:
             daf = DAF(file)
-            check_summaries(daf, path)
-            kernel = SPK(daf)
+            kernel.check_summaries(daf, path)
+            spk = SPK(daf)
         except KernelError:
             raise
         except Exception as error:  # jplephem raises ValueError, struct.error, UnicodeError, ...
             remedy = f"give a .bsp file ({error.__class__.__name__})"
             raise KernelError(path, "it is not an SPK kernel", remedy) from None
-        if not kernel.segments:
+        if not spk.segments:
             raise KernelError(path, "it holds no segments", AGAIN)
-        for segment in kernel.segments:
+        for segment in spk.segments:
             if segment.data_type not in (2, 3) or segment.frame != 1:
                 problem = f"its segments are of type {segment.data_type} in frame {segment.frame}"
                 remedy = "give Chebyshev positions (type 2 or 3) in the ICRF (frame 1)"
                 raise KernelError(path, problem, remedy)
-        check_words(kernel.segments, size, path)
+        kernel.check_words(spk.segments, size, path)
         close_on_error.pop_all()
-    return kernel
-
-
-def _date(days: float) -> str:
-    """Calendar date, as text for messages, of a time in days from J2000.0 TDB."""
-    if not np.isfinite(days):
-        return str(days)
-    micro = np.timedelta64(round(float(days) * 86_400_000_000), "us")
-    date = np.datetime64("2000-01-01T12:00:00", "us") + micro
-    return str(np.datetime_as_string(date, unit="s"))
+    return spk
 
 
 def describe_kernel(name: str) -> str:
@@ -432,4 +413,4 @@ def describe_kernel(name: str) -> str:
     except (MissingExtraError, KernelError) as error:
         return str(error)
     start, end = ephemeris.coverage(ephemeris.targets - {0})
-    return f"{_date(start)[:10]} to {_date(end)[:10]} TDB, {ephemeris.path}"
+    return f"{date_text(start)} to {date_text(end)} TDB, {ephemeris.path}"

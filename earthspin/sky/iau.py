@@ -9,11 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
 
-import erfa
 import numpy as np
 
+from earthspin._lazy import erfa
 from earthspin.constants import DAY, DAYS_PER_CENTURY, DAYS_PER_YEAR, J2000_JD
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 
@@ -25,21 +24,8 @@ NUTATION_NODE_STEP = 1.0
 NODE_ERROR = 8e-12
 _SPLINE_DEGREE = 5
 _MARGIN = 4  # nodes beyond each end, for accuracy at the ends
-
-
-class NutationModel(NamedTuple):
-    """One of the IAU nutation series: its function in ERFA and its number of terms."""
-
-    series: Callable[..., tuple[FloatArray, FloatArray]]
-    terms: int
-
-
-#: IAU 2000A adapted to IAU 2006 (678 lunisolar and 687 planetary terms), and its abridged form,
-#: accurate to 1 mas (McCarthy & Luzum 2003, Celest. Mech. 85, 37).
-NUTATION_MODELS = {
-    "2000A": NutationModel(erfa.nut06a, 1365),
-    "2000B": NutationModel(erfa.nut00b, 77),
-}
+#: Terms of IAU 2000A: 678 luni-solar and 687 planetary ones.
+TERMS = 1365
 
 
 def mean_equator(days: FloatArray) -> FloatArray:
@@ -210,10 +196,10 @@ def ecliptic_of_date(days: FloatArray) -> FloatArray:
     return np.stack([p, -q, np.sqrt(1 - p * p - q * q)], axis=-1)
 
 
-def _nodes(start: float, end: float, spacing: float) -> FloatArray:
-    margin = _MARGIN * spacing
-    count = int(np.ceil((end - start + 2 * margin) / spacing)) + 1
-    return np.asarray(start - margin + spacing * np.arange(count))
+def _nodes(start: float, end: float) -> FloatArray:
+    margin = _MARGIN * NUTATION_NODE_STEP
+    count = int(np.ceil((end - start + 2 * margin) / NUTATION_NODE_STEP)) + 1
+    return np.asarray(start - margin + NUTATION_NODE_STEP * np.arange(count))
 
 
 def _spline(nodes: FloatArray, values: FloatArray) -> Callable[[FloatArray], FloatArray]:
@@ -246,15 +232,14 @@ def node_error(days: FloatArray) -> float:
 
 
 def _nodes_of(days: FloatArray) -> FloatArray:
-    return _nodes(float(np.min(days)), float(np.max(days)), NUTATION_NODE_STEP)
+    return _nodes(float(np.min(days)), float(np.max(days)))
 
 
 class Nutation:
-    """Nutation of IAU 2000A or 2000B, interpolated in time, for use with IAU 2006 precession.
+    """Nutation of IAU 2000A, interpolated in time, for use with IAU 2006 precession.
 
     `erfa.nut06a` takes about 30 us per epoch. A quintic spline with one node per day takes a few
-    tenths of a microsecond, with an error of at most 8e-12 rad. Wider spacings, or the 77 terms of
-    IAU 2000B, are faster and less accurate.
+    tenths of a microsecond, with an error of at most 8e-12 rad.
 
     Parameters
     ----------
@@ -263,30 +248,15 @@ class Nutation:
     size : int, optional
         Number of epochs to evaluate; if there are fewer than nodes, the series is evaluated
         directly.
-    model : str
-        One of `NUTATION_MODELS`.
-    spacing : float
-        Days between nodes.
     """
 
-    def __init__(
-        self,
-        start: float,
-        end: float,
-        size: int | None = None,
-        *,
-        model: str = "2000A",
-        spacing: float = NUTATION_NODE_STEP,
-    ) -> None:
-        series = NUTATION_MODELS[model].series
-        self.model, self.spacing = model, spacing
-
+    def __init__(self, start: float, end: float, size: int | None = None) -> None:
         def exact(days: FloatArray) -> FloatArray:
-            return np.stack(series(J2000_JD, days), axis=-1)
+            return np.stack(erfa.nut06a(J2000_JD, days), axis=-1)
 
-        nodes = _nodes(start, end, spacing)
+        nodes = _nodes(start, end)
         #: Number of terms of the series that are evaluated.
-        self.evaluations = NUTATION_MODELS[model].terms * min(nodes.size, size or nodes.size)
+        self.evaluations = TERMS * min(nodes.size, size or nodes.size)
         #: Angles in longitude and obliquity, rad, shape (n, 2), at days of shape (n,).
         self.angles: Callable[[FloatArray], FloatArray] = exact
         if size is None or size > nodes.size:

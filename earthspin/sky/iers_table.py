@@ -17,28 +17,16 @@ from earthspin.sky.eop import day_of
 class PoleTable(iers.IERS_A):  # type: ignore[misc]
     """Table of Earth orientation for astropy; it refuses dates outside its range.
 
-    In some transformations the tables of astropy only warn, and use the mean pole or zero.
+    In some transformations the tables of astropy only warn, and use the mean pole or zero. Each of
+    their interpolations calls `mjd_utc`.
     """
 
     iers_table = None
 
-    def ut1_utc(self, jd1: Any, jd2: Any = 0.0, return_status: bool = False) -> Any:
-        """Return UT1 - UTC as the method of astropy does, but refuse dates outside the table."""
-        self._require(jd1, jd2)
-        return super().ut1_utc(jd1, jd2, return_status)
-
-    def dcip_xy(self, jd1: Any, jd2: Any = 0.0, return_status: bool = False) -> Any:
-        """Return dX and dY of the pole as astropy's method, but refuse dates outside the table."""
-        self._require(jd1, jd2)
-        return super().dcip_xy(jd1, jd2, return_status)
-
-    def pm_xy(self, jd1: Any, jd2: Any = 0.0, return_status: bool = False) -> Any:
-        """Return the polar motion as astropy's method, but refuse dates outside the table."""
-        self._require(jd1, jd2)
-        return super().pm_xy(jd1, jd2, return_status)
-
-    def _require(self, jd1: Any, jd2: Any) -> None:
-        mjd = np.ravel(np.sum(self.mjd_utc(jd1, jd2), axis=0))
+    def mjd_utc(self, jd1: Any, jd2: Any = 0.0) -> Any:
+        """Convert dates to modified Julian dates as astropy does, but refuse those outside."""
+        days = super().mjd_utc(jd1, jd2)
+        mjd = np.ravel(np.sum(days, axis=0))
         first, last = self["MJD"][[0, -1]].value
         outside = mjd[(mjd < first) | (mjd >= last)]  # as astropy interpolates
         if outside.size:
@@ -47,6 +35,7 @@ class PoleTable(iers.IERS_A):  # type: ignore[misc]
                 f"{day_of(first)} and ends before {day_of(last)} (UTC); choose dates inside it, or "
                 "forecast more days"
             )
+        return days
 
 
 def last_ut1(finals: Path) -> float:

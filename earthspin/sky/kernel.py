@@ -74,42 +74,18 @@ class Table(NamedTuple):
     ----------
     series : ndarray, shape (records, 3 terms)
         Coefficients of x, then y, then z; the constant first.
-    start, length : float
-        Start of the first record in seconds from J2000.0, and length of a record in seconds.
+    grid : Grid
+        Time intervals of the records.
     """
 
     series: FloatArray
-    start: float
-    length: float
-
-    @property
-    def grid(self) -> Grid:
-        """Time intervals of the records of the segment."""
-        return Grid(self.start, self.length, len(self.series))
-
-    def positions(self, days: FloatArray) -> FloatArray:
-        """Evaluate the Chebyshev series of the body's positions at given times.
-
-        Parameters
-        ----------
-        days : ndarray, shape (n,)
-            Days from J2000.0 TDB, within the records; the end belongs to the last record.
-
-        Returns
-        -------
-        ndarray, shape (3, n)
-            In the unit of the coefficients.
-        """
-        sums = np.empty((3, days.size))
-        for first in range(0, days.size, BLOCK):
-            block = slice(first, first + BLOCK)
-            sums[:, block] = self.at(Epochs(days[block]))
-        return sums
+    grid: Grid
 
     def at(self, epochs: Epochs) -> FloatArray:
         """Evaluate positions at given times, in the unit of the coefficients, shape (3, n).
 
-        Tables with equal time grids can share the `Epochs`, which holds the arranged times.
+        The times lie within the records; the end belongs to the last record. Tables with equal time
+        grids can share the `Epochs`, which holds the arranged times.
         """
         return epochs.on(self.grid).sums(self.series)
 
@@ -363,7 +339,7 @@ class Records:
     def table(self) -> Table:
         """Chebyshev coefficients (km) of all records of the segment, with the record times."""
         series = self._series.reshape(self.count, -1).astype(float, copy=False)
-        return Table(series, self.start, self.length)
+        return Table(series, Grid(self.start, self.length, self.count))
 
     @np.errstate(all="ignore")  # what is damaged may overflow
     def check(self, days: FloatArray) -> None:

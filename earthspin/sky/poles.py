@@ -9,17 +9,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self
+from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
 
 from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, EPSILON_0
 from earthspin.errors import UndefinedError, Where, nearest
 from earthspin.numerics.arrays import FloatArray
+from earthspin.sky import iau
 from earthspin.units import quantity
-
-if TYPE_CHECKING:
-    from earthspin.sky.iau import Nutation
 
 # --- equator of date ------------------------------------------------------------------------------
 # The third axis is the spin axis, the first points to the body's equinox, where the Sun on its
@@ -177,7 +175,7 @@ class Pole(Protocol):
         """Unit vector of the spin axis on one day, nutation included, shape (3,)."""
 
     def equator(
-        self, orbit: Direction | None, days: FloatArray, nutation: Nutation | None = None
+        self, orbit: Direction | None, days: FloatArray, nutation: iau.Nutation | None = None
     ) -> FloatArray:
         """Matrices from the GCRS to the body's equator and equinox of date, on given days.
 
@@ -236,7 +234,7 @@ class FixedPole(Direction):
         self,
         orbit: Direction | None,
         days: FloatArray | None = None,
-        nutation: Nutation | None = None,
+        nutation: iau.Nutation | None = None,
     ) -> FloatArray:
         """Matrix from the GCRS to the fixed equator of the body, shape (3, 3)."""
         return fixed_equator(self.vector(), self.orbit_normal(orbit))
@@ -253,8 +251,6 @@ class IAU2006Pole:
 
     def orbit_normal(self, orbit: Direction | None) -> FloatArray:
         """Unit normal of the ecliptic of J2000.0, where precession is measured, shape (3,)."""
-        from earthspin.sky import iau
-
         return iau.ecliptic_pole()
 
     def is_upright(self, orbit: Direction | None) -> bool:
@@ -263,14 +259,10 @@ class IAU2006Pole:
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
         """Matrix from the GCRS to the ecliptic and mean equinox of J2000.0."""
-        from earthspin.sky import iau
-
         return iau.fixed_ecliptic()
 
     def mean(self, days: FloatArray) -> FloatArray:
         """Unit vectors of the mean pole of date, frame bias included, shape (n, 3)."""
-        from earthspin.sky import iau
-
         return np.asarray(iau.mean_equator(days)[..., 2, :])
 
     def without_nutation(self) -> Self:
@@ -279,16 +271,12 @@ class IAU2006Pole:
 
     def true(self, day: float) -> FloatArray:
         """Unit vector of the celestial intermediate pole on a day, bias included, shape (3,)."""
-        from earthspin.sky import iau
-
         return np.asarray(iau.true_pole(np.array([day]))[0])
 
     def equator(
-        self, orbit: Direction | None, days: FloatArray, nutation: Nutation | None = None
+        self, orbit: Direction | None, days: FloatArray, nutation: iau.Nutation | None = None
     ) -> FloatArray:
         """Matrices from the GCRS to the Earth's mean or true equator and equinox of date."""
-        from earthspin.sky import iau
-
         return iau.mean_equator(days) if nutation is None else nutation.true_equator(days)
 
 
@@ -464,7 +452,7 @@ class MovingPole:
         return np.asarray(self.mean(np.array([day]))[0])
 
     def equator(
-        self, orbit: Direction | None, days: FloatArray, nutation: Nutation | None = None
+        self, orbit: Direction | None, days: FloatArray, nutation: iau.Nutation | None = None
     ) -> FloatArray:
         """Matrices from the GCRS to the equator and equinox of date, shape (n, 3, 3)."""
         normal = self.orbit_normal(orbit)

@@ -13,7 +13,7 @@ from typing import Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
-from earthspin.dates import datetime64
+from earthspin.dates import date_text
 from earthspin.errors import UndefinedError, one_line
 from earthspin.numerics.arrays import FloatArray
 from earthspin.units import real_numbers
@@ -157,7 +157,7 @@ def checked(positions: FloatArray, place: Place, days: FloatArray) -> FloatArray
         )
     lost = ~np.isfinite(values).all(axis=1)
     if lost.any():
-        date = str(datetime64(days[lost][:1])[0])[:19]
+        date = date_text(days[lost][0], "s")
         raise UndefinedError(
             f"{words(place)} gives no finite position on {date} TDB; choose times at which it does"
         )

@@ -13,10 +13,11 @@ from __future__ import annotations
 import math
 import os
 import weakref
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -245,50 +246,28 @@ class EquatorOfDate:
         return matrices if matrices.ndim == 2 else np.moveaxis(matrices, 0, -1)
 
 
-class Skyfield:
-    """Source of positions that Skyfield computes from an ephemeris kernel.
+class Skyfield(Ephemeris):
+    """Ephemeris kernel whose positions and directions Skyfield computes.
+
+    Codes, coverage and measured errors are those of an `Ephemeris`.
 
     Parameters
     ----------
-    file : Ephemeris
-        The kernel, which also provides codes, coverage and measured errors.
+    path : str or Path
+    name : str, optional
+        Name for messages; the file's name by default.
     """
 
-    def __init__(self, file: Ephemeris) -> None:
-        self.file, self.name = file, file.name
-        self.kernel = SpiceKernel(str(file.path))
+    def __init__(self, path: str | Path, name: str | None = None) -> None:
+        super().__init__(path, name)
+        self.kernel = SpiceKernel(str(self.path))
         weakref.finalize(self, self.kernel.spk.close)
 
     @property
     def provenance(self) -> dict[str, str]:
         """Name and hash of the kernel, and version of Skyfield, for the attributes of a result."""
-        return self.file.provenance | {
-            "ephemeris_reader": "Skyfield",
-            "skyfield_version": version("skyfield"),
-        }
-
-    def code(self, codes: Iterable[int], name: str) -> int:
-        """Return the first of a body's NAIF codes that the kernel has; KernelError if none."""
-        return self.file.code(codes, name)
-
-    def coverage(self, places: Iterable[Place]) -> tuple[float, float]:
-        """First and last day (TDB, from J2000.0) for which all given bodies have positions."""
-        return self.file.coverage(places)
-
-    def check_times(self, days: FloatArray, places: Iterable[Place]) -> None:
-        """Refuse times at which any of the given bodies has no position, with a CoverageError."""
-        self.file.check_times(days, places)
-
-    def error(self, target: Place, centre: Place, day: float = 0.0) -> tuple[float, float]:
-        """Bounds on the error of a body's direction (rad) and distance (m) in the kernel."""
-        return self.file.error(target, centre, day)
-
-    def drift(self, target: Place, centre: Place, distance: float) -> float:
-        """Relative error of the spin axis motion due to the position error of a perturber.
-
-        It is a fraction of the angle by which the axis moves.
-        """
-        return self.file.drift(target, centre, distance)
+        reader = {"ephemeris_reader": "Skyfield", "skyfield_version": version("skyfield")}
+        return super().provenance | reader
 
     def positions(
         self, targets: Mapping[str, Place], centre: Place, days: FloatArray
@@ -313,7 +292,7 @@ class Skyfield:
             If a trajectory gives no finite position.
         """
         self.check_times(days, {*targets.values(), centre})
-        self.file.check_records(days, {*targets.values(), centre})
+        self.check_records(days, {*targets.values(), centre})
         positions = {name: np.empty((days.size, 3)) for name in targets}
         for block, t in blocks_of_times(days):
             for name, place in targets.items():
@@ -358,7 +337,7 @@ class Skyfield:
             Skyfield's mean equator and equinox of date.
         """
         self.check_times(days, {*targets.values(), centre})
-        self.file.check_records(days, {*targets.values(), centre})
+        self.check_records(days, {*targets.values(), centre})
         frame = mean_equator_and_equinox_of_date if equator is None else EquatorOfDate(equator)
         angles = {name: np.empty((3, days.size)) for name in targets}
         for block, t in blocks_of_times(days):

@@ -37,12 +37,11 @@ def open_source(word: SourceName, ephemeris: str | PathLike[str]) -> Source:
     SceneError, MissingExtraError, KernelError
         If there is no such kernel, or it is invalid.
     """
-    kernel = open_ephemeris(ephemeris)
     if word == "jplephem":
-        return kernel
+        return open_ephemeris(ephemeris)
     from earthspin.sky.skyfield import Skyfield
 
-    return Skyfield(kernel)
+    return open_ephemeris(ephemeris, Skyfield)
 
 
 def describe_source(word: SourceName, ephemeris: object) -> str:

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, TextIO
 import numpy as np
 import xarray as xr
 
-from earthspin.engine.plan import NOT_REQUESTED, REUSED
-from earthspin.engine.spread import is_ensemble
+from earthspin.engine.accessor import is_ensemble
+from earthspin.engine.run import NOT_REQUESTED, REUSED
 from earthspin.errors import SceneError
 from earthspin.scenes import plan, run_tree
 from earthspin.views import (
@@ -36,14 +36,10 @@ if TYPE_CHECKING:
     from earthspin.engine.accessor import Answer
 
 #: Figures, pictures and special tables of the answers to each question.
-VIEWS = {
-    **precession.VIEWS,
-    **torque.VIEWS,
-    **pole.VIEWS,
-    **rotors.VIEWS,
-    **long_term.VIEWS,
-    **observed_pole.VIEWS,
-    **wobble.VIEWS,
+VIEWS: dict[str, Views] = {
+    word: views
+    for module in (precession, torque, pole, rotors, long_term, observed_pole, wobble)
+    for word, views in module.VIEWS.items()
 }
 
 #: Titles of the pages of the documentation that explain the method of a question, by their files.

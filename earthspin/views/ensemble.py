@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
+from earthspin.engine.accessor import inputs_of, members_needed
 from earthspin.engine.members import MEMBER
-from earthspin.engine.spread import inputs_of, members_needed, quantiles, sensitivity
 from earthspin.errors import SceneError
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, PageFigure, Views, axes
@@ -62,17 +62,19 @@ def tables(tree: Result) -> list[Table]:
 def _spread(answer: xr.Dataset) -> xr.Dataset:
     """Median of each quantity that differs among the members, and half of its central 95 %."""
     names = [*dict.fromkeys(number.name for number in _numbers(answer))]
-    low, middle, high = (quantiles(answer)[names].isel(quantile=k, drop=True) for k in range(3))
+    spread = answer.earthspin.quantiles()[names]
+    low, middle, high = (spread.isel(quantile=k, drop=True) for k in range(3))
     half = ((high - low) / 2).rename({name: f"{name}_error" for name in names})
     for name in names:
         middle[name].attrs["ancillary_variables"] = f"{name}_error"
         half[f"{name}_error"].attrs["units"] = middle[name].attrs.get("units", "")
-    return middle.merge(half)
+    merged: xr.Dataset = middle.merge(half)
+    return merged
 
 
 def _percentages(answer: xr.Dataset) -> xr.Dataset:
     """Share of each input in the variance of the main quantities, and what inputs leave, in %."""
-    result, shares = sensitivity(answer), xr.Dataset()
+    result, shares = answer.earthspin.sensitivity(), xr.Dataset()
     labels = ("input", [*map(str, result["input"].values), "rest"], result["input"].attrs)
     result = result.drop_vars("input")  # xarray 2025.6 cannot concatenate labels that are words
     for name in _chiefs(answer):
@@ -96,7 +98,7 @@ def _percentages(answer: xr.Dataset) -> xr.Dataset:
 
 def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray]:
     """Main quantities of an ensemble, and the share of each input in their variance."""
-    result, chiefs = sensitivity(answer), _chiefs(answer)
+    result, chiefs = answer.earthspin.sensitivity(), _chiefs(answer)
     rows = [number for number in _numbers(answer) if number.name in chiefs]
     return rows, np.array([result[f"{n.name}_share"].sel(n.labels).values for n in rows])
 
@@ -107,12 +109,12 @@ def lead(tree: Result) -> str:
     if not _numbers(answer):
         return _alike(answer)
     number = _chief(answer)
-    low, middle, high = quantiles(answer)[number.name].sel(number.labels).values
+    low, middle, high = answer.earthspin.quantiles()[number.name].sel(number.labels).values
     value = with_error(middle, (high - low) / 2, number.units.replace("1", "", 1).strip())
     words = f"{answer.sizes[MEMBER]} members: {number.words}, {value}."
     if not _enough(answer):
         return words
-    share = sensitivity(answer)[f"{number.name}_share"].sel(number.labels)
+    share = answer.earthspin.sensitivity()[f"{number.name}_share"].sel(number.labels)
     chief = share.input.values[int(share.values.argmax())]
     return f"{words} {100 * float(share.max()):.1f} % of the variance comes from {chief}."
 

@@ -42,8 +42,8 @@ def plot_climate(result: Result, *, ax: Axes | None = None) -> Axes:
     answer = in_order(answer_of(result))
     panels = (
         ("obliquity", "obliquity (deg)"),
-        ("eccentricity", "eccentricity (ratio)"),
-        ("climatic_precession", "climatic precession (ratio)"),
+        ("eccentricity", "eccentricity"),
+        ("climatic_precession", "climatic precession"),
     )
     curves = [(label, answer[name], answer[f"{name}_error"]) for name, label in panels]
     return _plot_curves(ax, curves, 5.6)
@@ -62,7 +62,7 @@ def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
     answer = in_order(answer_of(result))
     period, error = answer.precession_period / 1000, answer.precession_period_error / 1000
     curves = [
-        (f"{label} (1000 years)", period.sel(perturber=label), error.sel(perturber=label))
+        (f"period, {label}\n(1000 years)", period.sel(perturber=label), error.sel(perturber=label))
         for label in answer.perturber.values[::-1]
     ]
     return _plot_curves(ax, curves, 1.2 + 1.4 * len(curves))
@@ -164,7 +164,8 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     if away.size > 1:
         ax.set_xlim(away[0], away[-1])
         ax.set_ylim(LEAST * together[-1], 2 * together[-1])
-    ax.set(xlabel="distance from J2000.0 (1000 years)", ylabel="share of the half-width (deg)")
+    ax.set(xlabel="distance from J2000.0 (1000 years)")
+    ax.set_ylabel("error of the longitude\nof perihelion (deg)")
     drawing.legend_above(ax)
     return ax
 

@@ -33,6 +33,7 @@ def plot_amplitude_and_phase(tree: Result) -> Figure:
     figure, (upper, lower) = drawing.stacked(2, 5.2, width=7.5, height_ratios=[3, 2])
     plot_amplitude(tree, ax=upper)
     plot_phase(tree, ax=lower)
+    upper.set_xlabel("")
     return figure
 
 
@@ -81,10 +82,9 @@ def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None =
     if metres := _metres(answer):
         ax.secondary_xaxis("top", functions=_scaling(metres)).set_xlabel("y (m)")
         ax.secondary_yaxis("right", functions=_scaling(metres)).set_ylabel("x (m)")
-    bar = ax.figure.colorbar(
-        dots, ax=ax, location="bottom", shrink=0.8, aspect=40, format="%.0f", label="time (years)"
-    )
+    bar = ax.figure.colorbar(dots, ax=ax, location="bottom", shrink=0.8, aspect=40, format="%.0f")
     bar.locator = MaxNLocator(8, integer=True)
+    bar.set_label("time (UTC, years)")
     return ax
 
 
@@ -129,7 +129,7 @@ def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.plot(time, fit.annual_amplitude, color=drawing.GREEN, lw=1, label="annual")
     ax.axhline(200, color=drawing.GREY, lw=0.8, ls="--")
     note(ax, '0.2", the text', (time[0], 200), (2, 3), color=drawing.GREY)
-    ax.set(ylim=(0, 235), ylabel="amplitude (mas)")
+    ax.set(ylim=(0, 235), xlabel="time (UTC)", ylabel="amplitude (mas)")
     if metres := _metres(answer_of(result)):
         ax.secondary_yaxis("right", functions=_scaling(metres)).set_ylabel("amplitude (m)")
     ax.legend(loc="lower left", ncols=2)
@@ -150,7 +150,7 @@ def plot_modelled(observed: xr.Dataset, modelled: xr.Dataset, *, ax: Axes | None
     _plot_free_wobble(ax, observed, drawing.BLUE, "observed")
     driver = modelled.attrs.get("source", "driven by a given excitation")
     _plot_free_wobble(ax, modelled, drawing.RED, driver)
-    ax.set(ylim=(0, None), ylabel="amplitude (mas)")
+    ax.set(ylim=(0, None), xlabel="time (UTC)", ylabel="amplitude (mas)")
     ax.legend(loc="best")
     return ax
 
@@ -172,7 +172,7 @@ def plot_phase(result: Result, *, ax: Axes | None = None) -> Axes:
     known = fit.chandler_amplitude.values > 2 * fit.chandler_amplitude_error.values
     ax.plot(time, phase, color=drawing.BLUE, lw=1, alpha=0.35)
     ax.plot(time, np.where(known, phase, np.nan), color=drawing.BLUE, lw=1.6)
-    ax.set_ylabel("phase (deg)")
+    ax.set(xlabel="time (UTC)", ylabel="phase (deg)")
     return ax
 
 
@@ -245,6 +245,7 @@ def plot_offsets(result: Result, *, figure: Figure | None = None) -> Figure:
         ax.fill_between(answer.time.values, value - error, value + error, color="0.85", lw=0)
         ax.plot(answer.time.values, value, color=colour, lw=0.5)
         ax.set(ylabel=f"{name} (mas)", ylim=(-LARGEST_OFFSET, LARGEST_OFFSET))
+    panels[-1].set_xlabel("time (UTC)")
     return figure
 
 
@@ -281,7 +282,7 @@ def plot_core_nutation(result: Result, *, ax: Axes | None = None) -> Axes:
         words = f"not detected\nafter {date(last)}"
         note(ax, words, (time[-1], 0.96), (-2, 0), color=drawing.GREY, **where)
     highest = 1.1 * float(np.max(size + np.minimum(error, size)))
-    ax.set(ylim=(0, highest), ylabel="amplitude (µas)")
+    ax.set(ylim=(0, highest), xlabel="time (UTC)", ylabel="amplitude (µas)")
     ax.legend(loc="upper left", ncols=2)
     return ax
 
@@ -355,6 +356,7 @@ def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
             ax.plot(bulletin.time, predicted, color=drawing.RED, lw=1, ls="--", label=words)
         ax.set_ylabel(f"{name} (mas)")
         ax.legend(loc="best")
+    panels[-1].set_xlabel("time (UTC)")
     return figure
 
 
@@ -374,7 +376,7 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
     x, y = answer.x.values * 1e3, answer.y.values * 1e3
     ax.plot(y, x, color=drawing.BLUE, lw=1.4)
     ax.plot(y[0], x[0], "o", color=drawing.BLUE, ms=4)
-    note(ax, date(answer.time[0]), (y[0], x[0]), (5, 4), color=drawing.BLUE)
+    note(ax, date(answer.time[0]), (y[0], x[0]), (-5, 4), color=drawing.BLUE, ha="right")
     for day in ELLIPSES:
         near = np.flatnonzero(abs(_days(answer) - day) < 0.5)
         if near.size == 0:

@@ -24,11 +24,8 @@ def page(
     drawings: Sequence[Drawing] = (),
     solids: Sequence[Solid] = (),
     *,
-    lead: str = "",
-    note: str = "",
-    links: Sequence[tuple[str, str]] = (),
     last: Sequence[Table] = (),
-    footer: str = "",
+    **words: object,
 ) -> str:
     """HTML text of a page with figures, three-dimensional pictures and tables, in this order.
 
@@ -39,13 +36,11 @@ def page(
     drawings : sequence of Drawing
         If the first is square, it stands beside the title.
     solids : sequence of Solid
-    lead, note : str
-        A sentence at the head, and what holds for all that follows.
-    links : sequence of (str, str)
-        Words and addresses of other pages, relative to this one.
     last : sequence of Table
         At the end, folded away.
-    footer : str
+    **words
+        `lead` and `note`, a sentence at the head, and what holds for all that follows; `links`,
+        pairs of words and addresses of other pages, relative to this one; and `footer`.
 
     Returns
     -------
@@ -61,13 +56,10 @@ def page(
         drawings=drawings[1:] if shows_first else drawings,
         solids=solids,
         contents=[part.title for parts in (drawings, solids, tables, last) for part in parts],
-        lead=lead,
-        note=note,
-        links=links,
         last=last,
-        footer=footer,
         figure_on_page=figure_on_page,
         script=source("touch.js") + source("solid.js"),
+        **{"lead": "", "note": "", "links": (), "footer": ""} | words,
     )
 
 
@@ -113,6 +105,8 @@ def source(name: str) -> str:
 _POWER = re.compile(r"(?<![\w.])([+-]?\d+(?:\.\d+)?(?:\(\d+(?:\.\d+)?\))?)e([+-]?)0*(\d+)(?!\w)")
 #: A minus before a number, but neither a hyphen nor a part of a date.
 _MINUS = re.compile(r"(?<![\w.)\u00b7-])-(?=\d)")
+#: Superscript characters, which stay powers if a table is copied as text.
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _DIFFERENCE = re.compile(r"\bC( ?)-( ?)A\b")
 #: A unit or a letter squared or cubed: kg m2, M a2, t3.
 _SQUARE = re.compile(r"(?<=kg m)2\b|(?<=M a)2\b|(?<=^t)[23]$")
@@ -138,15 +132,15 @@ def typeset(words: str) -> Markup:
     text = _POWER.sub(_power, text)
     text = _MINUS.sub("\u2212", text)
     text = _DIFFERENCE.sub("C\\1\u2212\\2A", text)
-    text = _SQUARE.sub(lambda match: f"<sup>{match[0]}</sup>", text)
+    text = _SQUARE.sub(lambda match: match[0].translate(_RAISED), text)
     text = _SUBSCRIPT.sub(lambda match: f"{_GREEK[match[1]]}<sub>A</sub>", text)
     text = re.sub(r"\buas\b", "\u00b5as", text)
     return Markup(text)  # escaped above  # nosec B704
 
 
 def _power(match: re.Match[str]) -> str:
-    sign = "\u2212" if match[2] == "-" else ""
-    return f"{match[1]} \u00d7 10<sup>{sign}{match[3]}</sup>"
+    exponent = f"{match[2].strip('+')}{match[3]}".translate(_RAISED)
+    return f"{match[1]} \u00d7 10{exponent}"
 
 
 #: Greys and colours of figures, as the page's style sheet turns them for light and dark.

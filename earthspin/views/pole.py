@@ -147,11 +147,7 @@ def observed(tree: Result) -> Table:
     return table_along(sizes, "model", title, columns, note, first="")
 
 
-IAU_TABLES = [
-    ("", budget),
-    ("residual_sizes", residuals),
-    ("observed", observed),
-]
+IAU_TABLES = [("", budget), ("residual_sizes", residuals), ("observed", observed)]
 
 
 def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -240,7 +236,7 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
     ticks = (-27, -2, -0.2, 0, 0.2, 2, 27)
     ax.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     ax.set_xlabel("frequency in space, negative if retrograde (cycles per year)")
-    ax.set_ylabel("IAU 2000A over ours, in phase (ratio)")
+    ax.set_ylabel("amplitude of IAU 2000A over ours")
     ax.legend(loc="upper right")
     return ax
 
@@ -301,7 +297,7 @@ def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
         ax.plot(place, answer[name], marker, color=colour, ms=6, label=words)
     for at, value in zip(place, answer.rms_dpsi_sineps.values, strict=True):
         note(ax, f"{value:.2g}" if value < 10 else f"{value:.0f}", (at, value), (0, 8), ha="center")
-    ax.set(yscale="log", ylabel="left against IAU 2000A, rms (mas)")
+    ax.set(yscale="log", ylabel="residual from IAU 2000A, rms (mas)")
     ax.margins(y=0.15)
     drawing.rungs(ax, [str(rung).replace("-", "\n") for rung in answer.rung.values])
     ax.legend(loc="upper right")
@@ -340,7 +336,7 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.set(
         ylim=(0.85, 1.45),
         xlabel="frequency in space, negative if retrograde (cycles per year)",
-        ylabel="over a rigid body, in phase (ratio)",
+        ylabel="amplitude over that of a rigid body",
     )
     ax.legend(loc="upper right")
     return ax

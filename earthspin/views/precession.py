@@ -34,7 +34,7 @@ def lead(tree: Result) -> str:
     period, error = _with_known_effects(known)
     return (
         f"{once} {tables.with_error(period, error)} years by all known effects together; IAU 2006 "
-        f"has {FULL_TURN / float(known.iau_rate):,.3f}. "
+        f"has {FULL_TURN / float(known.iau_rate):.3f}. "
         f"The model of this page, {pull}, gives {alone} by itself: it leaves out effects that add "
         f"{period - float(answer.precession_period[-1]):.2f} years."
     )
@@ -54,36 +54,39 @@ def periods(tree: Result) -> Table:
     answer, known, seasons = answer_of(tree), needed(tree, "iau_2006"), needed(tree, "seasons")
     total, iau = answer.isel(perturber=-1), FULL_TURN / float(known.iau_rate)
     period, error = _with_known_effects(known)
-    names = (
-        "Sun and Moon, fixed ecliptic",
-        "with all known effects",
-        "general precession, moving ecliptic",
-    )
-    years = (
-        measured(total, "precession_period"),
-        tables.with_error(period, error),
-        measured(seasons, "general_precession_period"),
-    )
-    added = period - float(total.precession_period)
-    unexplained = f"unexplained: {iau - period:+.3f} yr"
-    missing = f"known effects: {added:+.2f} yr", unexplained, unexplained
-    uses = (
-        "the torque of Sun and Moon",
-        f"the equator; IAU 2006: {iau:.3f}",
-        f"equinox, seasons; IAU 2006: {FULL_TURN / P_A_RATE.value:.3f}",
-    )
+    rows = [
+        (
+            "general precession, moving ecliptic",
+            measured(seasons, "general_precession_period"),
+            f"{FULL_TURN / P_A_RATE.value:.3f}",
+            "the equinox, the seasons; 25800 in textbooks",
+        ),
+        (
+            "equator on a fixed ecliptic, all known effects",
+            tables.with_error(period, error),
+            f"{iau:.3f}",
+            "the motion of the celestial pole",
+        ),
+        (
+            "the same, torques of Sun and Moon alone",
+            measured(total, "precession_period"),
+            "",
+            "the theory of rigid bodies",
+        ),
+    ]
     return Table(
         "Which period to quote",
-        ("period", "years", "not included", "quote it for"),
-        list(zip(names, years, missing, uses, strict=True)),
-        "The textbooks' 25,800 years are the general precession in longitude. The unexplained "
-        f"part is {_millionths(known)} millionths of the rate, "
-        f"{abs(float(known.closure / known.closure_error)):.1f} half-widths: the half-widths "
-        "contain the uncertainties of H, of the masses and of the average, and the published "
-        "sizes of the known effects have none. H was inferred from the observed precession, so "
-        "that the agreement with IAU 2006 is a test of consistency. Without it, from J2 and the "
-        f"layers of PREM, the second period is {float(known.period_from_prem):.1f} years.",
-        words=(0, 2, 3),
+        ("period", "years", "IAU 2006", "quote it for"),
+        rows,
+        f"Known effects beside the torques of Sun and Moon add "
+        f"{period - float(total.precession_period):.2f} years. "
+        f"{abs(period - iau):.3f} years remain unexplained, {_millionths(known)} millionths of "
+        f"the rate and {abs(float(known.closure / known.closure_error)):.1f} half-widths: the "
+        "half-widths contain the uncertainties of H, of the masses and of the average, but the "
+        "published sizes of the known effects have none. H was inferred from the observed "
+        "precession, so the agreement with IAU 2006 is a test of consistency. Without it, from J2 "
+        f"and the layers of PREM, the second period is {float(known.period_from_prem):.1f} years.",
+        words=(0, 3),
     )
 
 
@@ -140,7 +143,7 @@ def sky_and_calendar(tree: Result) -> Table:
     )
     others = (
         f"{P_A_RATE.value:.5f} (IAU 2006)",
-        "25,800 (source text, I.8)",
+        "25800 (source text, I.8)",
         "72 (source text, I.8)",
         f"{TROPICAL_YEAR.value / DAY:.6f} (Simon et al. 1994)",
         "129.4 (source text, I.8)",
@@ -172,7 +175,7 @@ def models(tree: Result) -> Table:
     figure = needed(tree, "figure_models")
     columns = (
         Column("earth_model", lambda row: _MODELS[row.earth_model.item()], "model"),
-        *("h_by_model:.7f", "period_by_model:,.0f", "wobble_by_model:.2f"),
+        *("h_by_model:.7f", "period_by_model:.0f", "wobble_by_model:.2f"),
     )
     note = (
         f"J2 gives C - A = {float(figure.moment_difference):.5e} kg m2, and C - A gives back J2 = "
@@ -296,7 +299,7 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
     drawing.lines(lower, curve.window_length, curve.rate_by_window.transpose(..., "window"), lw=1.1)
     rate = float(total.precession_rate)
     lower.axhline(rate, color="0.3", lw=0.8, ls="--")
-    words = f"{rate:.3f}\u2033/yr: once round in {float(total.precession_period):,.0f} years"
+    words = f"{rate:.3f}\u2033/yr: once round in {float(total.precession_period):.0f} years"
     note(lower, words, (float(curve.window_length[-1]), rate), (0, -30), ha="right", color="0.2")
     lower.set(
         xlabel="length of the averaging window (yr)", ylabel="averaged rate\n(arcsec per year)"
@@ -376,7 +379,7 @@ def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
     dates = stars.year_labels(years, _circle(total, years))
     path = _circle(total, np.linspace(2000 - turn / 2, 2000 + turn / 2, 361))
     ax = stars.plot_path(path, dates, float(np.radians(total.obliquity)), ax)
-    ax.set_title(f"once round in {turn:,.0f} years")
+    ax.set_title(f"once round in {turn:.0f} years")
     return ax
 
 

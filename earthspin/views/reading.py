@@ -9,8 +9,8 @@ import xarray as xr
 
 from earthspin.bodies import in_a_sentence
 from earthspin.engine.accessor import Answer
-from earthspin.engine.plan import IMPORTS
 from earthspin.engine.question import Question
+from earthspin.engine.run import IMPORTS
 from earthspin.engine.variables import error_of, from_si, largest_of
 from earthspin.rounded import plain, shown_unit
 from earthspin.scenes import QUESTIONS, run_tree

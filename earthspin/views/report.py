@@ -57,8 +57,8 @@ def write_report(
 
     Raises
     ------
-    EarthspinError
-        Whatever is wrong. The data are written before anything is drawn.
+    OutputError
+        If the folder cannot be written. The data are written before anything is drawn.
     """
     place = drafts.check_writable(folder)
     with progress("report", 4) as advance:
@@ -146,8 +146,8 @@ def write_wobble_report(
 
     Raises
     ------
-    EarthspinError
-        Whatever is wrong. The data are written before anything is drawn.
+    OutputError
+        If the folder cannot be written. The data are written before anything is drawn.
     """
     place = drafts.check_writable(folder)
     with progress("wobble report", 3) as advance:

@@ -10,18 +10,7 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.quaternion import multiply, rotate
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.views import drawing, solids
-from earthspin.views.drawing import (
-    BLUE,
-    CYCLE,
-    GREEN,
-    RED,
-    Axes,
-    Figure,
-    PageFigure,
-    Views,
-    axes,
-    empty,
-)
+from earthspin.views.drawing import BLUE, GREEN, RED, Axes, Figure, PageFigure, Views, axes
 from earthspin.views.reading import Result, answer_of, needed
 from earthspin.views.solids import BLACK, GREY, Solid
 
@@ -229,7 +218,7 @@ ROTOR_SOLIDS = [
 
 
 def _plot_potential_and_nutation(tree: Result) -> Figure:
-    answer, figure = answer_of(tree), empty(8, 3.4)
+    answer, figure = answer_of(tree), drawing.empty(8, 3.4)
     left, right = figure.subplots(1, 2)
     plot_effective_potential(tree, ax=left)
     right.plot(answer.time, np.degrees(answer.theta), color=BLUE, lw=1.2)
@@ -350,7 +339,7 @@ def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     ax = axes(ax, 8, 3.4)
     answer = answer_of(result)
-    for colour, share in zip(CYCLE, ("method", "input", "kernel"), strict=False):
+    for colour, share in zip(drawing.CYCLE, ("method", "input", "kernel"), strict=False):
         error = answer[f"attitude_error_{share}"].values
         shown = np.isfinite(error) & (error > 0)
         if shown.any():

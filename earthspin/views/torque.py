@@ -8,18 +8,7 @@ import numpy as np
 import xarray as xr
 
 from earthspin.views import drawing
-from earthspin.views.drawing import (
-    BLUE,
-    CYCLE,
-    GREY,
-    RED,
-    Axes,
-    Figure,
-    PageFigure,
-    Views,
-    axes,
-    legend_above,
-)
+from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, Figure, PageFigure, Views, axes
 from earthspin.views.reading import Result, answer_of
 from earthspin.views.tables import along
 
@@ -30,11 +19,8 @@ MANY_SWINGS = 200
 
 def through(tree: Result, title: str, smooth_days: float) -> drawing.Drawing:
     """Figure of declination and torque over time; fast oscillations are drawn as bands."""
-    plot, caption = (
-        partial(_plot_both, smooth_days=smooth_days),
-        _caption_of_torque(tree, smooth_days),
-    )
-    return PageFigure(title, caption, plot).drawn(tree)
+    plot = partial(_plot_both, smooth_days=smooth_days)
+    return PageFigure(title, _caption_of_torque(tree, smooth_days), plot).drawn(tree)
 
 
 def _plot_both(tree: Result, smooth_days: float | None = None) -> Figure:
@@ -87,7 +73,7 @@ def plot_declination(
     for number, (label, row) in enumerate(along(answer, "perturber")):
         _line_or_band(ax, row.declination, label, number, _colour(label, number), smooth_days)
     ax.set_ylabel("declination (deg)")
-    legend_above(ax)
+    drawing.legend_above(ax)
     return ax
 
 
@@ -120,17 +106,12 @@ def plot_torque(
     drawing.few_dates(ax)
     ax.set_xlabel("time (TDB)")
     if smooth_days:
-        legend_above(ax)
+        drawing.legend_above(ax)
     return ax
 
 
 def _line_or_band(
-    ax: Axes,
-    series: xr.DataArray,
-    label: str,
-    number: int,
-    colour: str,
-    smooth_days: float | None,
+    ax: Axes, series: xr.DataArray, label: str, number: int, colour: str, smooth_days: float | None
 ) -> None:
     """Draw a time series as a line; if it oscillates fast, as a band between its extremes."""
     swings = int((np.diff(np.sign(np.diff(series.values))) != 0).sum())

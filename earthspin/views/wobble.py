@@ -5,22 +5,8 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from earthspin.views import tables
-from earthspin.views.drawing import (
-    BLUE,
-    CYCLE,
-    GREY,
-    RED,
-    Axes,
-    Figure,
-    PageFigure,
-    Views,
-    axes,
-    note,
-    rungs,
-    stacked,
-    style,
-)
+from earthspin.views import drawing, tables
+from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, Figure, PageFigure, Views, axes
 from earthspin.views.reading import Result, answer_of, changes_of, needed, section
 from earthspin.views.tables import Column, Table, along, table_along
 
@@ -92,7 +78,7 @@ def plot_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
     if observed is not None:
         period, error = float(observed.observed_period), float(observed.observed_period_error)
         ax.axhspan(period - error, period + error, color=RED, alpha=0.3, lw=0)
-        note(ax, f"observed, {period:.1f} d", (-0.4, period), (0, 5), color=RED, fontsize=9)
+        drawing.note(ax, f"observed, {period:.1f} d", (-0.4, period), (0, 5), color=RED, fontsize=9)
     place, periods = np.arange(answer.rung.size), answer.period_solar.values
     ax.step(place, periods, where="mid", color=BLUE, lw=1, alpha=0.5)
     errors = answer.period_solar_error.values
@@ -101,10 +87,10 @@ def plot_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
         below = at == place[-1] or factor < 1
         words = f"{value:.1f} d" + (f"\n× {factor:.4f}" if at else "")
         by, side = ((0, -12), "top") if below else ((0, 10), "bottom")
-        note(ax, words, (at, value), by, ha="center", va=side)
+        drawing.note(ax, words, (at, value), by, ha="center", va=side)
     ax.set_ylabel("period of the free wobble (d)")
     ax.margins(y=0.2)
-    rungs(ax, answer.rung.values)
+    drawing.rungs(ax, answer.rung.values)
     return ax
 
 
@@ -129,7 +115,7 @@ SMALL = "l2_load"
 MARKS = {"a day": 1.0, "14 months": 430.0, "the node": 6798.4}
 
 
-@style()
+@drawing.style()
 def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
     """Draw how much the Love numbers exceed the elastic ones, and their phase lag, by period.
 
@@ -141,7 +127,7 @@ def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
         Drawn on one of its own by default.
     """
     data = needed(result, "by_period")
-    figure, (above, below) = stacked(2, 4.6, figure, width=7.5)
+    figure, (above, below) = drawing.stacked(2, 4.6, figure, width=7.5)
     days = data.love_period.values
     for number, (name, row) in enumerate(along(data, "love")):
         if name == SMALL:
@@ -157,7 +143,7 @@ def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
     for words, at in MARKS.items():
         for ax in (above, below):
             ax.axvline(at, color=GREY, lw=0.7, ls=":")
-        note(below, words, (at, 0), (-3, 4), **where)
+        drawing.note(below, words, (at, 0), (-3, 4), **where)
     above.legend(ncols=5, loc="upper left", fontsize=8)
     return figure
 

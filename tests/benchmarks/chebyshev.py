@@ -16,7 +16,7 @@ from jplephem.spk import SPK
 
 from earthspin.constants import J2000_JD
 from earthspin.sky.ephemeris import find_kernel
-from earthspin.sky.kernel import BLOCK, Records
+from earthspin.sky.kernel import BLOCK, Epochs, Records
 
 ROUNDS, SIZE = 9, 200_000
 RNG = np.random.default_rng(0)
@@ -40,7 +40,10 @@ def main() -> None:
     """Print the table, as Markdown."""
     path = find_kernel("de421")
     segment = next(s for s in SPK.open(path).segments if s.target == 301)
-    ours = Records(segment, path).table().positions
+    table = Records(segment, path).table()
+
+    def ours(days: np.ndarray) -> np.ndarray:
+        return table.at(Epochs(days))
 
     def theirs(days: np.ndarray) -> np.ndarray:
         return np.asarray(segment.compute(J2000_JD, days)[:3])

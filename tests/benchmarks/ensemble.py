@@ -43,9 +43,6 @@ class Pendulums:
     def request(self) -> Mapping[str, str]:
         return {"question": "pendulums"}
 
-    def first(self) -> xr.Dataset:
-        return self.make(0)
-
     def make(self, number: int) -> xr.Dataset:
         members = np.arange(*self.layout.bounds(number))
         modulus = 0.1 + 0.8 * members[:, np.newaxis] / MEMBERS

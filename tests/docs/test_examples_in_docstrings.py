@@ -14,8 +14,8 @@ import pytest
 
 import earthspin
 from earthspin.bodies import Body
+from earthspin.engine import METHODS, registered
 from earthspin.engine.accessor import Answer
-from earthspin.engine.registry import METHODS, registered
 
 
 def public() -> Iterator[tuple[str, Any]]:

@@ -10,6 +10,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import psutil
 import pytest
@@ -18,6 +19,7 @@ from earthspin.engine import blocks
 from tests.engine.work import Squares, blocks_in, bytes_of
 
 ROOT = Path(__file__).parents[2]
+ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT)}
 #: Seconds after which no process may be left.
 MINUTE = 60
 
@@ -47,33 +49,22 @@ AFTER = pytest.mark.parametrize(
 Start = Callable[[Path, str, int], subprocess.Popen[bytes]]
 
 
-def slow() -> Squares:
-    return Squares(size=150)
-
-
 @pytest.fixture
 def undisturbed(tmp_path: Path) -> dict[str, str]:
     """What an undisturbed run gives."""
-    return bytes_of(blocks.write(slow(), tmp_path / "undisturbed.zarr"))
+    return bytes_of(blocks.write(Squares(size=150), tmp_path / "undisturbed.zarr"))
 
 
 @pytest.fixture
-def program(tmp_path: Path) -> Path:
-    """A program that writes a store by a cluster."""
-    file = tmp_path / "program.py"
-    file.write_text(RUN)
-    return file
-
-
-@pytest.fixture
-def started(program: Path) -> Iterator[Start]:
+def started(tmp_path: Path) -> Iterator[Start]:
     """Start the program by a cluster, and wait until some blocks are done."""
-    processes = []
+    processes, program = [], tmp_path / "program.py"
+    program.write_text(RUN)
 
     def start(path: Path, client: str, blocks: int) -> subprocess.Popen[bytes]:
         process = subprocess.Popen(
             [sys.executable, str(program), str(path), client],
-            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, cwd=ROOT, env=environment(),
+            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, cwd=ROOT, env=ENVIRONMENT,
         )  # fmt: skip
         processes.append(process)
         partial = path.with_name(path.name + ".partial")
@@ -86,10 +77,6 @@ def started(program: Path) -> Iterator[Start]:
         process.wait()
         assert process.stderr
         process.stderr.close()
-
-
-def environment() -> dict[str, str]:
-    return {**os.environ, "PYTHONPATH": str(ROOT)}
 
 
 def until(holds: object, seconds: float = MINUTE) -> None:
@@ -110,7 +97,7 @@ def finished(path: Path, undisturbed: dict[str, str]) -> None:
     """Go on with what was left, and compare."""
     partial = path.with_name(path.name + ".partial")
     had = blocks_in(partial)
-    work = slow()
+    work = Squares(size=150)
     blocks.write(work, path)
     assert len(work.made) == work.layout.count - had
     assert bytes_of(path) == undisturbed
@@ -150,25 +137,16 @@ def test_a_worker_killed(
 def scheduler(tmp_path: Path) -> Iterator[tuple[subprocess.Popen[bytes], str]]:
     """A scheduler with two workers, each a process of its own."""
     file = tmp_path / "scheduler.json"
-    dask = [sys.executable, "-m", "dask"]
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "env": environment()}
-    made = [
-        subprocess.Popen(
-            [*dask, "scheduler", "--port", "0", "--no-dashboard", "--scheduler-file", str(file)],
-            **quiet,  # type: ignore[call-overload]
-        )
-    ]
+
+    def dask(*words: str) -> subprocess.Popen[bytes]:
+        common = ["-m", "dask", *words, "--scheduler-file", str(file), "--no-dashboard"]
+        quiet: dict[str, Any] = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        return subprocess.Popen([sys.executable, *common], env=ENVIRONMENT, **quiet)
+
+    made = [dask("scheduler", "--port", "0")]
     until(file.exists)
-    for _ in range(2):
-        made.append(
-            subprocess.Popen(
-                [
-                    *dask, "worker", "--scheduler-file", str(file), "--nthreads", "1",
-                    "--no-nanny", "--no-dashboard", "--death-timeout", str(MINUTE),
-                ],
-                **quiet,  # type: ignore[call-overload]
-            )
-        )  # fmt: skip
+    worker = ("worker", "--nthreads", "1", "--no-nanny", "--death-timeout", str(MINUTE))
+    made += [dask(*worker), dask(*worker)]
     yield made[0], json.loads(file.read_text())["address"]
     for process in made:
         process.kill()

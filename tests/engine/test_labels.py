@@ -9,7 +9,7 @@ import xarray as xr
 
 import earthspin
 from earthspin import UndefinedError
-from earthspin.engine.variables import FROM_SI, Value, Variables, number, si
+from earthspin.engine.variables import FROM_SI, Variables, number, si
 from tests import shipped
 
 
@@ -80,7 +80,7 @@ def test_attributes_are_text_and_numbers(nodes: dict[str, xr.Dataset]) -> None:
 class Angles(Variables, along=("time",)):
     """One variable."""
 
-    x: Value = number("deg", "an angle")
+    x = number("deg", "an angle")
 
 
 def test_values_are_turned_from_si() -> None:
@@ -105,7 +105,7 @@ def test_a_unit_that_is_not_known_is_not_taken_for_si() -> None:
     class Far(Variables):
         """One variable in a unit that no result is shown in."""
 
-        length: Value = number("km", "a length")
+        length = number("km", "a length")
 
     far = xr.DataArray(7000.0, attrs={"units": "km"})
     with pytest.raises(earthspin.SceneError, match="units = 'km'"):

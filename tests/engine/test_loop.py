@@ -234,7 +234,7 @@ def test_a_damaged_block_where_none_is_missing(
     path, work = tmp_path / "r.zarr", Squares()
     folder = ended(path, 6)
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(blocks.Unfinished, "finish", lambda *_: None)
+        patched.setattr(blocks, "finish", lambda *_: None)
         blocks.write(Squares(), path)
     flip(folder / blocks.STORE / name)
     blocks.write(work, path)

@@ -14,23 +14,6 @@ from earthspin.engine.question import Question, keys_of
 from earthspin.engine.run import Run
 from earthspin.scenes import QUESTIONS, shipped_scenes
 
-EVERY = [(scene, sections) for scene in shipped_scenes() for sections in ("all", ())]
-
-
-@pytest.mark.parametrize(("scene", "sections"), EVERY)
-def test_parts_run_after_what_they_need(scene: str, sections: str | tuple[str, ...]) -> None:
-    plan = earthspin.plan(scene, sections)
-    graph = plan.question.graph
-    chosen = {part.name for part in plan.parts}
-    seen: set[str] = set()
-    for part in plan.parts:
-        assert {name for name in part.needs if name in graph.parts} <= seen
-        assert {name for name in part.uses if name in chosen} <= seen
-        seen.add(part.name)
-    titles = {part.title for part in graph.parts.values()}
-    assert {part.title for part in plan.parts} | set(plan.left_out) == titles
-    assert not {part.title for part in plan.parts} & set(plan.left_out)
-
 
 @pytest.mark.parametrize("scene", shipped_scenes())
 def test_a_plan_can_be_pickled(scene: str) -> None:
@@ -53,24 +36,13 @@ def test_every_key_is_used_by_some_part(question: type[Question]) -> None:
     assert used <= {*keys_of(question), *graph.parts, BLOCK}
 
 
-def test_reasons() -> None:
-    plan = earthspin.plan(load_scene("torque"))
-    assert plan.left_out["nutation"] == "the equator is the mean one"
-    plan = earthspin.plan(load_scene("torque", {"equator": "true"}))
-    assert "nutation" not in plan.left_out
-
-
 def test_the_words_of_a_plan() -> None:
-    text = str(earthspin.plan(load_scene("sun-only"), "all"))
-    assert "runs, in this order" in text
-    assert "left out" in text
-    assert "the moon is not among the perturbers" in text
-    assert " ms]" not in text
-    page = earthspin.plan("sun-only")._repr_html_()
-    assert page.startswith("<table>")
-    assert "its section was not requested" in page
-    frame = earthspin.plan("sun-only").to_frame()
-    assert set(frame.columns) == {"part", "status", "reason", "seconds"}
+    plan = earthspin.plan("sun-only")
+    for word in ("runs, in this order", "left out", "the moon is not among the perturbers"):
+        assert word in str(plan)
+    assert " ms]" not in str(plan)
+    assert "its section was not requested" in plan._repr_html_()
+    assert set(plan.to_frame().columns) == {"part", "status", "reason", "seconds"}
 
 
 def test_a_part_is_left_out_with_what_it_needs(monkeypatch: pytest.MonkeyPatch) -> None:

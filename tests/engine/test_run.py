@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 
 import earthspin
-from earthspin import CoverageError, Scene, SceneError, load_scene, scenes
+from earthspin import Scene, SceneError, load_scene, scenes
 from earthspin.engine.run import Run
 from earthspin.questions import averages
 from earthspin.scenes import run, run_blocks
@@ -139,16 +139,6 @@ def test_a_span_alone_has_the_step_of_the_signature(call: str) -> None:
     assert ask(*span).identical(ask(*span, step))
 
 
-def test_spans_outside_the_kernel() -> None:
-    for span in (("1800-01-01", "1801-01-01"), ("2053-01-01", "2054-01-01")):
-        with pytest.raises(CoverageError, match="1899-07-29"):
-            earthspin.torque_series(*span, "1 d")
-        with pytest.raises(CoverageError):
-            earthspin.precession(span=span)
-    with pytest.raises(CoverageError):
-        earthspin.torque_series(times=["2000-01-01", "2060-01-01"])
-
-
 def test_both_forms_of_the_torque_agree_to_round_off() -> None:
     """The series uses (I.8.7); here the vector form, from the kernel and ERFA directly."""
     import erfa
@@ -228,16 +218,14 @@ def test_a_body_without_nutation_has_no_true_equator() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "change", "scale"),
+    ("name", "change"),
     [
-        ("precession_rate_error_input", "dynamical_flattening", 1.0),
-        ("mean_torque_error", "j2", None),
-        ("free_wobble_period_error", "dynamical_flattening", 1.0),
+        ("precession_rate_error_input", "dynamical_flattening"),
+        ("mean_torque_error", "j2"),
+        ("free_wobble_period_error", "dynamical_flattening"),
     ],
 )
-def test_input_errors_are_what_moving_the_input_gives(
-    name: str, change: str, scale: float | None
-) -> None:
+def test_input_errors_are_what_moving_the_input_gives(name: str, change: str) -> None:
     """Move a number by 1.96 of its standard deviations and see what the result does."""
     body = earthspin.EARTH
     u = 1e-4  # large enough to outweigh all else
@@ -245,13 +233,8 @@ def test_input_errors_are_what_moving_the_input_gives(
     moved = getattr(body, change) * (1 + 1.96 * u)
     other = {"dynamical_flattening": body.dynamical_flattening} if change == "j2" else {}
     scene = load_scene("precession")
-    one, two = (
-        earthspin.run_tree(scene.replace(body=changed), "free_wobble")
-        for changed in (
-            body.replace(relative_uncertainty=known),
-            body.replace(**{change: moved}, **other),
-        )
-    )
+    bodies = body.replace(relative_uncertainty=known), body.replace(**{change: moved}, **other)
+    one, two = (earthspin.run_tree(scene.replace(body=each), "free_wobble") for each in bodies)
     if name.startswith("free_wobble"):
         one, two = one["free_wobble"], two["free_wobble"]
     base = name.split("_error")[0]

@@ -3,19 +3,15 @@
 import numpy as np
 import pytest
 
-from earthspin.engine.variables import (
-    Pair,
-    Variables,
-    measured,
-)
+from earthspin.engine.variables import Variables, measured
 from earthspin.numerics.arrays import Estimate
 
 
 class Turns(Variables, along=("body",)):
     """Numbers with half-widths."""
 
-    angle: Pair = measured("deg", "an angle", split=True, comment="as seen")
-    period: Pair = measured("d", "a period")
+    angle = measured("deg", "an angle", split=True, comment="as seen")
+    period = measured("d", "a period")
 
 
 def turning() -> Turns:
@@ -42,7 +38,7 @@ def test_attributes_and_unknown_errors_are_noted() -> None:
     class Plain(Variables):
         """One number."""
 
-        length: Pair = measured("m", "a length")
+        length = measured("m", "a length")
 
     unknown = Plain(length=(1.0, np.nan)).with_attributes(no_error="nobody knows").dataset()
     assert unknown.length_error.attrs["no_error"] == "nobody knows"

@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.members import MEMBER
 from earthspin.engine.question import Question
-from earthspin.engine.spread import quantiles, sensitivity
 from earthspin.many import ensemble
 from earthspin.questions.free_rotor import free_rotor
 from earthspin.questions.precession import precession
@@ -124,7 +123,7 @@ def test_one() -> Distances:
     """
     h = 1.5 * H
     alone = precession(body=BODY.replace(dynamical_flattening=h)).precession_period
-    ends = quantiles(ensemble("precession", {H_OF_BODY: {"grid": [h]}}), (0.0, 0.3, 1.0))
+    ends = ensemble("precession", {H_OF_BODY: {"grid": [h]}}).earthspin.quantiles((0.0, 0.3, 1.0))
     yield ends.precession_period.values != alone.values
 
 
@@ -136,5 +135,5 @@ def test_no_spread() -> Distances:
     Compared with: zero slope, zero share and nothing unexplained
     """
     normal = {"normal": [H, 1e-30]}
-    shares = sensitivity(ensemble("precession", {"n": 9, H_OF_BODY: normal}))
+    shares = ensemble("precession", {"n": 9, H_OF_BODY: normal}).earthspin.sensitivity()
     yield from (share.values for share in shares.data_vars.values())

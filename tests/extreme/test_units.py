@@ -22,7 +22,7 @@ def _days(times: object) -> FloatArray:
 def _grid(first: object, last: object, step: object) -> dates.TimeGrid:
     """Make evenly spaced times between two dates, from values as a user would type them."""
     span = dates.Span.read([first, last], Where("span"))
-    return dates.TimeGrid.over(span, dates.Spacing().read(step, Where("step")))
+    return dates.TimeGrid.over(span, dates.SPACING.read(step, Where("step")))
 
 
 @holds(bound=2e-8, unit="s")

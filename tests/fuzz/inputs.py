@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import cftime
 import numpy as np
 import pandas as pd
 import tomli_w
@@ -94,6 +95,11 @@ def values() -> list[Any]:
         np.array([1 + 1j]), np.array([None]), np.array([1, "a", None], dtype=object),
         np.array([[1], [2]], dtype=object), np.ma.masked_array([1.0, 2.0], [0, 1]),
         np.datetime64("2000-01-01"), np.datetime64("NaT", "D"), np.timedelta64(1, "D"),
+        "-2559-01-01T12:00", "+12025-06-15", "10 000 B.C.", "AD 1", "2016-12-31T23:59:60Z",
+        "12 hours", "2000-01-01T00:00:00.123456789", np.datetime64("-2559-01-01"),
+        np.datetime64("12025", "Y"), np.datetime64(2**62, "Y"), np.datetime64(-(2**62), "as"),
+        Time(1e9, format="jyear"),
+        *[cftime.datetime(2000, 1, 2, calendar=name) for name in ("standard", "julian", "noleap")],
         np.timedelta64("NaT", "D"), np.array(["2000-01-01", "NaT"], "M8[us]"),
         np.rec.array([(1, 2.0)]),
         3 * u.h, 3 * u.kg, [1, 2] * u.m, u.h, float("nan") * u.s, [[1, 2, 3]] * u.rad,

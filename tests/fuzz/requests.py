@@ -19,9 +19,9 @@ import tomli_w
 
 import earthspin
 from earthspin.cli import _parser
+from earthspin.dates import YearSpan
 from earthspin.engine.question import Key, keys_of
 from earthspin.scenes import QUESTIONS, load_scene, shipped_scenes
-from earthspin.years import YearSpan
 from tests.fuzz.inputs import WORDS, any_word, extreme_number
 
 Random = random.Random

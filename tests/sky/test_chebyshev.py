@@ -9,7 +9,7 @@ from numpy.polynomial.chebyshev import chebval
 
 from earthspin.constants import J2000_JD
 from earthspin.sky.ephemeris import find_kernel
-from earthspin.sky.kernel import Records, Table
+from earthspin.sky.kernel import Epochs, Grid, Records, Table
 
 RECORDS, DAYS_EACH = 40, 4.0
 
@@ -19,7 +19,7 @@ def table(terms: int, records: int = RECORDS) -> Table:
     rng = np.random.default_rng(terms)
     fall = np.tile(0.2 ** np.arange(terms), 3)
     series = 4e5 * fall * rng.standard_normal((records, 3 * terms))
-    return Table(series, -10.0 * 86400.0, DAYS_EACH * 86400.0)
+    return Table(series, Grid(-10.0 * 86400.0, DAYS_EACH * 86400.0, records))
 
 
 @pytest.mark.parametrize("terms", [1, 2, 3, 13])
@@ -30,12 +30,12 @@ def test_against_numpys_own_sums(terms: int) -> None:
     series = tables.series[record].reshape(-1, 3, terms)
     expected = [[chebval(x, one) for one in each] for x, each in zip(place, series, strict=True)]
     # 4e5 times what the place loses when days of -10 are counted from the start: 2e-15
-    np.testing.assert_allclose(tables.positions(days), np.transpose(expected), rtol=0, atol=1e-8)
+    np.testing.assert_allclose(tables.at(Epochs(days)), np.transpose(expected), rtol=0, atol=1e-8)
 
 
 def test_both_ends_belong_to_the_table() -> None:
     tables = table(5)
-    ends = tables.positions(np.array([-10.0, -10.0 + RECORDS * DAYS_EACH]))
+    ends = tables.at(Epochs(np.array([-10.0, -10.0 + RECORDS * DAYS_EACH])))
     signs = (-1.0) ** np.arange(5)
     first, last = tables.series[0].reshape(3, 5), tables.series[-1].reshape(3, 5)
     np.testing.assert_allclose(ends[:, 0], first @ signs, rtol=1e-14, atol=1e-9)
@@ -53,7 +53,7 @@ def test_positions_of_a_kernel_are_those_of_jplephem() -> None:
             ours = Records(segment, path).table()
             for days in (in_order, anywhere):
                 theirs = segment.compute(J2000_JD, days)[:3]
-                off = np.linalg.norm(ours.positions(days) - theirs, axis=0)
+                off = np.linalg.norm(ours.at(Epochs(days)) - theirs, axis=0)
                 assert np.all(off <= 5e-16 * np.linalg.norm(theirs, axis=0))
                 del theirs  # views into the file, which closes
     finally:
@@ -72,13 +72,13 @@ def test_a_time_has_the_same_bits_in_any_company(
     """In order, out of order, alone: blocks and regions of a series cannot differ."""
     tables = table(13)
     days = np.minimum(first + step * np.arange(size), -10.0 + RECORDS * DAYS_EACH)
-    together = tables.positions(days)
+    together = tables.at(Epochs(days))
     order = np.random.default_rng(seed).permutation(size)
-    np.testing.assert_array_equal(tables.positions(days[order]), together[:, order])
+    np.testing.assert_array_equal(tables.at(Epochs(days[order])), together[:, order])
     some = np.sort(order[: size // 2 + 1])
-    np.testing.assert_array_equal(tables.positions(days[some]), together[:, some])
-    np.testing.assert_array_equal(tables.positions(days[:1]), together[:, :1])
+    np.testing.assert_array_equal(tables.at(Epochs(days[some])), together[:, some])
+    np.testing.assert_array_equal(tables.at(Epochs(days[:1])), together[:, :1])
 
 
 def test_no_times_have_no_positions() -> None:
-    assert table(13).positions(np.empty(0)).shape == (3, 0)
+    assert table(13).at(Epochs(np.empty(0))).shape == (3, 0)

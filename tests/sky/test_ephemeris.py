@@ -89,7 +89,7 @@ def test_places_where_there_is_no_kernel(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match="did you mean 'de421'"):
         open_ephemeris("de412")
     with pytest.raises(SceneError, match="a name, a path"):
-        open_ephemeris(3)
+        earthspin.precession(ephemeris=3)
 
 
 def test_a_kernel_by_path_name_and_skyfield_object(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ from skyfield.api import load, load_file
 import earthspin
 from earthspin.engine.question import keys_of
 from earthspin.sky import iau
-from earthspin.sky.ephemeris import Ephemeris, find_kernel, open_ephemeris
+from earthspin.sky.ephemeris import Ephemeris, find_kernel
 from earthspin.sky.skyfield import Skyfield
 
 TARGETS = {"sun": 10, "moon": 301, "mars": 499}
@@ -21,7 +21,7 @@ DAYS = np.linspace(-36000.0, 19000.0, 2001)
 
 @pytest.fixture(scope="module")
 def skyfield() -> Skyfield:
-    return Skyfield(open_ephemeris("de421"))
+    return Skyfield(find_kernel("de421"), "de421")
 
 
 def apart(one: xr.DataArray, other: xr.DataArray) -> float:

@@ -20,7 +20,9 @@ from tests import shipped
 SCENES = ("precession", "torque", "pole", "iau", "wobble", "polar-motion", "free-rotor", "top-loop")
 
 #: A quantity and, in brackets at the end, its unit; what is a ratio by its own words needs none.
-LABEL = re.compile(r"[^()]+(\([^()]+\)[^()]+)?\s\([^()]+\)|.*\brelative error\b.*", re.DOTALL)
+LABEL = re.compile(
+    r"[^()]+(\([^()]+\)[^()]+)?\s\([^()]+\)|.*\b(relative error|over)\b.*", re.DOTALL
+)
 
 
 @cache

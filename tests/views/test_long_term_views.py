@@ -99,7 +99,7 @@ def test_labels_cover_neither_one_another_nor_the_line(which: str, about_now: xr
 def test_periods_of_all_and_of_each(about_now: xr.Dataset) -> None:
     ax = long_term.plot_periods(about_now)
     labels = [row.get_ylabel() for row in ax.figure.axes]
-    assert labels == ["total (1000 years)", "moon (1000 years)", "sun (1000 years)"]
+    assert labels == [f"period, {of}\n(1000 years)" for of in ("total", "moon", "sun")]
     for row in ax.figure.axes:
         assert row.get_xlim() == (-13.0, 13.0)
     drawn = ax.lines[0].get_ydata()

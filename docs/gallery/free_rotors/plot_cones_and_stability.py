@@ -25,7 +25,7 @@ from earthspin.rotor.euler import axis_stability
 
 turn = np.linspace(0, 2 * np.pi, 181)
 circle = np.array([np.sin(turn), -np.cos(turn)])
-fig, panels = plt.subplots(1, 2, figsize=(6.8, 3.8), sharey=True)
+fig, panels = plt.subplots(1, 2, figsize=(6.8, 3.8))
 for ax, name, difference in zip(panels, ("long", "flat"), (-0.5, 0.8), strict=True):
     rotor = SymmetricRotor(1.0, difference, 1.0, np.radians(20))
     theta, space = np.degrees(rotor.theta), np.degrees(rotor.tilt)
@@ -35,9 +35,9 @@ for ax, name, difference in zip(panels, ("long", "flat"), (-0.5, 0.8), strict=Tr
     ax.plot(0, 0, "k+", ms=9, label="angular momentum")
     ax.plot(theta, 0, "o", color="C0")
     ax.plot(-space, 0, "o", color="C1")
-    ax.set(title=f"{name}: I3/I1 = {1 + difference:g}", xlabel="tilt (deg)")
-    ax.set(aspect="equal", xlim=(-40, 40), ylim=(-40, 40))
-panels[0].set_ylabel("tilt (deg)")
+    ax.set(title=f"{name}: I3/I1 = {1 + difference:g}", xlabel="tilt (deg)", ylabel="tilt (deg)")
+    edge = 1.15 * max(theta, abs(space))
+    ax.set(aspect="equal", xlim=(-edge, edge), ylim=(-edge, edge))
 fig.legend(*ax.get_legend_handles_labels(), loc="outside lower center", ncols=3)
 
 # %%

@@ -49,7 +49,8 @@ ax.set(xlabel="across the view (rad/s)", ylabel="up the view (rad/s)", aspect="e
 #
 # *Next:* look for a start whose advance is a third of a turn.
 
-tree = earthspin.run_tree("poinsot", sections=["poinsot"])
+scene = earthspin.load_scene("poinsot", {"rotor.points": 6001})
+tree = earthspin.run_tree(scene, sections=["poinsot"])
 rolling = tree.earthspin.section("poinsot")
 advance = float(np.degrees(rolling.herpolhode_advance))
 

@@ -41,7 +41,7 @@ of = earthspin.long_term("-400 kyr", "400 kyr", "1 kyr")
 fig, rows = plt.subplots(3, sharex=True, figsize=(7.2, 5.4))
 for row, label in zip(rows, ("total", "moon", "sun"), strict=True):
     plot_periods(of.sel(perturber=[label]), ax=row)
-    row.set(xlabel="", ylabel=f"{label} (1000 years)")
+    row.set(xlabel="", ylabel=f"period, {label}\n(1000 years)")
 rows[-1].set_xlabel("time from J2000.0 (1000 years)")
 fig.align_ylabels(rows)
 

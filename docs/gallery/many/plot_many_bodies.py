@@ -32,7 +32,7 @@ levels = [5, 10, 20, 30, 50, 100, 200]
 lines = ax.contour(day, h * 1e3, period.transpose("h", "day"), levels, cmap="viridis", norm="log")
 ax.clabel(lines, fmt="%g", fontsize=8)
 ax.plot(EARTH.spin_period / 3600, EARTH.dynamical_flattening * 1e3, "o", color="C1")
-ax.set(xlabel="sidereal day (h)", ylabel="dynamical flattening (10$^{-3}$, ratio)")
+ax.set(xlabel="sidereal day (h)", ylabel="dynamical flattening (10$^{-3}$)")
 ax.set_title("thousands of years for one turn")
 
 # %%

@@ -53,14 +53,13 @@ earths = earthspin.ensemble("precession", 10_000).sel(perturber="total")
 shares = earths.earthspin.sensitivity()
 
 fig, (left, right) = plt.subplots(1, 2, figsize=(8, 4), layout="constrained")
-for ax, name, given in (
-    (left, "precession_rate", "body_dynamical_flattening"),
-    (right, "mean_torque", "body_j2"),
+for ax, name, given, symbol in (
+    (left, "precession_rate", "body_dynamical_flattening", "$H$"),
+    (right, "mean_torque", "body_j2", "$J_2$"),
 ):
     x, y = earths[given], earths[name]
     ax.plot((x / x.mean() - 1) * 1e6, (y / y.mean() - 1) * 1e6, ".", ms=1, alpha=0.3)
     share = float(shares[f"{name}_share"].sel(input=x.attrs["input"]))
-    ax.set_title(f"{name.replace('_', ' ')}: {100 * share:.1f} % by it")
-    ax.set_ylabel("departure (10$^{-6}$, ratio)")
-left.set_xlabel("departure of $H$ (10$^{-6}$, ratio)")
-right.set_xlabel("departure of $J_2$ (10$^{-6}$, ratio)")
+    ax.set_title(f"{name.replace('_', ' ')}: {100 * share:.1f} % of\nits variance by {symbol}")
+    ax.set_ylabel(f"relative change of the {name.replace('_', ' ')} (10$^{{-6}}$)")
+    ax.set_xlabel(f"relative change of {symbol} (10$^{{-6}}$)")

@@ -44,5 +44,5 @@ for (angle, label), style in zip(names.items(), ("-", "-", "--"), strict=True):
     of = angles.sel(angle=angle)
     off = (of.angle_coefficient - of.angle_coefficient_iau).values * 1e3
     ax.plot(2000 + 100 * centuries, np.polynomial.Polynomial(off)(centuries), style, label=label)
-ax.set(xlabel="TDB (year)", ylabel="difference (mas)")
+ax.set(xlabel="time (TDB, years)", ylabel="difference (mas)")
 ax.legend()

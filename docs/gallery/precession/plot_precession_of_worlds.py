@@ -94,7 +94,7 @@ for row, (name, rate) in enumerate(published.items()):
     along = np.cos(np.radians(float(found.obliquity))) if hasattr(giants, name.upper()) else 1.0
     ax.plot(1296e3 / abs(rate.value * along), row, "o", ms=12, mfc="none", color="0.5")
     digits = -int(np.log10(error))
-    words = f"{round(period, digits):,.{max(digits, 0)}f} years"
+    words = f"{round(period, digits):.{max(digits, 0)}f} years"
     note(ax, words, (period, row), (12, 10), va="center")
 ax.set_xscale("log")
 ax.set_yticks(range(len(published)), map(proper, published))
@@ -133,4 +133,4 @@ for name, seen in observed.items():
         ax.plot(turns, seen / np.degrees(orbit.i), "o", ms=12, mfc="none", color="0.5")
     note(ax, proper(name), (turns, float(leans)), (10, 6), color=point.get_color())
 ax.set(xscale="log", yscale="log", xlabel="how often the axis would turn, $w$ (number)")
-ax.set_ylabel("obliquity over inclination of the orbit (ratio)")
+ax.set_ylabel("obliquity over inclination of the orbit")

@@ -25,7 +25,6 @@ seen = earthspin.polar_motion(span=("1993-01-01", "2000-01-01"))
 
 fig, ax = plt.subplots(figsize=(6.4, 5.2))
 plot_polhode(seen, years=None, ax=ax)
-fig.axes[-1].set_ylabel("TDB (year)")
 
 # %%
 # Annual and Chandler wobble

@@ -85,7 +85,7 @@ ax.semilogx(factors, [k2(factor) for factor in factors])
 ax.plot(1, k2(1), "o", color="C1", label=f"PREM: {k2(1):.4f}")
 liquid = equilibrium(PREM).k
 ax.axhline(liquid, color="0.4", ls="--", lw=0.9, label=f"liquid: {liquid:.4f}")
-ax.set(xlabel="shear modulus over PREM's (ratio)", ylabel="Love number k2 (ratio of potentials)")
+ax.set(xlabel="shear modulus over that of PREM", ylabel="Love number $k_2$")
 ax.set_ylim(0, 1)
 ax.legend()
 

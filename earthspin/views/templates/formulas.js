@@ -10,8 +10,9 @@ const formulas = (() => {
 
   // --- elliptic functions ------------------------------------------------------------------------
 
-  // Jacobi's sn, cn, dn of argument u and parameter m < 1, by descending Landen steps.
+  // Jacobi's sn, cn, dn of argument u and parameter m <= 1, by descending Landen steps.
   function jacobi(u, m) {
+    if (m >= 1) return [Math.tanh(u), 1 / Math.cosh(u), 1 / Math.cosh(u)];
     const a = [1], c = [Math.sqrt(m)];
     let b = Math.sqrt(1 - m), n = 0;
     for (; Math.abs(c[n]) > 1e-16 && n < 30; n++) {
@@ -126,12 +127,14 @@ const formulas = (() => {
     const pace = Math.sqrt((Math.abs(I3 - I2) * along) / (I1 * I2 * I3));
     const m = off > 0 ? (Math.abs(I2 - I1) * off) / (Math.abs(I3 - I2) * along) : 0;
     const side = (start[2] < 0 ? -1 : 1) * sense;
-    const phase = off > 0 ? incomplete(Math.atan2((side * start[1]) / b, start[0] / a), m) : 0;
+    // On the separatrix (m = 1) the component along the first axis never changes its sign.
+    const half = m >= 1 && start[0] < 0 ? -1 : 1;
+    const phase = off > 0 ? incomplete(Math.atan2((half * side * start[1]) / b, (half * start[0]) / a), m) : 0;
     // Three equal moments: the angular velocity stays where it is.
     const sphere = Math.abs(I3 - I1) < 1e-12 * I3;
     const omegaAt = sphere ? () => omega : (t) => {
       const [sn, cn, dn] = jacobi(pace * t + phase, m), found = [0, 0, 0];
-      [found[order[0]], found[order[1]], found[order[2]]] = [a * cn, side * b * sn, side * sense * c * dn];
+      [found[order[0]], found[order[1]], found[order[2]]] = [half * a * cn, half * side * b * sn, side * sense * c * dn];
       return found;
     };
     const period = sphere ? Infinity : (4 * complete(m)) / pace;
@@ -161,21 +164,31 @@ const formulas = (() => {
   // Motion of a symmetric top that is let go at inclination theta without inclination rate.
   // transverse, axial: moments about the pivot; weight: m g r; spin: omega_3. As in I.7.
   function top({ transverse, axial, weight, theta, spin, phiRate }) {
+    // An upright top without inclination rate sleeps: its axis stays, stable or not.
+    if (Math.sin(theta) === 0)
+      return { period: NaN, meanRate: NaN, turning: [theta, theta], steady: NaN, pattern: "sleeping", at: (t) => [theta, 0, spin * t] };
     const u0 = Math.cos(theta), a = (axial * spin) / transverse, b = phiRate * Math.sin(theta) ** 2 + a * u0;
     const beta = (2 * weight) / transverse, alpha = (phiRate * Math.sin(theta)) ** 2 + beta * u0;
     // (1 - u^2)(alpha - beta u) - (b - a u)^2 has the root u0; the others are those of a quadratic.
     const q1 = -(alpha + a * a) + beta * u0, q0 = 2 * a * b - beta + q1 * u0;
-    const q = -(q1 + Math.sign(q1) * Math.sqrt(Math.max(0, q1 * q1 - 4 * beta * q0))) / 2;
+    const q = -(q1 + (Math.sign(q1) || 1) * Math.sqrt(Math.max(0, q1 * q1 - 4 * beta * q0))) / 2;
     const [u1, u2, u3] = [u0, q / beta, q0 / q].sort((x, y) => x - y);
     const pace = Math.sqrt((beta * (u3 - u1)) / 4), m = (u2 - u1) / (u3 - u1), K = complete(m);
     const phase = Math.abs(u0 - u1) <= Math.abs(u0 - u2) ? 0 : K, period = (2 * K) / pace;
     const u = (t) => u1 + (u2 - u1) * jacobi(pace * t + phase, m)[0] ** 2;
-    const rate = (t) => { const x = u(t); return (b - a * x) / (1 - x * x); };
-    const phi = grown(rate, period, 128), psi = grown((t) => spin - u(t) * rate(t), period, 128);
+    const rateAt = (x) => (b - a * x) / (1 - x * x), rate = (t) => rateAt(u(t));
+    // Without spin and push the top swings in a plane, and the azimuth jumps at each passage below the point.
+    const plane = a === 0 && b === 0, passages = (t) => Math.PI * Math.floor((pace * t + phase) / (2 * K));
+    const phi = plane ? passages : grown(rate, period, 128);
+    const psi = plane ? passages : grown((t) => spin - u(t) * rate(t), period, 128);
     const slow = a * a - 2 * beta * u0;
     const steady = slow >= 0 ? beta / (a + Math.sign(a || 1) * Math.sqrt(slow)) : NaN;
+    // Azimuth rates at the turning heights: of one sign the axis traces waves, of two signs loops.
+    const [low, high] = [rateAt(u1), rateAt(u2)], largest = Math.max(Math.abs(low), Math.abs(high));
+    const pattern = plane ? "wave" : u2 - u1 < 1e-9 ? "steady" :
+      Math.min(Math.abs(low), Math.abs(high)) < 1e-9 * largest ? "cusp" : low * high < 0 ? "loop" : "wave";
     return {
-      period, meanRate: phi(period) / period, turning: [Math.acos(Math.min(1, u2)), Math.acos(Math.max(-1, u1))], steady,
+      period, pattern, meanRate: plane ? 0 : phi(period) / period, turning: [Math.acos(Math.min(1, u2)), Math.acos(Math.max(-1, u1))], steady,
       at: (t) => [Math.acos(Math.max(-1, Math.min(1, u(t)))), phi(t), psi(t)],
     };
   }

@@ -49,6 +49,9 @@ const play = (() => {
         pieces.push({ depth: 1e9, kind: "label", places: [at(place)], colour, words });
       },
     };
+    // A label that would cross the right edge stands before it.
+    const write = (words, x, y, scale) =>
+      pen.fillText(words, Math.min(x, canvas.width - pen.measureText(words).width - 4 * scale), y);
     function paint() {
       pen.clearRect(0, 0, canvas.width, canvas.height);
       pen.lineJoin = pen.lineCap = "round";
@@ -59,7 +62,7 @@ const play = (() => {
         pen.setLineDash((piece.dash || []).map((d) => d * scale));
         pen.lineWidth = (piece.width || 2.5) * scale;
         pen.font = `${14 * scale}px system-ui, sans-serif`;
-        if (piece.kind === "label") { pen.fillText(piece.words, from[0] + 6 * scale, from[1] - 6 * scale); continue; }
+        if (piece.kind === "label") { write(piece.words, from[0] + 6 * scale, from[1] - 6 * scale, scale); continue; }
         pen.beginPath();
         piece.places.forEach((p, i) => (i ? pen.lineTo(p[0], p[1]) : pen.moveTo(p[0], p[1])));
         if (piece.kind === "face") {
@@ -77,7 +80,7 @@ const play = (() => {
         pen.moveTo(to[0], to[1]);
         for (const side of [-0.4, 0.4]) pen.lineTo(to[0] - head * Math.cos(angle + side), to[1] - head * Math.sin(angle + side));
         pen.fill();
-        if (piece.label) pen.fillText(piece.label, to[0] + 8 * scale, to[1] - 6 * scale);
+        if (piece.label) write(piece.label, to[0] + 8 * scale, to[1] - 6 * scale, scale);
       }
       pieces = [];
     }
@@ -107,6 +110,8 @@ const play = (() => {
     const canvas = find("picture"), button = find("play"), state = { time: 0, playing: false, last: 0, speed: 1 };
     const view = { turn: 0.5, tilt, zoom: 1, reach };
     const { scene, paint, pen } = camera(canvas, view);
+    // Start values have eight digits, and all of them are shown: what is shown gives what is read.
+    for (const setting of settings) setting.value = Number(setting.value.toPrecision(8));
     const values = Object.fromEntries(settings.map(({ name, value }) => [name, value]));
     let moving = motion(values);
 
@@ -146,10 +151,16 @@ const play = (() => {
       if (playing) requestAnimationFrame(tick);
     }
     function one(direction) { run(false); state.time = Math.max(0, state.time + direction * step * pace * state.speed); show(); }
-    function set(name, value) {
-      values[name] = value;
+    function update() {
       moving = motion(values);
       show();
+    }
+    function setSpeed(power) {
+      const slider = find("playback"), words = `× ${shown(2 ** power, 3)}`;
+      state.speed = 2 ** power;
+      slider.value = power;
+      slider.setAttribute("aria-valuetext", words);
+      find("playback-shown").textContent = words;
     }
     function turn(right, up) {
       view.turn -= right;
@@ -158,37 +169,47 @@ const play = (() => {
     }
     function zoom(factor) { view.zoom = Math.max(0.3, Math.min(6, view.zoom * factor)); show(); }
 
-    for (const { name, words, unit, min, max, value, step: fine, choices } of settings) {
+    const changes = {};  // by setting: show and use a value
+    for (const { name, words, unit, min, max, value, step: fine, choices, presets } of settings) {
       const label = document.createElement("label"), told = document.createElement("output");
       const input = document.createElement(choices ? "select" : "input");
       if (choices) input.append(...choices.map((choice, i) => new Option(choice, i)));
-      else Object.assign(input, { type: "range", min, max, step: fine });
+      else Object.assign(input, { type: "range", min, max, step: "any" });
       input.id = name;
-      input.value = value;
-      const tell = () => { if (!choices) told.textContent = `${Number(input.value).toLocaleString("en", { maximumSignificantDigits: 6 })} ${unit}`.trim(); };
-      input.addEventListener("input", () => { tell(); set(name, Number(input.value)); });
-      tell();
+      changes[name] = (number) => {
+        input.value = number;
+        if (!choices) told.textContent = `${shown(number, 8)} ${unit}`.trim();
+        if (!choices) input.setAttribute("aria-valuetext", told.textContent);
+        values[name] = number;
+      };
+      input.addEventListener("input", () => {
+        changes[name](choices ? Number(input.value) : Number((Math.round(input.value / fine) * fine).toPrecision(8)));
+        for (const [other, number] of Object.entries(presets?.[input.value] ?? {})) changes[other](number);
+        update();
+      });
+      changes[name](value);
       label.append(words, input, told);
       find("settings").append(label);
     }
     find("again").addEventListener("click", () => {
-      for (const { name, value } of settings) {
-        find(name).value = value;
-        find(name).dispatchEvent(new Event("input"));
-        set(name, value); // itself, not the slider's nearest step
-      }
-      if (!still) find("playback").value = 0;
-      state.speed = 1;
+      for (const { name, value } of settings) changes[name](value);
+      if (!still) setSpeed(0);
       state.time = 0;
       state.last = performance.now();
-      show();
+      update();
     });
     addEventListener("resize", resize);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", show);
     if (!still) {
       button.addEventListener("click", () => run(!state.playing));
       find("step").addEventListener("click", () => one(1));
-      find("playback").addEventListener("input", (e) => { state.speed = 2 ** Number(e.target.value); });
+      find("playback").addEventListener("input", (e) => setSpeed(Number(e.target.value)));
+      setSpeed(0);
+      // A hidden page stands still.
+      document.addEventListener("visibilitychange", () => {
+        if (document.hidden && state.playing) goOn();
+        state.last = performance.now();
+      });
       makeTouchable(canvas, turn, zoom, {
         " ": () => run(!state.playing), ".": () => one(1), ",": () => one(-1),
       });
@@ -197,6 +218,7 @@ const play = (() => {
   }
 
   const degrees = Math.PI / 180;
-  const shown = (x, digits) => (Number.isFinite(x) ? x.toLocaleString("en", { maximumSignificantDigits: digits }).replace("-", "\u2212") : "none");
+  const shown = (x, digits, unit = "") =>
+    Number.isFinite(x) ? x.toLocaleString("en", { maximumSignificantDigits: digits, useGrouping: false }).replace("-", "\u2212") + unit : "none";
   return { start, revolved, ellipsoid, circle, degrees, shown };
 })();

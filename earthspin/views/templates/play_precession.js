@@ -11,8 +11,6 @@
       pulls: [given.sun, { ...given.moon, gm: given.moon.gm * mass, distance: given.moon.distance * distance }],
     });
 
-  const planet = ellipsoid([0.8, 0.8, 0.75], 24, 48);
-
   play.start({
     settings: [
       { name: "mass", words: "mass of the Moon", unit: "× present", min: 0, max: 4, step: 0.01, value: 1 },
@@ -25,10 +23,10 @@
     reach: 1.45,
     tilt: 0.32,
     readings: (m, values, time) => [
-      ["rate of precession", `${shown((m.rate * YEAR) / ARCSEC, 7)} ″ per year`],
-      ["once round in", `${shown(m.period / YEAR, 6)} years`],
-      ["of this by the Moon", `${shown((100 * m.rates[1]) / m.rate, 3)} %`],
-      ["time", `${shown(time / YEAR, 5)} years`],
+      ["rate of precession", shown((m.rate * YEAR) / ARCSEC, 7, " ″ per year")],
+      ["once round in", shown(m.period / YEAR, 6, " years")],
+      ["of this by the Moon", shown((100 * m.rates[1]) / m.rate, 3, " %")],
+      ["time", shown(time / YEAR, 5, " years")],
     ],
     draw({ scene, values, motion: m, time, ink }) {
       const tilt = values.obliquity * degrees, angle = Math.PI / 2 - m.rate * time;
@@ -38,6 +36,8 @@
       // It turns far more slowly than it would, so that one sees it turn.
       const spin = 3 * 2 * Math.PI * (time / (1300 * YEAR)), [s, c] = [Math.sin(spin), Math.cos(spin)];
       const columns = [node.map((n, i) => c * n + s * beside[i]), node.map((n, i) => -s * n + c * beside[i]), axis];
+      // Flattened twenty times more than in reality.
+      const planet = ellipsoid([0.8, 0.8, 0.8 * (1 - values.flattening / 50)], 24, 48);
       scene.surface(planet, columns, (i, j) => (i < 3 || i > 20 ? "#e8eef2" : (Math.sin(j / 3.6) + Math.cos(i / 2.5 + j / 6.7)) > 0.55 ? "#6f9f62" : "#3d7fc0"));
       scene.line(circle(1.35, 0), ink("line"), 1);
       scene.label([1.35, 0, 0], "ecliptic", ink("soft"));
@@ -48,8 +48,8 @@
       scene.line([[0, 0, 0], [0, 0, 1.3]], ink("soft"), 1, [5, 5]);
       scene.label([0, 0, 1.3], "pole of the ecliptic", ink("soft"));
       scene.arrow(axis.map((x) => length * x), ink("red"), "pole", axis.map((x) => -length * x));
-      // The Moon goes round far more slowly than it would, too.
-      const moon = circle(1, 0, 9 * spin / 3 + 0.6, 9 * spin / 3 + 0.6, 1)[0].map((x) => 1.12 * x), size = 0.09 * Math.cbrt(values.mass);
+      // A month lasts nine turns of the planet in the picture; distances are drawn by their fourth root.
+      const moon = circle(1.12 * values.distance ** 0.25, 0, spin / 9 + 0.6, spin / 9 + 0.6, 1)[0], size = 0.09 * Math.cbrt(values.mass);
       if (size > 0) scene.surface(ellipsoid([size, size, size], 8, 12).map((row) => row.map((p) => p.map((x, i) => x + moon[i]))), [[1, 0, 0], [0, 1, 0], [0, 0, 1]], () => "#c9c5ba");
     },
   });

@@ -34,7 +34,8 @@
 
   play.start({
     settings: [
-      { name: "shape", words: "body", choices: ["brick", "planet, with its cones"], value: 0 },
+      { name: "shape", words: "body", choices: ["brick", "planet, with its cones"], value: 0,
+        presets: [{ x: 2, y: 1.3, z: 0.45, about: 1, off: 1.5 }, { x: 2, y: 2, z: 1.6, about: 2, off: 20 }] },
       { name: "x", words: "side along x", unit: "", min: 0.4, max: 3, step: 0.01, value: 2 },
       { name: "y", words: "side along y", unit: "", min: 0.4, max: 3, step: 0.01, value: 1.3 },
       { name: "z", words: "side along z", unit: "", min: 0.4, max: 3, step: 0.01, value: 0.45 },
@@ -47,10 +48,10 @@
     reach: 1.15,
     tilt: 0.25,
     readings: (m, values, time) => [
-      ["period of the polhode", `${shown(m.period, 6)} s`],
+      ["period of the polhode", shown(m.period, 6, " s")],
       ["energy over ½ L ω", shown((2 * m.energy) / (m.momentum * Math.hypot(...m.start)), 6)],
       ["angular velocity now", `${m.omega(time).map((w) => shown(w, 3)).join(", ")} rad/s`],
-      ["time", `${shown(time, 4)} s`],
+      ["time", shown(time, 4, " s")],
     ],
     draw({ scene, values, motion: m, time, ink }) {
       const rows = m.attitude(time), columns = AXES.map((_, i) => rows.map((row) => row[i]));

@@ -24,34 +24,37 @@
     ],
     motion,
     pace: 0.12,
-    reach: 1.08,
+    reach: 1.2,
     tilt: 0.22,
     readings: (m, values, time) => [
-      ["mean precession", `${shown(m.meanRate, 6)} rad/s`],
-      ["period of nutation", `${shown(m.period * 1000, 6)} ms`],
+      ["mean precession", shown(m.meanRate, 6, " rad/s")],
+      ["period of nutation", shown(m.period * 1000, 6, " ms")],
       ["inclination", `${shown(m.turning[0] / degrees, 5)}° to ${shown(m.turning[1] / degrees, 5)}°`],
-      ["steady with a push of", `${shown(m.steady, 5)} rad/s`],
-      ["time", `${shown(time, 4)} s`],
+      ["steady with a push of", shown(m.steady, 5, " rad/s")],
+      ["path of the axis", m.pattern],
+      ["time", shown(time, 4, " s")],
     ],
     draw({ scene, values, motion: m, time, ink }) {
       const [theta, phi, psi] = m.at(time), [st, ct] = [Math.sin(theta), Math.cos(theta)];
       const node = [Math.cos(phi), Math.sin(phi), 0], axis = [st * Math.sin(phi), -st * Math.cos(phi), ct];
       const beside = [axis[1] * node[2] - axis[2] * node[1], axis[2] * node[0] - axis[0] * node[2], axis[0] * node[1] - axis[1] * node[0]];
-      const [s, c] = [Math.sin(psi), Math.cos(psi)], lift = (p) => [p[0], p[1], p[2] - 0.55];
+      const [s, c] = [Math.sin(psi), Math.cos(psi)];
+      // The point stands on a table below the middle of the picture; a top that falls hangs on a point in the middle.
+      const falls = Math.max(...m.turning) > 100 * degrees;
       const columns = [node.map((n, i) => c * n + s * beside[i]), node.map((n, i) => -s * n + c * beside[i]), axis];
-      const rows = play.revolved(outline(0.13 * values.radius + 0.05)), shift = 0.55;
-      // The point stands below the middle of the picture: in the body, down is the third row of the turn.
+      const rows = play.revolved(outline(0.13 * values.radius + 0.05)), shift = falls ? 0 : 0.55;
+      // In the body, down is the third row of the turn.
       const down = columns.map((column) => -shift * column[2]);
       scene.surface(rows.map((row) => row.map((p) => p.map((x, i) => x + down[i]))), columns, (i, j) => (i > 7 ? "#8a6a48" : Math.floor(j / 6) % 2 ? "#c7502c" : "#e2b24a"));
-      for (let r = 0.3; r < 1; r += 0.3) scene.line(circle(r, -0.555), ink("line"), 1);
-      for (const angle of m.turning) scene.line(circle(1.18 * Math.sin(angle), 1.18 * Math.cos(angle) - 0.55), ink("soft"), 1, [3, 4]);
+      for (let r = 0.3; r < 1 && !falls; r += 0.3) scene.line(circle(r, -0.555), ink("line"), 1);
+      for (const angle of m.turning) scene.line(circle(1.18 * Math.sin(angle), 1.18 * Math.cos(angle) - shift), ink("soft"), 1, [3, 4]);
       const until = time > 0 ? time : 6 * m.period, begin = Math.max(0, until - 12 * m.period);
       const trail = Array.from({ length: 361 }, (_, i) => {
         const [a, b] = m.at(begin + ((until - begin) * i) / 360);
-        return lift([1.18 * Math.sin(a) * Math.sin(b), -1.18 * Math.sin(a) * Math.cos(b), 1.18 * Math.cos(a)]);
+        return [1.18 * Math.sin(a) * Math.sin(b), -1.18 * Math.sin(a) * Math.cos(b), 1.18 * Math.cos(a) - shift];
       });
       scene.line(trail, ink("blue"), 2.5);
-      scene.line([[0, 0, -0.55], [0, 0, 0.85]], ink("soft"), 1, [5, 5]);
+      scene.line([[0, 0, -shift], [0, 0, 1.4 - shift]], ink("soft"), 1, [5, 5]);
     },
   });
 }

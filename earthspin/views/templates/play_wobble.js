@@ -28,8 +28,8 @@
     pace: 1,
     still: true,
     readings: (m) => [
-      ...RUNGS.map(([name, words]) => [words, `${shown(m[name] * given.day, 6)} days`]),
-      ["free core nutation, in space", `${shown(m.coreNutation * given.day, 5)} days`],
+      ...RUNGS.map(([name, words]) => [words, shown(m[name] * given.day, 6, " days")]),
+      ["free core nutation, in space", shown(m.coreNutation * given.day, 5, " days")],
     ],
     draw({ motion: m, ink, canvas, pen }) {
       const scale = devicePixelRatio, [width, height] = [canvas.width, canvas.height];

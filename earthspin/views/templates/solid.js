@@ -115,7 +115,7 @@ function makeSolid(figure) {
   }
 
   function show(frame) {
-    view.frame = ((frame % frames) + frames) % frames;
+    view.frame = Math.max(0, Math.min(frames - 1, frame));
     slider.value = view.frame;
     paint();
   }
@@ -131,6 +131,7 @@ function makeSolid(figure) {
   function start(playing) {
     view.playing = playing;
     button.textContent = playing ? "pause" : "play";
+    button.setAttribute("aria-label", `${button.textContent}: ${figure.dataset.title}`);
     if (!playing) return;
     const at = view.frame === frames - 1 ? 0 : view.frame;
     view.from = performance.now() - (at / frames) * PLAYING * 1000;
@@ -159,6 +160,12 @@ function makeSolid(figure) {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", paint);
   figure.classList.toggle("still", frames < 2);
   addEventListener("resize", resize);
+  // A hidden page stands still.
+  let hidden = 0;
+  document.addEventListener("visibilitychange", () => {
+    if (document.hidden) hidden = performance.now();
+    else view.from += performance.now() - hidden;
+  });
   resize();
 }
 

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 from scipy.special import ndtri
 
-from earthspin.engine.spread import quantiles
 from earthspin.many import ensemble
 from earthspin.scenes import QUESTIONS, run
 from tests.benchmarks.accuracy.ladder import Ladder, settings
@@ -84,7 +83,7 @@ def _from_even_members(members: int, case: int = 0) -> tuple[float, int]:
 def _half_width(members: Mapping[str, Any], seed: int = 0) -> float:
     """Half-width of the precession period in an ensemble, divided by the nominal period."""
     answer = ensemble("precession", members, seed=seed)
-    low, high = quantiles(answer, ENDS).precession_period.sel(TOTAL).values
+    low, high = answer.earthspin.quantiles(ENDS).precession_period.sel(TOTAL).values
     return float((high - low) / 2 / _period())
 
 

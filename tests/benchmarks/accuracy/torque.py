@@ -8,6 +8,7 @@ from functools import cache, partial
 
 import erfa
 import numpy as np
+from scipy.interpolate import make_interp_spline
 from skyfield.api import load
 from skyfield.jpllib import SpiceKernel
 
@@ -29,15 +30,18 @@ SPACINGS = (16.0, 8.0, 4.0, 2.0, 1.0, 0.5)
 def ladder() -> Ladder:
     """Methods for Sun and Moon at the true equator."""
     true = _directions(true_equator(DAYS))
-    source, spice = Skyfield(kernel()), _spice()
+    source, spice = Skyfield(kernel().path, kernel().name), _spice()
     scale = load.timescale(builtin=True)
 
     def at_each(matrices: Callable[[], FloatArray]) -> tuple[FloatArray, int]:
         return _directions(matrices()), DAYS.size
 
     def from_nodes(model: str, spacing: float) -> tuple[FloatArray, int]:
-        nutation = iau.Nutation(*ENDS, model=model, spacing=spacing)
-        return _directions(nutation.true_equator(DAYS)), DAYS.size
+        nodes = np.arange(ENDS[0] - 4 * spacing, ENDS[1] + 5 * spacing, spacing)
+        series = {"2000A": erfa.nut06a, "2000B": erfa.nut00b}[model]
+        angles = make_interp_spline(nodes, np.stack(series(J2000_JD, nodes), axis=-1), k=5)(DAYS)
+        nutation = erfa.numat(erfa.obl06(J2000_JD, DAYS), *angles.T)
+        return _directions(erfa.rxr(nutation, iau.mean_equator(DAYS))), DAYS.size
 
     def own_source() -> tuple[FloatArray, int]:
         coordinates = source.radec(CODES, CENTRE, DAYS, iau.true_equator).values()
