@@ -37,6 +37,8 @@ check: $(VENV)/.check
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/bandit --quiet --configfile pyproject.toml --recursive earthspin
+	$(BIN)/python -m data_tools audit
 	$(BIN)/python -m data_tools cf
 	$(SPHINX)
 

@@ -12,6 +12,7 @@ from earthspin.errors import EarthspinError
 
 VERBS = {
     "verify": "check the hashes of the kernels that are installed",
+    "audit": "check the installed dependencies for known vulnerabilities",
     "cf": "check files of every question against the CF conventions",
     "constants": "list every cited number and where it was read, for docs/measured/constants.md",
     "signatures": "write the signatures of the public calls, and the index of the reference",

@@ -11,6 +11,7 @@ from importlib import import_module as _import_module
 from earthspin import engine as _engine
 from earthspin._lazy import submodule as _submodule
 from earthspin._version import __version__ as __version__
+from earthspin.errors import checked as _checked
 from earthspin.questions import MODULES as _QUESTIONS
 
 #: Public names besides the questions, by their modules.
@@ -28,6 +29,7 @@ _HOME = {
     "earthspin.errors": (
         "AccuracyError",
         "ApartError",
+        "ArgumentError",
         "BodyError",
         "CoverageError",
         "EarthspinError",
@@ -66,6 +68,9 @@ __all__ = ["__version__", *sorted(_MODULE_OF)]
 def __getattr__(name: str) -> object:
     if name in _MODULE_OF:
         value = getattr(_import_module(_MODULE_OF[name]), name)
+        if not isinstance(value, type) and callable(value) and name not in _QUESTIONS:
+            value = _checked(value)
+            value.__module__, value.__qualname__ = __name__, name  # where pickle finds it
         globals()[name] = value
         return value
     return _submodule(__name__, name)

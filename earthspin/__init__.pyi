@@ -41,6 +41,7 @@ from earthspin.questions.polar_motion import polar_motion_from as polar_motion_f
 from earthspin.questions.polar_motion import read_excitation as read_excitation
 from earthspin.errors import AccuracyError as AccuracyError
 from earthspin.errors import ApartError as ApartError
+from earthspin.errors import ArgumentError as ArgumentError
 from earthspin.errors import BodyError as BodyError
 from earthspin.errors import CoverageError as CoverageError
 from earthspin.errors import EarthspinError as EarthspinError
@@ -359,6 +360,7 @@ __all__ = [
     "__version__",
     "AccuracyError",
     "ApartError",
+    "ArgumentError",
     "BODIES",
     "Body",
     "BodyError",

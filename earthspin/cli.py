@@ -16,7 +16,14 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import earthspin
 from earthspin._version import __version__
-from earthspin.errors import EarthspinError, MissingExtraError, OutputError, SceneError, printable
+from earthspin.errors import (
+    EarthspinError,
+    MissingExtraError,
+    OutputError,
+    SceneError,
+    nearest,
+    printable,
+)
 from earthspin.process import RESULTS, USAGE_ERROR, run_command
 
 if TYPE_CHECKING:
@@ -89,6 +96,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _complete(parser)
 
     def command() -> None:
+        _check_command(next((word for word in words if not word.startswith("-")), ""), parser)
         options = parser.parse_args(arguments)
         options.command(options)
 
@@ -99,8 +107,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _parser() -> ArgumentParser:
     parser = _Parser(prog="earthspin", description=(earthspin.__doc__ or "").split("\n")[0])
     parser.add_argument("--version", action="version", version=f"earthspin {__version__}")
-    parser.set_defaults(command=_welcome)
     commands = parser.add_subparsers(metavar="COMMAND", parser_class=_Parser)
+    parser.set_defaults(command=_welcome, commands=commands.choices)
     flag: dict[str, Any] = {"action": "store_true"}
     words = "de421, de440, or the path of a .bsp file"
     kernel: dict[str, Any] = {"metavar": "NAME|PATH", "help": words}
@@ -184,6 +192,21 @@ def _parser() -> ArgumentParser:
     add = command("completion", _completion, "print the completion script of a shell").add_argument
     add("shell", choices=("bash", "zsh", "fish"))
     return parser
+
+
+def _check_command(word: str, parser: ArgumentParser) -> None:
+    """Raise an error for a word that is no command; name the scene that it may stand for."""
+    commands = parser.get_default("commands")
+    if not word or word in commands:
+        return
+    from earthspin.scenes import QUESTIONS, load_scene, shipped_scenes
+
+    question = next((q for q, call in QUESTIONS.calls.items() if word in (q, call)), word)
+    scenes = sorted(shipped_scenes(), key=lambda name: name not in (word, question))
+    words = (scene for scene in scenes if {scene, load_scene(scene).word} & {word, question})
+    scene = next(words, "")
+    remedy = f"try: earthspin run {scene}" if scene else nearest(word, commands)
+    raise EarthspinError(f"there is no command '{word}'; {remedy}")
 
 
 # --- commands ------------------------------------------------------------------------------------
@@ -371,7 +394,7 @@ def _completion(options: Namespace) -> None:
         from argcomplete.shell_integration import shellcode
     except ImportError:
         raise MissingExtraError("argcomplete", "completion", "completion in the shell") from None
-    print(shellcode(["earthspin"], shell=options.shell))
+    print(shellcode(["earthspin"], shell=options.shell))  # its name  # nosec B604
 
 
 # --- what commands share -------------------------------------------------------------------------

@@ -7,18 +7,25 @@ keeps the same facts as attributes, so that a program can act on them.
 from __future__ import annotations
 
 import difflib
+import functools
+import inspect
 import os
+import re
 import stat
+import traceback
 import unicodedata
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 #: What was given is repeated in a message up to this many characters.
 LONGEST_ECHO = 100
 #: A path is repeated up to the length of a name on most disks.
 LONGEST_PATH = 255
 LONGEST_MESSAGE = 1000
+
+_P = ParamSpec("_P")
+_T = TypeVar("_T")
 
 
 class EarthspinError(Exception):
@@ -44,6 +51,28 @@ class EarthspinError(Exception):
     def __reduce__(self) -> tuple[Any, ...]:
         # Each class takes its facts, not the message, so pickle must not call it again.
         return _rebuild, (type(self), self.args, self.__dict__)
+
+    def _render_traceback_(self) -> list[str]:
+        """Return the lines of the user and the message, which IPython and Jupyter show."""
+        frames = traceback.extract_tb(self.__traceback__)[1:]  # the first is that of IPython
+        files = [os.path.dirname(frame.filename) for frame in frames]
+        package = os.path.dirname(__file__)
+        end = next((n for n, folder in enumerate(files) if folder.startswith(package)), len(files))
+        return [*traceback.format_list(frames[:end]), f"{type(self).__name__}: {self}"]
+
+
+class ArgumentError(EarthspinError, TypeError):
+    """Error raised if a call lacks an argument, or has one that the function does not take.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> try:
+    ...     earthspin.precession("mars")
+    ... except earthspin.ArgumentError as error:
+    ...     print(error)
+    precession() too many positional arguments; write precession(body='mars')
+    """
 
 
 class SceneError(EarthspinError, ValueError):
@@ -399,6 +428,44 @@ def nearest(word: object, allowed: Iterable[str]) -> str:
     close = difflib.get_close_matches(_brief(word), words, n=1, cutoff=0.5)
     hint = f"did you mean '{close[0]}'? " if close else ""
     return f"{hint}allowed: {', '.join(words)}"
+
+
+def checked(function: Callable[_P, _T]) -> Callable[_P, _T]:
+    """Make a function raise an `ArgumentError`, which says what to write, for wrong arguments."""
+    signature, name = inspect.signature(function), function.__name__
+
+    def problem(error: TypeError, args: tuple[Any, ...], keywords: Mapping[str, Any]) -> str:
+        parameters = signature.parameters.values()
+        free = [p.name for p in parameters if p.kind is p.POSITIONAL_OR_KEYWORD]
+        named = [p.name for p in parameters if p.kind is p.KEYWORD_ONLY and p.name not in keywords]
+        unknown = [word for word in keywords if word not in signature.parameters]
+        if unknown:
+            return f"has no argument '{unknown[0]}'; {nearest(unknown[0], [*free, *named])}"
+        if len(args) > len(free) and named:
+            pairs = zip(named, args[len(free) :], strict=False)
+            words = [*map(_shown, args[: len(free)]), *(f"{n}={_shown(v)}" for n, v in pairs)]
+            return f"{error}; write {name}({', '.join(words)})"
+        return f"{error}; write {_example(function)}"
+
+    @functools.wraps(function)
+    def call(*args: _P.args, **keywords: _P.kwargs) -> _T:
+        try:
+            return function(*args, **keywords)
+        except TypeError:
+            try:
+                signature.bind(*args, **keywords)
+            except TypeError as error:
+                raise ArgumentError(f"{name}() {problem(error, args, keywords)}") from None
+            raise
+
+    return call
+
+
+def _example(function: Callable[..., Any]) -> str:
+    """Return the example of a docstring up to the call of the function, on one line."""
+    lines = re.findall(r">>> (.*(?:\n *\.\.\. .*)*)", function.__doc__ or "")
+    end = next((n for n, line in enumerate(lines) if f"{function.__name__}(" in line), 0) + 1
+    return re.sub(r"\s*\n *\.\.\. *", " ", "; ".join(n for n in lines[:end] if "import " not in n))
 
 
 def _rounded_up(value: float) -> str:

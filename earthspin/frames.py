@@ -154,7 +154,7 @@ def _long_term(model: Model, times: FloatArray) -> Solved:
     """Matrices from the ICRS to the mean equator and equinox of date, and their errors, rad."""
     different, index = np.unique(times, return_inverse=True)
     tree = run_tree(model.at(different * u.d), sections=["matrices"])
-    section, versions = tree["matrices"].to_dataset(), xr.Dataset(attrs=tree.attrs)
+    section, versions = tree.earthspin.section("matrices"), xr.Dataset(attrs=tree.attrs)
     return Solved(section.matrix.values[index], si(section.matrix_error).values[index], versions)
 
 

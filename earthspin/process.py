@@ -6,6 +6,7 @@ warning is told when the command has succeeded, never before a message.
 
 from __future__ import annotations
 
+import errno
 import logging
 import os
 import signal
@@ -87,8 +88,12 @@ def _judged(error: Exception) -> tuple[int, str]:
     """Return the exit status for an error, and the message to print."""
     if isinstance(error, EarthspinError):
         return USAGE_ERROR, str(error)
-    if isinstance(error, MemoryError):
-        return USAGE_ERROR, "there is not enough memory for it; ask for less at once"
+    if isinstance(error, MemoryError) or getattr(error, "errno", None) == errno.ENOMEM:
+        return USAGE_ERROR, "there is not enough memory; ask for less at once, or see ulimit -v"
+    if isinstance(error, ImportError):
+        cause = one_line(error.__cause__ or error)
+        words = "install it again, or allow it more memory (ulimit -v)"
+        return USAGE_ERROR, str(EarthspinError(f"a library cannot be loaded: {cause}; {words}"))
     if isinstance(error, OSError):
         _drop_output()
         return USAGE_ERROR, f"the output cannot be written: {one_line(error)}"

@@ -1,5 +1,6 @@
 """The command line, as a process would be used: output, files, exit status."""
 
+import errno
 import json
 import os
 import re
@@ -7,12 +8,14 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 import pytest
 import xarray as xr
 
 import earthspin
+from earthspin import process
 from earthspin.cli import PAGES, _parser, main
 from earthspin.engine import store
 from earthspin.engine.question import scene_text
@@ -388,3 +391,28 @@ def test_a_file_that_a_stored_scene_names_is_told(
     assert str(kernel) in err
     assert run(capsys, "plan", str(path), "--ephemeris", "de421")[2] == ""
     assert run(capsys, "plan", str(path), "--ephemeris", str(kernel))[2] == ""
+
+
+@pytest.mark.parametrize("word", {*QUESTIONS.calls, *QUESTIONS.calls.values(), "sun-only", "rum"})
+def test_a_word_that_is_no_command_is_answered_by_one(
+    capsys: pytest.CaptureFixture[str], word: str
+) -> None:
+    status, out, err = run(capsys, word)
+    scene = err.rstrip().rpartition("try: earthspin run ")[2]
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert scene in shipped_scenes() or "did you mean 'run'" in err
+
+
+@pytest.mark.parametrize(
+    ("error", "words"),
+    [
+        (ImportError("libopenblas.so: failed to map segment"), "libopenblas.so.*ulimit -v"),
+        (OSError(errno.ENOMEM, "Cannot allocate memory"), "not enough memory.*ulimit -v"),
+    ],
+)
+def test_a_limit_of_memory_is_no_defect(
+    capsys: pytest.CaptureFixture[str], error: Exception, words: str
+) -> None:
+    status = process.run_command(mock.Mock(side_effect=error))
+    assert status == 2
+    assert re.search(words, capsys.readouterr().err)

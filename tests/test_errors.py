@@ -4,6 +4,7 @@ import copy
 import inspect
 import pickle
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -20,6 +21,7 @@ EXAMPLES = [
     errors.CoverageError("de421", ("1800-01-01", "1801-01-01"), ("1899-07-29", "2053-10-09")),
     errors.UndefinedError("it has no longitude"),
     errors.ApartError("they do not settle at once"),
+    errors.ArgumentError("run() missing a required argument"),
     errors.SeriesError("pole.txt", "it ends early", "is the file cut off?", line=7),
     errors.AccuracyError(1e-9, 6e-7, "(relative)", "give a longer span"),
     errors.OutputError("/x", "it cannot be written"),
@@ -68,3 +70,16 @@ def test_a_copy_has_the_message_and_the_facts(
     assert type(same) is type(error)
     assert str(same) == str(error)
     assert vars(same) == vars(error)
+
+
+def test_ipython_shows_the_lines_of_the_user_and_the_message(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    interactive = pytest.importorskip("IPython.core.interactiveshell")
+    monkeypatch.setenv("IPYTHONDIR", str(tmp_path))
+    shell = interactive.InteractiveShell()
+    shell.run_cell("import earthspin\nearthspin.precession('mars')")
+    shown = capsys.readouterr().out
+    assert "line 2" in shown
+    assert "precession(body='mars')" in shown
+    assert "errors.py" not in shown

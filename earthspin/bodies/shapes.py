@@ -18,6 +18,7 @@ from earthspin.errors import (
     MissingExtraError,
     SeriesError,
     Where,
+    checked,
     nearest,
     no_plain_file,
     one_line,
@@ -186,6 +187,7 @@ class FromMass:
         raise NotImplementedError
 
     @classmethod
+    @checked
     def from_masses(
         cls,
         masses: Any,
@@ -232,6 +234,7 @@ class FromMass:
         return cls(name=name, **_numbers_of(shape)).replace(**fields)
 
     @classmethod
+    @checked
     def from_density(
         cls,
         density: Any,
@@ -277,6 +280,7 @@ class FromMass:
         return cls(name=name, **_numbers_of(shape)).replace(**fields)
 
     @classmethod
+    @checked
     def from_mesh(
         cls,
         mesh: Any,
@@ -331,6 +335,7 @@ class FromMass:
         return cls(name=name, **_numbers_of(shape)).replace(**fields)
 
     @classmethod
+    @checked
     def from_layers(
         cls, layers: Any, *, spin_period: Any, name: str = "layers", **fields: Any
     ) -> Self:

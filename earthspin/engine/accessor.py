@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from earthspin.engine import METHODS, registered
 from earthspin.engine.members import MEMBER
-from earthspin.errors import SceneError
+from earthspin.errors import SceneError, nearest
 from earthspin.numerics import sampling
 from earthspin.units import real_numbers
 
@@ -45,7 +45,7 @@ class Answer:
     Attributes
     ----------
     dataset : Dataset
-        The answer itself.
+        The answer itself, or the section that a node of a tree holds.
     scene : Question
         The question of this answer, with every number.
     plan : Plan
@@ -61,7 +61,8 @@ class Answer:
     """
 
     def __init__(self, answer: xr.Dataset | xr.DataTree) -> None:
-        self.dataset = answer.to_dataset() if isinstance(answer, xr.DataTree) else answer
+        self.dataset = _without_inherited(answer) if isinstance(answer, xr.DataTree) else answer
+        self._sections = answer.children if isinstance(answer, xr.DataTree) else {}
 
     def __getattr__(self, name: str) -> Any:
         """Return a registered method by its name."""
@@ -83,6 +84,38 @@ class Answer:
     def plan(self) -> Any:
         """Plan of the question: functions that run, and functions left out, with the reasons."""
         return registered("plan")(self.scene)
+
+    def section(self, name: str) -> xr.Dataset:
+        """Return a section of a tree that `run_tree` returned, as a Dataset.
+
+        A node of a tree inherits the coordinates of the root, by which a table of it would repeat
+        each row. The Dataset has only those along its own dimensions.
+
+        Parameters
+        ----------
+        name : str
+            Such as ``"seasons"``, or ``"plan"``.
+
+        Returns
+        -------
+        Dataset
+
+        Raises
+        ------
+        SceneError
+            If the tree has no such section.
+
+        Examples
+        --------
+        >>> import earthspin
+        >>> tree = earthspin.run_tree("precession", sections="seasons")
+        >>> print(tree.earthspin.section("seasons").time_per_degree.round(2).values)
+        71.59
+        """
+        if not isinstance(name, str) or name not in self._sections:  # type: ignore[redundant-expr]
+            problem = f"no such section; {nearest(name, self._sections)}; run_tree computes more"
+            raise SceneError("section", name, problem)
+        return _without_inherited(self._sections[name])
 
     def to_frame(self) -> pd.DataFrame:
         """Return the result as a pandas table: a row for each label, a column for each number.
@@ -262,6 +295,12 @@ class Answer:
                 variables[f"{name}_{ending}"] = (dims, values, attrs)
         labels = {"input": ("input", [*columns], {"long_name": "input of the members"})}
         return xr.Dataset(variables, labels | _other_labels(answer), dict(answer.attrs))
+
+
+def _without_inherited(node: xr.DataTree) -> xr.Dataset:
+    """Return the Dataset of a node without the coordinates along dimensions that it lacks."""
+    data = node.to_dataset()
+    return data.drop_dims(data.sizes.keys() - node.to_dataset(inherit=False).sizes.keys())
 
 
 def _spread(dataset: xr.Dataset) -> xr.Dataset:

@@ -14,7 +14,7 @@ from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.members import MEMBER, Members
 from earthspin.engine.question import NEGLECTED, Key, Question, define_parts, keys_of
 from earthspin.engine.run import ALL, Run
-from earthspin.errors import SceneError
+from earthspin.errors import SceneError, checked
 from earthspin.progress import progress
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
         work = Ensemble(question, in_memory=True)
         nodes = {"/": work.hold(), "plan": work.nominal_run.plan().dataset()}
         if named:
-            nodes[NEGLECTED] = work.nominal_run.tree(NEGLECTED)[NEGLECTED].to_dataset()
+            nodes[NEGLECTED] = work.nominal_run.tree(NEGLECTED).earthspin.section(NEGLECTED)
         return xr.DataTree.from_dict(nodes)
     tree = Run(question).tree(sections)
     if question.uncertainty == "sample":
@@ -177,10 +177,7 @@ def public_call(question: type[Question], **parts: Any) -> Callable[..., xr.Data
     signature = signature_of(question)
 
     def call(*args: Any, **kwargs: Any) -> xr.Dataset:
-        try:
-            values = signature.bind(*args, **kwargs).arguments
-        except TypeError as error:
-            raise TypeError(f"{question.call}() {error}") from None
+        values = signature.bind(*args, **kwargs).arguments
         ends = {end: values.pop(end, None) for end in ENDS if end in question.positional}
         missing = [end for end, value in ends.items() if value is None]
         if len(missing) == 1:
@@ -194,7 +191,7 @@ def public_call(question: type[Question], **parts: Any) -> Callable[..., xr.Data
     call.__module__ = question.__module__
     call.__signature__ = signature  # type: ignore[attr-defined]
     call.question = question  # type: ignore[attr-defined]
-    return call
+    return checked(call)
 
 
 def arguments_of(question: type[Question]) -> dict[str, Key | None]:

@@ -53,8 +53,9 @@ class EffectNames(Several):
 
     def read(self, value: object, where: Where) -> tuple[str, ...]:
         """Return the names of the effects that one word stands for; otherwise check the names."""
-        if isinstance(value, str) and value in (KNOWN, WITHOUT_INTERIOR, "all"):
-            return tuple(EFFECTS) if value == "all" else (value,)
+        if isinstance(value, str):
+            word = Word((*EFFECTS, KNOWN, WITHOUT_INTERIOR, "all")).read(value, where)
+            return tuple(EFFECTS) if word == "all" else (word,)
         return super().read(value, where)
 
 

@@ -135,7 +135,7 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
     if names := [name for name in there if name in needed]:
         sections = run_tree(answer, names)
         for name in names:  # with the labels of the answer, which may be a slice
-            node = sections[name].to_dataset()
+            node = sections.earthspin.section(name)
             shared = {dim: answer[dim] for dim in node.indexes if dim in answer.indexes}
             nodes[name] = node.sel(shared)
     return [drawing.figure for drawing in drawings_for(xr.DataTree.from_dict(nodes))]
@@ -323,7 +323,7 @@ def _write_members(
 
 
 def _write_node(node: xr.DataTree, stream: TextIO) -> None:
-    data = node.to_dataset()
+    data = node.earthspin.dataset
     stream.write(f'{{"attrs": {_text(data.attrs)},\n"dims": {_text(data.sizes)}')
     _write_members("coords", data.coords, _write_array, stream)
     _write_members("data_vars", data.data_vars, _write_array, stream)

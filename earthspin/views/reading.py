@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from earthspin.bodies import in_a_sentence
+from earthspin.engine.accessor import Answer
 from earthspin.engine.question import Question
 from earthspin.engine.run import IMPORTS
 from earthspin.engine.variables import error_of, from_si, largest_of
@@ -33,7 +34,7 @@ def section(result: Result, name: str) -> xr.Dataset | None:
     """Return the section (Dataset) of a result with the given name, or None if there is none."""
     if not isinstance(result, xr.DataTree) or name not in result.children:
         return None
-    return _first_case(result[name].to_dataset(), result.attrs)
+    return _first_case(Answer(result).section(name), result.attrs)
 
 
 def needed(result: Result, name: str) -> xr.Dataset:

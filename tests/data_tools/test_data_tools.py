@@ -1,9 +1,11 @@
 """The tools that measure: on the kernel that comes along, in short."""
 
+import json
+
 import numpy as np
 import pytest
 
-from data_tools import free_wobble, neglected
+from data_tools import audit, free_wobble, neglected
 from data_tools.__main__ import main
 from earthspin.motion.effects import RESPONSE
 
@@ -44,3 +46,19 @@ def test_a_cell_of_the_free_wobble_is_as_stored() -> None:
     bias, scatter = (float(stored[n].split("±")[0]) for n in (4, 5))
     assert abs(float(row[4].split("±")[0]) - bias) < 3 * scatter / np.sqrt(8)
     assert 90 <= float(stored[7]) <= 100
+
+
+FAULT = {"id": "PYSEC-1", "fix_versions": ["2.0"]}
+
+
+@pytest.mark.parametrize(
+    ("faults", "status", "words"),
+    [([FAULT], 1, "x 1.0: PYSEC-1, fixed in 2.0"), ([], 0, "1 of 1"), (None, 0, "no network")],
+)
+def test_a_known_vulnerability_fails_and_no_network_is_told(
+    capsys: pytest.CaptureFixture[str], faults: list[object] | None, status: int, words: str
+) -> None:
+    entry = {"vulns": faults} if faults is not None else {"skip_reason": "not found on PyPI"}
+    report = json.dumps({"dependencies": [{"name": "x", "version": "1.0", **entry}]})
+    assert audit.judge(report, "") == status
+    assert words in capsys.readouterr().out

@@ -12,6 +12,7 @@ from earthspin import EARTH, SceneError, load_scene
 from earthspin.engine.run import Run
 from earthspin.questions.precession import Precession
 from earthspin.questions.wobble import Wobble
+from tests import shipped
 from tests.processes import printed
 
 
@@ -90,3 +91,18 @@ def test_methods_that_other_packages_register_are_listed_and_load_nothing_before
         "print(len(figures), answer.earthspin.plot.__doc__.split('.')[0])"
     )
     assert printed(program).strip() == "1 Draw the standard figures of a result"
+
+
+@pytest.mark.parametrize(
+    ("scene", "name", "dims"),
+    [("precession", "standstills", "standstill"), ("long-term", "budget", "epoch")],
+)
+def test_a_section_has_the_labels_of_its_own_dimensions(scene: str, name: str, dims: str) -> None:
+    answer = shipped.tree(scene).earthspin
+    section = answer.section(name)
+    assert {*section.coords} >= {dims}
+    assert len(section.to_dataframe()) == np.prod([*section.sizes.values()])
+    with pytest.raises(SceneError, match=f"did you mean '{name}'.*neglected"):
+        answer.section(f"{name}x")
+    with pytest.raises(SceneError, match="run_tree"):
+        answer.dataset.earthspin.section(name)

@@ -1,5 +1,8 @@
 """Public calls and keys: one class says all, and a key that it does not have is refused."""
 
+import ast
+import inspect
+import pickle
 from pathlib import Path
 from typing import Any
 
@@ -7,7 +10,8 @@ import pytest
 import tomli_w
 
 import earthspin
-from earthspin import SceneError, load_scene
+from earthspin import ArgumentError, SceneError, load_scene
+from earthspin.engine.answers import arguments_of
 from earthspin.engine.question import Question, keys_of
 from earthspin.scenes import QUESTIONS
 from tests import shipped
@@ -45,15 +49,37 @@ def test_a_key_of_another_question_is_refused_however_it_is_given(
         getattr(earthspin, question.call)(**settings)
 
 
-def test_a_call_without_what_must_be_given_is_refused() -> None:
-    with pytest.raises(TypeError, match=r"heavy_top\(\) missing .*'transverse_moment'"):
-        earthspin.heavy_top([0.0, 1.0])
-    with pytest.raises(TypeError, match=r"free_rotor\(\) missing .*'moments'"):
-        earthspin.free_rotor()
-    with pytest.raises(TypeError, match=r"spheroid_field\(\) missing .*'position'"):
-        earthspin.spheroid_field()
-    with pytest.raises(TypeError, match=r"precession\(\) too many positional"):
-        earthspin.precession("earth")
+CALLS = {name: getattr(earthspin, name) for name in earthspin.__all__} | {
+    name: getattr(earthspin.Body, name) for name in dir(earthspin.Body) if name.startswith("from_")
+}
+LACKING = [
+    name
+    for name, call in CALLS.items()
+    if inspect.isroutine(call)
+    and inspect.Parameter.empty in (p.default for p in inspect.signature(call).parameters.values())
+]
+
+
+@pytest.mark.parametrize("name", LACKING)
+def test_a_call_without_what_must_be_given_is_answered_by_an_example(name: str) -> None:
+    with pytest.raises(ArgumentError, match="missing a required argument") as error:
+        CALLS[name]()
+    example = ast.parse(str(error.value).partition("; write ")[2])
+    assert name in ast.dump(example)
+    assert pickle.loads(pickle.dumps(CALLS[name])) == CALLS[name]
+
+
+@pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)
+def test_a_call_in_another_spelling_is_answered_by_what_to_type(question: type[Question]) -> None:
+    call, (*names,) = getattr(earthspin, question.call), arguments_of(question)
+    places = ["x"] * len(question.positional)
+    with pytest.raises(ArgumentError, match=rf"write {question.call}\(.*{names[len(places)]}='x'"):
+        call(*places, "x")
+    for name in filter(lambda name: len(name) > 2, names):
+        swapped = name[:-2] + name[:-3:-1] if len(name) > 4 else name
+        for near in {f"{name}s", name[:-1], swapped, name.title()} - {*names}:
+            with pytest.raises(ArgumentError, match=f"'{near}'; did you mean '{name}'"):
+                call(**{near: 1})
 
 
 @pytest.mark.parametrize("call", [earthspin.pole, earthspin.torque_series, earthspin.long_term])

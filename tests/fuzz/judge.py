@@ -3,6 +3,8 @@
 import contextlib
 import inspect
 import io
+import logging
+import logging
 import os
 import random
 import signal
@@ -21,7 +23,7 @@ from earthspin import EarthspinError, UndefinedError, process
 from earthspin.cli import main
 from earthspin.engine import answers, run
 from earthspin.views.answers import scene_page, tables_for
-from tests.fuzz import inputs, requests
+from tests.fuzz import borders, inputs, requests
 
 #: Longest message: `LONGEST_MESSAGE` and what a command puts around it.
 LONGEST = 1100
@@ -81,6 +83,18 @@ def limited(seconds: float) -> Iterator[None]:
         signal.signal(signal.SIGPROF, before)
 
 
+@contextlib.contextmanager
+def heard_from(logger: str) -> Iterator[io.StringIO]:
+    """Collect what a logger says."""
+    said = io.StringIO()
+    handler = logging.StreamHandler(said)
+    logging.getLogger(logger).addHandler(handler)
+    try:
+        yield said
+    finally:
+        logging.getLogger(logger).removeHandler(handler)
+
+
 def escapes(what: Callable[[], Any], names: tuple[str, ...] = ()) -> str:
     """What comes out that should not; empty if it ends as it should.
 
@@ -91,8 +105,10 @@ def escapes(what: Callable[[], Any], names: tuple[str, ...] = ()) -> str:
         Arguments, one of which a TypeError must name; with none, a TypeError is an escape.
     """
     try:
-        with limited(MOST_SECONDS):
+        with limited(MOST_SECONDS), heard_from("asyncio") as said:
             what()
+        if said.getvalue():
+            return f"asyncio says: {said.getvalue()[:200]}"
     except EarthspinError as error:
         line = str(error)
         sound = line.isprintable() and 0 < len(line) <= LONGEST
@@ -202,6 +218,12 @@ def answer(rng: random.Random) -> tuple[str, str]:
     return str(scene), escapes(ask)
 
 
+def border(rng: random.Random) -> tuple[str, str]:
+    """Execute a call with a date, name, attribute or whole number: what it was, what escaped."""
+    shown, ask = rng.choice((borders.date, borders.odd))(rng)
+    return shown[:300], escapes(ask)
+
+
 #: Numbers that some sound answers do not have: of a rigid body, and of a top on the separatrix.
 UNDEFINED = ("quality_factor", "nutation_period")
 
@@ -212,9 +234,10 @@ KINDS = {
     "calls": call,
     "executed": executed,
     "answers": answer,
+    "borders": border,
 }
 #: Kinds that are carried out, with the share of the count of the others that is tried of them.
-EXECUTED = {"executed": 0.05, "answers": 0.05}
+EXECUTED = {"executed": 0.05, "answers": 0.05, "borders": 0.05}
 
 
 def tried(kind: str, seed: int, count: int) -> dict[str, str]:

@@ -16,6 +16,7 @@ COUNTS = {
     "calls": 350,
     "executed": 20,
     "answers": 30,
+    "borders": 60,
 }
 
 

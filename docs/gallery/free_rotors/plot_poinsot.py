@@ -51,7 +51,7 @@ ax.set(xlabel="across the view (rad/s)", ylabel="up the view (rad/s)", aspect="e
 
 scene = earthspin.load_scene("poinsot", {"rotor.points": 6001})
 tree = earthspin.run_tree(scene, sections=["poinsot"])
-rolling = tree["poinsot"].to_dataset(inherit=False)
+rolling = tree.earthspin.section("poinsot")
 advance = float(np.degrees(rolling.herpolhode_advance))
 
 fig, ax = plt.subplots(figsize=(4.8, 4.8))

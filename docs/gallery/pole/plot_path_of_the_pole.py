@@ -37,7 +37,7 @@ models = {"rigid, all effects": {}, "with the response of the interior": {"effec
 fig, axes = plt.subplots(2, sharex=True, figsize=(6.4, 4.6))
 for ax, (words, keys) in zip(axes, models.items(), strict=True):
     tree = earthspin.run_tree(earthspin.load_scene("iau", keys), sections=["residuals"])
-    residuals = tree["residuals"].to_dataset(inherit=False)
+    residuals = tree.earthspin.section("residuals")
     ax.plot(residuals.time, residuals.dpsi_sineps, lw=0.7, label="dψ sin ε")
     ax.plot(residuals.time, residuals.deps, lw=0.7, label="dε")
     ax.set(title=words, ylabel="residual (mas)")

@@ -35,7 +35,7 @@ ax.set_xlabel("contribution to the rate (mas per century)")
 # *Next:* the kernel DE440 covers a longer span; the slope hardly changes.
 
 tree = earthspin.run_tree(earthspin.load_scene("iau", {"step": "10 d"}), sections=["angles"])
-angles = tree["angles"].to_dataset(inherit=False)
+angles = tree.earthspin.section("angles")
 centuries = np.linspace(-0.75, 0.53, 100)
 names = {"psi_A": "$\\psi_A$", "omega_A": "$\\omega_A$", "eps_A": "$\\varepsilon_A$"}
 

@@ -22,7 +22,9 @@ from earthspin.views.drawing import note
 # *Next:* look at a single year by another span, with a step of an hour.
 
 sky = earthspin.torque_series("1985-01-01", "2030-01-01", "12 h").declination
-extremes = earthspin.run_tree("precession", sections=["standstills"])["standstills"].to_dataset()
+extremes = earthspin.run_tree("precession", sections=["standstills"]).earthspin.section(
+    "standstills"
+)
 extremes = extremes.sel(standstill=slice("1985", "2029"))
 
 fig, ax = plt.subplots(figsize=(6.8, 4.2))

@@ -79,7 +79,7 @@ plot_spectra(earthspin.run_tree("polar-motion", sections=["spectrum"]), ax=ax)
 # *Next:* a longer window, ``earthspin.polar_motion(window="13 yr")``, shows slower changes.
 
 tree = earthspin.run_tree("polar-motion", sections=["chandler"])
-found = tree["chandler"].to_dataset()
+found = tree.earthspin.section("chandler")
 lowest = found.chandler_amplitude.isel(middle=int(found.chandler_amplitude.argmin("middle")))
 
 fig, ax = plt.subplots(figsize=(7, 3.8))
