@@ -4,7 +4,6 @@ import contextlib
 import inspect
 import io
 import logging
-import logging
 import os
 import random
 import signal
