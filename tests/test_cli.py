@@ -393,7 +393,10 @@ def test_a_file_that_a_stored_scene_names_is_told(
     assert run(capsys, "plan", str(path), "--ephemeris", str(kernel))[2] == ""
 
 
-@pytest.mark.parametrize(
+WORDS = ["pole", "long_term", "compare_iau", "free-rotor", "sun-only", "rum"]
+
+
+@pytest.mark.parametrize("word", WORDS)
     "word", ["pole", "long_term", "compare_iau", "free-rotor", "sun-only", "rum"]
 )
 def test_a_word_that_is_no_command_is_answered_by_one(
