@@ -26,8 +26,8 @@ def judge(report: str, problem: str) -> int:
         fixed = ", ".join(fault["fix_versions"]) or "no version"
         print(f"{package['name']} {package['version']}: {fault['id']}, fixed in {fixed}")
     if not audited:
-        reason = problem.strip().rpartition("\n")[2] or "no package was found in the index"
-        print(f"dependencies not audited, as there is no network: {reason}")
+        reason = next((p["skip_reason"] for p in packages), problem.strip().rpartition("\n")[2])
+        print(f"dependencies not audited, without a network or an index that knows them: {reason}")
         return int("No module named" in reason)
     print(f"{len(audited)} of {len(packages)} dependencies audited: {len(faults)} vulnerabilities")
     return int(bool(faults))

@@ -397,8 +397,6 @@ WORDS = ["pole", "long_term", "compare_iau", "free-rotor", "sun-only", "rum"]
 
 
 @pytest.mark.parametrize("word", WORDS)
-    "word", ["pole", "long_term", "compare_iau", "free-rotor", "sun-only", "rum"]
-)
 def test_a_word_that_is_no_command_is_answered_by_one(
     capsys: pytest.CaptureFixture[str], word: str
 ) -> None:
