@@ -165,7 +165,7 @@ class LongTerm(
         "own", doc="table of the orbit: that of the body, a file, or a result of read_orbit"
     )
     tides: Factor = key(1.0, doc="factor on the tides that slow Moon and spin; 0 is off")
-    ellipticity: Annotated[float, Number("", "1.0", above=0.0)] = key(
+    ellipticity: Annotated[float, Number("", "1.0", above=1e-100)] = key(
         1.0, doc="factor on the dynamical ellipticity"
     )
     j2_rate: Annotated[float, Number("1/s", "-8.8e-16 1/s")] | None = key(
