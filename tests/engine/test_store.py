@@ -216,7 +216,7 @@ def test_files_have_units_for_machines_and_for_people(tmp_path: Path, kind: str)
         object(), 1j, None, {"a": 1}, True, [[1], [2, 3]], 10**400, 3 * u.m, [1, 2] * u.m, b"x",
         xr.DataArray([1.0]), np.eye(2), [["a"]], np.ma.masked_array([1.0, 2.0], [0, 1]), "a\0b",
     ],
-    ids=str,
+    ids=lambda value: type(value).__name__,
 )  # fmt: skip
 def test_attributes_that_no_file_holds_are_refused(
     tmp_path: Path, kind: str, value: object
