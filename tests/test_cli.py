@@ -37,7 +37,7 @@ def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]
 def test_report(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     status, out, err = run(capsys, "report", "--out", str(tmp_path / "r"))
     assert (status, err) == (0, "")
-    for word in ("sun", "moon", "total", "25712", "mccullough", "geodesic", "303.62", "2006-03-22"):
+    for word in ("sun", "moon", "total", "25712", "maccullagh", "geodesic", "303.62", "2006-03-22"):
         assert word in out, word
     page = (tmp_path / "r" / "index.html").read_text()
     assert page.count("<figure") == 4
@@ -173,9 +173,9 @@ def test_sections_are_printed_and_written(
     status, out, _ = run(capsys, "run", "precession", "--sections", "standstills,seasons")
     assert status == 0
     assert "Lunar standstills" in out
-    assert "mccullough" not in out
+    assert "maccullagh" not in out
     status, out, _ = run(capsys, "run", "precession", "--sections", "all")
-    assert "mccullough" in out
+    assert "maccullagh" in out
     for name in ("p.nc", "p.zarr"):
         file = tmp_path / name
         status, out, _ = run(

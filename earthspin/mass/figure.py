@@ -247,10 +247,10 @@ def ellipticity_from_h(h: Numeric) -> Numeric:
     return h / (1 - h)
 
 
-def h_mccullough(flattening: Numeric) -> Numeric:
+def h_maccullagh(flattening: Numeric) -> Numeric:
     """Dynamical flattening H from the geometric flattening f, assuming (C - A)/A = f (I.9.52).
 
-    McCullough's formula holds for a homogeneous spheroid, to first order in the flattening.
+    MacCullagh's formula holds for a homogeneous spheroid, to first order in the flattening.
     """
     return flattening / (1 + flattening)
 

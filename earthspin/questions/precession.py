@@ -32,7 +32,7 @@ from earthspin.torque.average import convergence_curve
 
 #: Points of a curve of convergence.
 CURVE_POINTS = 81
-MODELS = ("mccullough", "homogeneous", "measured")
+MODELS = ("maccullagh", "homogeneous", "measured")
 
 
 class Precession(PerturbedBody, word="precession", call="precession"):
@@ -171,7 +171,7 @@ def no_figure(body: Body) -> str | None:
     if missing:
         return f"{in_a_sentence(body.name)} has no {missing[0]}"
     if not all_of(abs(body.needed("flattening")) < 1):
-        return "McCullough's formula needs a flattening between -1 and 1"
+        return "MacCullagh's formula needs a flattening between -1 and 1"
     if not all_of(body.needed("dynamical_flattening") != 0):
         return "with H = 0 the polar moment does not follow from J2"
     return None
@@ -196,8 +196,8 @@ class FigureModels(
 def figure_models(mean_torques: MeanTorques, mean_rates: MeanRates, body: Body) -> FigureModels:
     """Compute H from three models of the figure, and the precession and free wobble for each H."""
     j2, measured_h = body.needed("j2"), body.needed("dynamical_flattening")
-    by_mccullough = figure.h_mccullough(body.needed("flattening"))
-    models = (by_mccullough, figure.h_homogeneous(j2), measured_h)
+    by_maccullagh = figure.h_maccullagh(body.needed("flattening"))
+    models = (by_maccullagh, figure.h_homogeneous(j2), measured_h)
     h = xr.concat(map(xr.DataArray, models), dim=xr.Variable("earth_model", list(MODELS)))
     precessing, radius = mean_torques.precessing[-1], body.needed("radius")
     difference = figure.moment_difference(j2, body.mass, radius)

@@ -164,7 +164,7 @@ def sky_and_calendar(tree: Result) -> Table:
 
 
 _MODELS = {
-    "mccullough": "mccullough: (C-A)/A = flattening",
+    "maccullagh": "maccullagh: (C-A)/A = flattening",
     "homogeneous": "homogeneous: J2 and C = 0.4 M a2",
     "measured": "measured: observed H",
 }

@@ -228,7 +228,7 @@ def rigid_turns(
 ) -> dict[str, Numeric]:
     """Wobble periods in rotations from the three rigid models of the ladder, by model name."""
     return {
-        "flattening": over(1.0, flattening),  # McCullough's formula (I.9.52)
+        "flattening": over(1.0, flattening),  # MacCullagh's formula (I.9.52)
         "rigid": turns_rigid(h),
         "triaxial": turns_triaxial(h, j2, triaxiality),
     }

@@ -82,7 +82,7 @@ def test_first_order_differences(flattening: float) -> None:
     assert close(by_density / exact - 1, 0, abs=2 * abs(flattening) + 1e-15)
 
 
-def test_mccullough_beside_the_exact_spheroid() -> None:
+def test_maccullagh_beside_the_exact_spheroid() -> None:
     moments = figure.spheroid_moments(1.0, 1.0, 1 / 298.257)
     PINS["Euler's period of a homogeneous Earth"].check(moments.equatorial / moments.difference)
 

@@ -35,7 +35,7 @@ def test_a_homogeneous_spheroid_has_both() -> None:
     """To first order in the flattening, J2 = 2/5 f, and both models give the same H."""
     flattening = 1e-6
     h = figure.h_homogeneous(0.4 * flattening)
-    assert np.isclose(h, figure.h_mccullough(flattening), rtol=2e-6, atol=0)
+    assert np.isclose(h, figure.h_maccullagh(flattening), rtol=2e-6, atol=0)
 
 
 def test_a_homogeneous_ellipsoid_of_small_cells() -> None:

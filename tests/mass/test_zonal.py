@@ -78,7 +78,7 @@ def test_point_masses_on_a_ring_have_the_zonals_of_the_ring() -> None:
     assert close(found, 14 * np.polynomial.legendre.legval(0.8, np.eye(7)), rel=2e-15)
 
 
-def test_a_condensed_body_breaks_mccullough() -> None:
+def test_a_condensed_body_breaks_maccullagh() -> None:
     """rho(r) in a slightly oblate perimeter: the source claims (I.9.52) for it (exercise I.9.1).
 
     By hand to first order: C - A = (8 pi/15) f rho(a) a5, A = (8 pi/3) int rho r4 dr, so
