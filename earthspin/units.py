@@ -498,10 +498,10 @@ class Whole(_AsItIs):
 
     def read(self, value: object, where: Where) -> int:
         """Return a value as an int; refuse all but whole numbers from `low` to `high`."""
-        if not is_whole(value):
+        if not is_whole(value) or value < self.low:
             raise where.error(value, f"give {self.words}")
-        if not self.low <= value <= self.high:
-            raise where.error(value, f"give {self.words}, and at most {self.high}")
+        if value > self.high:
+            raise where.error(value, f"give a whole number from {self.low} to {self.high}")
         return int(value)
 
 

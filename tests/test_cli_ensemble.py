@@ -35,9 +35,9 @@ def test_lines_for_programs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["--members", "0"], "a number from 1 to"),
+        (["--members", "0"], "give a whole number, 1 or more"),
         (["--members", "nowhere.csv"], "there is no such file"),
-        (["--workers", "0"], "give a number of workers"),
+        (["--workers", "0"], "(of workers)"),
         (["--block", "0"], "give a whole number, 1 or more"),
         (["--out", "r.nc"], "does not end in .zarr"),
         (["--set", "body.j2=5"], "is not possible"),

@@ -53,7 +53,7 @@ FAULT = {"id": "PYSEC-1", "fix_versions": ["2.0"]}
 
 @pytest.mark.parametrize(
     ("faults", "status", "words"),
-    [([FAULT], 1, "x 1.0: PYSEC-1, fixed in 2.0"), ([], 0, "1 of 1"), (None, 0, "no network")],
+    [([FAULT], 1, "x 1.0: PYSEC-1, fixed in 2.0"), ([], 0, "1 of 1"), (None, 0, "not audited")],
 )
 def test_a_known_vulnerability_fails_and_no_network_is_told(
     capsys: pytest.CaptureFixture[str], faults: list[object] | None, status: int, words: str
