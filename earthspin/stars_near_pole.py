@@ -51,8 +51,8 @@ def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
     >>> print(stars.star.squeeze().values, stars.separation.squeeze().round(1).values)
     ['Vega' 'Thuban' 'Polaris'] [3.5 1.2 0.7]
     """
-    pole = getattr(result, "pole", None)
-    if pole is None or "epoch" not in pole.dims or pole.attrs.get("frame") != "GCRS":
+    pole: Any = getattr(result, "pole", None)
+    if "epoch" not in getattr(pole, "dims", ()) or pole.attrs.get("frame") != "GCRS":
         raise SceneError("result", type(result).__name__, "give an answer of long_term")
     if set(pole.dims) != {"epoch", "component"}:
         raise SceneError("result", "an answer for several bodies", "give that for one of them")

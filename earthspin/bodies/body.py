@@ -200,11 +200,10 @@ class Body(FromMass):
         if self.position is not None:
             where = Where(f"{self.name}.position")
             object.__setattr__(self, "position", read_position(self.position, where))
-        if self.satellites != ():
-            satellites = self.KINDS["satellites"].read(
-                self.satellites, Where(f"{self.name}.satellites")
-            )
-            object.__setattr__(self, "satellites", satellites)
+        where = Where(f"{self.name}.satellites")
+        object.__setattr__(
+            self, "satellites", self.KINDS["satellites"].read(self.satellites, where)
+        )
         if self.orbit is not None:
             self._read_orbit(self.orbit)
         checks.check_numbers(self._fields(), self.UNITS)

@@ -251,3 +251,15 @@ def test_moments_of_a_body_from_nothing() -> None:
         "wobble", {"body": {**table, "flattening": 0.01, "spin_period": "9 h"}}
     )
     assert body.body.moments == pytest.approx([1e30, 1.1e30, 1.2e30], rel=1e-12, abs=0)
+
+
+@pytest.mark.parametrize("given", [[1.0, 2.0] * u.m, np.empty((0, 3)), None, "x"], ids=range(4))
+def test_satellites_that_are_none(given: Any) -> None:
+    with pytest.raises(SceneError, match="give a list of satellites"):
+        Body(name="x", gm=1e14, satellites=given)
+
+
+@pytest.mark.parametrize("given", [EARTH, 3, None], ids=range(3))
+def test_stars_near_the_pole_of_what_is_no_answer(given: Any) -> None:
+    with pytest.raises(SceneError, match="give an answer of long_term"):
+        earthspin.pole_stars(given)
