@@ -195,8 +195,8 @@ def _from_astropy(value: Any, where: Where, given: object) -> tuple[Any, Any]:
             if "end of day" in str(error):
                 raise where.error(given, "there is no such date: no leap second then") from None
             scale = getattr(value, "scale", "utc").upper()
-            problem = f"{scale} is not known then; give TDB, or, soon to come, newer tables"
-            raise where.error(given, f"{problem} ({TABLES})") from None
+            newer = f"install newer tables ({TABLES}) for dates to come"
+            raise where.error(given, f"{scale} is not known then; give TDB, or {newer}") from None
 
 
 def _with_tdb_minus_tt(time: Any) -> Any:

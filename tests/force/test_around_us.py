@@ -264,7 +264,8 @@ def test_json_is_what_it_was(tmp_path: Path) -> None:
     for scene in ("sun-only", "wobble", "poinsot", "iau"):
         found = earthspin_says("run", scene, "--json", "--sections", "all")
         tree = earthspin.run_tree(scene)
-        sections = {n: of.to_dataset().to_dict() for n, of in tree.children.items() if n != "plan"}
+        names = [name for name in tree.children if name != "plan"]
+        sections = {name: tree.earthspin.section(name).to_dict() for name in names}
         expected = plain(tree.to_dataset().to_dict() | {"sections": sections})
         assert json.loads(found.stdout) == expected
 
