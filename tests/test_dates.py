@@ -173,7 +173,7 @@ WRONG: dict[str, list[Any]] = {
         "2000-01-01T00:00+24:00",
     ],
     "no date": [
-        *(np.datetime64("NaT", "s"), pd.NaT, SCALE.tdb_jd(np.nan), np.array(["NaT"], "M8")),
+        *(np.datetime64("NaT", "s"), pd.NaT, SCALE.tdb_jd(np.nan), np.array(["NaT"], "M8[s]")),
         pd.DatetimeIndex(["2000-01-01", pd.NaT], tz="UTC"),
     ],
     "one list": [

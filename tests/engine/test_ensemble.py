@@ -511,7 +511,7 @@ def test_sources_of_random_numbers_of_numpy() -> None:
         )
         xr.testing.assert_identical(first, again)
         assert not first.precession_rate.equals(other.precession_rate)
-    for wrong in (1.5, "a", True, np.timedelta64(3), np.random.PCG64(3)):
+    for wrong in (1.5, "a", True, np.timedelta64(3, "s"), np.random.PCG64(3)):
         with pytest.raises(SceneError, match=r"rng = .*a Generator or SeedSequence"):
             earthspin.ensemble("precession", 5, rng=wrong)
     with pytest.raises(SceneError, match="give either seed or rng"):
