@@ -254,7 +254,7 @@ class Run:
         except Exception:  # not iterable
             raise SceneError("sections", sections, f"give names, or '{ALL}'") from None
         applicable = [name for name in known if not all(map(self.why_not, known[name]))]
-        if wanted == [ALL] and isinstance(sections, str):
+        if isinstance(sections, str) and sections == ALL:
             return applicable
         for name in wanted:
             if not isinstance(name, str) or name not in known:  # type: ignore[redundant-expr]

@@ -263,3 +263,9 @@ def test_satellites_that_are_none(given: Any) -> None:
 def test_stars_near_the_pole_of_what_is_no_answer(given: Any) -> None:
     with pytest.raises(SceneError, match="give an answer of long_term"):
         earthspin.pole_stars(given)
+
+
+def test_sections_as_a_structured_array() -> None:
+    records = np.rec.array([(1, 2.0)])
+    with pytest.raises(SceneError, match="sections"):
+        earthspin.plan("torque", sections=records)
