@@ -385,7 +385,7 @@ def _verify(options: Namespace) -> None:
     """Command `verify`: compare a stored result with its checksums."""
     from earthspin.engine.store import verify
 
-    print(f"{printable(str(verify(options.file)))} is what was written")
+    print(f"{printable(str(verify(options.file)))} is intact")
 
 
 def _completion(options: Namespace) -> None:
@@ -394,7 +394,7 @@ def _completion(options: Namespace) -> None:
         from argcomplete.shell_integration import shellcode
     except ImportError:
         raise MissingExtraError("argcomplete", "completion", "completion in the shell") from None
-    print(shellcode(["earthspin"], shell=options.shell))  # its name  # nosec B604
+    print(shellcode(["earthspin"], shell=options.shell))  # a name, no command  # nosec B604
 
 
 # --- what commands share -------------------------------------------------------------------------

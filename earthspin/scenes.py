@@ -17,7 +17,7 @@ from earthspin.bodies import Body
 from earthspin.bodies.body import members
 from earthspin.engine import answers, blocks
 from earthspin.engine.blocks import Series
-from earthspin.engine.members import TWICE
+from earthspin.engine.members import ENDLESS, MOST_PARTS, TWICE
 from earthspin.engine.part import BLOCK as BY_BLOCK
 from earthspin.engine.question import Question, keys_of, scene_of
 from earthspin.engine.run import Plan, Run
@@ -56,8 +56,6 @@ class _Questions(Mapping[str, type[Question]]):
 
 QUESTIONS = _Questions()
 
-#: Most parts of a key between dots.
-MOST_PARTS = 32
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:[\w"'-]+[ \t]*\.[ \t]*){{{MOST_PARTS}}}""")
 
 #: How many times a long series is written at once.
@@ -243,7 +241,7 @@ def _leaves(key: str, value: Any) -> Iterator[str]:
         yield key
         return
     if key.count(".") >= MOST_PARTS:
-        raise SceneError("changes", "a table", "its tables contain themselves; give each a new one")
+        raise SceneError("changes", "a table", ENDLESS)
     for name, inner in value.items():
         yield from _leaves(f"{key}.{name}", inner)
 

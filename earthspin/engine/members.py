@@ -34,6 +34,8 @@ IntArray = NDArray[np.int64]
 
 #: Name of the dimension of an ensemble.
 MEMBER = "member"
+#: Largest number of parts between dots in the name of a key; problem of a table with more.
+MOST_PARTS, ENDLESS = 32, "a table contains itself; give a table that ends"
 #: Largest number of members, which limits the memory for the values of one input; largest seed.
 LARGEST_COUNT, LARGEST_SEED = 10_000_000, 2**64 - 1
 _COUNT, _INDEX = Whole(1, LARGEST_COUNT), Whole(0, LARGEST_COUNT)
@@ -379,10 +381,6 @@ def _names(values: NDArray[Any], where: Where) -> NDArray[Any]:
     return values.astype(str)
 
 
-#: Largest number of dots in the name of an input.
-DEEPEST = 32
-
-
 def _distributions(
     table: Mapping[str, Any], where: Where, before: str = ""
 ) -> Iterator[tuple[str, Distribution]]:
@@ -391,8 +389,8 @@ def _distributions(
     TOML turns a dotted name into a table within a table.
     """
     for name, entry in table.items():
-        if before.count(".") > DEEPEST:
-            raise where.error("a table", "its tables contain themselves; give each a new one")
+        if before.count(".") > MOST_PARTS:
+            raise where.error("a table", ENDLESS)
         inner = entry.values()
         if inner and not set(entry) & set(_SHAPES) and all(isinstance(i, Mapping) for i in inner):
             yield from _distributions(entry, where, f"{before}{name}.")

@@ -169,7 +169,7 @@ def geodesic_precession(gm: float, motion: float, eccentricity: float) -> float:
 
 
 def faded(times: FloatArray) -> FloatArray:
-    """Time that, multiplied by the present rate of J2, gives the change of J2, s.
+    """Change of J2 divided by its present rate, s.
 
     It is t up to `FADES_FROM` and 0 beyond `FADES_TO`.
 
@@ -180,7 +180,7 @@ def faded(times: FloatArray) -> FloatArray:
 
 
 def band(times: FloatArray) -> FloatArray:
-    """95 % half-width of the time that `faded` returns for the change of J2, s.
+    """95 % half-width of `faded`, the change of J2 divided by its present rate, s.
 
     It is the fraction `J2_SHARE` of the time up to `FADES_FROM`, the whole time at `FADES_TO`, and
     zero beyond twice `FADES_TO`.

@@ -144,7 +144,8 @@ def main() -> None:
         axes[1].set_ylabel("peak memory (MB)")
         for ax in axes:
             ax.set_xlabel("times, days, epochs or members")
-        axes[0].legend(fontsize=7)
+        lines, names = axes[0].get_legend_handles_labels()
+        figure.legend(lines, names, fontsize=7, ncols=6, loc="outside upper center")
         drawing = Drawing("Time and memory", "Main calls against the size of the result", figure)
         (MEASURED / "how-large.svg").write_text(drawing.svg + "\n", encoding="utf-8")
     rows += [

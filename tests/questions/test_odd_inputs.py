@@ -216,8 +216,8 @@ ROCK: dict[str, Any] = {"name": "rock", "gm": 1e14, "radius": 1e6}
 MOMENTS = ["1e30 kg m2", "1.1e30 kg m2", "1.2e30 kg m2"]
 
 test_what_broke_is_refused_in_one_line = refused(
-    (lambda: earthspin.load_scene("precession", CIRCLE), SceneError, "contain themselves"),
-    (lambda: earthspin.ensemble("precession", CIRCLE), SceneError, "contain themselves"),
+    (lambda: earthspin.load_scene("precession", CIRCLE), SceneError, "contains itself"),
+    (lambda: earthspin.ensemble("precession", CIRCLE), SceneError, "contains itself"),
     (lambda: EARTH.replace(obliquity=np.array([0.1, 0.2])), BodyError, "one angle"),
     (lambda: EARTH.replace(obliquity=["1 deg", "2 deg"]), BodyError, "one angle"),
     (lambda: Body(**ROCK, moments=MOMENTS), BodyError, "replace\\(moments"),
