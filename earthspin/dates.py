@@ -1,10 +1,10 @@
-"""Reading of dates and of times over millennia: one reader for every form in which they are given.
+"""Read dates, and times over millennia, in every form that the questions accept.
 
-A date is read as days from J2000.0 TDB in two parts, whose sum keeps a third of a microsecond over
-a century, where one Julian date keeps 40 microseconds. Regular grids are counted in whole
-microseconds and are exact. Plain dates mean TDB in the proleptic Gregorian calendar with a year 0;
-what says that it has another scale (a time zone, a Time in UTC) is converted. A limit on dates is
-that of the question: its ephemeris, table or model.
+A date is read as days from J2000.0 TDB in two parts. Their sum is exact to a third of a microsecond
+over a century; a single Julian date is exact to 40 microseconds. Regular grids are counted in whole
+microseconds and are exact. A plain date is TDB in the proleptic Gregorian calendar with a year 0; a
+date with another scale (a time zone, a Time in UTC) is converted. Each question limits its dates by
+its ephemeris, table or model.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin._lazy import erfa
 from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
 from earthspin.errors import SceneError, UnitsError, Where
 from earthspin.numerics.arrays import FloatArray
@@ -45,7 +46,7 @@ _DATE = re.compile(
            \s?(?P<zone>Z|UTC|[-+]\d\d:?[0-5]\d)?)?
       | (?P<ad>A\.?D\.?\s?)?(?P<counted>\d{1,3}(?:[,\s]\d{3})+|\d{1,7})
         (?(ad)|\s?(?:(?P<bc>B\.?C\.?(?:E\.?)?)|A\.?D\.?|C\.?E\.?))
-      | (?P<modified>M)?JD\s?(?P<julian>\d+)(?P<fraction>\.\d+)?""",
+      | (?P<modified>M)?JD\s?(?P<julian>\d{1,12})(?P<fraction>\.\d+)?""",
     re.IGNORECASE | re.VERBOSE,
 )
 
@@ -85,10 +86,10 @@ def two_parts(value: Any, where: Where) -> tuple[Any, Any]:
         return _from_cftime(value, where)
     if isinstance(value, (list, tuple)):
         return _from_list(value, (len(value),), where)
-    stamps = value
-    zone = getattr(value, "tz", None) or getattr(getattr(value, "dt", None), "tz", None)
-    if zone is not None:  # pandas, in UTC as pandas stores it
-        stamps = getattr(value, "dt", value).tz_convert(None)
+    stamps, series = value, getattr(value, "dt", value)
+    zone = getattr(series, "tz", None) or getattr(getattr(value, "dtype", None), "time_zone", None)
+    if zone is not None and hasattr(series, "tz_convert"):
+        stamps = series.tz_convert(None)  # pandas and polars store UTC
     if hasattr(stamps, "to_numpy"):
         stamps = stamps.to_numpy()
     elif isinstance(stamps, dt.datetime):
@@ -98,7 +99,7 @@ def two_parts(value: Any, where: Where) -> tuple[Any, Any]:
         stamps = np.datetime64(stamps)
     try:
         stamps = np.asarray(stamps)
-    except Exception:  # whatever somebody's class says of being no array
+    except Exception:  # objects may raise any error when converted to an array
         raise where.error(value, f"write a date like {EXAMPLES}") from None
     if stamps.dtype.kind == "M":
         if np.isnat(stamps).any():
@@ -163,8 +164,8 @@ def _from_datetime64(stamps: Any, where: Where) -> tuple[Any, Any]:
 def _from_cftime(date: Any, where: Where) -> tuple[float, float]:
     """Convert a date of cftime, of which the integer `toordinal` is the Julian date of noon."""
     if date.calendar not in ("standard", "gregorian", "proleptic_gregorian"):
-        problem = f"the days of the calendar '{date.calendar}' are not those of the real year"
-        raise where.error(str(date), f"{problem}; give 'standard' or 'proleptic_gregorian'")
+        problem = f"its calendar '{date.calendar}' is neither 'standard' nor 'proleptic_gregorian'"
+        raise where.error(str(date), f"{problem}; convert it to one of them")
     second = 3600 * date.hour + 60 * date.minute + date.second + date.microsecond * 1e-6
     return date.toordinal() - J2000_JD - 0.5, second / DAY
 
@@ -187,16 +188,17 @@ def _from_astropy(value: Any, where: Where, given: object) -> tuple[Any, Any]:
             time = value if is_time(value) else Time(value, scale="utc")
             tdb = _with_tdb_minus_tt(time).tdb
             # of the last day before it, the library does not warn
-            if time.scale in ("utc", "ut1") and np.min(time.jd) < FIRST_UTC:
+            if time.scale in ("utc", "ut1") and np.min(time.jd, initial=np.inf) < FIRST_UTC:
                 raise ValueError("not known")
             return tdb.jd1 - J2000_JD, tdb.jd2
         except Exception as error:  # kinds of the library and of ERFA, warnings among them
             warnings.simplefilter("ignore")
             if "end of day" in str(error):
-                raise where.error(given, "there is no such date: no leap second then") from None
+                raise where.error(given, "there is no such date: it has no leap second") from None
             scale = getattr(value, "scale", "utc").upper()
-            newer = f"install newer tables ({TABLES}) for dates to come"
-            raise where.error(given, f"{scale} is not known then; give TDB, or {newer}") from None
+            newer = f"install a newer {TABLES} if it lies after the end of its tables"
+            problem = f"{scale} is not known at this date; give TDB, or {newer}"
+            raise where.error(given, problem) from None
 
 
 def _with_tdb_minus_tt(time: Any) -> Any:
@@ -206,8 +208,6 @@ def _with_tdb_minus_tt(time: Any) -> Any:
     """
     if time.scale not in ("tt", "tai", "tcg") or time.location is not None:
         return time
-    import erfa
-
     tt = time.tt.replicate()
     # the series is for some thousand years; the difference never exceeds 2 ms
     tt.delta_tdb_tt = np.clip(erfa.dtdb(tt.jd1, tt.jd2, 0.0, 0.0, 0.0, 0.0), -2e-3, 2e-3)
@@ -265,7 +265,7 @@ def microseconds(value: Any, where: Where) -> int:
 
 def _check_reach(days: Any, given: object, where: Where) -> None:
     if np.max(np.abs(days), initial=0.0) > FARTHEST_DATE:
-        raise where.error(given, "dates count in microseconds up to 250,000 years from J2000.0")
+        raise where.error(given, "give a date at most 250,000 years from J2000.0")
 
 
 def _epochs(value: Any, where: Where) -> Any:
@@ -276,6 +276,8 @@ def _epochs(value: Any, where: Where) -> Any:
     SceneError
         If one of them is neither.
     """
+    if isinstance(value, np.ndarray) and value.dtype.kind in "OU" and value.ndim == 1:
+        value = value.tolist()
     if isinstance(value, (list, tuple)):
         times = np.array([seconds(time, where) for time in value], dtype=float)
     elif _is_duration(value):
@@ -305,7 +307,8 @@ def _is_duration(value: Any) -> bool:
     if isinstance(value, str):
         return not _DATE.fullmatch(value.strip())
     is_quantity = hasattr(value, "to_value") and not is_time(value)
-    return is_quantity or isinstance(value, (dt.timedelta, np.timedelta64))
+    is_timedelta = getattr(getattr(value, "dtype", None), "kind", "") == "m"
+    return is_quantity or is_timedelta or isinstance(value, dt.timedelta)
 
 
 @dataclass(frozen=True)
@@ -442,7 +445,7 @@ class Listed:
     def times(cls, value: Any, where: Where) -> FloatArray:
         """Read a list of times in any form that the function `days` takes."""
         listed = days(value, where)
-        _check_reach(listed, "a date", where)
+        _check_reach(listed, value, where)
         return listed
 
     @classmethod
@@ -495,10 +498,15 @@ Epochs = TimeGrid | TimeList
 
 
 #: Kind of input: a time step, in s.
-SPACING = Number("s", "6 h", low=1e-6, high=1e4 * JULIAN_YEAR, above=0.0)
+SPACING = Number(
+    "s", "6 h", low=1e-6, high=1e4 * JULIAN_YEAR, limits="give 1 microsecond to 10,000 years"
+)
 Step = Annotated[float, SPACING]
 #: A step between times over millennia, s.
-YearStep = Annotated[float, Number("s", "1 kyr", low=DAY, high=FARTHEST, plain=False)]
+YearStep = Annotated[
+    float,
+    Number("s", "1 kyr", low=DAY, high=FARTHEST, plain=False, limits="give 1 day to 1 Gyr"),
+]
 
 
 def grid(span: YearSpan, step: float, where: Where) -> FloatArray:

@@ -53,11 +53,10 @@ class EarthspinError(Exception):
         return _rebuild, (type(self), self.args, self.__dict__)
 
     def _render_traceback_(self) -> list[str]:
-        """Return the lines of the user and the message, which IPython and Jupyter show."""
+        """Return the traceback down to the user's last line, and the message, for IPython."""
         frames = traceback.extract_tb(self.__traceback__)[1:]  # the first is that of IPython
-        files = [os.path.dirname(frame.filename) for frame in frames]
-        package = os.path.dirname(__file__)
-        end = next((n for n, folder in enumerate(files) if folder.startswith(package)), len(files))
+        inside = [frame.filename.startswith(os.path.dirname(__file__)) for frame in frames]
+        end = inside.index(True) if True in inside else len(frames)
         return [*traceback.format_list(frames[:end]), f"{type(self).__name__}: {self}"]
 
 
@@ -431,11 +430,12 @@ def nearest(word: object, allowed: Iterable[str]) -> str:
 
 
 def checked(function: Callable[_P, _T]) -> Callable[_P, _T]:
-    """Make a function raise an `ArgumentError`, which says what to write, for wrong arguments."""
+    """Make a function raise an `ArgumentError` with a corrected call if its arguments are wrong."""
     signature, name = inspect.signature(function), function.__name__
 
     def problem(error: TypeError, args: tuple[Any, ...], keywords: Mapping[str, Any]) -> str:
-        parameters = signature.parameters.values()
+        parameters = [p for p in signature.parameters.values() if p.name != "cls"]
+        args = args[len(signature.parameters) - len(parameters) :]
         free = [p.name for p in parameters if p.kind is p.POSITIONAL_OR_KEYWORD]
         named = [p.name for p in parameters if p.kind is p.KEYWORD_ONLY and p.name not in keywords]
         unknown = [word for word in keywords if word not in signature.parameters]

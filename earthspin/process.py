@@ -90,7 +90,7 @@ def _judged(error: Exception) -> tuple[int, str]:
         return USAGE_ERROR, str(error)
     if isinstance(error, MemoryError) or getattr(error, "errno", None) == errno.ENOMEM:
         return USAGE_ERROR, "there is not enough memory; ask for less at once, or see ulimit -v"
-    if isinstance(error, ImportError):
+    if isinstance(error, ImportError) and not (error.name or "").startswith("earthspin"):
         cause = one_line(error.__cause__ or error)
         words = "install it again, or allow it more memory (ulimit -v)"
         return USAGE_ERROR, str(EarthspinError(f"a library cannot be loaded: {cause}; {words}"))

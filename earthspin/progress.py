@@ -21,8 +21,8 @@ EVERY = 1.0
 
 #: Held by whoever shows a bar: of work within work, only the outer is shown.
 _watching = Lock()
-#: Functions that hide bars: those of work whose amount is not known give way to others.
-_hide: list[Callable[[], None]] = []
+#: Functions that hide a bar of unknown length, so that a bar of known length can be shown.
+_hiders: list[Callable[[], None]] = []
 #: Where lines for programs go; none where a person watches.
 _lines: list[TextIO] = []
 
@@ -43,8 +43,8 @@ def progress(label: str, total: int | None = None, already: int = 0) -> Iterator
     label : str
         What is being done.
     total : int, optional
-        How much there is to do. If that is not known, the bar moves to and fro, and gives way to
-        that of work within whose amount is known.
+        Amount of work. If it is None, the bar moves to and fro until a bar of known length inside
+        this work replaces it.
     already : int
         How much of it was done before, which counts as done and not for the rate.
 
@@ -54,9 +54,9 @@ def progress(label: str, total: int | None = None, already: int = 0) -> Iterator
         To be called as the work proceeds.
     """
     if total is not None and not _watching.locked():
-        for hide in _hide:  # before stderr is asked: a bar puts a file of its own in its place
+        for hide in _hiders:  # before isatty(): a visible bar replaces sys.stderr
             hide()
-    unwatched = not (_lines or sys.stderr.isatty()) or (total is None and (_lines or _hide))
+    unwatched = not (_lines or sys.stderr.isatty()) or (total is None and (_lines or _hiders))
     if _watching.locked() or unwatched:
         yield lambda amount: None
         return
@@ -104,10 +104,11 @@ def _in_lines(label: str, total: int, already: int, stream: TextIO) -> Iterator[
 
 
 def _bar(label: str, total: int | None, already: int) -> Iterator[Advance]:
-    done, shown = already, list[Any]()
+    done = already
+    shown: list[Any] = []
 
     def show() -> None:
-        shown.append(_columns(label, total, done))
+        shown.append(_rich_bar(label, total, done))
         shown[0].start()
 
     def hide() -> None:
@@ -126,15 +127,15 @@ def _bar(label: str, total: int | None, already: int) -> Iterator[Advance]:
     late = Timer(PATIENCE, show)
     late.daemon = True
     late.start()
-    _hide.append(hide)
+    _hiders.append(hide)
     try:
         yield advance
     finally:
-        _hide.remove(hide)
+        _hiders.remove(hide)
         hide()
 
 
-def _columns(label: str, total: int | None, done: int) -> Any:
+def _rich_bar(label: str, total: int | None, done: int) -> Any:
     """Build a progress bar of the library rich, which takes 0.1 s to import."""
     import rich.progress as columns
     from rich.console import Console

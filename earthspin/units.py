@@ -326,6 +326,8 @@ class Number:
         Bound that the number must exceed.
     plain : bool
         Whether a number without a unit is accepted and taken to be in `unit`.
+    limits : str
+        Text of the limits in messages, if numbers in `unit` are hard to read.
     """
 
     unit: str
@@ -334,6 +336,7 @@ class Number:
     high: float = math.inf
     above: float = -math.inf
     plain: bool = True
+    limits: str = ""
 
     hint = "Value"
 
@@ -351,14 +354,13 @@ class Number:
         if np.ndim(number) != 0:
             raise where.error(value, f"give one number, {self.words}")
         if not (self.low <= number <= self.high and number > self.above):
-            raise where.error(value, self._range())
+            raise where.error(value, self.limits or self._range())
         return float(number)
 
     def _range(self) -> str:
         unit = f" {self.unit}" if self.unit else ""
         if self.above == 0:
-            reach = f": {max(self.low, 0):g} to {self.high:g}{unit}" if self.high < math.inf else ""
-            return f"it is greater than zero{reach}"
+            return "it is greater than zero"
         if self.above > -math.inf:
             return f"it is greater than {self.above:g}{unit}"
         if self.high < math.inf:
@@ -477,13 +479,13 @@ class _AsItIs:
 
 
 def is_whole(value: object) -> TypeGuard[int | np.integer[Any]]:
-    """Return True for an integer of Python or NumPy; a truth value or a duration is none."""
+    """Return True for an integer of Python or NumPy, but not for a Boolean or a timedelta64."""
     return isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
 
 
 @dataclass(frozen=True)
 class Whole(_AsItIs):
-    """Kind of input: a whole number from `low` to `high`; `others` tells what else is allowed."""
+    """Kind of input: a whole number from `low` to `high`; `others` names further allowed values."""
 
     low: int = 1
     high: int = LONGEST_IN_MEMORY

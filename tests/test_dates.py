@@ -163,6 +163,7 @@ ENDLESS.append(ENDLESS)
 #: What is no date, by a word of the message.
 WRONG: dict[str, list[Any]] = {
     "write a date": [
+        "JD " + "9" * 400,
         *("tomorrow", "", "1.5 BC", "10,00 BC", "BC", "AD 5 BC", "1 PM"),
         *(3.0, None, True, ["x"], [1.0], b"2000-01-01", 1.0 * u.yr),
     ],
@@ -181,7 +182,7 @@ WRONG: dict[str, list[Any]] = {
         SCALE.tdb_jd(np.full((2, 2), 2451545.0)),
     ],
     "known": [MASKED, np.ma.masked_array(np.zeros(2, "M8[us]"), [True, False])],
-    "UTC is not known then; give TDB": [
+    "UTC is not known at this date; give TDB": [
         *("1959-12-31T00:00Z", "1900-01-01T00:00+01:00", "2950-01-01T00:00Z"),
         *("-2559-01-01T00:00Z", "+12025-01-01T00:00Z", dt.datetime(1, 1, 1, tzinfo=dt.UTC)),
         *(dt.datetime(9000, 1, 1, tzinfo=dt.UTC), pd.date_range("1950", periods=2, tz="UTC")),
@@ -193,6 +194,24 @@ test_what_is_no_date_is_refused = refused(
     *[(value, words) for words, values in WRONG.items() for value in values],
     call=lambda wrong: TimeList.read(wrong, TIMES),
 )
+
+
+class OfPendulum(dt.datetime):
+    """A datetime with the property `tz`, as the library pendulum has it."""
+
+    tz = dt.UTC
+
+
+def test_zones_of_other_libraries_are_converted() -> None:
+    date = dt.datetime(2000, 1, 1, tzinfo=dt.UTC)
+    expected = dates.days(date, TIMES)
+    assert dates.days(OfPendulum(2000, 1, 1, tzinfo=dt.UTC), TIMES) == expected
+    polars = pytest.importorskip("polars")
+    assert dates.days(polars.Series([date]), TIMES) == expected
+
+
+def test_no_times_are_read() -> None:
+    assert dates.days(Time([], format="jd"), TIMES).size == 0
 
 
 def test_the_time_axis_of_a_series_holds_the_years_1_to_9999() -> None:
@@ -319,7 +338,7 @@ def test_the_end_of_a_span_is_included_if_the_step_meets_it(step: str, size: int
 
 test_steps_that_lead_nowhere = refused(
     *[
-        (step, "finite|greater than zero")
+        (step, "finite|1 microsecond")
         for step in (0, -1, "0 h", "-3 h", np.nan, np.inf, 1e-9, "2e4 yr")
     ],
     call=lambda step: dates.SPACING.read(step, STEP),

@@ -176,14 +176,14 @@ class Body(FromMass):
     UNITS: ClassVar[dict[str, str]]
     LABELLED: ClassVar[frozenset[str]]
 
-    def __new__(cls, *places: object, **given: object) -> Body:
+    def __new__(cls, *places: object, **fields: object) -> Body:
         """Raise an error for positional arguments and for names that are no fields of a body."""
         if places:
             raise TypeError("Body() takes its arguments by name: Body(name='x', gm=1e14)")
-        for key in given.keys() - cls.KINDS.keys() - {"obliquity"}:
-            use = f"give it to replace, like Body(...).replace({key}=...)"
+        for key in fields.keys() - cls.KINDS.keys() - {"obliquity"}:
+            use = f"use Body(...).replace({key}=...)"
             problem = use if key in _READ_AS else nearest(key, cls.KINDS)
-            raise BodyError(str(given.get("name")), key, given[key], problem)
+            raise BodyError(str(fields.get("name", "")), key, fields[key], problem)
         return super().__new__(cls)
 
     def __post_init__(self, obliquity: Any) -> None:
@@ -368,10 +368,10 @@ class Body(FromMass):
 
     @property
     def known_as(self) -> str:
-        """Name of the built-in body with a NAIF code of this body; without codes, its own name.
+        """Name of the built-in body that shares a NAIF code with this body; empty if none does.
 
-        It is empty if no built-in body has its codes. Orbits, models and published numbers are
-        found by it.
+        A body without codes is known by its own name. Orbits, models and published numbers are
+        looked up by this name.
         """
         if not self.naif:
             return self.name
@@ -689,7 +689,7 @@ def _placed(function: Any, where: Where) -> Body:
 
 
 def label_of(name: str, bodies: Iterable[Body]) -> str | None:
-    """Return the label of the first body that is a given built-in one; None if there is none."""
+    """Return the name of the first of some bodies that is known as a built-in body, or None."""
     return next((world.name for world in bodies if world.known_as == name), None)
 
 

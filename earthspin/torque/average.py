@@ -135,8 +135,8 @@ def best_window(start: float, end: float, cycle: float, epoch: float = 0.0) -> W
     centre, room = (
         (epoch, room) if room >= FEWEST_CYCLES * cycle else ((start + end) / 2, end - start)
     )
-    longest = max(LONGEST_WINDOW, FEWEST_CYCLES * cycle)
-    turns = math.floor(min(room, longest) / cycle)
+    most_turns = max(FEWEST_CYCLES, math.floor(LONGEST_WINDOW / cycle))
+    turns = min(math.floor(room / cycle), most_turns)
     if turns < FEWEST_CYCLES:
         raise UndefinedError(
             f"an average over orbits needs three turns of the slowest cycle, "

@@ -69,6 +69,11 @@ def test_a_call_without_what_must_be_given_is_answered_by_an_example(name: str) 
     assert pickle.loads(pickle.dumps(CALLS[name])) == CALLS[name]
 
 
+def test_a_class_method_is_answered_without_its_class() -> None:
+    with pytest.raises(ArgumentError, match=r"write from_layers\('prem', spin_period='1 d'\)"):
+        earthspin.Body.from_layers("prem", "1 d")
+
+
 @pytest.mark.parametrize("question", QUESTIONS.values(), ids=QUESTIONS)
 def test_a_call_in_another_spelling_is_answered_by_what_to_type(question: type[Question]) -> None:
     call, (*names,) = getattr(earthspin, question.call), arguments_of(question)

@@ -27,7 +27,7 @@ WRONG = [
     ({"compute": "torque", "equator": "men"}, "did you mean 'mean'"),
     ({"compute": "torque", "span": ["2001-01-01", "2000-01-01"]}, "ends before it starts"),
     ({"compute": "torque", "span": "2001"}, "two dates"),
-    ({"compute": "torque", "step": "0 h"}, "greater than zero"),
+    ({"compute": "torque", "step": "0 h"}, "1 microsecond"),
     ({"compute": "torque", "step": "6 kg"}, "6 kg"),
     ({"compute": "precession", "accuracy": 1e-6}, "no such key: delete"),
     ({"compute": "rotation", "tolerance": "fine"}, "tolerance"),

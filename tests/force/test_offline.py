@@ -64,7 +64,7 @@ for scale in ("utc", "ut1"):
     lines = without_network(program).splitlines()
     assert len(lines) == 2
     for line, scale in zip(lines, ("utc", "ut1"), strict=True):
-        assert f"{scale.upper()} is not known then; give TDB, or install newer" in line
+        assert f"{scale.upper()} is not known at this date; give TDB, or install a newer" in line
 
 
 def test_scenes_ask_for_no_network() -> None:

@@ -12,6 +12,7 @@ from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR
 from earthspin.sky.ephemeris import Ephemeris
 from earthspin.sky.poles import IAU_2006
 from earthspin.torque.average import (
+    FEWEST_CYCLES,
     TAPERS,
     Window,
     best_window,
@@ -203,3 +204,9 @@ def test_the_claimed_error_holds_in_the_last_century(
     # the smooth curve takes part of the swing here
     assert 0.05 < np.sqrt(np.mean(apart**2)) < 1.5
     assert apart.max() < 5
+
+
+def test_a_slow_cycle_fits_three_times_into_a_long_span() -> None:
+    """Three times a cycle, divided by the cycle, may be less than three by rounding."""
+    for cycle in np.random.default_rng(5).uniform(2e9, 1e11, 200):
+        assert best_window(-5 * cycle, 5 * cycle, cycle).cycles == FEWEST_CYCLES
