@@ -6,19 +6,17 @@ import inspect
 import re
 import textwrap
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.members import MEMBER, Members
 from earthspin.engine.question import NEGLECTED, Key, Question, define_parts, keys_of
 from earthspin.engine.run import ALL, Run
 from earthspin.errors import SceneError, checked
 from earthspin.progress import progress
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 # --- answers --------------------------------------------------------------------------------------
 
@@ -71,8 +69,6 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
     EarthspinError
         If the question cannot be answered, or another section of an ensemble is requested.
     """
-    import xarray as xr
-
     if question.members is not None:
         named = [sections] if isinstance(sections, str) else [*sections]
         if not {*named} <= {ALL, NEGLECTED}:

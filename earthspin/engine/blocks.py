@@ -28,6 +28,7 @@ from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
+from earthspin._lazy import xr
 from earthspin._version import __version__, version
 from earthspin.engine import drafts
 from earthspin.engine.part import BLOCK, Block
@@ -46,7 +47,6 @@ from earthspin.progress import progress
 from earthspin.units import Whole
 
 if TYPE_CHECKING:
-    import xarray as xr
     from distributed import Client
 
 # --- unfinished stores ----------------------------------------------------------------------------
@@ -346,8 +346,6 @@ def hold(work: Work, *, client: object = None) -> xr.Dataset:
     client : Client, int or str, optional
         See `write`.
     """
-    import xarray as xr
-
     client = _checked(client)
     layout, blocks = work.layout, dict[int, Any]()
     with progress(work.what, layout.size) as advance:

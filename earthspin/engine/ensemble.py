@@ -14,10 +14,11 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.engine import blocks
 from earthspin.engine.blocks import Layout, request_of
 from earthspin.engine.inputs import along_members, inputs_of, published, with_values
@@ -26,9 +27,6 @@ from earthspin.engine.question import NEGLECTED, SCENE, Question, scene_text
 from earthspin.engine.run import Run
 from earthspin.errors import ApartError, EarthspinError, SceneError
 from earthspin.units import Number
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: Names of a member in all inputs that take names, in the order of these inputs.
 Names = tuple[str, ...]
@@ -411,8 +409,6 @@ def _along_all_members(answer: xr.Dataset, count: int) -> xr.Dataset:
 
 def _concatenated(pieces: list[xr.Dataset]) -> xr.Dataset:
     """Join the Datasets of successive members along `member`."""
-    import xarray as xr
-
     variables: dict[Any, Any] = {}
     for name, variable in pieces[0].data_vars.items():
         variables[name] = variable.variable

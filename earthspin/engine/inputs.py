@@ -9,18 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin._lazy import xr
 from earthspin.engine.members import MEMBER, TWICE, Distribution
 from earthspin.engine.question import Question, keys_of
 from earthspin.errors import Where, nearest
 from earthspin.units import Number, by_name
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: Names of the numbers that users know by their symbols.
 _SYMBOLS = {"H": "body.dynamical_flattening", "J2": "body.j2", "J3": "body.j3", "GM": "body.gm"}
@@ -193,6 +191,4 @@ def _with_number(sequence: Any, index: int | None, value: Any) -> Any:
 
 def along_members(values: NDArray[Any]) -> xr.DataArray:
     """Make an array of member values with named dimensions, of which the first is `member`."""
-    import xarray as xr
-
     return xr.DataArray(values, dims=(MEMBER, *(f"{MEMBER}_{k}" for k in range(values.ndim - 1))))

@@ -18,17 +18,15 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
+from typing import Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin._lazy import xr
 from earthspin.errors import OutputError, Where, nearest
 from earthspin.numerics.arrays import FloatArray
 from earthspin.units import Whole, Word, by_name, is_whole, pack, unit_factor, unpack
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 IntArray = NDArray[np.int64]
 
@@ -333,8 +331,6 @@ class Members:
 
 def _read_file(path: Path) -> xr.Dataset:
     """Read input values of ensemble members from a CSV, netCDF or Zarr file."""
-    import xarray as xr
-
     # os.path.exists is false for a name that is too long, where Path.exists raises an error
     if not os.path.exists(path):
         raise OutputError(path, "there is no such file", "give a .csv, .nc or .zarr, or a number")

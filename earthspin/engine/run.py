@@ -15,6 +15,7 @@ from importlib import import_module
 from itertools import groupby
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
+from earthspin._lazy import xr
 from earthspin._version import __version__, version
 from earthspin.card import card
 from earthspin.engine.part import Part
@@ -24,7 +25,6 @@ from earthspin.errors import SceneError, UndefinedError, nearest
 
 if TYPE_CHECKING:
     import pandas as pd
-    import xarray as xr
 
 #: Word that requests all sections that apply.
 ALL = "all"
@@ -100,8 +100,6 @@ class Plan:
 
     def dataset(self) -> xr.Dataset:
         """Return the table of this plan as a Dataset along `part`."""
-        import xarray as xr
-
         part, status, reason, seconds = map(list, zip(*self.rows, strict=True))
         why = "description of the part, or reason for leaving it out"
         run_time = {"units": "s", "long_name": "run time of the part"}
@@ -321,8 +319,6 @@ class Run:
 
     def tree(self, sections: str | Iterable[str]) -> xr.DataTree:
         """Return a DataTree: the answer at the root, its sections, and the plan of the run."""
-        import xarray as xr
-
         names = self._named(sections)
         self._load_modules(part for name in names for part in self.graph.sections[name])
         answer = self.answer()
@@ -380,8 +376,6 @@ class Run:
 @cache
 def _load_xarray() -> None:
     """Import xarray, and the array libraries for which it looks when it makes its first Dataset."""
-    import xarray as xr
-
     import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
 
     xr.Dataset(coords={"part": [0]})

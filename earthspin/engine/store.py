@@ -20,17 +20,15 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.engine.drafts import as_path, check_identity, identity, mismatch_error, replacing
 from earthspin.engine.question import SCENE, scene_of
 from earthspin.engine.variables import IN_FILES
 from earthspin.errors import EarthspinError, MissingExtraError, OutputError, in_bytes, one_line
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: Attribute of the root: version of the way in which results are stored.
 FORMAT, VERSION = "earthspin_format", 2
@@ -185,8 +183,6 @@ def _groups(result: xr.Dataset | xr.DataTree) -> dict[str, xr.Dataset]:
 
     The root has the version of the format, and the date in the attribute `history`.
     """
-    import xarray as xr
-
     tree = xr.DataTree(result) if isinstance(result, xr.Dataset) else result
     groups = {
         "/" if path == "." else f"/{path}": spelled(node.to_dataset(inherit=False))
@@ -268,8 +264,6 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
     >>> print(earthspin.open("precession.nc").identical(earthspin.read("precession.nc")))
     True
     """
-    import xarray as xr
-
     import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
 
     nodes = _read(as_path(path))
@@ -401,8 +395,6 @@ def _read_netcdf(path: Path) -> dict[str, xr.Dataset]:
 
 def _open_groups(store: Any, **options: Any) -> dict[str, xr.Dataset]:
     """Open all groups of a file by their paths; times are in microseconds, as they were written."""
-    import xarray as xr
-
     return xr.open_groups(store, decode_times=xr.coders.CFDatetimeCoder(time_unit="us"), **options)
 
 

@@ -11,16 +11,14 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, MAS, Constant
 from earthspin.errors import SceneError, UndefinedError, nearest
 from earthspin.numerics.arrays import Estimate
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 # --- units ----------------------------------------------------------------------------------------
 
@@ -294,8 +292,6 @@ class Variables:
         UndefinedError
             If a number is missing.
         """
-        import xarray as xr
-
         values, coords = self._by_variable()
         arrays: dict[str, xr.Variable] = {}
         for name, value in values.items():
@@ -438,8 +434,6 @@ class Neglected:
         effects : sequence of str
             Labels that the answer has along `effect`; included effects have size 0.
         """
-        import xarray as xr
-
         names = list(effects) or sorted(self.sizes, key=lambda effect: -abs(self.sizes[effect]))
         sizes = np.array([self.sizes.get(name, 0.0) for name in names]) * from_si(self.unit)
         attrs = {"long_name": self.what, "units": self.unit, "no_error": BOUND}

@@ -17,18 +17,16 @@ import re
 from collections.abc import Iterator, Mapping
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numcodecs
 import numpy as np
 import zarr
 from zarr.storage import LocalStore
 
+from earthspin._lazy import xr
 from earthspin.engine.drafts import check_identity, identity, mismatch_error
 from earthspin.errors import OutputError
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: Attribute of the root: SHA-256 of all other metadata.
 METADATA = "metadata_sha256"
