@@ -393,17 +393,23 @@ def test_a_file_that_a_stored_scene_names_is_told(
     assert run(capsys, "plan", str(path), "--ephemeris", str(kernel))[2] == ""
 
 
-WORDS = ["pole", "long_term", "compare_iau", "free-rotor", "sun-only", "rum"]
-
-
-@pytest.mark.parametrize("word", WORDS)
+@pytest.mark.parametrize(
+    ("word", "answer"),
+    [
+        ("pole", "try: earthspin run pole\n"),
+        ("long_term", "try: earthspin run long-term\n"),
+        ("compare_iau", "try: earthspin run iau\n"),
+        ("free-rotor", "try: earthspin run free-rotor\n"),
+        ("sun-only", "try: earthspin run sun-only\n"),
+        ("rum", "did you mean 'run'?"),
+    ],
+)
 def test_a_word_that_is_no_command_is_answered_by_one(
-    capsys: pytest.CaptureFixture[str], word: str
+    capsys: pytest.CaptureFixture[str], word: str, answer: str
 ) -> None:
     status, out, err = run(capsys, word)
-    scene = err.rstrip().rpartition("try: earthspin run ")[2]
     assert (status, out, err.count("\n")) == (2, "", 1)
-    assert scene in shipped_scenes() or "did you mean 'run'" in err
+    assert answer in err
 
 
 @pytest.mark.parametrize(

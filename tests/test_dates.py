@@ -92,6 +92,12 @@ def test_every_spelling_is_the_same_time_in_every_question(day: str, spelling: A
             earthspin.torque_series(times=[spelling])
 
 
+@pytest.mark.parametrize("year", [1800, 2053])
+def test_a_mean_over_a_span_outside_the_kernel_is_refused(year: int) -> None:
+    with pytest.raises(CoverageError, match="1899-07-29"):
+        earthspin.precession(span=(f"{year}-01-01", f"{year + 1}-01-01"))
+
+
 @given(
     st.datetimes(dt.datetime(1, 1, 1), dt.datetime(9999, 12, 28)),
     st.integers(-5000, 5000).filter(bool),
@@ -178,16 +184,16 @@ WRONG: dict[str, list[Any]] = {
         pd.DatetimeIndex(["2000-01-01", pd.NaT], tz="UTC"),
     ],
     "one list": [
+        *([], ENDLESS),
         *([[["2000-01-01"]]], [["2000-01-01"], ["2000-01-01", "2001-01-01"]]),
         SCALE.tdb_jd(np.full((2, 2), 2451545.0)),
     ],
-    "known": [MASKED, np.ma.masked_array(np.zeros(2, "M8[us]"), [True, False])],
+    "all known": [MASKED, np.ma.masked_array(np.zeros(2, "M8[us]"), [True, False])],
     "UTC is not known at this date; give TDB": [
         *("1959-12-31T00:00Z", "1900-01-01T00:00+01:00", "2950-01-01T00:00Z"),
         *("-2559-01-01T00:00Z", "+12025-01-01T00:00Z", dt.datetime(1, 1, 1, tzinfo=dt.UTC)),
         *(dt.datetime(9000, 1, 1, tzinfo=dt.UTC), pd.date_range("1950", periods=2, tz="UTC")),
     ],
-    "times": [[], ENDLESS],
     "1 Gyr": [np.datetime64(2**62, "Y")],
 } | {name: [cf(2000, 1, 1, calendar=name)] for name in ("julian", "noleap", "360_day")}
 test_what_is_no_date_is_refused = refused(
@@ -423,6 +429,8 @@ def test_a_grid_includes_the_end_that_the_step_meets() -> None:
     assert short[-1] == pytest.approx(-100 * JULIAN_YEAR, rel=1e-12, abs=0)
     with pytest.raises(EarthspinError, match="give a longer step"):
         grid(YearSpan(-1e6 * KYR, 0.0), DAY, TIMES)
+    for ends in (["-1 Myr", "2000-01-01T12:00"], [-1, 0] * u.Myr):
+        assert YearSpan.read(ends, SPAN) == YearSpan(-1000 * KYR, 0.0)
 
 
 @given(st.integers(1, 5000), st.floats(0.01, 100))

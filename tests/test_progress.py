@@ -54,15 +54,15 @@ def test_work_within_work_shows_one_bar(monkeypatch: pytest.MonkeyPatch) -> None
 
 def test_work_of_known_amount_hides_that_of_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
     screen = watched(monkeypatch)
-    with progress("unknown"):
+    with progress("endless"):
         time.sleep(0.6)
-        assert "unknown" in screen.getvalue()
-        with progress("known", 1):
+        assert "endless" in screen.getvalue()
+        with progress("counted", 1):
             time.sleep(0.6)
             before = screen.getvalue()
             time.sleep(0.3)
-            assert "known" in before
-            assert "unknown" not in screen.getvalue().removeprefix(before)
+            assert "counted" in before
+            assert "endless" not in screen.getvalue().removeprefix(before)
 
 
 PAST = earthspin.long_term("-2 kyr", "0 kyr", "1 kyr")

@@ -236,7 +236,7 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
     ticks = (-27, -2, -0.2, 0, 0.2, 2, 27)
     ax.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     ax.set_xlabel("frequency in space, negative if retrograde (cycles per year)")
-    ax.set_ylabel("amplitude of IAU 2000A over ours")
+    ax.set_ylabel("amplitude of IAU 2000A over the model")
     ax.legend(loc="upper right")
     return ax
 

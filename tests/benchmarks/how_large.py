@@ -2,12 +2,10 @@
 
 `python -m tests.benchmarks.how_large` writes the figure and the table of docs/how_fast.md. Each
 size is computed in its own process, after a small call that loads what is needed; the memory is
-what the process had at most beyond what it had then. The last line compares insolation with the
+the increase of the peak memory during the call. The last line compares insolation with the
 plain formula, which gives no errors; `side_by_side.py` has the ratios of ensembles to single calls,
 and `accuracy` those of the torque, the pole and the rotation to other libraries.
 """
-
-from __future__ import annotations
 
 import json
 import resource
@@ -32,7 +30,7 @@ ROUNDS = 5
 
 
 def span(start: str, step: int, count: int) -> dict[str, Any]:
-    """Keys of a series of so many times, with a step in seconds."""
+    """Keys of a series with a number of times and a step in seconds."""
     stop = np.datetime64(start, "s") + (count - 1) * step
     return {"start": start, "stop": str(stop), "step": f"{step} s"}
 
@@ -90,7 +88,7 @@ def measured(name: str, size: int) -> tuple[float, float, float]:
 
 
 def in_own_process(name: str, size: int) -> list[float]:
-    """What `measured` gives, in a new process."""
+    """Return the numbers of `measured` from a new process."""
     command = [sys.executable, "-m", __spec__.name, name, str(size)]
     run = subprocess.run(command, capture_output=True, text=True, check=True)
     return [float(number) for number in json.loads(run.stdout)]

@@ -51,14 +51,22 @@ def test_a_cell_of_the_free_wobble_is_as_stored() -> None:
 FAULT = {"id": "PYSEC-1", "fix_versions": ["2.0"]}
 
 
+def report(**entry: object) -> str:
+    return json.dumps({"dependencies": [{"name": "x", "version": "1.0", **entry}]})
+
+
 @pytest.mark.parametrize(
-    ("faults", "status", "words"),
-    [([FAULT], 1, "x 1.0: PYSEC-1, fixed in 2.0"), ([], 0, "1 of 1"), (None, 0, "not audited")],
+    ("found", "problem", "status", "words"),
+    [
+        (report(vulns=[FAULT]), "", 1, "x 1.0: PYSEC-1, fixed in 2.0"),
+        (report(vulns=[]), "", 0, "1 of 1"),
+        (report(skip_reason="not found on PyPI"), "", 0, "not found on PyPI"),
+        ("", "Traceback\nConnectionError: no network", 0, "ConnectionError"),
+        ("", "python: No module named pip_audit", 1, "No module named"),
+    ],
 )
 def test_a_known_vulnerability_fails_and_no_network_is_told(
-    capsys: pytest.CaptureFixture[str], faults: list[object] | None, status: int, words: str
+    capsys: pytest.CaptureFixture[str], found: str, problem: str, status: int, words: str
 ) -> None:
-    entry = {"vulns": faults} if faults is not None else {"skip_reason": "not found on PyPI"}
-    report = json.dumps({"dependencies": [{"name": "x", "version": "1.0", **entry}]})
-    assert audit.judge(report, "") == status
+    assert audit.judge(found, problem) == status
     assert words in capsys.readouterr().out

@@ -16,8 +16,10 @@ from earthspin.scenes import QUESTIONS, shipped_scenes
 
 
 @pytest.mark.parametrize("scene", shipped_scenes())
-def test_a_plan_can_be_pickled(scene: str) -> None:
+def test_a_plan_names_every_part_once_and_can_be_pickled(scene: str) -> None:
     plan = earthspin.plan(scene, "all")
+    titles = {part.title for part in plan.question.graph.parts.values()}
+    assert sorted([*(part.title for part in plan.parts), *plan.left_out]) == sorted(titles)
     for same in (pickle.loads(pickle.dumps(plan)), copy.deepcopy(plan)):
         assert same.parts == plan.parts
         assert str(same) == str(plan)

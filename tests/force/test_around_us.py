@@ -264,8 +264,12 @@ def test_json_is_what_it_was(tmp_path: Path) -> None:
     for scene in ("sun-only", "wobble", "poinsot", "iau"):
         found = earthspin_says("run", scene, "--json", "--sections", "all")
         tree = earthspin.run_tree(scene)
-        names = [name for name in tree.children if name != "plan"]
-        sections = {name: tree.earthspin.section(name).to_dict() for name in names}
+        sections = {}
+        for name, node in tree.children.items():
+            if name != "plan":
+                own = node.to_dataset(inherit=False)
+                labels = {n: c for n, c in tree.coords.items() if {*c.dims} & {*own.sizes}}
+                sections[name] = own.assign_coords(labels).to_dict()
         expected = plain(tree.to_dataset().to_dict() | {"sections": sections})
         assert json.loads(found.stdout) == expected
 

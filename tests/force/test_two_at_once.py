@@ -169,7 +169,7 @@ def test_what_is_no_path_is_named(path: object) -> None:
 
 
 def digests(_: int = 0) -> list[str]:
-    """Of all numbers and attributes of some answers."""
+    """Return the hashes of all numbers and attributes of four answers."""
     scenes = ("precession", "torque", "wobble", "long-term")
     return [store.content_hash({"/": earthspin.run(scene)}) for scene in scenes]
 

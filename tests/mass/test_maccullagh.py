@@ -3,7 +3,6 @@
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.spatial.transform import Rotation
 
 from earthspin.constants import G
 from earthspin.errors import BodyError, UndefinedError
@@ -18,10 +17,6 @@ from tests.refusals import refused
 
 #: Random bodies; 600 in the full run.
 CASES = 60
-
-ROTATIONS = st.tuples(*[st.floats(-3.1, 3.1)] * 3).map(
-    lambda angles: Rotation.from_euler("zxz", angles).as_matrix()
-)
 
 
 def _body(seed: int) -> tuple[np.ndarray, np.ndarray]:

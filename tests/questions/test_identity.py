@@ -41,14 +41,17 @@ def own(body: Body) -> Body:
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("scene", ASKED)
 def test_a_renamed_body_has_the_same_numbers(scene: str) -> None:
+    answers = 0
     for name, body in BODIES.items():
         expected = numbers(scene, {"body": body})
+        answers += isinstance(expected, dict)
         assert repr(numbers(scene, {"body": own(body)})) == repr(expected), name
         if isinstance(expected, dict) and hasattr(earthspin.load_scene(scene), "perturbers"):
             perturbers = pulled_by(body)
             named = numbers(scene, {"body": body, "perturbers": perturbers})
             keys = {"body": own(body), "perturbers": [own(p) for p in perturbers]}
             assert repr(numbers(scene, keys)) == repr(named), name
+    assert answers
 
 
 def test_orbits_about_a_renamed_body() -> None:

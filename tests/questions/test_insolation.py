@@ -98,7 +98,10 @@ def test_the_error_is_that_of_the_answer(past: xr.Dataset) -> None:
 
 @pytest.mark.parametrize("half", [0.01, 200.0])
 def test_both_longitudes_have_the_same_error_at_the_equinox(past: xr.Dataset, half: float) -> None:
-    """There both are zero for any perihelion; one is computed for all latitudes in one step."""
+    """There both longitudes are zero for any perihelion.
+
+    Only the true longitude is computed for all latitudes in one step.
+    """
     lost = past.copy()
     name = "longitude_of_perihelion_error"
     lost[name] = (0 * past[name] + half).assign_attrs(past[name].attrs)

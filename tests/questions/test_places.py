@@ -1,5 +1,6 @@
 """Bodies without a place, and averages over orbits slower than the cycles of the perturbers."""
 
+import ast
 import re
 from collections.abc import Callable
 from importlib.util import find_spec
@@ -45,7 +46,7 @@ def test_the_typed_example_places_a_body(call: Any, body: Body, source: str) -> 
         call(body=body, **keys)
     example = re.search(r"replace\(orbit=(\{.*?\})\)", str(error.value))
     assert example is not None
-    assert call(body=body.replace(orbit=eval(example[1])), **keys).sizes
+    assert call(body=body.replace(orbit=ast.literal_eval(example[1])), **keys).sizes
 
 
 def test_a_moon_by_its_orbit_is_at_its_planet() -> None:
@@ -79,7 +80,7 @@ def rate(body: Body, **keys: Any) -> tuple[float, float]:
 @pytest.mark.parametrize(
     ("body", "by_elements", "tolerance"),
     [
-        # elements describe an orbit over centuries to these shares: GM/a3 (1 - e2)^-3/2
+        # relative differences of GM/a3 (1 - e2)^-3/2: elements are fits to an orbit over centuries
         (GIANTS[0], lambda body: earthspin.precession(body=body), 2e-3),
         (GIANTS[1], lambda body: earthspin.precession(body=body), 1e-3),
         (

@@ -21,7 +21,8 @@ SCENES = ("precession", "torque", "pole", "iau", "wobble", "polar-motion", "free
 
 #: A quantity and, in brackets at the end, its unit; what is a ratio by its own words needs none.
 LABEL = re.compile(
-    r"[^()]+(\([^()]+\)[^()]+)?\s\([^()]+\)|.*\b(relative error|over)\b.*", re.DOTALL
+    r"[^()]+(\([^()]+\)[^()]+)?\s\([^()]+\)|.*\brelative error\b.*|amplitude\b.*\bover\b.*",
+    re.DOTALL,
 )
 
 

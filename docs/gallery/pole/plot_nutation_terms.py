@@ -48,7 +48,7 @@ tree = earthspin.run_tree(earthspin.load_scene("iau"), sections=["nutation", "co
 
 fig, ax = plt.subplots(figsize=(6.8, 4.2))
 plot_nutation_ratio(tree, ax=ax)
-ax.set_ylabel("amplitude of IAU 2000A over ours")
+ax.set_ylabel("amplitude of IAU 2000A over the model")
 
 # %%
 # Three axes, milliarcseconds apart
