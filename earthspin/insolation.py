@@ -87,12 +87,12 @@ def daily_insolation(
         raise SceneError(
             "result", type(result).__name__, "give an answer of long_term", source=_CALL
         )
-    labelled = [angle for angle in (latitude, solar_longitude) if isinstance(angle, xr.DataArray)]
-    try:
-        xr.align(result["obliquity"], *labelled, join="exact")
-    except ValueError as misfit:
-        problem = f"give it labels like coords={{'epoch': result.epoch}}: {misfit}"
-        raise SceneError("latitude, solar_longitude", "an array", problem, source=_CALL) from None
+    for name, angle in (("latitude", latitude), ("solar_longitude", solar_longitude)):
+        try:
+            xr.align(result["obliquity"], *[angle] * isinstance(angle, xr.DataArray), join="exact")
+        except ValueError as misfit:
+            problem = f"give it the labels of the result, like epoch=result.epoch ({misfit})"
+            raise SceneError(name, "an array", problem, source=_CALL) from None
     if not isinstance(true_longitude, (bool, np.bool_)):
         raise Where("true_longitude", _CALL).error(true_longitude, "give True or False")
     body = str(result["obliquity"].attrs.get("orbit_of", ""))
@@ -102,10 +102,10 @@ def daily_insolation(
     ]
     share = _share(days, body)
     inputs = [si(result[f"{name}{kind}"]) for kind in ("", "_error") for name in _NEEDED]
-    labels, arrays = _side_by_side(*inputs, *angles)
+    labels, arrays = _broadcastable(*inputs, *angles)
     middle, halves, (phi, sun) = arrays[:3], arrays[3:6], arrays[6:]
     if true_longitude and share is None:
-        # Latitude and obliquity are in one factor, eccentricity and perihelion in the other.
+        # Obliquity changes only the daylight, eccentricity and perihelion only the distance.
         def strength(eps: FloatArray, e: FloatArray, w: FloatArray) -> FloatArray:
             return inverse_square(Season(eps, e, w), sun)
 
@@ -113,9 +113,10 @@ def daily_insolation(
             return daylight(eps, phi, sun)
 
         mean = strength(*middle) * light(*middle) / np.pi
-        by_obliquity = strength(*middle) ** 2 * _squares(light, middle, halves, (0,))
-        by_orbit = light(*middle) ** 2 * _squares(strength, middle, halves, (1, _PERIHELION))
-        squares = (by_obliquity + by_orbit) / np.pi**2
+        by_tilt = _squared_changes(light, middle, halves, (0,))
+        by_orbit = _squared_changes(strength, middle, halves, (1, _PERIHELION))
+        total = strength(*middle) ** 2 * by_tilt + light(*middle) ** 2 * by_orbit
+        squares = total / np.pi**2
     else:
 
         def insolation(eps: FloatArray, e: FloatArray, w: FloatArray) -> FloatArray:
@@ -126,11 +127,11 @@ def daily_insolation(
             )
 
         mean = insolation(*middle)
-        squares = _squares(insolation, middle, halves, (0, 1, _PERIHELION))
+        squares = _squared_changes(insolation, middle, halves, (0, 1, _PERIHELION))
     constant = _constant(solar_constant, body)
-    error = labels.copy(data=constant * squares**0.5)
+    error = labels.copy(data=(constant * squares**0.5).reshape(labels.shape))
     error.attrs = {"units": "W m-2", "long_name": "95 % half-width of the daily insolation"}
-    answer = labels.copy(data=constant * mean).rename("daily_insolation")
+    answer = labels.copy(data=(constant * mean).reshape(labels.shape)).rename("daily_insolation")
     kind = "true" if true_longitude else "mean"
     answer.attrs = {
         "units": "W m-2",
@@ -142,19 +143,19 @@ def daily_insolation(
     return answer.assign_coords(daily_insolation_error=error)
 
 
-def _side_by_side(*arrays: xr.DataArray) -> tuple[xr.DataArray, list[FloatArray]]:
+def _broadcastable(*arrays: xr.DataArray) -> tuple[xr.DataArray, list[FloatArray]]:
     """Labels of all dimensions, and arrays that broadcast along them without copies."""
     labels = xr.broadcast(*arrays)[0]
     aligned = xr.align(*arrays, join="outer", copy=False)
     return labels, [
         array.transpose(*labels.dims, missing_dims="ignore").values.reshape(
-            [array.sizes.get(name, 1) for name in labels.dims]
+            [array.sizes.get(name, 1) for name in labels.dims] or [1]
         )
         for array in aligned
     ]
 
 
-def _squares(
+def _squared_changes(
     function: Callable[..., FloatArray],
     middle: Sequence[FloatArray],
     halves: Sequence[FloatArray],

@@ -28,10 +28,12 @@ from earthspin.torque.gravity import torque_from_declination
 #: Time between samples. One day is enough, since torques have no strong period below four days:
 #: with two days the rate is the same to 1e-12, with four days it differs by 3e-6.
 SAMPLING = DAY  # s
-#: Number of samples of the angular velocity of a perturber, and their length, s.
-ORBIT_SAMPLES, MOMENT = 1000, 60.0
-#: An orbit slower than the slowest cycle by this factor needs a window of its own.
-AS_SLOW = 1.1
+#: Number of times at which the angular velocity of each perturber is sampled.
+ORBIT_SAMPLES = 1000
+#: Interval over which an angular velocity is measured, s.
+VELOCITY_INTERVAL = 60.0
+#: Safety factor for comparing periods: sampled orbital periods have errors of up to 4 %.
+PERIOD_MARGIN = 1.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +55,8 @@ class Samples:
     nearness : ndarray, shape (perturber,)
         Mean of 1/r3 of each perturber, m-3.
     swing : ndarray, shape (perturber,)
-        Relative variation of the torque of each perturber on times longer than the window.
+        Relative error of each mean torque that neighbouring windows do not show: its variation on
+        times longer than the window, or 1 if the window covers only a part of the orbit.
     unmeasured : tuple of str
         Perturbers whose positions have no measured error.
     no_error : str
@@ -96,11 +99,11 @@ def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Bod
     pole, orbit = body.needed("pole"), body.orbit_pole
     cycle = max(map(slowest_cycle, perturbers))
     orbits, strongest = _orbits(sky, stretch, body, perturbers)
-    if orbits[strongest] > AS_SLOW * cycle:
+    if orbits[strongest] > PERIOD_MARGIN * cycle:
         cycle = float(orbits[strongest])
     window = best_window(stretch.first * DAY, stretch.last * DAY, cycle)
-    # the mean of a weak perturber over a part of its orbit may be off by all of it
-    is_part = orbits > AS_SLOW * window.length / average.FEWEST_CYCLES
+    # over a part of an orbit, the mean torque may have an error as large as itself
+    covers_part = orbits > PERIOD_MARGIN * window.length / average.FEWEST_CYCLES
     times = window.sample_times(SAMPLING)
     days = times / DAY
 
@@ -125,7 +128,7 @@ def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Bod
         window=window,
         obliquity=angle(axis_at_epoch, normal),
         nearness=np.array([np.mean(coordinates[p.name][2] ** -3.0) for p in perturbers]),
-        swing=np.where(is_part, 1.0, [p.slow_swing for p in perturbers]),
+        swing=np.where(covers_part, 1.0, [p.slow_swing for p in perturbers]),
         unmeasured=sky.unmeasured,
         no_error=sky.no_error,
         strength=strength,
@@ -136,16 +139,16 @@ def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Bod
 def _orbits(
     sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]
 ) -> tuple[FloatArray, int]:
-    """Mean time of a revolution of each perturber, s, and the index of the strongest perturber."""
+    """Mean period of revolution of each perturber, s, and index of the strongest perturber."""
     days = np.linspace(stretch.first, stretch.last, ORBIT_SAMPLES)[:-1]
-    places, later = sky.positions(days), sky.positions(days + MOMENT / DAY)
+    places, later = sky.positions(days), sky.positions(days + VELOCITY_INTERVAL / DAY)
     periods, strengths = [], []
     for p in perturbers:
         place = places[p.name]
         square = np.sum(place * place, axis=1)
         turned = np.cross(place, later[p.name] - place) / square[:, np.newaxis]
         turn = np.linalg.norm(np.mean(turned, axis=0))
-        periods.append(2 * np.pi * MOMENT / turn if turn else 0.0)  # 0: its torque is constant
+        periods.append(2 * np.pi * VELOCITY_INTERVAL / turn if turn else 0.0)  # 0: it does not move
         strengths.append(largest(p.gm_on(body)) * np.mean(square**-1.5))
     return np.array(periods), int(np.argmax(strengths))
 

@@ -40,8 +40,9 @@ def ellipse_chains(
 ) -> dict[str, EllipseChain]:
     """Chains of ellipses that lead to the bodies with orbital elements, by their names.
 
-    A chain starts from the spinning body if possible, else from a body without elements; or the
-    other way round, for a spinning body that is placed by its own orbit.
+    With `starts_at_body`, a chain starts from the spinning body if possible, else from a body
+    without elements. Otherwise bodies without elements come first, as is needed if only its own
+    orbit places the spinning body.
 
     Raises
     ------
@@ -206,8 +207,12 @@ def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
 def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """Return the reason (text) to omit windowed means if exact means are possible, else None.
 
-    Exact means are possible if each perturber moves on an ellipse about the body. No mean is
-    possible for a moon without a place that is locked to its planet, which is refused.
+    Exact means are possible if each perturber moves on an ellipse about the body.
+
+    Raises
+    ------
+    UndefinedError
+        If the body is a moon locked to its orbit that has neither an orbit nor a position.
     """
     moon = OF_MOONS.get(body.known_as)
     if moon is not None and body.orbit is body.position is None and not body.labelled:

@@ -111,9 +111,15 @@ def layers(interior: LayeredBody | None, body: Body) -> LayeredBody:
 
 #: The rung that is used if a question needs a single predicted response.
 CHOSEN = "core-ellipticity"
-_OF_CORE = (named.CORE_NUTATION.source, named.K_CMB_OUT_OF_PHASE.source)
 #: Sources of the numbers that a prediction uses besides the layers.
-SOURCES = "; ".join((*_OF_CORE, FES2004_SOURCE, named.ANELASTIC_EXPONENT.source))
+SOURCES = "; ".join(
+    (
+        named.CORE_NUTATION.source,
+        named.K_CMB_OUT_OF_PHASE.source,
+        FES2004_SOURCE,
+        named.ANELASTIC_EXPONENT.source,
+    )
+)
 
 
 @dataclass(frozen=True)

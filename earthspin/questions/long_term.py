@@ -165,7 +165,7 @@ class LongTerm(
         "own", doc="table of the orbit: that of the body, a file, or a result of read_orbit"
     )
     tides: Factor = key(1.0, doc="factor on the tides that slow Moon and spin; 0 is off")
-    ellipticity: Annotated[float, Number("", "1.0", above=1e-100)] = key(
+    ellipticity: Annotated[float, Number("", "1.0", low=1e-9)] = key(
         1.0, doc="factor on the dynamical ellipticity"
     )
     j2_rate: Annotated[float, Number("1/s", "-8.8e-16 1/s")] | None = key(
@@ -192,7 +192,7 @@ class LongTerm(
         if "perturbers" not in self.given and no_iau_model(self.body):
             object.__setattr__(self, "perturbers", (SUN,))
         if sorted(p.known_as for p in self.perturbers) not in (["sun"], ["moon", "sun"]):
-            problem = "give the Sun (NAIF 10), or the Sun and Moon (10 and 301)"
+            problem = "give ('sun',) or ('sun', 'moon'), or bodies with the NAIF codes 10 and 301"
             raise self.error("perturbers", [p.name for p in self.perturbers], problem)
 
 

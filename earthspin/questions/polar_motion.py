@@ -450,7 +450,7 @@ def _given_start(chi: xr.Dataset, start: Any, first: float) -> tuple[float, floa
     if start is None:
         noted = Number("d", "9131.5 d").read(chi.attrs.get("start_day", first), Where("start_day"))
         if abs(noted - first) > SAME_DAY:
-            problem = "the series begins at another day than was noted; give it"
+            problem = "the series does not begin on its start_day; give start=(x, y) in mas"
             raise SceneError("start", None, problem)
         start = (chi.attrs.get("start_x", 0.0), chi.attrs.get("start_y", 0.0))
     x, y = Numbers("mas", "50 mas", (2,)).read(start, Where("start"))

@@ -282,7 +282,7 @@ class Angles(Dated, along=("time", "axis"), error="direction_error"):
 
 @part(unless=no_longitude)
 def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> tuple[FloatArray, FloatArray]:
-    """Count whole turns of the angular momentum's longitude psi, from the first time."""
+    """Continuous longitude psi of the angular momentum: starts of the windows, s, and psi, rad."""
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     return continuous_longitude(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
 

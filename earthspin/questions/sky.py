@@ -149,7 +149,8 @@ class Places:
     by_elements : bool
         True if all positions follow from elements, so that no kernel is needed.
     by_own_orbit : mapping of str to EllipseChain
-        The same chains, and that to the body, for a body that only its own orbit places.
+        Chains that start from the other bodies, including one to the body itself; used if the
+        source has no position of the body.
     """
 
     body: Body
@@ -337,8 +338,9 @@ def _place(source: Source, name: str, chain: EllipseChain) -> Place:
             return ByElements(chain.ellipses, source.code(start.naif, name))
         return sources.place_of(source, name, start.naif, start.position)
     except KernelError as error:
-        moon, problem = OF_MOONS.get(start.known_as), f"it has no position of '{start.name}'"
-        orbit = {"a": "39.5 au", "about": SUN.name}
+        codes = ", ".join(map(str, start.naif)) or "no code"
+        problem = f"it has no position of '{start.name}' (NAIF {codes})"
+        moon, orbit = OF_MOONS.get(start.known_as), {"a": "2.5 au", "about": SUN.name}
         if moon is not None and moon.period is not None:
             orbit = {"period": f"{moon.period / DAY:.8g} d", "about": moon.about}
         remedy = f"give an orbit or a position, like .replace(orbit={orbit}), or another kernel"
@@ -369,7 +371,11 @@ def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple
     if all_by_elements(body, perturbers):
         return "positions from orbital elements; no kernel is opened"
     phrases = [f"positions {sources.describe_source(source, ephemeris)}"]
-    phrases += [f"{name} by the elements of its orbit" for name in ellipse_chains(body, perturbers)]
+    phrases += [
+        f"{member.name} by the elements of its orbit"
+        for member in (body, *perturbers)
+        if member.orbit is not None
+    ]
     phrases += [
         f"{member.name} by {sources.describe_position(member.position)}"
         for member in (body, *perturbers)

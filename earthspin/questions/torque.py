@@ -164,7 +164,7 @@ def torques(
 
 def _equator_words(equator: str, nutation: Nutation | None) -> str:
     """Describe the model of the equator in words, for the attributes of the result."""
-    if nutation is not None:
+    if nutation is not None and nutation.interpolates:
         return f"IAU 2000A nutation, a node each {NUTATION_NODE_STEP:g} d"
     return "mean equator" if equator == "mean" else "IAU 2000A nutation at each time"
 

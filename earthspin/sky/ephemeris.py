@@ -310,7 +310,7 @@ def _sha256(path: Path, same: tuple[int, ...]) -> str:
 
 
 def open_ephemeris(
-    kernel: str | os.PathLike[str], reader: type[Ephemeris] | None = None
+    kernel: str | os.PathLike[str], reader: type[Ephemeris] = Ephemeris
 ) -> Ephemeris:
     """Open a kernel from its name or its path.
 
@@ -319,8 +319,8 @@ def open_ephemeris(
     kernel : str or path
         ``"de421"`` (in the package skyfield-data), ``"de440"`` (needs the extra of that name), or
         the path of any .bsp file.
-    reader : type, optional
-        Class of the result; `Ephemeris` by default.
+    reader : type
+        Class that opens the file: `Ephemeris`, or a subclass of it.
 
     Raises
     ------
@@ -331,7 +331,6 @@ def open_ephemeris(
     KernelError
         If the file is invalid.
     """
-    reader = reader or Ephemeris
     text = os.fspath(kernel)
     if text.lower() in NAMED_KERNELS:
         return reader(find_kernel(text.lower()), name=text.lower())

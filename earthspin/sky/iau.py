@@ -259,7 +259,9 @@ class Nutation:
         self.evaluations = TERMS * min(nodes.size, size or nodes.size)
         #: Angles in longitude and obliquity, rad, shape (n, 2), at days of shape (n,).
         self.angles: Callable[[FloatArray], FloatArray] = exact
-        if size is None or size > nodes.size:
+        #: Whether angles are interpolated between nodes.
+        self.interpolates = size is None or size > nodes.size
+        if self.interpolates:
             self.angles = _spline(nodes, exact(nodes))
 
     def true_equator(self, days: FloatArray) -> FloatArray:

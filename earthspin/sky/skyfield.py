@@ -352,7 +352,7 @@ class Skyfield(Ephemeris):
         """Skyfield vector function for the position of one body relative to another."""
         if not isinstance(target, int) and target.centre == centre:
             return function_of(target)  # no common vectors to cancel
-        if centre == 0:  # of which Skyfield makes a sum of no vectors
+        if centre == 0:  # Skyfield has no vector function for the barycentre itself
             return self._from_barycentre(target)
         if target == 0:
             return -self._from_barycentre(centre)

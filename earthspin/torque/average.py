@@ -139,9 +139,10 @@ def best_window(start: float, end: float, cycle: float, epoch: float = 0.0) -> W
     turns = min(math.floor(room / cycle), most_turns)
     if turns < FEWEST_CYCLES:
         raise UndefinedError(
-            f"an average over orbits needs three turns of the slowest cycle, "
+            f"an average over orbits needs three turns of the slowest cycle or orbit, "
             f"{FEWEST_CYCLES * cycle / JULIAN_YEAR:.2f} years; the span has "
-            f"{room / JULIAN_YEAR:.2f}; choose a longer span or kernel, or orbits by elements"
+            f"{room / JULIAN_YEAR:.2f}; choose a longer span or kernel, like de440, or give an "
+            "orbit by elements, like .replace(orbit={'a': '19.2 au', 'about': 'sun'})"
         )
     return Window(centre, turns, cycle, "sin4")
 

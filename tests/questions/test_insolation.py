@@ -1,5 +1,7 @@
 """Daily insolation from an answer: labels, conventions, errors, and refusals."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -184,3 +186,15 @@ def test_another_result_is_refused(past: xr.Dataset) -> None:
 def test_true_longitude_is_a_flag(past: xr.Dataset) -> None:
     with pytest.raises(EarthspinError, match="give True or False"):
         daily_insolation(past, "65 deg", "90 deg", true_longitude=np.ones(2))
+
+
+@pytest.mark.parametrize("keys", [{}, {"true_longitude": False}, {"days": "90 d"}], ids=str)
+@pytest.mark.parametrize("half", [0.01, 30.0])
+def test_one_epoch_is_that_of_the_whole(past: xr.Dataset, half: float, keys: Any) -> None:
+    """Also where the perihelion is sampled, for an error above 0.1 rad."""
+    lost = past.copy()
+    name = "longitude_of_perihelion_error"
+    lost[name] = (0 * past[name] + half).assign_attrs(past[name].attrs)
+    whole = daily_insolation(lost, "65 deg", "90 deg", **keys).isel(epoch=1)
+    one = daily_insolation(lost.isel(epoch=1), "65 deg", "90 deg", **keys)
+    xr.testing.assert_identical(one, whole)

@@ -76,7 +76,7 @@ def chi() -> xr.Dataset:
 @pytest.mark.parametrize(
     ("part", "words"),
     [
-        (slice(100, 200), "another day"),
+        (slice(100, 200), "its start_day"),
         (slice(None, None, -1), "not ascending"),
         (slice(None, None, 2), "means are over 1 d"),
         (slice(0, 1), "two or more"),
