@@ -174,23 +174,15 @@ class Answer:
         """
         from astropy.coordinates import SkyCoord
 
-        data = self.dataset
-        if not isinstance(name, str):
-            raise SceneError("to_skycoord", name, "give the name of a vector")
-        if not name and {"X", "Y", "Z"} <= set(data.data_vars):
-            x, y, z = (data[axis] for axis in "XYZ")
-        elif name in data.data_vars and "component" in data[name].dims:
-            x, y, z = (data[name].sel(component=axis, drop=True) for axis in "xyz")
+        arrays = {str(n): a for n, a in self.dataset.items() if a.attrs.get("frame") == "GCRS"}
+        vectors = [n for n, array in arrays.items() if "component" in array.dims]
+        if name == "" and {"X", "Y", "Z"} <= arrays.keys():
+            x, y, z = (arrays[axis] for axis in "XYZ")
+        elif name in vectors:
+            x, y, z = (arrays[name].sel(component=axis, drop=True) for axis in "xyz")
         else:
-            vectors = [
-                str(n)
-                for n, array in data.data_vars.items()
-                if "component" in array.dims and array.attrs.get("frame") == "GCRS"
-            ]
             allowed = f"name a vector: {', '.join(vectors)}" if vectors else _NO_VECTOR
             raise SceneError("to_skycoord", name, allowed)
-        if x.attrs.get("frame") != "GCRS":
-            raise SceneError("to_skycoord", name, _NO_VECTOR)
         coordinates = SkyCoord(
             x=x.values, y=y.values, z=z.values, representation_type="cartesian", frame="icrs"
         )

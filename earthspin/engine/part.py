@@ -22,13 +22,6 @@ R = TypeVar("R", covariant=True)
 #: Returns why a part is left out, from keys of the question; None if the part runs.
 Reason = Callable[..., str | None]
 
-#: Returns one sentence on what a part does, from keys of the question.
-Describer = Callable[..., str]
-
-#: Returns what the result of a part depends on, from the inputs of the part; None if the result
-#: must be computed anew.
-SameFor = Callable[..., Hashable]
-
 #: Name of the parameter of a part that computes one block of a long series.
 BLOCK = "block"
 #: Number of results of a part that are stored for later calls.
@@ -69,8 +62,8 @@ class Part(Generic[P, R]):
         self,
         function: Callable[P, R],
         unless: Reason | tuple[Reason, ...] = (),
-        describe: Describer | None = None,
-        same_for: SameFor | None = None,
+        describe: Callable[..., str] | None = None,
+        same_for: Callable[..., Hashable] | None = None,
         loads: tuple[str, ...] = (),
     ) -> None:
         self.function, self.loads = function, loads
