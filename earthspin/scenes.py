@@ -18,7 +18,7 @@ from earthspin.bodies.body import members
 from earthspin.engine import answers, blocks
 from earthspin.engine.blocks import Series
 from earthspin.engine.members import ENDLESS, MOST_PARTS, TWICE
-from earthspin.engine.part import BLOCK as BY_BLOCK
+from earthspin.engine.question import BLOCK as BY_BLOCK
 from earthspin.engine.question import Question, keys_of, scene_of
 from earthspin.engine.run import Plan, Run
 from earthspin.engine.store import open as open_file

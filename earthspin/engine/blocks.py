@@ -31,8 +31,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from earthspin._lazy import xr
 from earthspin._version import __version__, version
 from earthspin.engine import drafts
-from earthspin.engine.part import BLOCK, Block
-from earthspin.engine.question import NEGLECTED, Question, scene_text
+from earthspin.engine.question import BLOCK, NEGLECTED, Block, Question, scene_text
 from earthspin.engine.run import Run
 from earthspin.engine.store import FORMAT, MADE_OF, VERSION, encoding_of, spelled, verify, zarr_of
 from earthspin.errors import MissingExtraError, OutputError, SceneError, Where, one_line

@@ -18,8 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 from earthspin._lazy import xr
 from earthspin._version import __version__, version
 from earthspin.card import card
-from earthspin.engine.part import Part
-from earthspin.engine.question import NEGLECTED, SCENE, Question, scene_text
+from earthspin.engine.question import NEGLECTED, SCENE, Part, Question, scene_text
 from earthspin.engine.variables import CONVENTIONS, Neglected, Variables, error_of
 from earthspin.errors import SceneError, UndefinedError, nearest
 

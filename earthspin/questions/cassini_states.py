@@ -14,8 +14,7 @@ from earthspin.bodies.orbit import Orbit
 from earthspin.bodies.planets import LEFT_OUT_OF_STATES, PRECESSING_ORBITS
 from earthspin.constants import NORMAL_95
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, key
+from earthspin.engine.question import Question, key, part
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import SceneError, nearest
 from earthspin.numerics.arrays import FloatArray

@@ -12,7 +12,7 @@ from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95
 from earthspin.dates import Epochs, datetime64
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
+from earthspin.engine.question import part
 from earthspin.engine.variables import (
     Neglected,
     Variables,

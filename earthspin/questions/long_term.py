@@ -13,8 +13,7 @@ from earthspin.bodies import MOON, SUN, Body, in_a_sentence, label_of
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.dates import YearList, YearSpan, YearStep, grid
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import key
+from earthspin.engine.question import key, part
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray

@@ -11,8 +11,7 @@ from earthspin.bodies import Body
 from earthspin.constants import DAYS_PER_CENTURY
 from earthspin.dates import Epochs
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import setting
+from earthspin.engine.question import part, setting
 from earthspin.engine.variables import (
     Neglected,
     Variables,

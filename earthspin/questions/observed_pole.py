@@ -14,8 +14,7 @@ from earthspin._lazy import xr
 from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, J2000_JD, MAS
 from earthspin.dates import Epochs, Span, days
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, setting
+from earthspin.engine.question import Question, key, part, setting
 from earthspin.engine.variables import Variables, labels, number, si
 from earthspin.errors import SceneError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray

@@ -14,8 +14,7 @@ from earthspin.bodies import Body
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
 from earthspin.dates import Epochs, Span, Step
-from earthspin.engine.part import part
-from earthspin.engine.question import key
+from earthspin.engine.question import key, part
 from earthspin.errors import UndefinedError
 from earthspin.motion import axes
 from earthspin.motion.axes import AxisPath

@@ -11,8 +11,7 @@ from earthspin.bodies import BODIES, PLANETS, Body, in_a_sentence
 from earthspin.constants import DAY
 from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import Block, part
-from earthspin.engine.question import key
+from earthspin.engine.question import Block, key, part
 from earthspin.engine.variables import Neglected, labels, number
 from earthspin.motion.axes import AXES, AxisPath
 from earthspin.motion.effect_sizes import axis_displacements

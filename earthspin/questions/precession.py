@@ -12,8 +12,7 @@ from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.dates import Span, datetime64
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import key
+from earthspin.engine.question import key, part
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number, words
 from earthspin.mass import figure
 from earthspin.numerics.arrays import FloatArray

@@ -9,7 +9,7 @@ import numpy as np
 
 from earthspin.bodies import Body, in_a_sentence, label_of, proper
 from earthspin.constants import DAY, NORMAL_95, PUBLISHED_EFFECTS
-from earthspin.engine.part import part
+from earthspin.engine.question import part
 from earthspin.engine.variables import Neglected, Variables, measured
 from earthspin.nutation.budget import published_effects
 

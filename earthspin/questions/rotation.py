@@ -13,8 +13,7 @@ from earthspin.bodies.planets import BEYOND_RIGID, pulled_by
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import Block, part
-from earthspin.engine.question import key
+from earthspin.engine.question import Block, key, part
 from earthspin.engine.variables import Neglected, labels, number, words
 from earthspin.errors import SceneError
 from earthspin.mass.figure import polar_moment

@@ -17,8 +17,7 @@ from earthspin.bodies.moons import ORBITS as OF_MOONS
 from earthspin.bodies.planets import on_its_orbit, pulled_by
 from earthspin.constants import DAY
 from earthspin.dates import Span
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, key
+from earthspin.engine.question import Question, key, part
 from earthspin.errors import KernelError, SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.elements import EllipseChain, all_by_elements, ellipse_chains

@@ -8,8 +8,7 @@ import numpy as np
 
 from earthspin.bodies import EARTH, Body, all_of, proper
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, setting
+from earthspin.engine.question import Question, key, part, setting
 from earthspin.engine.variables import Neglected, Variables, labels, number
 from earthspin.mass.figure import eccentricity_squared
 from earthspin.numerics.arrays import FloatArray

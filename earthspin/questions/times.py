@@ -13,8 +13,7 @@ from earthspin._lazy import xr
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
 from earthspin.dates import Epochs, Span, Step, TimeGrid, TimeList
-from earthspin.engine.part import Block, part
-from earthspin.engine.question import key
+from earthspin.engine.question import Block, key, part
 from earthspin.engine.variables import Variables, labels
 from earthspin.errors import SceneError, in_bytes
 from earthspin.numerics.arrays import FloatArray

@@ -11,8 +11,7 @@ from earthspin._lazy import xr
 from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import Block, part
-from earthspin.engine.question import key
+from earthspin.engine.question import Block, key, part
 from earthspin.engine.variables import Neglected, labels, measured, number
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import FloatArray

@@ -16,8 +16,7 @@ from earthspin.bodies import EARTH, Body, Numeric, all_of
 from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, setting
+from earthspin.engine.question import Question, key, part, setting
 from earthspin.engine.variables import Neglected, Variables, measured, number, words
 from earthspin.interior.named import ANELASTIC_EXPONENT, EXPONENT_RANGE, Interior
 from earthspin.questions import interiors

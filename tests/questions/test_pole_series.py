@@ -9,8 +9,7 @@ import xarray as xr
 
 import earthspin
 from earthspin import EARTH, SUN, SceneError
-from earthspin.engine.part import Block
-from earthspin.engine.question import Question
+from earthspin.engine.question import Block, Question
 from earthspin.engine.run import Run
 from earthspin.motion.effects import EFFECTS
 from earthspin.scenes import load_scene, run, run_blocks, series_length, write_series
