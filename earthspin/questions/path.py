@@ -25,11 +25,10 @@ from earthspin.nutation import analysis
 from earthspin.nutation.analysis import Circles, PoleAnalysis, Secular
 from earthspin.nutation.budget import published_effects
 from earthspin.progress import progress
+from earthspin.questions import satellites, times
 from earthspin.questions.interiors import CHOSEN, Prediction, no_layers, prediction
 from earthspin.questions.pulls import AxisMotion, Pulls, forces_of
 from earthspin.questions.reasons import no_iau_model
-from earthspin.questions.satellites import drifts, obliquity_of, swings
-from earthspin.questions.times import days_of
 from earthspin.sky import iau
 from earthspin.sky.kernel import DRIFT_FROM, growth
 
@@ -128,11 +127,11 @@ def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
         Times from the start, s.
     """
     body = pulls.body
-    obliquity = obliquity_of(body) if body.satellites else None
+    obliquity = satellites.obliquity_of(body) if body.satellites else None
     if obliquity is None:
         return np.zeros(since.size)
-    nutations = swings(body, pulls.mean_pull(), obliquity)
-    total = np.sum([*drifts(nutations, since).values(), np.zeros(since.size)], axis=0)
+    nutations = satellites.swings(body, pulls.mean_pull(), obliquity)
+    total = np.sum([*satellites.drifts(nutations, since).values(), np.zeros(since.size)], axis=0)
     published = LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
     for rate in published.values():
         total += abs(rate.value) * ARCSEC_PER_YEAR * math.sin(obliquity) * np.abs(since)
@@ -236,7 +235,7 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
     EarthspinError
         If the series does not fit into memory, or lies outside the source of positions.
     """
-    days = days_of(epochs)
+    days = times.days_of(epochs)
     first, last = epochs.span()
     ends = np.array([min(first, 0.0), max(last, 0.0)])
     pulls.sky.check_times(ends, pulls.targets)
@@ -306,11 +305,10 @@ def iau_pole(pulls: Pulls) -> IAUPole:
     """Analyse pole and nutation of the IAU over 150 years, as far as positions are known."""
     days, covered = analysed_days((pulls.limits[0] / DAY, pulls.limits[1] / DAY))
     if covered < SHORTEST_SPAN:
-        raise UndefinedError(
-            f"the positions cover {covered * DAY / JULIAN_YEAR:.1f} years near J2000.0, and the "
-            f"analysis of nutation needs {SHORTEST_SPAN * DAY / JULIAN_YEAR:.0f}; give a longer "
-            "ephemeris, or remove the effect nonrigid"
-        )
+        years, needed = (days * DAY / JULIAN_YEAR for days in (covered, SHORTEST_SPAN))
+        problem = f"the positions cover {years:.1f} years near J2000.0, and the analysis of "
+        problem += f"nutation needs {needed:.0f}; give a longer ephemeris, or remove the effect "
+        raise UndefinedError(f"{problem}nonrigid")
     arguments = iau.delaunay_arguments(days)
     analyse = PoleAnalysis(days, arguments, iau.delaunay_rates(), iau.fixed_ecliptic())
     pole, original = iau.pole_and_nutation(days)

@@ -129,9 +129,8 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
         if NONRIGID.name in self.effects:
             raise self.error("effects", NONRIGID.name, "the body is rigid here; leave it out")
         if self.body.number("dynamical_flattening") == 0:
-            raise self.error(
-                "body", self.body.name, "C does not follow from H = 0; give it some flattening"
-            )
+            problem = "C does not follow from H = 0; give it some flattening"
+            raise self.error("body", self.body.name, problem)
         start = self.start_attitude
         if start is not None and abs(_length(start) - 1) > _LENGTH:
             raise self.error("start_attitude", start.tolist(), "a unit quaternion has length 1")
@@ -255,13 +254,9 @@ class Rotor:
         """
         turns, days = self.turns(end - begin), (end - begin) / DAY
         if turns > MOST_TURNS:
-            raise SceneError(
-                "span",
-                f"{days:.6g} d",
-                f"the body turns {turns:.3g} times, which takes about "
-                f"{turns * SECONDS_PER_TURN / 3600:.2g} h to follow; give at most "
-                f"{days * MOST_TURNS / turns:.3g} d",
-            )
+            hours, most = turns * SECONDS_PER_TURN / 3600, days * MOST_TURNS / turns
+            problem = f"the body turns {turns:.3g} times, which takes about {hours:.2g} h to "
+            raise SceneError("span", f"{days:.6g} d", f"{problem}follow; give at most {most:.3g} d")
 
     def since(self, days: float | FloatArray) -> FloatArray:
         """Convert days from J2000.0 to s after the initial date, rounded to the microsecond."""

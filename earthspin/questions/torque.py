@@ -15,8 +15,7 @@ from earthspin.engine.question import Block, key, part
 from earthspin.engine.variables import Neglected, labels, measured, number
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import FloatArray
-from earthspin.questions.reasons import no_iau_model
-from earthspin.questions.satellites import largest_torques_of_satellites
+from earthspin.questions import reasons, satellites
 from earthspin.questions.sky import Sky, places, sky
 from earthspin.questions.times import SPAN_DOC, Dated, Series, days_of, epochs
 from earthspin.sky.iau import NUTATION_NODE_STEP, Nutation
@@ -56,7 +55,7 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
     def check(self) -> None:
         """Refuse the true equator of date for a body that has no nutation model."""
         super().check()
-        if self.equator == "true" and no_iau_model(self.body):
+        if self.equator == "true" and reasons.no_iau_model(self.body):
             why = f"there is no nutation model for {in_a_sentence(self.body.name)}; use 'mean'"
             raise self.error("equator", "true", why)
 
@@ -204,7 +203,8 @@ def neglected(
     sizes = largest_torque_on_figure(
         pulls, float(body.mass), float(body.needed("radius")), figure, float(body.triaxiality)
     )
-    sizes |= largest_torques_of_satellites(body, sum(gm / r**3 for gm, r in pulls))
+    pull = sum(gm / r**3 for gm, r in pulls)
+    sizes |= satellites.largest_torques_of_satellites(body, pull)
     return Neglected(sizes, "N m", "largest torque that the model leaves out", body.reference)
 
 

@@ -23,7 +23,7 @@ from earthspin.errors import SceneError
 from earthspin.interior.love import elastic, softening
 from earthspin.interior.named import INTERIORS
 from earthspin.scenes import run, run_tree
-from earthspin.views.page import rendered, source, write_texts
+from earthspin.views.page import rendered, source
 from earthspin.wobble.ladder import Spin, inputs_of, love_radius
 
 #: One turn of the Earth, s.
@@ -147,8 +147,7 @@ def write_page(name: str, file: str | Path) -> Path:
     OutputError
         If the file cannot be written.
     """
-    path = Path(file)
-    text = play_page(name)
-    drafts.check_writable(path.parent)
-    write_texts({path: text})
+    path, text = Path(file), play_page(name)
+    with drafts.replacing(path) as draft:
+        draft.write_text(text, encoding="utf-8")
     return path
