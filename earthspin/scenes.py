@@ -578,9 +578,9 @@ def _set_key(table: dict[str, Any], key: str, value: Any, source: str) -> None:
     for step in path:
         inner = table.get(step, {})
         # `body = "earth"` with body.j2 set means: start from that body.
-        table[step] = inner = (
-            {"from": inner} if step == "body" and isinstance(inner, str) else inner
-        )
+        if step == "body" and isinstance(inner, str):
+            inner = {"from": inner}
+        table[step] = inner
         if not isinstance(inner, dict):
             raise SceneError(key, value, f"'{step}' is not a table", source=source)
         table = inner

@@ -233,14 +233,10 @@ def observed_sky(epochs: Epochs) -> ObservedSky:
     days = times.days_of(epochs)
     rows = (days >= FIRST_DAY) & (days <= time[-1])
     days = days[rows]
+    offsets = np.stack([np.interp(days, time, axis) for axis in (table.x, table.y)], axis=1)
     core = core_nutation.fit(time, table.offsets).at(days)
-    return ObservedSky(
-        rows,
-        days,
-        np.stack([np.interp(days, time, axis) for axis in (table.x, table.y)], axis=1),
-        np.stack([core.real, core.imag], axis=1),
-        table.provenance,
-    )
+    circles = np.stack([core.real, core.imag], axis=1)
+    return ObservedSky(rows, days, offsets, circles, table.provenance)
 
 
 _RMS = "root mean square of the model minus the observed celestial pole"

@@ -105,10 +105,9 @@ def direction_errors(
     speed = fastest_sweep(body.number("dynamical_flattening"), float(body.spin_rate), nearest)
     of_sky = axes.error_of_sky(path, figure, drift, speed, DRIFT_FROM)
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    method = np.nan if pulls.sky.unmeasured else path.error
     causes = {
-        "direction_error_method": np.full(
-            days.size, np.nan if pulls.sky.unmeasured else path.error
-        ),
+        "direction_error_method": np.full(days.size, method),
         "direction_error_input": axes.error_of_input(path, figure, u_h),
         "direction_error_kernel": max(map(growth, epochs.span())) * of_sky,
     }
@@ -394,14 +393,8 @@ def _response_between(
     """Fit the transfer function that relates rigid to non-rigid amplitudes of nutation terms."""
     from earthspin.nutation.response import fit_response
 
-    used = _circles_for_fit(circles)
-    return fit_response(
-        circles.frequency[used],
-        rigid[used],
-        other[used],
-        body.number("dynamical_flattening"),
-        float(body.spin_rate),
-    )
+    used, h, spin = _circles_for_fit(circles), body.number("dynamical_flattening"), body.spin_rate
+    return fit_response(circles.frequency[used], rigid[used], other[used], h, float(spin))
 
 
 def _circles_for_fit(circles: Circles) -> NDArray[np.bool_]:
@@ -524,14 +517,9 @@ def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[
     pair = np.stack([difference.real, difference.imag], axis=1)
     closure = float(np.linalg.norm(np.polynomial.polynomial.polyfit(since, pair, 1)[1]))
     remainder = np.abs(difference) ** 2 - (closure * since) ** 2
-    return Shift(
-        analysed.start,
-        analysed.epoch,
-        circles,
-        rate=published[NONRIGID.name] * sine,
-        closure=closure,
-        residual=math.sqrt(max(0.0, float(np.quantile(remainder, 0.95)))),
-    )
+    residual = math.sqrt(max(0.0, float(np.quantile(remainder, 0.95))))
+    rate = published[NONRIGID.name] * sine
+    return Shift(analysed.start, analysed.epoch, circles, rate, closure, residual)
 
 
 @part

@@ -229,13 +229,10 @@ def turning(rate: FloatArray) -> Torque:
 
 def figure_of(body: Body, spin_rate: float) -> Figure:
     """Flattening, spin rate and radius of a body, which determine its motion under torque."""
-    h = body.number("dynamical_flattening")
+    h, radius, meridian = map(body.number, ("dynamical_flattening", "radius", "meridian"))
+    inverse = inverse_polar_moment(body.number("j2"), h)
     return Figure(
-        h=h,
-        spin_rate=spin_rate,
-        inverse_polar_moment=inverse_polar_moment(body.number("j2"), h),
-        radius=body.number("radius"),
-        meridian=body.number("meridian"),
+        h=h, spin_rate=spin_rate, inverse_polar_moment=inverse, radius=radius, meridian=meridian
     )
 
 

@@ -7,14 +7,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from earthspin.bodies import Body
-from earthspin.bodies.checks import refuse_break_up
-from earthspin.bodies.planets import BEYOND_RIGID, pulled_by
+from earthspin.bodies import Body, checks, planets
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.question import Block, key, part
-from earthspin.engine.variables import Neglected, labels, number, words
+from earthspin.engine.variables import Neglected, Variable, labels, number, words
 from earthspin.errors import SceneError
 from earthspin.mass.figure import polar_moment
 from earthspin.motion import solution
@@ -115,7 +113,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
         if self.start_omega is None:
             super().check_spin()
         elif self.start_omega.any():
-            refuse_break_up(_spinning(self.body.replace(spin_period=None), self.start_omega))
+            checks.refuse_break_up(_spinning(self.body.replace(spin_period=None), self.start_omega))
 
     @property
     def unused(self) -> str:
@@ -296,22 +294,14 @@ def rotor(
     rigid, changed = solution.rigid_bodies(
         pulling.forces, spin_rate, doubts, epoch, None if torque is None else torque.over(moment)
     )
-    attitude = (
-        solution.upright(body.needed("pole").true(begin), figure.meridian + spin_rate * epoch)
-        if start_attitude is None
-        else start_attitude
-    )
+    attitude = start_attitude
+    if attitude is None:
+        turned = figure.meridian + spin_rate * epoch
+        attitude = solution.upright(body.needed("pole").true(begin), turned)
     omega = np.array([0.0, 0.0, spin_rate]) if start_omega is None else start_omega
-    return Rotor(
-        rigid,
-        changed,
-        solution.masses(pulling.forces, epoch),
-        solution.start_of(rigid, attitude, omega),
-        begin,
-        end,
-        moment,
-        pulling,
-    )
+    start = solution.start_of(rigid, attitude, omega)
+    masses = solution.masses(pulling.forces, epoch)
+    return Rotor(rigid, changed, masses, start, begin, end, moment, pulling)
 
 
 @part
@@ -328,14 +318,11 @@ _CAUSES = {
 }
 
 
-def _error(units: str, quantity: str) -> Any:
-    """Declare the output variable for the error (95 % half-width) of a quantity over time."""
-    return number(units, f"95 % half-width of {quantity}, largest so far", along=("time",))
-
-
-def _share(units: str, name: str, cause: str) -> Any:
-    """Declare the output variable for the error of a quantity over time due to one cause."""
-    return number(units, f"share of {name}_error from {_CAUSES[cause]}", along=("time",))
+def _errors(units: str, name: str, quantity: str) -> Any:
+    """Declare ``<name>_error`` and its shares, ``<name>_error_<cause>``, each largest so far."""
+    endings = {f"_{cause}": f"share of {name}_error from {w}" for cause, w in _CAUSES.items()}
+    endings = {"": f"95 % half-width of {quantity}, largest so far", **endings}
+    return Variable(units, endings=endings, along=("time",))
 
 
 class Attitudes(Dated, along=("time", "component")):
@@ -348,25 +335,18 @@ class Attitudes(Dated, along=("time", "component")):
         error="attitude_error",
         short="quaternion, body to ICRF",
     )
-    attitude_error = _error("deg", "the angle of the attitude")
-    attitude_error_method = _share("deg", "attitude", "method")
-    attitude_error_input = _share("deg", "attitude", "input")
-    attitude_error_kernel = _share("deg", "attitude", "kernel")
+    attitude_error = _errors("deg", "attitude", "the angle of the attitude")
     omega = number(
         "rad/s",
         "angular velocity along the principal axes",
         frame="principal axes of the body, C last",
         short="spin in the body",
     )
-    omega_error = _error("rad/s", "the angular velocity")
-    omega_error_method = _share("rad/s", "omega", "method")
-    omega_error_input = _share("rad/s", "omega", "input")
-    omega_error_kernel = _share("rad/s", "omega", "kernel")
+    omega_error = _errors("rad/s", "omega", "the angular velocity")
     angular_momentum = number("kg m2 / s", "angular momentum along the ICRF", frame="ICRF")
-    angular_momentum_error = _error("kg m2 / s", "the angular momentum, C as given")
-    angular_momentum_error_method = _share("kg m2 / s", "angular_momentum", "method")
-    angular_momentum_error_input = _share("kg m2 / s", "angular_momentum", "input")
-    angular_momentum_error_kernel = _share("kg m2 / s", "angular_momentum", "kernel")
+    angular_momentum_error = _errors(
+        "kg m2 / s", "angular_momentum", "the angular momentum, C as given"
+    )
     component = labels(default=["x", "y", "z"])
     quaternion = labels(default=["w", "x", "y", "z"])
 
@@ -407,9 +387,8 @@ def turning(
     size = rotor.polar_moment * abs(rotor.body.unit)
     shares = solution.shares_of(series, rotor.changed, rotor.pulling.doubt)
     errors = {
-        f"{name}_error{share and f'_{share}'}": factor * error[kind][back]
+        f"{name}_error": [factor * shares[cause][kind][back] for cause in ("", *_CAUSES)]
         for kind, (name, factor) in enumerate(zip(KINDS, (1.0, 1.0, size), strict=True))
-        for share, error in shares.items()
     }
     comment = {"comment": f"error of the rigid model; not included: {neglected.largest}"}
     return Attitudes(
@@ -545,21 +524,16 @@ def neglected(
     if node_drifts:
         sizes |= node_drifts
         sources.append("nodes: circles of the pole by the torques of the satellites on the bulge")
-    known = BEYOND_RIGID.get(body.known_as) if body.is_as_named else None
-    usual = {perturber.name for perturber in pulled_by(body)}
+    known = planets.BEYOND_RIGID.get(body.known_as) if body.is_as_named else None
+    usual = {perturber.name for perturber in planets.pulled_by(body)}
     if known is None or not usual <= {perturber.known_as for perturber in perturbers}:
         unknown.insert(0, _BEYOND)
     else:
         begin, end = epochs.span()
         sizes |= known.after(end - begin)
         sources.append(known.source)
-    return Neglected(
-        sizes,
-        "arcsec",
-        "largest change of the attitude that the model leaves out",
-        "; ".join(sources),
-        unknown=", ".join(unknown),
-    )
+    what = "largest change of the attitude that the model leaves out"
+    return Neglected(sizes, "arcsec", what, "; ".join(sources), unknown=", ".join(unknown))
 
 
 rotation = public_call(

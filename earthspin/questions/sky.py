@@ -177,10 +177,8 @@ class Sky:
 
     def error(self, target: Place, days: Iterable[float] = (0.0,)) -> tuple[float, float]:
         """Largest error of a body's position over given days: angle (rad) and distance (m)."""
-        angles, distances = zip(
-            *(self.source.error(target, self.centre, day) for day in days), strict=True
-        )
-        return max(angles), max(distances)
+        errors = np.array([self.source.error(target, self.centre, day) for day in days])
+        return max(errors[:, 0].tolist()), max(errors[:, 1].tolist())
 
     def drift(self, name: str, distance: float) -> float:
         """Relative error of the spin axis motion due to the position error of one perturber."""
@@ -336,13 +334,9 @@ def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
         if targets[p.name].ellipses and start.position is not None:
             problem = f"'{start.name}' has no NAIF code, but a position"
             raise SceneError(f"{p.name}.orbit", str(p.orbit), problem)
-    return Places(
-        body,
-        targets,
-        {p.name: checks.extent(body) + checks.extent(p) for p in perturbers},
-        all_by_elements(body, perturbers),
-        alone | ellipse_chains(body, perturbers, starts_at_body=False),
-    )
+    reach = {p.name: checks.extent(body) + checks.extent(p) for p in perturbers}
+    own = alone | ellipse_chains(body, perturbers, starts_at_body=False)
+    return Places(body, targets, reach, all_by_elements(body, perturbers), own)
 
 
 def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple[Body, ...]) -> str:

@@ -127,18 +127,11 @@ def torques(
     bulge = moment_difference(body.needed("j2"), body.mass, body.needed("radius"))
     u_bulge = body.relative_uncertainty_of_bulge()
     per_bulge = [torque_from_declination(p.gm_on(body), 1.0, *seen[p.name]) for p in perturbers]
-    error = [
-        torque_error(
-            p.gm_on(body),
-            1.0,
-            declination=seen[p.name][1],
-            distance=seen[p.name][2],
-            angle_error=kernel_error[p.name][0],
-            distance_error=kernel_error[p.name][1],
-            u_product=math.hypot(u_bulge, p.relative_uncertainty.get("gm", 0.0)),
-        )
-        for p in perturbers
-    ]
+    error = []
+    for p in perturbers:
+        place = (*seen[p.name][1:], *kernel_error[p.name])
+        u_product = math.hypot(u_bulge, p.relative_uncertainty.get("gm", 0.0))
+        error.append(torque_error(p.gm_on(body), 1.0, *place, u_product))
     magnitudes = [np.linalg.norm(t, axis=-1) for t in per_bulge]
     return Torques(
         time=datetime64(now),

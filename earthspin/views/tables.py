@@ -214,14 +214,23 @@ def beside_observed(
     unit : str
         Written after the numbers.
     """
-    sizes = None if left_out is None else left_out.neglected_effect
-    if sizes is None or not sizes.size or sizes.attrs.get("of_unknown_size"):
-        plain = with_error(value, error, unit)
-        return f"{plain}, {NUMBERS_ONLY}" if float(error) > 0 else plain
-    # periodic effects vanish in the mean
+    left = math.nan if left_out is None else systematic_size(left_out)
+    if math.isfinite(left):
+        return with_error(value, float(error) + left, unit)
+    plain = with_error(value, error, unit)
+    return f"{plain}, {NUMBERS_ONLY}" if float(error) > 0 else plain
+
+
+def systematic_size(left_out: xr.Dataset) -> float:
+    """Sum of the sizes of neglected effects; NaN if there are none, or one of unknown size.
+
+    Periodic effects vanish in the mean and are excluded.
+    """
+    sizes = left_out.neglected_effect
+    if not sizes.size or sizes.attrs.get("of_unknown_size"):
+        return math.nan
     periodic = sizes.attrs.get("zero_in_the_mean", "").split("; ")
-    systematic = float(abs(sizes[~np.isin(sizes["effect"].values, periodic)]).sum())
-    return with_error(value, float(error) + systematic, unit)
+    return float(abs(sizes[~np.isin(sizes["effect"].values, periodic)]).sum())
 
 
 def measured(data: xr.Dataset, name: str, unit: str = "") -> str:
