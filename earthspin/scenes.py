@@ -375,13 +375,10 @@ def warn_of_versions(
     stacklevel : int
         As of `warnings.warn`.
     """
-    differ = [
-        f"{name} {old[name]}, now {new.attrs.get(name)}"
-        for name in VERSIONS
-        if name in old and old[name] != new.attrs.get(name)
-    ]
-    if differ:
-        warnings.warn(f"made with {'; '.join(differ)}", VersionWarning, stacklevel=stacklevel)
+    changed = [name for name in VERSIONS if name in old and old[name] != new.attrs.get(name)]
+    if changed:
+        words = "; ".join(f"{name} {old[name]}, now {new.attrs.get(name)}" for name in changed)
+        warnings.warn(f"made with {words}", VersionWarning, stacklevel=stacklevel)
 
 
 # --- long series ---------------------------------------------------------------------------------

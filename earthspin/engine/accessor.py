@@ -301,11 +301,8 @@ def _spread(dataset: xr.Dataset) -> xr.Dataset:
     A variable with further dimensions becomes one variable for each of their labels.
     """
     columns: dict[str, xr.DataArray] = {}
-    common = Counter(
-        frozenset(array.dims).difference(("component", "quaternion", "axis"))
-        for array in dataset.data_vars.values()
-        if array.ndim
-    )
+    dims = [frozenset(array.dims) for array in dataset.data_vars.values() if array.ndim]
+    common = Counter(some.difference(("component", "quaternion", "axis")) for some in dims)
     rows = common.most_common(1)[0][0] if common else frozenset()
     for name, array in dataset.data_vars.items():
         along = [str(dim) for dim in array.dims if dim not in rows]

@@ -28,22 +28,8 @@ from earthspin.nutation import ladder
 from earthspin.nutation.analysis import complex_nutation, phases, responses, without_line
 from earthspin.nutation.ladder import Spread, spread_of
 from earthspin.progress import progress
+from earthspin.questions import path
 from earthspin.questions.interiors import SOURCES, Prediction, no_layers, predict
-from earthspin.questions.path import (
-    MERGED,
-    NEIGHBOUR,
-    NEIGHBOUR_SHARE,
-    SERIES,
-    Comparison,
-    PoleComparison,
-    iau_nutation,
-    iau_pole,
-    largest_terms,
-    path_over,
-    pole_analysis,
-    residual_error,
-    steady_figure,
-)
 from earthspin.questions.pulls import PULLS, Pulls
 from earthspin.sky import iau
 from earthspin.units import Number
@@ -55,7 +41,7 @@ DAYS_OF_ERRORS = 2000
 
 
 class NutationLadder(
-    Comparison,
+    path.Comparison,
     word="nutation",
     call="nutation_ladder",
     table="nutation",
@@ -127,7 +113,7 @@ def interior_spread(models: Prediction) -> Spread:
 
 @part
 def left(
-    pole_analysis: PoleComparison,
+    pole_analysis: path.PoleComparison,
     models: Prediction,
     interior_spread: Spread,
     pulls: Pulls,
@@ -140,9 +126,9 @@ def left(
     half-width of either from the inputs of the interior, H and integration, rad.
     """
     done = pole_analysis
-    days, ends, theirs = iau_nutation(pulls, epochs)
-    path = path_over(pulls, effects, done.start, ends)
-    own = complex_nutation(iau.nutation_of(steady_figure(path, days), days))
+    days, ends, theirs = path.iau_nutation(pulls, epochs)
+    figure = path.steady_figure(path.path_over(pulls, effects, done.start, ends), days)
+    own = complex_nutation(iau.nutation_of(figure, days))
     circles = done.our_circles
     factors = {name: models.transfer(name, circles.frequency) - 1 for name in models.rungs}
 
@@ -150,7 +136,7 @@ def left(
         added = np.array([*responses(circles, iau.delaunay_arguments(at), factors).values()])
         return np.stack([added.real, added.imag], axis=-1).swapaxes(0, 1)
 
-    error = residual_error(done, pulls.body, theirs, days)
+    error = path.residual_error(done, pulls.body, theirs, days)
     sampled = slice(None, None, max(1, days.size // DAYS_OF_ERRORS))
     phases = circles.multiples @ iau.delaunay_arguments(days[sampled])
     terms = (circles.amplitude[:, np.newaxis] * np.exp(1j * phases)).T
@@ -271,21 +257,23 @@ class Terms(Variables, along=("term",)):
         "95 % half-width of a predicted amplitude, from the numbers of the inside",
         along=("rung", "term"),
     )
-    iau = amplitude("mas", MERGED, error="amplitude_error")
+    iau = amplitude("mas", path.MERGED, error="amplitude_error")
     amplitude_error = number(
         "mas", "95 % half-width of an amplitude from its analysis, without the neighbour's share"
     )
-    neighbour = words(NEIGHBOUR)
-    neighbour_in_phase = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
-    neighbour_out_of_phase = number("mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES)
+    neighbour = words(path.NEIGHBOUR)
+    neighbour_in_phase = number("mas", f"{path.NEIGHBOUR_SHARE}, in phase", no_error=path.SERIES)
+    neighbour_out_of_phase = number(
+        "mas", f"{path.NEIGHBOUR_SHARE}, out of phase", no_error=path.SERIES
+    )
     rung = labels()
     term = labels()
 
 
 @part
-def terms(pole_analysis: PoleComparison, models: Prediction, interior_spread: Spread) -> Terms:
+def terms(pole_analysis: path.PoleComparison, models: Prediction, interior_spread: Spread) -> Terms:
     """Compute the largest circular nutation terms of each model, in phase and out of phase."""
-    order, columns = largest_terms(pole_analysis, LARGEST)
+    order, columns = path.largest_terms(pole_analysis, LARGEST)
     circles, names = pole_analysis.our_circles, models.ladder
     frequency, own = circles.frequency[order], circles.amplitude[order]
     predicted = np.array([models.transfer(name, frequency) * own for name in names])
@@ -380,5 +368,5 @@ nutation_ladder = public_call(
     NutationLadder,
     answer=rung_sizes,
     sections=(beside, terms, modes, transfer, neglected),
-    parts=(*PULLS, iau_pole, pole_analysis, models, interior_spread, left),
+    parts=(*PULLS, path.iau_pole, path.pole_analysis, models, interior_spread, left),
 )

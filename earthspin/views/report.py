@@ -91,12 +91,8 @@ def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]
 
     year, cycle = series(HALF_A_YEAR, "6 h"), series(HALF_A_NODE_CYCLE, "1 d")
     advance(1)
-    drawings = [
-        precession.chain(tree, year),
-        torque.through(
-            cycle, "Declination and torque through a cycle of the Moon's node", smooth_days=MONTH
-        ),
-    ]
+    title = "Declination and torque through a cycle of the Moon's node"
+    drawings = [precession.chain(tree, year), torque.through(cycle, title, smooth_days=MONTH)]
     advance(1)
     return drawings
 
@@ -171,9 +167,8 @@ def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
     """Sentence that compares the computed and the observed period of the free wobble."""
     answer = answer_of(ladder)
     rigid, top = measured(answer.sel(rung="rigid"), "period_solar", "days"), answer.isel(rung=-1)
-    last = beside_observed(
-        top.period_solar, top.period_solar_error, section(ladder, "neglected"), "days"
-    )
+    period, error = top.period_solar, top.period_solar_error
+    last = beside_observed(period, error, section(ladder, "neglected"), "days")
     *others, other = (ADDED[rung] for rung in answer.rung.values if rung in ADDED)
     return (
         f"If {body_of(answer)} were rigid, its free wobble would have a period of {rigid}; with "

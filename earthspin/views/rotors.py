@@ -176,14 +176,11 @@ def rolling_cones(rotor: SymmetricRotor, title: str, points: int = 241) -> Solid
     omega = rotor.omega_inertial(times)
     speed = float(np.linalg.norm(omega[0]))
     axis = rotor.figure_axis(times)
-    inside = float(rotor.theta) < float(rotor.alpha)
-    roll = "with its inner side on" if inside else "on the outside of"
-    between = (
-        "The body is oblate: the angular momentum lies between the axis and the angular velocity."
-        if inside
-        else "The body is prolate: the angular velocity lies between the angular momentum and the "
-        "axis."
-    )
+    momentum, velocity = "the angular momentum", "the angular velocity"
+    shape, roll, middle, other = "prolate", "on the outside of", velocity, momentum
+    if float(rotor.theta) < float(rotor.alpha):
+        shape, roll, middle, other = "oblate", "with its inner side on", momentum, velocity
+    between = f"The body is {shape}: {middle} lies between {other} and the axis."
     return Solid(
         title=title,
         caption="The body cone (red) is fixed in the body, about its axis; the space cone (blue) "
