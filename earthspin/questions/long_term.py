@@ -18,7 +18,7 @@ from earthspin.engine.variables import Neglected, Variables, labels, measured, n
 from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, of_perturber
-from earthspin.questions.pulls import start_error
+from earthspin.questions.axis_motion import start_error
 from earthspin.questions.reasons import no_iau_model, north_note, not_sun_and_moon
 from earthspin.questions.satellites import mean_pole_error
 from earthspin.questions.sky import PerturbedBody, Sky, Stretch, places, sky

@@ -29,8 +29,8 @@ from earthspin.nutation.analysis import complex_nutation, phases, responses, wit
 from earthspin.nutation.ladder import Spread, spread_of
 from earthspin.progress import progress
 from earthspin.questions import path
+from earthspin.questions.axis_motion import PULLS, Pulls
 from earthspin.questions.interiors import SOURCES, Prediction, no_layers, predict
-from earthspin.questions.pulls import PULLS, Pulls
 from earthspin.sky import iau
 from earthspin.units import Number
 

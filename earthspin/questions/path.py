@@ -26,8 +26,8 @@ from earthspin.nutation.analysis import Circles, PoleAnalysis, Secular
 from earthspin.nutation.budget import published_effects
 from earthspin.progress import progress
 from earthspin.questions import satellites, times
+from earthspin.questions.axis_motion import AxisMotion, Pulls, forces_of
 from earthspin.questions.interiors import CHOSEN, Prediction, no_layers, prediction
-from earthspin.questions.pulls import AxisMotion, Pulls, forces_of
 from earthspin.questions.reasons import no_iau_model
 from earthspin.sky import iau
 from earthspin.sky.kernel import DRIFT_FROM, growth

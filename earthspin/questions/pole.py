@@ -18,22 +18,9 @@ from earthspin.motion.effect_sizes import axis_displacements
 from earthspin.motion.effects import LARGEST_CORE_NUTATION, NONRIGID, RESPONSE
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation.analysis import followed, on_fixed_ecliptic
-from earthspin.questions import interiors, path, reasons, satellites
+from earthspin.questions import axis_motion, interiors, path, reasons, satellites
+from earthspin.questions.axis_motion import PULLS, AxisMotion, Pulls
 from earthspin.questions.path import Shift
-from earthspin.questions.pulls import (
-    EFFECTS_DOC,
-    PULLS,
-    AxisMotion,
-    Effects,
-    Pulls,
-    drift_by_planets,
-    each_added,
-    idle_note,
-    own_kernel,
-    start_error,
-    start_note,
-    switched_off,
-)
 from earthspin.questions.sky import Sky
 from earthspin.questions.times import SPAN_DOC, Dated, days_of
 
@@ -76,7 +63,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
 
     span: Span = key(("1980-01-01T12:00:00", "2020-01-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("5 d", doc="interval between dates")
-    effects: Effects = key("known", doc=EFFECTS_DOC)
+    effects: axis_motion.Effects = key("known", doc=axis_motion.EFFECTS_DOC)
     response: Literal["fitted", "predicted"] = key(
         "fitted",
         doc="source of the response of the interior for the effect nonrigid: fitted to IAU "
@@ -101,7 +88,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
         usual = all(p.is_as_named and p.orbit is p.position is None for p in self.perturbers)
         if not usual or reasons.not_the_iaus_earth(self.body, self.perturbers):
             return known
-        kernel = own_kernel(self.ephemeris)
+        kernel = axis_motion.own_kernel(self.ephemeris)
         members = (self.body, *self.perturbers, *(BODIES[name] for name in PLANETS))
         if kernel is not None and kernel.holds(member.naif for member in members):
             codes = [kernel.code(member.naif, member.name) for member in members]
@@ -199,8 +186,8 @@ def axes(
         direction_error={
             "method": f"Gauss windows of {window:g} d with {axis_path.windows.order} nodes",
             "evaluations": axis_path.evaluations,
-            **start_note(pulls.body),
-            **idle_note(pulls.body, effects),
+            **axis_motion.start_note(pulls.body),
+            **axis_motion.idle_note(pulls.body, effects),
         },
     )
 
@@ -309,12 +296,12 @@ def neglected(
 
     They are the largest changes of the figure axis from J2000.0 to the first and the last date.
     """
-    off = switched_off(body, perturbers, effects)
-    forces, further = each_added(sky, body, perturbers, effects, off)
+    off = axis_motion.switched_off(body, perturbers, effects)
+    forces, further = axis_motion.each_added(sky, body, perturbers, effects, off)
     moved = axis_displacements(axis_path, pulls.epoch, forces, further)
     if {*off} - {*further}:
         reach = max(abs(day * DAY - pulls.epoch) for day in epochs.span())
-        moved |= drift_by_planets(body, reach)
+        moved |= axis_motion.drift_by_planets(body, reach)
     sizes = {name: size for name, size in moved.items() if size}
     unknown = [name for name in off if name not in moved]
     sources = ["effects that are off: to first order, along the computed path"] if off else []
@@ -327,7 +314,7 @@ def neglected(
         sizes |= {NONRIGID.name: max(map(RESPONSE.at, epochs.span()))}
         sources.append("nonrigid: measured on DE421 from 1950 to 2050")
     if not body.needed("pole").of_the_iau:
-        half = start_error(body)
+        half = axis_motion.start_error(body)
         if half is None:
             unknown.append("uncertainty of the pole at the start")
         else:

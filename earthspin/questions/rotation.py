@@ -24,20 +24,8 @@ from earthspin.motion.march import FINEST, Masses
 from earthspin.motion.solution import COARSEST, KINDS, Motion, RotationSeries, State
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress
-from earthspin.questions.pulls import (
-    PULLS,
-    AxisMotion,
-    CustomTorque,
-    Pulls,
-    drift_by_planets,
-    each_added,
-    figure_of,
-    forces_of,
-    idle_note,
-    start_note,
-    switched_off,
-    switched_on,
-)
+from earthspin.questions import axis_motion
+from earthspin.questions.axis_motion import AxisMotion, CustomTorque, Pulls, forces_of
 from earthspin.questions.satellites import largest_drifts, no_satellites, obliquity_of, swings
 from earthspin.questions.sky import Sky
 from earthspin.questions.times import SPAN_DOC, Dated, days_of
@@ -279,10 +267,10 @@ def rotor(
     epoch = begin * DAY
     body = _spinning(body, start_omega)
     spin_rate = float(body.spin_rate)
-    figure = figure_of(body, spin_rate)
+    figure = axis_motion.figure_of(body, spin_rate)
     if pulling is None:
         alone = Forces(figure=figure, gm={}, positions=lambda times: {})
-        pulling = Pulling(switched_on(alone, body, _acting(effects)))
+        pulling = Pulling(axis_motion.switched_on(alone, body, _acting(effects)))
     moment = polar_moment(body.number("j2"), figure.h, float(body.mass), body.number("radius"))
     u = body.relative_uncertainty
     doubts = {
@@ -404,8 +392,8 @@ def turning(
             "method": f"Gauss windows of {motion.order} nodes, in two forms",
             # the number that a whole series takes is not known from one block of it
             **({"evaluations": motion.evaluations} if block is None else {}),
-            **({} if start_attitude is not None else start_note(body)),
-            **idle_note(body, effects),
+            **({} if start_attitude is not None else axis_motion.start_note(body)),
+            **axis_motion.idle_note(body, effects),
         },
         omega_error=comment,
         angular_momentum_error=comment,
@@ -481,12 +469,12 @@ def effect_changes(
 ) -> dict[str, float]:
     """Largest changes of the attitude by each effect that is switched off, rad."""
     on = _acting(effects)
-    off = switched_off(body, perturbers, on)
+    off = axis_motion.switched_off(body, perturbers, on)
     if not off:
         return {}
     spinning = body.replace(spin_period=2 * np.pi / rotor.body.unit)
-    forces, further = each_added(sky, spinning, perturbers, on, off)
-    unplaced = drift_by_planets(spinning, rotor.duration) if {*off} - {*further} else {}
+    forces, further = axis_motion.each_added(sky, spinning, perturbers, on, off)
+    unplaced = axis_motion.drift_by_planets(spinning, rotor.duration) if {*off} - {*further} else {}
     return unplaced | attitude_displacements(
         rotor.body, rotor.start, rotor.duration, forces, further
     )
@@ -518,7 +506,7 @@ def neglected(
     """
     changes = effect_changes or {}
     sizes = {name: change for name, change in changes.items() if change}
-    off = switched_off(body, perturbers, _acting(effects))
+    off = axis_motion.switched_off(body, perturbers, _acting(effects))
     unknown = [name for name in off if name not in changes]
     sources = ["effects that are off: to first order, about a steady rotation"] if sizes else []
     if node_drifts:
@@ -540,5 +528,5 @@ rotation = public_call(
     Rotation,
     answer=turning,
     sections=(divergence, neglected),
-    parts=(*PULLS, pulling, rotor, motion, parting, effect_changes, node_drifts),
+    parts=(*axis_motion.PULLS, pulling, rotor, motion, parting, effect_changes, node_drifts),
 )
