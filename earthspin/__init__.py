@@ -30,13 +30,13 @@ _HOME = {
     "earthspin.scenes": (
         "Scene",
         "VersionWarning",
+        "ensemble",
         "load_scene",
         "plan",
         "run",
         "run_tree",
         "write_series",
     ),
-    "earthspin.many": ("ensemble",),
     "earthspin.engine.store": ("open", "read", "verify", "write"),
 }
 _MODULE_OF = _QUESTIONS | {name: module for module, names in _HOME.items() for name in names}

@@ -294,8 +294,8 @@ def _ensemble(options: Namespace) -> None:
     """Command `ensemble`: run a scene many times with different inputs."""
     import json
 
-    from earthspin.many import ensemble
     from earthspin.progress import lines_to
+    from earthspin.scenes import ensemble
 
     members = options.members
     if members is not None and members.lstrip("+-").isdecimal():
