@@ -1,4 +1,4 @@
-"""Read and run scenes, alone or for many members: tables of inputs for one computation (question)."""
+"""Read and run scenes, tables of inputs for one computation (question), also for many members."""
 
 from __future__ import annotations
 

@@ -100,14 +100,11 @@ class Ensemble:
         self.which = np.array(members.only) if members.only else np.arange(n)
         if in_memory and self.which.size > MANY:
             self._refuse_what_does_not_fit(members)
-        drawn = {
-            name: distribution.checked(self.inputs[name].kind, where.at(name))
-            for name, distribution in distributions.items()
-        }
+        kinds = {name: entry.kind for name, entry in self.inputs.items()}
+        drawn = {n: d.checked(kinds[n], where.at(n)) for n, d in distributions.items()}
         self.values = draw(members, drawn, self.which, where)
         for name, listed in members.values.items():
-            values = listed.checked(self.inputs[name].kind, where.at(name))
-            self.values[name] = values[self.which]
+            self.values[name] = listed.checked(kinds[name], where.at(name))[self.which]
         self.dropped: list[int] = []
         self._drop_impossible_members(members.impossible == "drop", n)
 

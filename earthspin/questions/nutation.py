@@ -91,10 +91,8 @@ class NutationLadder(
         if self.body.labelled:
             raise self.error("body", self.body.name, "give single numbers here, no labelled arrays")
         if self.uncertainty == "sample":
-            problem = (
-                "the errors of the ladder are from a sample of its inputs already; leave it out"
-            )
-            raise self.error("uncertainty", "sample", problem)
+            text = "the errors of the ladder are from a sample of its inputs already; leave it out"
+            raise self.error("uncertainty", "sample", text)
         if why := no_layers(self.body):
             raise self.error("body", self.body.name, f"{why}; leave it out")
 
@@ -149,13 +147,9 @@ def left(
             plain = np.stack([eta.real, eta.imag], axis=1)
             residual = without_line(days / DAYS_PER_CENTURY, plain)
             rms = np.sqrt(np.mean(residual**2, axis=0))
-            of_interior = interior_spread.rms_half_width(
-                name,
-                circles.frequency,
-                waves,
-                products,
-                residual[sampled, 0] + 1j * residual[sampled, 1],
-            )
+            both = residual[sampled, 0] + 1j * residual[sampled, 1]
+            half_width = interior_spread.rms_half_width
+            of_interior = half_width(name, circles.frequency, waves, products, both)
             residuals[name] = np.array([*rms, math.hypot(error, of_interior)])
             advance(1)
     return residuals
@@ -277,9 +271,8 @@ def terms(pole_analysis: path.PoleComparison, models: Prediction, interior_sprea
     circles, names = pole_analysis.our_circles, models.ladder
     frequency, own = circles.frequency[order], circles.amplitude[order]
     predicted = np.array([models.transfer(name, frequency) * own for name in names])
-    spread = np.array(
-        [interior_spread.transfer_half_width(name, frequency) * np.abs(own) for name in names]
-    )
+    spread = np.array([interior_spread.transfer_half_width(name, frequency) for name in names])
+    spread = spread * np.abs(own)
     return Terms(
         **columns,
         predicted=phases(predicted),
@@ -351,10 +344,8 @@ class Transfer(
 @part
 def transfer(models: Prediction) -> Transfer:
     """Compute the transfer function of each model, at frequencies that include its resonances."""
-    names = models.ladder
-    response = np.array(
-        [models.rungs[name].transfer(_IN_SPACE - 1, models.setting.e) for name in names]
-    )
+    names, e = models.ladder, models.setting.e
+    response = np.array([models.rungs[name].transfer(_IN_SPACE - 1, e) for name in names])
     return Transfer(transfer_real=response.real, transfer_imaginary=response.imag, rung=names)
 
 

@@ -364,10 +364,8 @@ def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp
     """
     ours = analysed.our_circles
     order = np.argsort(-np.abs(ours.amplitude))[:count]
-    at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
-    names, amplitude = analysis.neighbours_of(
-        ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch
-    )
+    sky = iau.delaunay_rates(), iau.delaunay_arguments(np.zeros(1))[:, 0]
+    names, amplitude = analysis.neighbours_of(ours.multiples, ours.frequency, *sky)
     neighbour_in, neighbour_out = analysis.phases(amplitude[order])
     return order, {
         "period": 2 * np.pi / ours.frequency[order],

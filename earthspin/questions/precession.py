@@ -101,7 +101,8 @@ class Rates(Variables, along=("perturber",)):
 @part
 def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> Rates:
     """Compute precession rate, precession period and mean torque of each perturber, with errors."""
-    rate, plane = mean_rates.rate, f"orbit whose normal has {body.orbit_pole} (ICRF)"
+    rate, means = mean_rates.rate, mean_torques
+    plane = f"orbit whose normal has {body.orbit_pole} (ICRF)"
     if body.needed("pole").of_the_iau:
         plane = "ecliptic of J2000.0"
     return Rates(
@@ -109,21 +110,18 @@ def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Bod
         precession_period=(rates.period(rate.value), rates.period_error(rate.value, rate.error)),
         rate_ratio=mean_rates.ratio,
         mean_torque=mean_rates.torque,
-        obliquity=mean_torques.obliquity,
-        reference_epoch=datetime64(np.array(mean_torques.epoch / DAY)),
-        perturber=mean_torques.labels,
+        obliquity=means.obliquity,
+        reference_epoch=datetime64(np.array(means.epoch / DAY)),
+        perturber=means.labels,
     ).with_attributes(
-        no_error=mean_torques.no_error,
-        obliquity=reasons.north_note(body, mean_torques.obliquity),
+        no_error=means.no_error,
+        obliquity=reasons.north_note(body, means.obliquity),
         precession_rate={
-            "window": mean_torques.over,
+            "window": means.over,
             "pole": satellites.describe_pole(body),
             "plane": plane,
         },
-        precession_rate_error={
-            "method": mean_torques.method,
-            "evaluations": mean_torques.evaluations,
-        },
+        precession_rate_error={"method": means.method, "evaluations": means.evaluations},
     )
 
 

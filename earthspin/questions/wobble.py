@@ -28,13 +28,8 @@ from earthspin.wobble import ladder, propagation
 _FIGURE = ("dynamical_flattening", "j2", "triaxiality")
 _SPIN = ("gm", "radius", "spin_period")
 #: Keys that describe the interior, and the inputs of the ladder that they set.
-_INTERIOR = {
-    "k2": "k2",
-    "core_fraction": "core_fraction",
-    "core_ellipticity": "core_ellipticity",
-    "ocean_love_number": "ocean",
-    "anelastic_exponent": "anelastic_exponent",
-}
+_KEYS = ("k2", "core_fraction", "core_ellipticity", "ocean_love_number", "anelastic_exponent")
+_INTERIOR = {name: name for name in _KEYS} | {"ocean_love_number": "ocean"}
 
 
 class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):

@@ -281,9 +281,8 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
     lower.axhline(rate, color="0.3", lw=0.8, ls="--")
     words = f"{rate:.3f}\u2033/yr: once round in {float(total.precession_period):.0f} years"
     note(lower, words, (float(curve.window_length[-1]), rate), (0, -30), ha="right", color="0.2")
-    lower.set(
-        xlabel="length of the averaging window (yr)", ylabel="averaged rate\n(arcsec per year)"
-    )
+    lower.set_xlabel("length of the averaging window (yr)")
+    lower.set_ylabel("averaged rate\n(arcsec per year)")
     drawing.legend_above(lower)
     return figure
 

@@ -152,13 +152,9 @@ def write_wobble_report(
         pole = run_tree("polar-motion")
         data = _write({place / "wobble.nc": ladder, place / "polar-motion.nc": pole})
         advance(1)
-        text = page_of(
-            ladder,
-            pole,
-            title="The free wobble, explained and observed",
-            lead=_explained_and_observed(ladder, pole),
-            drawings=None if figures else (),
-        )
+        title = "The free wobble, explained and observed"
+        lead, drawings = _explained_and_observed(ladder, pole), None if figures else ()
+        text = page_of(ladder, pole, title=title, lead=lead, drawings=drawings)
         advance(1)
     return [ladder, pole], [*_write({place / "wobble.html": text}), *data]
 

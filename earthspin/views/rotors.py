@@ -267,9 +267,8 @@ def path_of_top(tree: Result) -> solids.Solid:
     """
     answer = answer_of(tree)
     theta, phi = answer.theta.values, answer.phi.values
-    tip = np.stack(
-        [np.sin(theta) * np.sin(phi), -np.sin(theta) * np.cos(phi), np.cos(theta)], axis=-1
-    )
+    across, height = np.sin(theta), np.cos(theta)
+    tip = np.stack([across * np.sin(phi), -across * np.cos(phi), height], axis=-1)
     bounds = needed(tree, "turning").turning_angle.values
     return solids.Solid(
         title=f"{answer.attrs['title']}: {answer.pattern.item()}",

@@ -292,11 +292,8 @@ class _DataColumn:
             return [date(value, "D" if whole_days else "s") for value in values]
         if self.errors is None:
             return [_text(value) for value in values.tolist()]
-        errors = np.atleast_1d(self.errors.values[rows])
-        return [
-            with_error(value, error) if np.isfinite(value) else _text(value)
-            for value, error in zip(values.tolist(), errors.tolist(), strict=True)
-        ]
+        pairs = zip(values.tolist(), np.atleast_1d(self.errors.values[rows]).tolist(), strict=True)
+        return [with_error(v, e) if np.isfinite(v) else _text(v) for v, e in pairs]
 
 
 def tables(tree: Result, without: Iterable[str] = ()) -> list[Table]:
