@@ -79,9 +79,9 @@ class AxisMotion(Series):
         if self.effects and self.effects[0] in words:
             object.__setattr__(self, "effects", words[self.effects[0]]())
         elif PLANETS.name in self.effects and all_by_elements(self.body, self.perturbers):
-            problem = "all orbits are given by elements, and this effect needs a kernel: remove "
-            problem += "it, or list the planets as perturbers"
-            raise self.error("effects", PLANETS.name, problem)
+            problem = "all orbits are given by elements, and this effect needs a kernel"
+            remedy = "remove it, or list the planets as perturbers"
+            raise self.error("effects", PLANETS.name, f"{problem}: {remedy}")
 
     def known_effects(self) -> tuple[str, ...]:
         """Names of the effects that are known for this body, its perturbers and its kernel."""
@@ -419,8 +419,8 @@ class CustomTorque:
             finite = np.isfinite(values).all(axis=1)
             if not finite.all():
                 first = f"{float(times[~finite][0]):.6g} s from the start"
-                problem = f"the custom torque is not finite {first}; return a finite torque"
-                raise UndefinedError(f"{problem} for each time")
+                problem = f"the custom torque is not finite {first}"
+                raise UndefinedError(f"{problem}; return a finite torque for each time")
             return np.asarray(values / polar_moment)
 
         return torque

@@ -172,8 +172,8 @@ def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
         period = by_law if period is None else period
         if abs(period / by_law - 1) > THIRD_LAW:
             given = f"a = {a:.6g} m, period = {period:.6g} s"
-            problem = f"they contradict each other: with GM = {float(gm):.6g} m3 s-2 the period "
-            problem += f"for this a is {by_law:.6g} s; give either a or period"
+            law = f"with GM = {float(gm):.6g} m3 s-2 the period for this a is {by_law:.6g} s"
+            problem = f"they contradict each other: {law}; give either a or period"
             raise SceneError(f"{member.name}.orbit", given, problem)
     return a, 2 * math.pi / period
 

@@ -127,8 +127,8 @@ def left(
     days, ends, theirs = path.iau_nutation(pulls, epochs)
     figure = path.steady_figure(path.path_over(pulls, effects, done.start, ends), days)
     own = complex_nutation(iau.nutation_of(figure, days))
-    circles = done.our_circles
-    factors = {name: models.transfer(name, circles.frequency) - 1 for name in models.rungs}
+    circles, frequency = done.our_circles, done.our_circles.frequency
+    factors = {name: models.transfer(name, frequency) - 1 for name in models.rungs}
 
     def shifts(at: FloatArray) -> FloatArray:
         added = np.array([*responses(circles, iau.delaunay_arguments(at), factors).values()])
@@ -147,9 +147,8 @@ def left(
             plain = np.stack([eta.real, eta.imag], axis=1)
             residual = without_line(days / DAYS_PER_CENTURY, plain)
             rms = np.sqrt(np.mean(residual**2, axis=0))
-            both = residual[sampled, 0] + 1j * residual[sampled, 1]
-            half_width = interior_spread.rms_half_width
-            of_interior = half_width(name, circles.frequency, waves, products, both)
+            eta = residual[sampled, 0] + 1j * residual[sampled, 1]
+            of_interior = interior_spread.rms_half_width(name, frequency, waves, products, eta)
             residuals[name] = np.array([*rms, math.hypot(error, of_interior)])
             advance(1)
     return residuals

@@ -135,8 +135,8 @@ def labelled_series(
     time = days(series.time, Where("time"))
     backward = np.diff(time) <= 0
     if np.any(backward):
-        problem = "times are not ascending; sort them with ds.sortby('time') and remove duplicates "
-        problem += "with ds.drop_duplicates('time')"
+        problem = "times are not ascending; sort them with ds.sortby('time')"
+        problem += " and remove duplicates with ds.drop_duplicates('time')"
         raise SceneError("time", str(series.time.values[1:][backward][0]), problem)
     first, second = (si(series[name]).values for name in names)
     return time, first, second

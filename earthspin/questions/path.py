@@ -305,9 +305,9 @@ def iau_pole(pulls: Pulls) -> IAUPole:
     days, covered = analysed_days((pulls.limits[0] / DAY, pulls.limits[1] / DAY))
     if covered < SHORTEST_SPAN:
         years, needed = (days * DAY / JULIAN_YEAR for days in (covered, SHORTEST_SPAN))
-        problem = f"the positions cover {years:.1f} years near J2000.0, and the analysis of "
-        problem += f"nutation needs {needed:.0f}; give a longer ephemeris, or remove the effect "
-        raise UndefinedError(f"{problem}nonrigid")
+        problem = f"the positions cover {years:.1f} years near J2000.0"
+        problem += f", and the analysis of nutation needs {needed:.0f}"
+        raise UndefinedError(f"{problem}; give a longer ephemeris, or remove the effect nonrigid")
     arguments = iau.delaunay_arguments(days)
     analyse = PoleAnalysis(days, arguments, iau.delaunay_rates(), iau.fixed_ecliptic())
     pole, original = iau.pole_and_nutation(days)

@@ -291,9 +291,11 @@ def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArr
         raise SceneError("excitation", "its dates", "it has no span in common with the pole")
     if np.max(abs(ends[first : first + count] - time[start : start + count])) > SAME_DAY:
         given = f"means about day {middles[0]:.3f}, each {middles[1] - middles[0]:.3g} d"
-        problem = f"give means over the steps of the pole, each {step:.3g} d: those between its "
-        problem += "days; read_excitation(..., daily=True) makes them from 0h to 0h"
-        raise SceneError("excitation", given, problem)
+        problem = (
+            f"give means over the steps of the pole, each {step:.3g} d: those between its days"
+        )
+        remedy = "read_excitation(..., daily=True) makes them from 0h to 0h"
+        raise SceneError("excitation", given, f"{problem}; {remedy}")
     both = slice(start, start + count)
     return time[both], p[both], driving[first : first + count - 1]
 
@@ -355,7 +357,7 @@ def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100
     start_x, start_y = ex.coordinates_of(p[0])
     middles = datetime64(ex.middles_of_steps(time))
     result = Excitation(time=middles, chi1=chi.real * MAS, chi2=chi.imag * MAS)
-    comment = "means over the step (d) around each time; start of the pole in mas and in days from "
+    start = "start of the pole in mas and in days from J2000.0"
     return result.dataset().assign_attrs(
         chandler_period=days,
         chandler_quality_factor=q,
@@ -363,7 +365,7 @@ def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100
         start_y=float(start_y),
         start_day=float(time[0]),
         step=step,
-        comment=f"{comment}J2000.0",
+        comment=f"means over the step (d) around each time; {start}",
     )
 
 

@@ -241,8 +241,8 @@ class Rotor:
         turns, days = self.turns(end - begin), (end - begin) / DAY
         if turns > MOST_TURNS:
             hours, most = turns * SECONDS_PER_TURN / 3600, days * MOST_TURNS / turns
-            problem = f"the body turns {turns:.3g} times, which takes about {hours:.2g} h to "
-            raise SceneError("span", f"{days:.6g} d", f"{problem}follow; give at most {most:.3g} d")
+            problem = f"the body turns {turns:.3g} times, which takes about {hours:.2g} h to follow"
+            raise SceneError("span", f"{days:.6g} d", f"{problem}; give at most {most:.3g} d")
 
     def since(self, days: float | FloatArray) -> FloatArray:
         """Convert days from J2000.0 to s after the initial date, rounded to the microsecond."""

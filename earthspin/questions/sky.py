@@ -41,8 +41,10 @@ class KernelName(FileName):
         if hasattr(value, "spk") and hasattr(value, "path"):
             value = value.path
         if sources.is_vector_function(value):
-            problem = "it is the position of one body; give it to a perturber, like "
-            raise where.error(value, f"{problem}SUN.replace(position=...), and give a kernel here")
+            remedy = (
+                "give it to a perturber, like SUN.replace(position=...), and give a kernel here"
+            )
+            raise where.error(value, f"it is the position of one body; {remedy}")
         return super().read(value, where)
 
     def is_path(self, value: object) -> bool:
@@ -177,8 +179,8 @@ class Sky:
 
     def error(self, target: Place, days: Iterable[float] = (0.0,)) -> tuple[float, float]:
         """Largest error of a body's position over given days: angle (rad) and distance (m)."""
-        errors = np.array([self.source.error(target, self.centre, day) for day in days])
-        return max(errors[:, 0].tolist()), max(errors[:, 1].tolist())
+        errors = [self.source.error(target, self.centre, day) for day in days]
+        return max(angle for angle, _ in errors), max(distance for _, distance in errors)
 
     def drift(self, name: str, distance: float) -> float:
         """Relative error of the spin axis motion due to the position error of one perturber."""

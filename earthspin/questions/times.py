@@ -96,8 +96,8 @@ def days_of(
             remedy = f"write them by region with write_series(scene, '{store}') or run --out"
         times = f"{epochs.size} times" + (f" of {count} members" if count > 1 else "")
         step = None if isinstance(epochs, TimeList) else f"{epochs.step * 1e-6:g} s"
-        problem = f"{times} take {in_bytes(size * BYTES_PER_TIME)} and do not fit into memory "
-        raise SceneError("step", step, f"{problem}(up to {LONGEST_IN_MEMORY}); {remedy}")
+        problem = f"{times} take {in_bytes(size * BYTES_PER_TIME)} and do not fit into memory"
+        raise SceneError("step", step, f"{problem} (up to {LONGEST_IN_MEMORY}); {remedy}")
     return epochs.days()
 
 

@@ -174,11 +174,10 @@ def inside(
     """Collect the inputs of the non-rigid wobble models: figure, interior and ocean of the body."""
     interior = interiors.interior_of(body)
     assert interior is not None
-    names = (*_FIGURE, *_SPIN)
     chosen = (k2, core_fraction, core_ellipticity, ocean_love_number, anelastic_exponent)
-    own = dict(zip(_INTERIOR.values(), chosen, strict=True))
-    own = {name: value for name, value in own.items() if value is not None}
-    given = {name: body.needed(name) for name in names} | own
+    pairs = zip(_INTERIOR.values(), chosen, strict=True)
+    own = {name: value for name, value in pairs if value is not None}
+    given = {name: body.needed(name) for name in (*_FIGURE, *_SPIN)} | own
     numbers = xr.broadcast(*map(xr.DataArray, given.values()))
     values = {name: number.values for name, number in zip(given, numbers, strict=True)}
     spin = ladder.Spin(*(values.pop(name) for name in _SPIN))
@@ -350,8 +349,8 @@ def neglected(body: Body, inside: Inside | None = None) -> Neglected:
         return Neglected(what=f"all deformation: {why_rigid(body)}")
     left_out = inside.interior.neglected
     if not left_out or not body.is_as_named:
-        what = "an inner core, and rotation and ellipticity in the Love number: their sizes were "
-        return Neglected(what=f"{what}not found for this {body.name}")
+        effects = "an inner core, and rotation and ellipticity in the Love number"
+        return Neglected(what=f"{effects}: their sizes were not found for this {body.name}")
     what = "change of the last rung; winds and currents drive the wobble, and not its period"
     return Neglected.cited(left_out, what)
 

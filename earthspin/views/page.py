@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 from functools import cache
 from html import escape
+from importlib import resources
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
@@ -81,9 +82,7 @@ def environment() -> Environment:
 
 def source(name: str) -> str:
     """Text of a file in the folder of the templates, such as a style sheet or a script."""
-    loader = environment().loader
-    assert loader is not None
-    return loader.get_source(environment(), name)[0]
+    return resources.files("earthspin.views").joinpath("templates", name).read_text("utf-8")
 
 
 # --- typesetting ---------------------------------------------------------------------------------
