@@ -291,11 +291,9 @@ def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArr
         raise SceneError("excitation", "its dates", "it has no span in common with the pole")
     if np.max(abs(ends[first : first + count] - time[start : start + count])) > SAME_DAY:
         given = f"means about day {middles[0]:.3f}, each {middles[1] - middles[0]:.3g} d"
-        problem = (
-            f"give means over the steps of the pole, each {step:.3g} d: those between its days"
-        )
+        means = f"means over the steps of the pole, each {step:.3g} d: those between its days"
         remedy = "read_excitation(..., daily=True) makes them from 0h to 0h"
-        raise SceneError("excitation", given, f"{problem}; {remedy}")
+        raise SceneError("excitation", given, f"give {means}; {remedy}")
     both = slice(start, start + count)
     return time[both], p[both], driving[first : first + count - 1]
 

@@ -41,9 +41,7 @@ class KernelName(FileName):
         if hasattr(value, "spk") and hasattr(value, "path"):
             value = value.path
         if sources.is_vector_function(value):
-            remedy = (
-                "give it to a perturber, like SUN.replace(position=...), and give a kernel here"
-            )
+            remedy = "give it to a perturber, like SUN.replace(position=...), and a kernel here"
             raise where.error(value, f"it is the position of one body; {remedy}")
         return super().read(value, where)
 
