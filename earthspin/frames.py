@@ -156,8 +156,9 @@ def _pole(model: Model, times: FloatArray) -> Solved:
     answer = run(model.at(_tdb(times))).sel(axis="figure")
     axis = np.stack([answer[name].values for name in "XYZ"])
     body = model.question.body  # type: ignore[attr-defined]
-    normal = erfa.ecm06(J2000_JD, times)[:, 2].T
-    if not body.needed("pole").of_the_iau:
+    if body.needed("pole").of_the_iau:
+        normal = erfa.ecm06(J2000_JD, times)[:, 2].T
+    else:
         own = body.needed("pole").orbit_normal(body.orbit_pole)
         normal = np.repeat(own[:, np.newaxis], times.size, axis=1)
     error = si(answer.direction_error).values

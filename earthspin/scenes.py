@@ -21,14 +21,7 @@ from earthspin.engine import answers, blocks
 from earthspin.engine.blocks import Series
 from earthspin.engine.drafts import as_path
 from earthspin.engine.ensemble import Ensemble
-from earthspin.engine.members import (
-    ENDLESS,
-    LARGEST_COUNT,
-    LARGEST_SEED,
-    MOST_PARTS,
-    TWICE,
-    Members,
-)
+from earthspin.engine.members import ENDLESS, LARGEST_SEED, MOST_PARTS, TWICE, Members
 from earthspin.engine.question import BLOCK as BY_BLOCK
 from earthspin.engine.question import Question, keys_of, scene_of
 from earthspin.engine.run import Plan, Run
@@ -534,7 +527,7 @@ def ensemble(
         seed = _seed_from(rng)
     request = _with_members(loaded, members, {"seed": seed, "impossible": impossible})
     if block is not None:
-        block = Whole(1, LARGEST_COUNT).read(block, request.where("block"))
+        block = Whole().read(block, request.where("block"))
     if path is not None and as_path(path).suffix != ".zarr":
         raise OutputError(path, "its name does not end in .zarr", "an ensemble goes to Zarr")
     work = Ensemble(request, block=block, in_memory=path is None)
