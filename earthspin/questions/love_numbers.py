@@ -75,9 +75,7 @@ class LoveNumbers(
 
 
 #: Where `Yielding` keeps each number.
-_FIELDS = {
-    "k2": "k", "h2": "h", "l2": "l", "k2_load": "k_load", "h2_load": "h_load", "l2_load": "l_load",
-}  # fmt: skip
+_FIELDS = {f"{name}2{load}": f"{name}{load}" for load in ("", "_load") for name in "khl"}
 
 
 def _numbers(response: Yielding) -> ComplexArray:

@@ -285,9 +285,6 @@ def path_of_top(tree: Result) -> solids.Solid:
     )
 
 
-TOP_SOLIDS = [("turning", path_of_top)]
-
-
 # --- rotation under torques ----------------------------------------------------------------------
 
 
@@ -418,11 +415,8 @@ def _largest(vectors: FloatArray) -> float:
     return float(np.max(np.linalg.norm(vectors, axis=1))) or 1.0
 
 
-ROTATION_SOLIDS = [("", turning_body)]
-
-
 VIEWS = {
     "free-rotor": Views(ROTOR_FIGURES, ROTOR_SOLIDS),
-    "top": Views(TOP_FIGURES, TOP_SOLIDS),
-    "rotation": Views(ROTATION_FIGURES, ROTATION_SOLIDS),
+    "top": Views(TOP_FIGURES, [("turning", path_of_top)]),
+    "rotation": Views(ROTATION_FIGURES, [("", turning_body)]),
 }
