@@ -96,13 +96,10 @@ class SceneError(EarthspinError, ValueError):
     perturber sun
     """
 
-    def __init__(
-        self, key: str, given: Any, problem: str, *, source: str = "", remedy: str = ""
-    ) -> None:
+    def __init__(self, key: str, given: Any, problem: str, *, source: str = "") -> None:
         self.source, self.key, self.given, self.problem = source, key, given, problem
-        self.remedy = remedy
         place = f"{_named(source)}: {_brief(key)}" if source else _brief(key)
-        super().__init__(_sentence(f"{place} = {_shown(given)}", problem, remedy))
+        super().__init__(f"{place} = {_shown(given)}: {problem}")
 
 
 @dataclass(frozen=True)
