@@ -12,7 +12,7 @@ import earthspin
 from earthspin import EARTH, MOON, SUN, Body, BodyError, Orbit, Scene, SceneError, UndefinedError
 from earthspin.bodies.planets import MEAN_MOON, MEAN_SUN
 from earthspin.constants import ARCSEC_PER_YEAR, DAY
-from earthspin.torque.rates import circular_orbit_torque
+from tests.reference.mean_torque import circular_orbit_torque
 from tests.refusals import refused
 
 BOTH = [MEAN_SUN, MEAN_MOON]

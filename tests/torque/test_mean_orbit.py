@@ -17,7 +17,7 @@ from earthspin.torque.average import (
     rounding,
 )
 from earthspin.torque.gravity import torque_from_position
-from earthspin.torque.rates import circular_orbit_torque
+from tests.reference.mean_torque import circular_orbit_torque
 
 NORTH = np.array([0.0, 0.0, 1.0])
 tilts = st.floats(0.05, 3.0)

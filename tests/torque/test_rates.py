@@ -8,14 +8,9 @@ import earthspin
 from earthspin import EARTH, MARS, MOON, SUN, Body, UndefinedError
 from earthspin.bodies import BODIES
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, EPSILON_0, JULIAN_YEAR, NORMAL_95
-from earthspin.torque.rates import (
-    circular_orbit_torque,
-    period,
-    period_error,
-    precession_rate,
-    total_uncertainty,
-)
+from earthspin.torque.rates import period, period_error, precession_rate, total_uncertainty
 from tests.conftest import load_pins
+from tests.reference.mean_torque import circular_orbit_torque
 
 PINS = load_pins("precession")
 
