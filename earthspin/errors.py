@@ -341,9 +341,9 @@ class AccuracyError(EarthspinError, ValueError):
     Examples
     --------
     >>> import earthspin
-    >>> from earthspin.mass.multipoles import legendre_coefficients
+    >>> from earthspin.mass.multipoles import moments_of_density
     >>> try:
-    ...     legendre_coefficients(lambda x: abs(x) ** 0.1, 2, accuracy=1e-16)
+    ...     moments_of_density(lambda r, theta: r % 0.1, lambda theta: 1.0 + 0 * theta)
     ... except earthspin.AccuracyError as error:
     ...     print(error.best > error.asked)
     True
