@@ -11,6 +11,7 @@ from earthspin.constants import DAYS_PER_YEAR, NORMAL_95
 from earthspin.errors import UndefinedError
 from earthspin.interior.named import OBSERVED_CORE_NUTATION
 from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.wobble.record import in_blocks
 
 # --- amplitude and phase of the free core nutation ------------------------------------------------
 # The offsets are one complex number, eta = dX + i dY. The free core nutation is a retrograde circle
@@ -118,12 +119,8 @@ def fit(
     from scipy.special import fdtri, stdtrit
 
     spacing = (time[-1] - time[0]) / (time.size - 1)
-    block = max(1, round(BLOCK / spacing))
-    count = time.size // block
-    means = eta[: count * block].reshape(count, block).mean(axis=1)
-    middles = time[: count * block].reshape(count, block).mean(axis=1)
-    length = block * spacing
-    size = round(window / length)
+    middles, means, length = in_blocks(time, eta, BLOCK)
+    count, size = means.size, round(window / length)
     if window < SHORTEST * abs(period) or size > count:
         raise UndefinedError(
             f"a window of {window:.0f} d is not possible; it lies between "
