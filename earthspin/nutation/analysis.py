@@ -192,7 +192,7 @@ class Circles:
         arguments : ndarray, shape (5, t)
             Delaunay arguments, rad.
         """
-        return responses(self, arguments, {"": np.ones(1)})[""]
+        return responses(self, arguments, {"": np.ones(1, dtype=complex)})[""]
 
 
 def term_names(multiples: NDArray[np.int64]) -> list[str]:
