@@ -129,6 +129,7 @@ _MARS_POLES = (
     "half-width of 95 %"
 )
 _MARS_ORDER_2 = c.MARS_GRAVITY + ", degree 2, order 2"
+_IAU_2009 = "Archinal et al. 2011, Celest. Mech. 109, 101"
 _MARS_AXES = "Archinal et al. 2018, Celest. Mech. 130:22, table 4"
 _MARS_YEAR_READ = "ephemeris codes in public repositories: 686.9798519 d"
 _MARS_WOBBLE = "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568; half of the last digit"
@@ -155,13 +156,7 @@ MARS_NUMBERS = {
         4 * _NORM_22 * math.hypot(_C22, _S22), "", None, _MARS_ORDER_2, c.MARS_J2.read_in
     ),
     "flattening": Constant((3396.19 - 3376.20) / 3396.19, "", 4e-5, _MARS_AXES, c.PCK11),
-    "spin_period": Constant(
-        360.0 / 350.89198226 * DAY,
-        "s",
-        None,
-        "Archinal et al. 2011, Celest. Mech. 109, 101",
-        c.PCK11,
-    ),
+    "spin_period": Constant(360.0 / 350.89198226 * DAY, "s", None, _IAU_2009, c.PCK11),
     "orbital_period": Constant(686.9798 * DAY, "s", None, "mean sidereal period", _MARS_YEAR_READ),
 }
 

@@ -124,6 +124,8 @@ _LUNAR_INCLINATION = "5.145 deg, with which the observed one is made, less that 
 _LUNAR_CORE = "a few thousandths of a degree: arXiv:2201.00803"
 #: Obliquity of a solid Titan in its Cassini state, as `cassini_states` computes it, deg.
 _TITAN_IF_SOLID = 0.114
+_TITAN_OCEAN = f"observed, {TITAN_OBLIQUITY.source}, less {_TITAN_IF_SOLID:g} deg of a solid body"
+_TITAN_OCEAN_READ = f"{TITAN_OBLIQUITY.read_in}; that of a solid body: {c.COMPUTED}"
 #: Effects not included in the Cassini-state equation, as changes of the obliquity in the upright
 #: state, by name of the body.
 LEFT_OUT_OF_STATES: dict[str, dict[str, Constant]] = {
@@ -138,11 +140,7 @@ LEFT_OUT_OF_STATES: dict[str, dict[str, Constant]] = {
     },
     "titan": {
         "ocean under the shell": Constant(
-            TITAN_OBLIQUITY.value - _TITAN_IF_SOLID,
-            "deg",
-            None,
-            f"observed, {TITAN_OBLIQUITY.source}, less {_TITAN_IF_SOLID:g} deg of a solid body",
-            f"{TITAN_OBLIQUITY.read_in}; that of a solid body: {c.COMPUTED}",
+            TITAN_OBLIQUITY.value - _TITAN_IF_SOLID, "deg", None, _TITAN_OCEAN, _TITAN_OCEAN_READ
         )
     },
 }

@@ -29,13 +29,8 @@ def flattening_of(j2: Constant, moment: Constant) -> Constant:
     """Dynamical flattening H = J2/(C/(M R2)), with its propagated uncertainty."""
     h = j2.value / moment.value
     u = math.hypot(j2.relative_uncertainty, moment.relative_uncertainty)
-    return Constant(
-        h,
-        "",
-        h * u,
-        f"J2 over C/(M R2): {j2.source}; {moment.source}",
-        f"{j2.read_in}; {moment.read_in}",
-    )
+    source = f"J2 over C/(M R2): {j2.source}; {moment.source}"
+    return Constant(h, "", h * u, source, f"{j2.read_in}; {moment.read_in}")
 
 
 def moments_of(j2: float, h: float, triaxiality: float) -> FloatArray:

@@ -26,13 +26,8 @@ _MEAN = _SEISMIC + ": mean by volume; uncertainty: standard deviation within the
 CRUST_DENSITY = Constant(2660.0, "kg m-3", 220.0, _MEAN, _SEISMIC_READ)
 #: Radius of the mantle's mineral phase transition, about 1050 km deep.
 TRANSITION_RADIUS = Constant(2334.5e3, "m", 25e3, _STEEPEST, _SEISMIC_READ)
-MEAN_RADIUS = Constant(
-    3389.5e3,
-    "m",
-    None,
-    "Archinal et al. 2018, Celest. Mech. 130:22, table 4",
-    c.SHTOOLS + "Mars.py",
-)
+_IAU_2015 = "Archinal et al. 2018, Celest. Mech. 130:22, table 4"
+MEAN_RADIUS = Constant(3389.5e3, "m", None, _IAU_2015, c.SHTOOLS + "Mars.py")
 #: Speeds of shear waves in crust, upper and lower mantle.
 SHEAR_SPEEDS = tuple(
     Constant(speed, "m s-1", spread, _MEAN, _SEISMIC_READ)

@@ -130,13 +130,10 @@ _STAEHLER = "Staehler et al. 2021, Science 373, 443"
 _STAEHLER_READ = "abstract, doi.org/10.1126/science.abi7730: 5.7 to 6.3 g/cm3"
 #: Mean density of the core of Mars.
 MARS_CORE_DENSITY = Constant(6000.0, "kg m-3", 300.0, _STAEHLER, _STAEHLER_READ)
+_MARS_EQUATORIAL = (c.MARS_POLAR_MOMENT.value - c.MARS_J2.value) * c.MARS_GM.value / G.value
+_MARS_EQUATORIAL *= c.MARS_RADIUS.value**2
 #: Moment of a homogeneous core, divided by A = (C/(M R2) - J2) M R2.
-_MARS_CORE = (8 * math.pi / 15 * MARS_CORE_DENSITY.value * CORE_RADIUS.value**5) / (
-    (c.MARS_POLAR_MOMENT.value - c.MARS_J2.value)
-    * c.MARS_GM.value
-    / G.value
-    * c.MARS_RADIUS.value**2
-)
+_MARS_CORE = 8 * math.pi / 15 * MARS_CORE_DENSITY.value * CORE_RADIUS.value**5 / _MARS_EQUATORIAL
 #: Observed Love number of Mars. The paper has an uncertainty of 0.008; this one contains the two
 #: earlier results.
 MARS_K2 = Constant(
