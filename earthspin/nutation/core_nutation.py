@@ -127,7 +127,7 @@ def fit(
             f"{SHORTEST * abs(period):.0f} d, {SHORTEST:g} periods of the free core nutation, and "
             f"the series' {count * length:.0f} d"
         )
-    local = (np.arange(size) - (size - 1) / 2) * length
+    local = (np.arange(size, dtype=float) - (size - 1) / 2) * length
     # A mean over a block shortens a circle.
     shortened = np.sinc(length / period) / np.sinc(spacing / period)
     columns = np.column_stack([np.ones(size), local / window, circle(local, period) * shortened])
