@@ -184,12 +184,12 @@ def _labels_of(array: Any) -> dict[str, Any]:
     tables: dict[str, Any] = {}
     for name, label in array.coords.items():
         floats = label.dtype.kind == "f" and label.size
-        dates = label.dtype.kind == "M"
-        tables[str(name)] = {"dims": list(map(str, label.dims)), "dtype": str(label.dtype)} | (
-            pack(label.values)
-            if floats
-            else {"values": (label.values.astype(str) if dates else label.values).tolist()}
-        )
+        values = label.values.astype(str) if label.dtype.kind == "M" else label.values
+        content = pack(values) if floats else {"values": values.tolist()}
+        tables[str(name)] = {
+            "dims": list(map(str, label.dims)),
+            "dtype": str(label.dtype),
+        } | content
     return tables
 
 

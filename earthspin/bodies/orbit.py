@@ -279,18 +279,12 @@ _SATELLITE_KINDS = kinds_of(Satellite)
 _LARGEST_SATELLITE = 1e60
 #: Smallest GM, that of a rock of 15 kg, m3 s-2.
 _LEAST = 1e-9
+_RANGE_OF_GM = f"it is {_LEAST:g} to {_LARGEST_SATELLITE:g} m3 s-2; leave out what has no mass"
+_RANGE_OF_A = f"it is greater than zero, and at most {_LARGEST_SATELLITE:g} m"
 #: Conditions on each number.
 _SATELLITE_RULES: tuple[tuple[str, Callable[[float], bool], str], ...] = (
-    (
-        "gm",
-        lambda gm: _LEAST <= gm <= _LARGEST_SATELLITE,
-        f"it is {_LEAST:g} to {_LARGEST_SATELLITE:g} m3 s-2; leave out what has no mass",
-    ),
-    (
-        "a",
-        lambda a: 0 < a <= _LARGEST_SATELLITE,
-        f"it is greater than zero, and at most {_LARGEST_SATELLITE:g} m",
-    ),
+    ("gm", lambda gm: _LEAST <= gm <= _LARGEST_SATELLITE, _RANGE_OF_GM),
+    ("a", lambda a: 0 < a <= _LARGEST_SATELLITE, _RANGE_OF_A),
     ("i", lambda i: 0 <= i <= math.pi, "an inclination must be 0 to 180 deg"),
     ("gm_uncertainty", lambda u: u >= 0, "an uncertainty must be zero or more"),
 )

@@ -168,15 +168,8 @@ def from_samples(
             return float(column[i] - slope * x[0]), float(slope)
 
         solid = s[i] > 0 or s[i + 1] > 0
-        layers.append(
-            Layer(
-                float(r[i + 1]),
-                line(rho),
-                line(p),
-                line(s) if solid else (),
-                float(q[i + 1]) if solid else np.inf,
-            )
-        )
+        vs, quality = (line(s), float(q[i + 1])) if solid else ((), np.inf)
+        layers.append(Layer(float(r[i + 1]), line(rho), line(p), vs, quality))
     return LayeredBody(name, tuple(layers), reference)
 
 

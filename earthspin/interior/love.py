@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.polynomial import Polynomial
+from numpy.polynomial import Chebyshev, Polynomial
 from numpy.polynomial.polynomial import polyval
 
 from earthspin.constants import G
@@ -251,7 +251,7 @@ _STRAIN_NODES = 10
 
 
 @lru_cache(maxsize=8)
-def softening(layers: LayeredBody) -> tuple[np.polynomial.Chebyshev, ...]:
+def softening(layers: LayeredBody) -> tuple[Chebyshev, ...]:
     """Ratios of anelastic to elastic Love numbers as polynomials in the change of rigidity.
 
     The Love numbers are `k`, `core_k`, `k_pressure` and `core_k_pressure`.
@@ -263,16 +263,11 @@ def softening(layers: LayeredBody) -> tuple[np.polynomial.Chebyshev, ...]:
     low, high = _STRAIN_RANGE
     strain = (low + high) / 2 + (high - low) / 2 * grid
     love, reference = yielding(layers, strain), elastic(layers)
-    names = ("k", "core_k", "k_pressure", "core_k_pressure")
-    return tuple(
-        np.polynomial.Chebyshev.fit(
-            strain,
-            getattr(love, name) / float(getattr(reference, name)),
-            _STRAIN_NODES - 1,
-            domain=list(_STRAIN_RANGE),
-        )
-        for name in names
-    )
+    ratios = []
+    for name in ("k", "core_k", "k_pressure", "core_k_pressure"):
+        ratio = getattr(love, name) / float(getattr(reference, name))
+        ratios.append(Chebyshev.fit(strain, ratio, _STRAIN_NODES - 1, domain=list(_STRAIN_RANGE)))
+    return tuple(ratios)
 
 
 # --- from the centre to the surface -------------------------------------------------------------

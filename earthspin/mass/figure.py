@@ -64,12 +64,8 @@ def check_flattening(flattening: ArrayLike) -> FloatArray:
     values = np.asarray(flattening, dtype=float)
     wrong = ~((values >= LEAST_FLATTENING) & (values < 1))
     if np.any(wrong):
-        raise BodyError(
-            "spheroid",
-            "flattening",
-            first_wrong(values, wrong),
-            "allowed: -1e6 (a needle) to below 1 (a disc), 0 for a sphere",
-        )
+        allowed = "allowed: -1e6 (a needle) to below 1 (a disc), 0 for a sphere"
+        raise BodyError("spheroid", "flattening", first_wrong(values, wrong), allowed)
     return values
 
 

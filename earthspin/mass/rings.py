@@ -202,11 +202,8 @@ def _inverse_cube_excess(s: FloatArray, d: FloatArray, apart: FloatArray) -> Flo
     inverse = np.divide(1.0, square, out=np.zeros_like(square), where=square > 0)
     q = np.sum(s * (s - 2 * d), axis=-1) * inverse
     small = np.abs(q) < 0.5
-    excess = np.where(
-        small,
-        np.expm1(-1.5 * np.log1p(np.where(small, q, 0.0))),
-        (np.sqrt(square) / apart) ** 3 - 1,
-    )
+    excess = np.expm1(-1.5 * np.log1p(np.where(small, q, 0.0)))
+    excess = np.where(small, excess, (np.sqrt(square) / apart) ** 3 - 1)
     return np.asarray(excess * inverse**1.5)
 
 

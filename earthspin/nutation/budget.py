@@ -65,13 +65,9 @@ def contributions(total: float, without: Mapping[str, float]) -> dict[str, float
 
 def published_contributions(effects: Sequence[str]) -> dict[str, float]:
     """Published contribution of each effect to the rate of psi_A, rad/s; 0 if none is published."""
-    published = published_effects() | {
-        FIRST_ORDER: (
-            c.FIRST_ORDER_RATE.value * math.cos(c.EPSILON_0.value * ARCSEC)
-            + c.J2_AND_TILT_RATE.value
-        )
-        * ARCSEC_PER_YEAR
-    }
+    first_order = c.FIRST_ORDER_RATE.value * math.cos(c.EPSILON_0.value * ARCSEC)
+    first_order += c.J2_AND_TILT_RATE.value
+    published = published_effects() | {FIRST_ORDER: first_order * ARCSEC_PER_YEAR}
     return {effect: published.get(effect, 0.0) for effect in effects}
 
 

@@ -26,13 +26,9 @@ from earthspin.units import quantity
 
 def direction(right_ascension: float, declination: float) -> FloatArray:
     """Unit vector from right ascension and declination in radians, shape (3,)."""
-    return np.array(
-        [
-            math.cos(declination) * math.cos(right_ascension),
-            math.cos(declination) * math.sin(right_ascension),
-            math.sin(declination),
-        ]
-    )
+    level = math.cos(declination)
+    x, y = level * math.cos(right_ascension), level * math.sin(right_ascension)
+    return np.array([x, y, math.sin(declination)])
 
 
 def fixed_equator(axis: FloatArray, normal: FloatArray) -> FloatArray:

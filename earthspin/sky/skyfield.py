@@ -164,14 +164,8 @@ def write_segments(function: VectorFunction) -> list[dict[str, Any]] | None:
         if not _segments(inner):
             return None
         path = os.path.abspath(inner.ephemeris.path)
-        tables.append(
-            {
-                "kernel": path,
-                "centre": int(term.center),
-                "target": int(term.target),
-                "sha256": Ephemeris(path).sha256,
-            }
-        )
+        segment = {"centre": int(term.center), "target": int(term.target)}
+        tables.append({"kernel": path} | segment | {"sha256": Ephemeris(path).sha256})
     return tables
 
 
