@@ -186,10 +186,8 @@ def _labels_of(array: Any) -> dict[str, Any]:
         floats = label.dtype.kind == "f" and label.size
         values = label.values.astype(str) if label.dtype.kind == "M" else label.values
         content = pack(values) if floats else {"values": values.tolist()}
-        tables[str(name)] = {
-            "dims": list(map(str, label.dims)),
-            "dtype": str(label.dtype),
-        } | content
+        dims = list(map(str, label.dims))
+        tables[str(name)] = {"dims": dims, "dtype": str(label.dtype)} | content
     return tables
 
 

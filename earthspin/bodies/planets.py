@@ -29,11 +29,9 @@ _JACOBSON = "C/(M R2) = 0.2405 agrees with the pole of Jacobson 2007, BAAS 39, 3
 #: Contributions to the precession rate other than torques on the bulge, by planet and effect.
 LEFT_OUT_OF_RATES: dict[str, dict[str, Constant]] = {
     "mars": {
-        "geodesic": Constant(-6.754e-3, "arcsec/yr", None, _BALAND, "abstract of arXiv:2211.04937"),
+        "geodesic": Constant(-6.754e-3, "arcsec/yr", None, _BALAND, "abstract of arXiv:2211.04937")
     },
-    "saturn": {
-        "C from pole data": Constant(-0.07, "arcsec/yr", None, _JACOBSON, c.COMPUTED),
-    },
+    "saturn": {"C from pole data": Constant(-0.07, "arcsec/yr", None, _JACOBSON, c.COMPUTED)},
 }
 
 _SUN_AND_MOON = ("sun", "moon")

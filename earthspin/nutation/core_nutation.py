@@ -243,10 +243,7 @@ def predict(
     values = np.array([fits.ahead(h, mjd.size - 1)[0] for h in horizon])
     whole = np.ceil(horizon).astype(int)
     widths = {h: half_width(fits, eta, h) for h in np.unique(whole)}
-    return (
-        np.stack([values.real, values.imag], axis=1),
-        np.array([widths[h] for h in whole]),
-    )
+    return np.stack([values.real, values.imag], axis=1), np.array([widths[h] for h in whole])
 
 
 def fit_each_day(time: FloatArray, eta: ComplexArray, weight: FloatArray) -> Fits:

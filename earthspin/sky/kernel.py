@@ -442,9 +442,7 @@ _DISTANCES = (
 )
 _SIZES = list(zip(chain(*_DIRECTIONS), chain(*_DISTANCES), strict=True))
 #: Differences of direction (mas) and distance (m) by two NAIF codes, the smaller first.
-DIFFERENCES: dict[tuple[int, ...], tuple[float, float]] = dict(
-    zip(combinations(_CODES, 2), _SIZES, strict=True)
-)
+DIFFERENCES = dict(zip(combinations(_CODES, 2), _SIZES, strict=True))
 
 
 def largest_difference(centre: int, target: int) -> tuple[float, float]:
