@@ -14,7 +14,7 @@ import re
 import stat
 import traceback
 import unicodedata
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, ParamSpec, TypeVar
 
@@ -131,6 +131,12 @@ class Where:
     def at(self, inner: str) -> Where:
         """Return the location of an element of this value, such as `body.j2` inside `body`."""
         return Where(f"{self.key}.{inner}", self.source, self.typed)
+
+    def refuse_unknown(self, table: Mapping[str, Any], names: Collection[str]) -> None:
+        """Raise an error for the first key of a table that is not among the allowed names."""
+        for name in table:
+            if name not in names:
+                raise self.at(name).error(table[name], nearest(name, names))
 
 
 class BodyError(EarthspinError, ValueError):
@@ -334,9 +340,9 @@ class AccuracyError(EarthspinError, ValueError):
     Examples
     --------
     >>> import earthspin
-    >>> from earthspin.mass.multipoles import legendre_coefficients
+    >>> from earthspin.mass.multipoles import moments_of_density
     >>> try:
-    ...     legendre_coefficients(lambda x: abs(x) ** 0.1, 2, accuracy=1e-16)
+    ...     moments_of_density(lambda r, theta: r % 0.1, lambda theta: 1.0 + 0 * theta)
     ... except earthspin.AccuracyError as error:
     ...     print(error.best > error.asked)
     True

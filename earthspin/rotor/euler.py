@@ -232,17 +232,6 @@ def twice_energy(moments: Moments, omega: Any) -> FloatArray:
     return np.asarray(np.sum(principal_moments(moments).values * np.square(omega), axis=-1))
 
 
-def angular_momentum_squared(moments: Moments, omega: Any) -> FloatArray:
-    """Squared angular momentum L2 = sum of (I w)^2, kg2 m4/s2, invariant without torque.
-
-    Parameters
-    ----------
-    moments, omega
-        As for `euler_rates`.
-    """
-    return np.asarray(np.sum((principal_moments(moments).values * omega) ** 2, axis=-1))
-
-
 def axis_stability(moments: Moments, speed: Any) -> AxisStability:
     """Frequency or growth rate of small disturbances of the rotation about principal axes.
 

@@ -162,12 +162,7 @@ SHORTEST_EXCITATION = 3653
 #: What is observed: free wobble, circles and level.
 _OBSERVED = np.array([[1, 0, 0, 0, 1, 1, 1, 1, 1, 0]], dtype=complex)
 #: Which states belong to which component.
-COMPONENTS = {
-    "Chandler": [0],
-    "annual": [4, 5],
-    "semiannual": [6, 7],
-    "slow pole": [8],
-}
+COMPONENTS = {"Chandler": [0], "annual": [4, 5], "semiannual": [6, 7], "slow pole": [8]}
 
 
 @dataclass(frozen=True)

@@ -225,14 +225,9 @@ def envelope(
     residuals = series - np.einsum("wk,sk->ws", sizes, columns)
     to_time_zero = np.exp(-2j * np.pi * middle[:, None] / np.array(terms[:3]))
     turned = sizes[:, 2:5] * to_time_zero
-    return Envelope(
-        middle,
-        turned[:, 0],
-        turned[:, 1],
-        turned[:, 2],
-        sizes[:, 0],
-        _amplitude_error(residuals, spacing, 2 * np.pi / period),
-    )
+    chandler, annual, retrograde = turned.T
+    error = _amplitude_error(residuals, spacing, 2 * np.pi / period)
+    return Envelope(middle, chandler, annual, retrograde, sizes[:, 0], error)
 
 
 def _amplitude_error(residuals: ComplexArray, spacing: float, rate: float) -> FloatArray:
