@@ -14,7 +14,7 @@ from functools import cache, cached_property, partial, update_wrapper
 from threading import Lock
 from typing import Any, Generic, NamedTuple, ParamSpec, TypeVar, overload
 
-from earthspin.engine.variables import Variable, Variables
+from earthspin.engine.variables import Variables
 
 P = ParamSpec("P")
 R = TypeVar("R", covariant=True)
@@ -55,6 +55,8 @@ class Part(Generic[P, R]):
         Names of the required and of the optional parameters.
     gives : mapping of str to Variable
         The variables that the part adds to an answer or section; empty for an intermediate part.
+    fields : frozenset of str
+        Names of the declared variables and labels.
     unless : tuple of callable
         Each takes keys of the question by name and returns a reason for leaving the part out.
     describe : callable or None
@@ -78,7 +80,8 @@ class Part(Generic[P, R]):
         self.describe, self.same_for = describe, same_for
         self._stored: OrderedDict[Hashable, R] = OrderedDict()
         self._lock = Lock()
-        self.gives = _schema_of(function)
+        returned = _returned(function)
+        self.gives, self.fields = returned.schema, frozenset(returned.fields)
         self.name = function.__name__
         line = (function.__doc__ or "").strip().split("\n")[0].rstrip(".")
         self.does = line[:1].lower() + line[1:] if line[1:2].islower() else line
@@ -166,14 +169,14 @@ def _arguments(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, 
     return {name: keys[name] for name in _parameters(function, inspect.Parameter.empty)}
 
 
-def _schema_of(function: Callable[..., Any]) -> Mapping[str, Variable]:
-    """Declared variables that a function returns, by name; empty for other return types."""
+def _returned(function: Callable[..., Any]) -> type[Variables]:
+    """Class of variables that a function returns; the base class, which has none, by default."""
     returned = function.__annotations__.get("return")
     if isinstance(returned, str):
         returned = function.__globals__.get(returned)
     if isinstance(returned, type) and issubclass(returned, Variables):
-        return returned.schema
-    return {}
+        return returned
+    return Variables
 
 
 @cache

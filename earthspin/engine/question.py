@@ -122,8 +122,8 @@ class Question:
         Variable of the answer, or error of several variables, that is quoted first.
     positional : tuple of str
         Positional arguments of the call.
-    exclusive : tuple of tuple of str
-        Groups of keys that exclude one another, such as `times` and (`span`, `step`).
+    exclusive : tuple of tuple of tuple of str
+        Choices between groups of keys, such as `times` or (`span`, `step`).
     by_body : tuple of str
         Keys whose defaults depend on the numbers of a body; all members of an ensemble have those
         of the nominal body.
@@ -135,7 +135,7 @@ class Question:
     page: ClassVar[str] = ""
     headline: ClassVar[str] = ""
     positional: ClassVar[tuple[str, ...]]
-    exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    exclusive: ClassVar[tuple[tuple[tuple[str, ...], ...], ...]] = ()
     by_body: ClassVar[tuple[str, ...]] = ()
     graph: ClassVar[Graph]
     key_table: ClassVar[dict[str, Key]]
@@ -200,10 +200,11 @@ class Question:
                 value = entry.default
             object.__setattr__(self, name, value)
         object.__setattr__(self, "title", self.title or self.word)
-        groups = [group for group in self.exclusive if self.given & set(group)]
-        if len(groups) > 1:
-            ways = ", or ".join(" and ".join(group) for group in self.exclusive)
-            raise self.error(groups[0][0], "...", f"give either {ways}")
+        for groups in self.exclusive:
+            used = [group for group in groups if self.given & set(group)]
+            if len(used) > 1:
+                ways = ", or ".join(" and ".join(group) for group in groups)
+                raise self.error(used[0][0], "...", f"give either {ways}")
         if self.uncertainty == "sample" and self.members is not None:
             problem = "an ensemble is a sample already; give either members or uncertainty"
             raise self.error("uncertainty", "sample", problem)
@@ -285,8 +286,13 @@ class Question:
         table: dict[str, Any] = {"compute": self.word}
         own: dict[str, Any] = {}
         keys = keys_of(type(self))
-        used = next((group for group in self.exclusive if self.given & set(group)), None)
-        without_effect = set[str]().union(*self.exclusive).difference(used) if used else set()
+        without_effect = {
+            key
+            for groups in self.exclusive
+            for group in groups
+            for key in group
+            if not self.given & set(group) and any(self.given & set(other) for other in groups)
+        }
         omitted = keys.keys() - self.given if given else without_effect
         for name, entry in keys.items():
             value = getattr(self, name)
@@ -404,10 +410,11 @@ class Graph:
     widest: int = 1
 
     @cached_property
-    def labels(self) -> frozenset[str]:
+    def labels(self) -> set[str]:
         """Names of all variables of results, and of their dimensions."""
-        declared = [item for part in self.parts.values() for item in part.gives.items()]
-        return frozenset(name for variable, entry in declared for name in (variable, *entry.dims))
+        parts = self.parts.values()
+        dims = {name for part in parts for entry in part.gives.values() for name in entry.dims}
+        return dims.union(*(part.fields | part.gives.keys() for part in parts))
 
 
 Parts = Part[..., Any] | tuple[Part[..., Any], ...]
