@@ -286,13 +286,10 @@ class Question:
         table: dict[str, Any] = {"compute": self.word}
         own: dict[str, Any] = {}
         keys = keys_of(type(self))
-        without_effect = {
-            key
-            for groups in self.exclusive
-            for group in groups
-            for key in group
-            if not self.given & set(group) and any(self.given & set(other) for other in groups)
-        }
+        without_effect = set[str]()
+        for groups in self.exclusive:
+            if used := [group for group in groups if self.given & set(group)]:
+                without_effect |= set[str]().union(*groups).difference(*used)
         omitted = keys.keys() - self.given if given else without_effect
         for name, entry in keys.items():
             value = getattr(self, name)

@@ -80,15 +80,12 @@ class Angles(Numbers):
         return f"{degrees!r} deg" if math.radians(degrees) == value else f"{float(value)!r} rad"
 
 
-def _labelled(angle: Any, name: str, label: Any, **attrs: str) -> xr.DataArray:
-    """Label an angle, or angles along the dimension `name`, by the numbers that a user gives."""
+def _labelled(angle: Any, name: str, label: Any = None, **attrs: str) -> xr.DataArray:
+    """Label an angle, or angles along the dimension `name`: by default in degrees."""
     dims = (name,) if np.ndim(angle) else ()
+    # rounded, because radians are not exact
+    label = np.degrees(angle).round(12) if label is None else label
     return xr.DataArray(angle, {name: (dims, label, attrs)}, dims)
-
-
-def _in_degrees(angle: Any, name: str, **attrs: str) -> xr.DataArray:
-    """Label angles by degrees, without the rounding errors of the conversion from degrees."""
-    return _labelled(angle, name, np.degrees(angle).round(12), **attrs)
 
 
 # --- the question --------------------------------------------------------------------------------
@@ -188,10 +185,10 @@ def daily_means(
     body: Body,
 ) -> InsolationSeries:
     """Compute the insolation at every epoch, with its error."""
-    place = _in_degrees(latitude, "latitude", units="deg", long_name="latitude")
+    place = _labelled(latitude, "latitude", units="deg", long_name="latitude")
     if day is None:
         words = "true longitude of the Sun from the moving equinox"
-        season, sun = "longitude", _in_degrees(longitude, "longitude", units="deg", long_name=words)
+        season, sun = "longitude", _labelled(longitude, "longitude", units="deg", long_name=words)
     else:
         mean_longitude = _TURN * (day - MARCH_EQUINOX) / CALENDAR_YEAR
         words = f"day of the year, of which {MARCH_EQUINOX:g} is the March equinox"
@@ -289,17 +286,8 @@ def daily_insolation(
     >>> print(june.round(1).values)
     [476.4 527.3 479.3]
     """
-    missing = [name for name in _NEEDED if name not in getattr(result, "data_vars", ())]
-    if missing:
-        raise SceneError(
-            "result", type(result).__name__, "give an answer of long_term", source=_CALL
-        )
-    for name, angle in (("latitude", latitude), ("solar_longitude", solar_longitude)):
-        try:
-            xr.align(result["obliquity"], *[angle] * isinstance(angle, xr.DataArray), join="exact")
-        except ValueError as misfit:
-            problem = f"give it the labels of the result, like epoch=result.epoch ({misfit})"
-            raise SceneError(name, "an array", problem, source=_CALL) from None
+    if not {*_NEEDED} <= {*getattr(result, "data_vars", ())}:
+        raise Where("result", _CALL).error(type(result).__name__, "give an answer of long_term")
     if not isinstance(true_longitude, (bool, np.bool_)):
         raise Where("true_longitude", _CALL).error(true_longitude, "give True or False")
     body = str(result["obliquity"].attrs.get("orbit_of", ""))
@@ -311,37 +299,42 @@ def daily_insolation(
         )
     if year is not None and days is not None:
         words = "give one length of time, at most a year"
-        kind = Number("d", "30 d", above=0.0, high=year / DAY, limits=words)
-        window = kind.read(days, Where("days", _CALL)) * DAY / year
+        length = Number("d", "30 d", above=0.0, high=year / DAY, limits=words)
+        window = length.read(days, Where("days", _CALL)) * DAY / year
     if year is not None and solar_constant is None:
         constant = _solar_constant(year)
     else:
-        kind = Number("W/m2", "1361 W/m2", above=0.0, limits="give one number above zero")
-        constant = kind.read(solar_constant, Where("solar_constant", _CALL))
-    place = _place(latitude, "latitude", np.pi / 2)
-    sun = _place(solar_longitude, "solar_longitude", _TURN)
+        flux = Number("W/m2", "1361 W/m2", above=0.0, limits="give one number above zero")
+        constant = flux.read(solar_constant, Where("solar_constant", _CALL))
+    place = _place(latitude, "latitude", np.pi / 2, result)
+    sun = _place(solar_longitude, "solar_longitude", _TURN, result)
     value, error = _with_error(result, place, sun, constant, window, bool(true_longitude))
     error.attrs = {"units": "W m-2", "long_name": "95 % half-width of the daily insolation"}
+    kind = "true" if true_longitude else "mean"
     value.attrs = {
         "units": "W m-2",
         "long_name": "sunlight at the top of the atmosphere, mean over a day",
         "solar_constant": constant,
-        "comment": f"{'true' if true_longitude else 'mean'} longitude of the Sun from the moving "
-        "equinox",
+        "comment": f"{kind} longitude of the Sun from the moving equinox",
         "references": BERGER,
     }
     return value.rename(_CALL).assign_coords(daily_insolation_error=error)
 
 
-def _place(value: Any, name: str, limit: float) -> xr.DataArray:
+def _place(value: Any, name: str, limit: float, result: xr.Dataset) -> xr.DataArray:
     """Convert latitudes or longitudes to rad; a list is labelled in degrees along `name`."""
     where = Where(name, _CALL)
     angle = _in_radians(value, where, limit)
-    if isinstance(angle, xr.DataArray):
-        return angle
-    if np.ndim(angle) > 1:
-        raise where.error(value, "give one angle, or one list of angles")
-    return _in_degrees(angle, name, units="degree")
+    if not isinstance(angle, xr.DataArray):
+        if np.ndim(angle) > 1:
+            raise where.error(value, "give one angle, or one list of angles")
+        return _labelled(angle, name, units="degree")
+    try:
+        xr.align(result["obliquity"], angle, join="exact")
+    except ValueError as misfit:
+        problem = f"give it the labels of the result, like epoch=result.epoch ({misfit})"
+        raise where.error("an array", problem) from None
+    return angle
 
 
 # --- the computation of both ---------------------------------------------------------------------
@@ -372,7 +365,5 @@ def _with_error(
         for array in xr.align(*arrays, join="outer", copy=False)
     )
     pair = with_error(Season(eps, e, w), Season(*half_widths), phi, sun, is_true, window)
-    value, error = (
-        labels.copy(data=(solar_constant * part).reshape(labels.shape)) for part in pair
-    )
-    return value, error
+    value, error = (solar_constant * fraction.reshape(labels.shape) for fraction in pair)
+    return labels.copy(data=value), labels.copy(data=error)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from itertools import product
 
 import numpy as np
@@ -100,44 +99,10 @@ _AXES = {
 }
 
 
-def _insolation(result: Result) -> tuple[xr.Dataset, str, list[str]]:
-    """Insolation over time in 1000 years, its horizontal axis, and its other axes.
-
-    The horizontal axis is time, or for a single epoch the longest of the others.
-    """
-    answer = in_order(answer_of(result))
-    answer = answer.assign_coords(epoch=answer.epoch / 1000)
-    size = answer.sizes
-    dims = [str(name) for name in sorted(size, key=lambda name: -size[name]) if size[name] > 1]
-    across = "epoch" if size["epoch"] > 1 or not dims else dims[0]
-    answer = answer.squeeze([name for name in size if name not in {*dims, across}])
-    return answer.sortby(dims), across, [name for name in dims if name != across]
-
-
-def _is_map(answer: xr.Dataset, others: list[str]) -> bool:
-    """Return True if the lines along the other axes of an insolation are too many to draw."""
-    return math.prod(answer.sizes[name] for name in others) > len(drawing.CYCLE)
-
-
-def _place(answer: xr.Dataset, names: Iterable[str]) -> str:
-    """Words for epoch, latitude or season of an insolation, such as "latitude 65°, Sun at 90°"."""
-    words = (_AXES[name][1].format(answer[name].values.flat[0]) for name in names)
-    return ", ".join(words).replace("-", "−")
-
-
-def _caption_of_insolation(tree: Result) -> str:
-    answer, across, others = _insolation(tree)
-    axes_drawn = {across, *(others[:1] if _is_map(answer, others) else others)}
-    place = _place(answer, (name for name in _AXES if name in {*answer.coords} - axes_drawn))
-    return (
-        f"Insolation at the top of the atmosphere{place and f' ({place})'}, averaged over a day or "
-        "the window that was given. The Sun's longitude is 90° at the June solstice. Bands are "
-        "95 % half-widths."
-    )
-
-
 def plot_insolation(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the insolation over time with its error, or a map of it instead of many lines.
+
+    For a single epoch, the horizontal axis is the longest of the other dimensions.
 
     Parameters
     ----------
@@ -145,27 +110,42 @@ def plot_insolation(result: Result, *, ax: Axes | None = None) -> Axes:
         Of the question ``insolation``. Of a third dimension of a map, the first label is drawn.
     ax : Axes, optional
     """
-    (answer, across, others), ax = _insolation(result), axes(ax, 8.0, 3.8)
+    answer, ax = in_order(answer_of(result)), axes(ax, 8.0, 3.8)
+    size = answer.sizes
+    dims = [str(name) for name in sorted(size, key=lambda name: -size[name]) if size[name] > 1]
+    across = "epoch" if size["epoch"] > 1 or not dims else dims[0]
+    others = [name for name in dims if name != across]
+    answer = answer.assign_coords(epoch=answer.epoch / 1000).sortby(dims)
+    answer = answer.squeeze([name for name in size if name not in {*dims, across}])
+    constant = [name for name in _AXES if name in answer.coords and name != across]
+
+    def place(line: xr.Dataset) -> str:
+        words = (_AXES[name][1].format(line[name].item()) for name in constant)
+        return ", ".join(words).replace("-", "−")
+
     ax.set_xlabel(_AXES[across][0])
-    if _is_map(answer, others):
-        data = answer.insolation.isel(dict.fromkeys(others[1:], 0))
+    if math.prod(size[name] for name in others) > len(drawing.CYCLE):
+        constant.remove(others[0])
+        data = answer.isel(dict.fromkeys(others[1:], 0)).transpose(others[0], across)
         x, y = data[across].values, data[others[0]].values
-        image = ax.pcolormesh(x, y, data.transpose(others[0], across).values, rasterized=True)
-        ax.grid(False)
-        ax.set_ylabel(_AXES[others[0]][0])
+        image = ax.contourf(x, y, data.insolation.values, levels=13)
+        ax.set(ylabel=_AXES[others[0]][0], title=place(data))
         ax.figure.colorbar(image, ax=ax, label="insolation (W/m²)")
         return ax
-    places = product(*(range(answer.sizes[name]) for name in others))
-    for colour, place in zip(drawing.CYCLE, places, strict=False):
-        line = answer.isel(dict(zip(others, place, strict=True)))
-        x, marker = line[across].values, "o" if line[across].size == 1 else None
-        value, error = line.insolation.values, line.insolation_error.values
-        words = _place(line, others)
-        drawing.band(ax, x, value, error, colour, lw=1.0, marker=marker, label=words)
+    lines = (
+        answer.isel(dict(zip(others, index, strict=True)))
+        for index in product(*(range(size[name]) for name in others))
+    )
+    for colour, line in zip(drawing.CYCLE, lines, strict=False):
+        x, value, error = line[across].values, line.insolation.values, line.insolation_error.values
+        marker = "o" if x.size == 1 else None
+        drawing.band(ax, x, value, error, colour, lw=1.0, marker=marker, label=place(line))
     ax.margins(x=0)
     ax.set_ylabel("insolation (W/m²)")
     if others:
         drawing.legend_above(ax)
+    else:
+        ax.set_title(place(answer))
     return ax
 
 
@@ -283,6 +263,11 @@ FIGURES = [
 ]
 
 
-INSOLATION = [PageFigure("Insolation", _caption_of_insolation, plot_insolation)]
+INSOLATION = PageFigure(
+    "Insolation",
+    "Sunlight at the top of the atmosphere, averaged over a day or the given window. The true "
+    "longitude of the Sun is 90° at the June solstice. Bands are 95 % half-widths.",
+    plot_insolation,
+)
 
-VIEWS = {"long-term": Views(FIGURES), "insolation": Views(INSOLATION)}
+VIEWS = {"long-term": Views(FIGURES), "insolation": Views([INSOLATION])}
