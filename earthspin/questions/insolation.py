@@ -39,7 +39,7 @@ _HEMISPHERE = re.compile(r"\s*(\d+\.?\d*|\.\d+)\s*(?:°|deg)?\s*([NS])\s*")
 def _signed(value: Any) -> Any:
     """Replace the letter of a hemisphere by a sign, as in "-23.5 deg" for "23.5S"."""
     if isinstance(value, (list, tuple)):
-        return [_signed(element) for element in value]
+        return [_signed(text) if isinstance(text, str) else text for text in value]
     match = isinstance(value, str) and _HEMISPHERE.fullmatch(value)
     return f"{'-' if match[2] == 'S' else ''}{match[1]} deg" if match else value
 
