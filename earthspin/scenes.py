@@ -229,10 +229,11 @@ def _changed(
     if "compute" not in table:
         raise SceneError("compute", None, f"it is missing; {nearest('', QUESTIONS)}", source=source)
     question = question_named(table.pop("compute"), source)
-    for group in question.exclusive:  # `times` replace the scene's `span` and `step`
-        if not changes.keys().isdisjoint(group):
-            others = {key for other in question.exclusive if other != group for key in other}
-            table = {key: table[key] for key in table if key not in others - changes.keys()}
+    for groups in question.exclusive:  # `times` replace the scene's `span` and `step`
+        for group in groups:
+            if not changes.keys().isdisjoint(group):
+                others = {key for other in groups if other != group for key in other}
+                table = {key: table[key] for key in table if key not in others - changes.keys()}
     return question.from_table(table, source=source, title=title, typed=typed)
 
 

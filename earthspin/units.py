@@ -168,7 +168,8 @@ def unit_factor(unit: str, target: str, where: Where, example: str) -> float:
 
 
 def _in_symbols(text: str) -> str:
-    """Replace the names of units of time by symbols: "12 hours" becomes "12 h"."""
+    """Replace units of time by symbols ("12 hours" by "12 h"), and degrees_north by degrees."""
+    text = re.sub("degrees?_(?:north|east)", "deg", text)
     return _WORD.sub(lambda match: _SYMBOLS[match[1].lower()], text)
 
 
@@ -385,6 +386,7 @@ class Numbers:
     def words(self) -> str:
         """Text for error messages: shape of the allowed array, and an example of an element."""
         size = " x ".join("n" if n is None else str(n) for n in self.shape)
+        size = f"one or {size}" if self.optional_row and len(self.shape) == 1 else size
         return f'{size} values like "{self.example}"' if self.unit else f"{size} numbers"
 
     def read(self, value: object, where: Where) -> FloatArray:
@@ -400,7 +402,7 @@ class Numbers:
         fits = len(shape) == values.ndim and all(
             size in (None, n) and n > 0 for size, n in zip(shape, values.shape, strict=True)
         )
-        if not fits or values.ndim == 0:
+        if not fits or values.ndim < len(self.shape) - self.optional_row:
             raise where.error(f"shape {values.shape}", f"give {self.words}")
         values.flags.writeable = False
         return values

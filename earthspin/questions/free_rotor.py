@@ -109,7 +109,7 @@ class FreeRotor(
 
     page, headline = "rotors", "attitude"
 
-    exclusive = (("times",), ("duration", "points"))
+    exclusive = ((("times",), ("duration", "points")),)
 
     moments: Moments = setting(
         doc="principal moments about the x, y, z axes of the body, in any order of size"

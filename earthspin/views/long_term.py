@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from itertools import product
+
 import numpy as np
 import xarray as xr
 
@@ -85,6 +88,65 @@ def _plot_curves(
         row.set_ylabel(label)
     rows[-1].set_xlabel("time from J2000.0 (1000 years)")
     return rows[0]
+
+
+#: Labels of the axes along which an insolation may be drawn, and words for one of their values.
+_AXES = {
+    "latitude": ("latitude (deg)", "latitude {:g}°"),
+    "longitude": ("true longitude of the Sun (deg)", "Sun at {:g}°"),
+    "day": ("day of the year", "day {:g}"),
+    "epoch": ("time from J2000.0 (1000 years)", "{:g} kyr"),
+}
+
+
+def plot_insolation(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Draw the insolation over time with its error, or a map of it instead of many lines.
+
+    For a single epoch, the horizontal axis is the longest of the other dimensions.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``insolation``. Of a third dimension of a map, the first label is drawn.
+    ax : Axes, optional
+    """
+    answer, ax = in_order(answer_of(result)), axes(ax, 8.0, 3.8)
+    size = answer.sizes
+    dims = [str(name) for name in sorted(size, key=lambda name: -size[name]) if size[name] > 1]
+    across = "epoch" if size["epoch"] > 1 or not dims else dims[0]
+    others = [name for name in dims if name != across]
+    answer = answer.assign_coords(epoch=answer.epoch / 1000).sortby(dims)
+    answer = answer.squeeze([name for name in size if name not in {*dims, across}])
+    constant = [name for name in _AXES if name in answer.coords and name != across]
+
+    def place(line: xr.Dataset) -> str:
+        words = (_AXES[name][1].format(line[name].item()) for name in constant)
+        return ", ".join(words).replace("-", "−")
+
+    ax.set_xlabel(_AXES[across][0])
+    if math.prod(size[name] for name in others) > len(drawing.CYCLE):
+        constant.remove(others[0])
+        data = answer.isel(dict.fromkeys(others[1:], 0)).transpose(others[0], across)
+        x, y = data[across].values, data[others[0]].values
+        image = ax.contourf(x, y, data.insolation.values, levels=13)
+        ax.set(ylabel=_AXES[others[0]][0], title=place(data))
+        ax.figure.colorbar(image, ax=ax, label="insolation (W/m²)")
+        return ax
+    lines = (
+        answer.isel(dict(zip(others, index, strict=True)))
+        for index in product(*(range(size[name]) for name in others))
+    )
+    for colour, line in zip(drawing.CYCLE, lines, strict=False):
+        x, value, error = line[across].values, line.insolation.values, line.insolation_error.values
+        marker = "o" if x.size == 1 else None
+        drawing.band(ax, x, value, error, colour, lw=1.0, marker=marker, label=place(line))
+    ax.margins(x=0)
+    ax.set_ylabel("insolation (W/m²)")
+    if others:
+        drawing.legend_above(ax)
+    else:
+        ax.set_title(place(answer))
+    return ax
 
 
 #: How far the path of the pole is drawn, yr: half a turn either way. Epochs further apart than
@@ -201,4 +263,11 @@ FIGURES = [
 ]
 
 
-VIEWS = {"long-term": Views(FIGURES)}
+INSOLATION = PageFigure(
+    "Insolation",
+    "Sunlight at the top of the atmosphere, averaged over a day or the given window. The true "
+    "longitude of the Sun is 90° at the June solstice. Bands are 95 % half-widths.",
+    plot_insolation,
+)
+
+VIEWS = {"long-term": Views(FIGURES), "insolation": Views([INSOLATION])}
