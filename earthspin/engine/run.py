@@ -310,7 +310,8 @@ class Run:
         ends = [*self.graph.answer, NEGLECTED]
         self._load_modules(ends)
         result, neglected = self.numbers(), self.neglected
-        result.attrs = _described(self.question) | self.provenance(ends)
+        result.attrs = _described(self.question, map(self.__getitem__, self.behind(ends)))
+        result.attrs |= self.provenance(ends)
         result.attrs |= {NEGLECTED: neglected.largest, SCENE: scene_text(self.question)}
         error = error_of(result, self.question.headline)
         if neglected.sizes and error in result:  # errors do not contain what the model leaves out
@@ -413,13 +414,14 @@ def _is_same(old: object, new: object) -> bool:
 # --- attributes ----------------------------------------------------------------------------------
 
 
-def _described(question: Question) -> dict[str, str]:
-    """Attributes of a result that follow from its question: title, references, bodies, versions."""
+def _described(question: Question, parts: Iterable[object]) -> dict[str, str]:
+    """Attributes of a result: title, references of inputs and of parts, bodies, versions."""
     references: list[str] = []
     bodies: dict[str, str] = {}
     for name, value in question.keys().items():
         items = value if isinstance(value, tuple) else (value,)
-        references += filter(None, (getattr(item, "reference", "") for item in items))
+        sources = (source for item in items for source in (item, getattr(item, "orbit", None)))
+        references += filter(None, (getattr(source, "reference", "") for source in sources))
         if items and all(hasattr(item, "changes") for item in items):
             bodies[name] = " ".join(body.name for body in items)
             changes = [
@@ -431,6 +433,7 @@ def _described(question: Question) -> dict[str, str]:
                 bodies[f"{name}_changes"] = "; ".join(changes)
         elif items is value and items and all(isinstance(item, str) for item in items):
             bodies[name] = " ".join(items)
+    references += filter(None, (getattr(result, "reference", "") for result in parts))
     return {
         "Conventions": CONVENTIONS,
         "title": question.title,
