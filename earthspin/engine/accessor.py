@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from earthspin.engine import METHODS, drafts, registered
 from earthspin.engine.members import MEMBER
-from earthspin.engine.question import scene_of
-from earthspin.engine.run import ALL
+from earthspin.engine.question import ALL, scene_of
 from earthspin.errors import SceneError, nearest
 from earthspin.numerics import sampling
 from earthspin.units import real_numbers

@@ -20,6 +20,8 @@ from earthspin.units import Kind, kind_of
 
 #: Name of the part that lists the effects that the model of a question does not include.
 NEGLECTED = "neglected"
+#: Word that requests all sections that apply, or all columns.
+ALL = "all"
 #: Attribute of an answer that holds the complete question as the text of a scene file.
 SCENE = "scene"
 

@@ -19,15 +19,13 @@ from earthspin._lazy import xr
 from earthspin._version import __version__, version
 from earthspin.card import card
 from earthspin.engine.part import Part
-from earthspin.engine.question import NEGLECTED, SCENE, Question, scene_text
+from earthspin.engine.question import ALL, NEGLECTED, SCENE, Question, scene_text
 from earthspin.engine.variables import CONVENTIONS, Neglected, Variables, error_of
 from earthspin.errors import SceneError, UndefinedError, nearest
 
 if TYPE_CHECKING:
     import pandas as pd
 
-#: Word that requests all sections that apply.
-ALL = "all"
 #: Row of the run time for importing modules; the run times of parts exclude it.
 IMPORTS = "imports"
 #: Status of a part whose result of an earlier run was used.
