@@ -42,7 +42,6 @@ FARTHEST = 5000.0
 #: Upper limit of eccentricities in files without names.
 MOST_ECCENTRIC = 0.3
 _WHERE = Where("columns", "read_solution")
-_ATTRIBUTES = ("long_name", "units")
 
 
 def read_solution(path: str | PathLike[str], *, columns: str | None = None) -> xr.Dataset:
@@ -117,12 +116,12 @@ def read_solution(path: str | PathLike[str], *, columns: str | None = None) -> x
             angle = np.radians(longitude)
             data.setdefault("climatic_precession", data["eccentricity"] * np.sin(angle))
             data.setdefault("coprecession", data["eccentricity"] * np.cos(angle))
-    arrays = {
-        name: ("epoch", column, {key: getattr(QUANTITIES[name], key) for key in _ATTRIBUTES})
-        for name, column in data.items()
-    }
     origin = {"source": file.name, "columns": columns, "sha256": checksum(file)}
-    return xr.Dataset(arrays, attrs=origin)
+    solution = xr.Dataset(attrs=origin)
+    for name, column in data.items():
+        attributes = {"long_name": QUANTITIES[name].long_name, "units": QUANTITIES[name].units}
+        solution[name] = ("epoch", column, attributes)
+    return solution
 
 
 def _converted(columns: str, values: FloatArray) -> dict[str, FloatArray]:
