@@ -34,8 +34,8 @@ from earthspin.bodies import Body as Body
 from earthspin.bodies import Orbit as Orbit
 from earthspin.sky.orbit_files import read_orbit as read_orbit
 from earthspin.insolation import daily_insolation as daily_insolation
-from earthspin.solutions import read_solution as read_solution
 from earthspin.stars_near_pole import pole_stars as pole_stars
+from earthspin.solutions import read_solution as read_solution
 from earthspin.questions.polar_motion import excitation as excitation
 from earthspin.questions.polar_motion import fit_chandler as fit_chandler
 from earthspin.questions.polar_motion import polar_motion_from as polar_motion_from
