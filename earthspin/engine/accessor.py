@@ -17,13 +17,13 @@ from numpy.typing import NDArray
 
 from earthspin.engine import METHODS, drafts, registered
 from earthspin.engine.members import MEMBER
-from earthspin.engine.question import ALL, scene_of
+from earthspin.engine.question import ALL, names_in, scene_of
 from earthspin.errors import SceneError, nearest
 from earthspin.numerics import sampling
 from earthspin.units import real_numbers
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
     import pandas as pd
     from astropy.coordinates import SkyCoord
@@ -152,8 +152,8 @@ class Answer:
             total            25712.1
         """
         spread, variables = _spread(self.dataset), [*map(str, self.dataset.data_vars)]
-        wanted: Iterable[str] = [columns] if isinstance(columns, str) else columns
-        if columns == ALL:
+        wanted = names_in(columns, "columns")
+        if wanted == [ALL]:
             wanted = [str(n) for n, v in spread.data_vars.items() if v.ndim or not spread.sizes]
         # a column belongs to the variable with the longest name with which its own begins
         owners = {

@@ -100,6 +100,24 @@ def _shown(value: Any, kind: Kind[Any]) -> Any:
     return plain_words(value) if hasattr(bodies[0], "reference") else kind.write(value)
 
 
+def names_in(value: str | Iterable[str], key: str) -> list[str]:
+    """List the names that a user gives, which are one name, several, or `ALL`.
+
+    Raises
+    ------
+    SceneError
+        If they are no names; `key` is the argument in its message.
+    """
+    try:
+        names = [value] if isinstance(value, str) else [*value]
+    except Exception:  # not iterable
+        raise SceneError(key, value, f"give names, or '{ALL}'") from None
+    for name in names:
+        if not isinstance(name, str):
+            raise SceneError(key, name, f"give names, or '{ALL}'")
+    return names
+
+
 def plain_words(value: Any) -> str:
     """Convert a value to text on one line, with bodies by name."""
     if isinstance(value, (tuple, list)):

@@ -19,7 +19,7 @@ from earthspin._lazy import xr
 from earthspin._version import __version__, version
 from earthspin.card import card
 from earthspin.engine.part import Part
-from earthspin.engine.question import ALL, NEGLECTED, SCENE, Question, scene_text
+from earthspin.engine.question import ALL, NEGLECTED, SCENE, Question, names_in, scene_text
 from earthspin.engine.variables import CONVENTIONS, Neglected, Variables, error_of
 from earthspin.errors import SceneError, UndefinedError, nearest
 
@@ -244,16 +244,12 @@ class Run:
 
     def _named(self, sections: str | Iterable[str]) -> list[str]:
         """Names of the requested sections that apply, without duplicates, in standard order."""
-        known = self.graph.sections
-        try:
-            wanted = [sections] if isinstance(sections, str) else [*sections]
-        except Exception:  # not iterable
-            raise SceneError("sections", sections, f"give names, or '{ALL}'") from None
+        known, wanted = self.graph.sections, names_in(sections, "sections")
         applicable = [name for name in known if not all(map(self.why_not, known[name]))]
-        if isinstance(sections, str) and sections == ALL:
+        if wanted == [ALL]:
             return applicable
         for name in wanted:
-            if not isinstance(name, str) or name not in known:  # type: ignore[redundant-expr]
+            if name not in known:
                 raise SceneError("sections", name, nearest(name, [*known, ALL]))
             if name not in applicable:
                 why = self.why_not(known[name][0])
