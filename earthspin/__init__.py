@@ -20,6 +20,7 @@ _HOME = {
     "earthspin.sky.orbit_files": ("read_orbit",),
     "earthspin.questions.insolation": ("daily_insolation",),
     "earthspin.stars_near_pole": ("pole_stars",),
+    "earthspin.solutions": ("read_solution",),
     "earthspin.questions.polar_motion": (
         "excitation",
         "fit_chandler",

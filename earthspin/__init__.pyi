@@ -35,6 +35,7 @@ from earthspin.bodies import Orbit as Orbit
 from earthspin.sky.orbit_files import read_orbit as read_orbit
 from earthspin.questions.insolation import daily_insolation as daily_insolation
 from earthspin.stars_near_pole import pole_stars as pole_stars
+from earthspin.solutions import read_solution as read_solution
 from earthspin.questions.polar_motion import excitation as excitation
 from earthspin.questions.polar_motion import fit_chandler as fit_chandler
 from earthspin.questions.polar_motion import polar_motion_from as polar_motion_from
@@ -435,6 +436,7 @@ __all__ = [
     "read",
     "read_excitation",
     "read_orbit",
+    "read_solution",
     "rotation",
     "run",
     "run_tree",

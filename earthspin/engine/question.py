@@ -30,6 +30,8 @@ from earthspin.units import Kind, kind_of
 
 #: Name of the part that lists the effects that the model of a question does not include.
 NEGLECTED = "neglected"
+#: Word that requests all sections that apply, or all columns.
+ALL = "all"
 #: Attribute of an answer that holds the complete question as the text of a scene file.
 SCENE = "scene"
 
@@ -108,6 +110,24 @@ def _shown(value: Any, kind: Kind[Any]) -> Any:
     return plain_words(value) if hasattr(bodies[0], "reference") else kind.write(value)
 
 
+def names_in(value: str | Iterable[str], key: str) -> list[str]:
+    """List the names that a user gives, which are one name, several, or `ALL`.
+
+    Raises
+    ------
+    SceneError
+        If they are no names; `key` is the argument in its message.
+    """
+    try:
+        names = [value] if isinstance(value, str) else [*value]
+    except Exception:  # not iterable
+        raise SceneError(key, value, f"give names, or '{ALL}'") from None
+    for name in names:
+        if not isinstance(name, str):
+            raise SceneError(key, name, f"give names, or '{ALL}'")
+    return names
+
+
 def plain_words(value: Any) -> str:
     """Convert a value to text on one line, with bodies by name."""
     if isinstance(value, (tuple, list)):
@@ -130,6 +150,8 @@ class Question:
         Page of the documentation that explains the method; empty if there is none.
     headline : str
         Variable of the answer, or error of several variables, that is quoted first.
+    columns : tuple of str
+        Variables of the answer that a CSV file has by default, with their errors; all if empty.
     positional : tuple of str
         Positional arguments of the call.
     exclusive : tuple of tuple of tuple of str
@@ -144,6 +166,7 @@ class Question:
     table: ClassVar[str]
     page: ClassVar[str] = ""
     headline: ClassVar[str] = ""
+    columns: ClassVar[tuple[str, ...]] = ()
     positional: ClassVar[tuple[str, ...]]
     exclusive: ClassVar[tuple[tuple[tuple[str, ...], ...], ...]] = ()
     by_body: ClassVar[tuple[str, ...]] = ()

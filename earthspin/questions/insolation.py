@@ -13,8 +13,7 @@ from earthspin._lazy import xr
 from earthspin.bodies import BODIES, EARTH, SUN, Body
 from earthspin.constants import AU, DAY, SOLAR_CONSTANT
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import NEGLECTED, key
+from earthspin.engine.question import NEGLECTED, key, part
 from earthspin.engine.variables import Neglected, Variables, labels, measured, si
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray

@@ -149,6 +149,7 @@ class LongTerm(
     """
 
     page, headline = "long_term", "obliquity"
+    columns = ("obliquity", "eccentricity", "longitude_of_perihelion", "climatic_precession")
 
     exclusive = ((("times",), ("span", "step")),)
     many_pulls = True

@@ -135,6 +135,11 @@ class OrbitTable:
         return {"orbit_sha256": self.sha256} if self.sha256 else {}
 
     @property
+    def reference(self) -> str:
+        """Origin of the orbit, for the references of a result."""
+        return f"orbit of {self.name}: {self.source}"
+
+    @property
     def coverage(self) -> tuple[float, float]:
         """First and last time that the orbit table covers, s from J2000.0 TDB."""
         return float(self.edges[0]), float(self.edges[-1])

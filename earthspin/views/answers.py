@@ -282,7 +282,7 @@ def _footer(answer: xr.Dataset) -> str:
     if "ephemeris" in attrs:
         words += f" Kernel {attrs['ephemeris']}, SHA-256 {attrs['ephemeris_sha256']}."
     if attrs["references"]:
-        words += f" Sources of the bodies' numbers: {attrs['references']}."
+        words += f" Sources of the numbers: {attrs['references']}."
     return words
 
 
