@@ -20,7 +20,7 @@ from earthspin.constants import NORMAL_95, PSI_A_RATE
 from earthspin.errors import EarthspinError
 from earthspin.questions.cassini_states import CassiniStates
 from earthspin.questions.precession import Precession
-from earthspin.views.tables import NUMBERS_ONLY, some_unknown, systematic_size
+from earthspin.views.tables import NUMBERS_ONLY, systematic_size
 
 #: Signs of units, and their size in degrees; obliquities below `SMALL` (deg) are in minutes of arc.
 UNITS, SMALL = {"arcmin": "′", "deg": "°"}, 0.1
@@ -143,8 +143,7 @@ def left_out(tree: xr.DataTree) -> float:
     The nodes of satellites do not count: they move the pole about the mean that has this rate.
     """
     section = tree["neglected"].to_dataset()
-    known = section.sizes["effect"] and not some_unknown(section)
-    return systematic_size(section) if known else math.nan
+    return systematic_size(section)
 
 
 def world(name: str) -> World:

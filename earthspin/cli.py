@@ -16,14 +16,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import earthspin
 from earthspin._version import __version__
-from earthspin.errors import (
-    EarthspinError,
-    MissingExtraError,
-    OutputError,
-    SceneError,
-    nearest,
-    printable,
-)
+from earthspin.errors import EarthspinError, MissingExtraError, OutputError, SceneError, printable
 from earthspin.process import RESULTS, USAGE_ERROR, run_command
 
 if TYPE_CHECKING:
@@ -159,20 +152,15 @@ def _parser() -> ArgumentParser:
     add("--members", metavar="N|FILE", help=words)
     add("--seed", type=int, metavar="N", help="seed of the random numbers (default: 0)")
     add("--out", required=True, metavar="X.zarr", help="store; an unfinished one is resumed")
-    cluster = ensemble.add_mutually_exclusive_group()
-    cluster.add_argument(
-        "--workers", type=int, metavar="N", help="start a local cluster of N workers"
-    )
-    cluster.add_argument(
-        "--scheduler", metavar="ADDRESS", help="use a running cluster, like tcp://host:8786"
-    )
+    cluster = ensemble.add_mutually_exclusive_group().add_argument
+    cluster("--workers", type=int, metavar="N", help="start a local cluster of N workers")
+    cluster("--scheduler", metavar="ADDRESS", help="a running cluster, like tcp://host:8786")
     add("--block", type=int, metavar="N", help="number of members computed and stored at a time")
     add("--drop", **flag, help="leave out and count members that are not possible")
     add("--json", **flag, help="print progress as lines of JSON")
 
-    add = of_scene(
-        "plan", _plan, "show which parts a scene needs, and which it leaves out"
-    ).add_argument
+    words = "show which parts a scene needs, and which it leaves out"
+    add = of_scene("plan", _plan, words).add_argument
     add("--sections", metavar="NAMES|all", help=sections("none"))
 
     command("scenes", _scenes, "list the shipped scenes")
@@ -180,9 +168,8 @@ def _parser() -> ArgumentParser:
     add = command("keys", _keys, "list the questions and their keys").add_argument
     add("question", nargs="?", help="default: all")
 
-    add = command(
-        "info", _info, "print versions and kernels, or the numbers of bodies"
-    ).add_argument
+    words = "print versions and kernels, or the numbers of bodies"
+    add = command("info", _info, words).add_argument
     add("what", nargs="?", choices=("bodies",), help="bodies: list them")
     add("name", nargs="?", metavar="NAME", help="body whose numbers and sources are printed")
 
@@ -199,6 +186,7 @@ def _check_command(word: str, parser: ArgumentParser) -> None:
     commands = parser.get_default("commands")
     if not word or word in commands:
         return
+    from earthspin.errors import nearest
     from earthspin.scenes import QUESTIONS, load_scene, shipped_scenes
 
     question = next((q for q, call in QUESTIONS.calls.items() if word in (q, call)), word)
@@ -306,8 +294,8 @@ def _ensemble(options: Namespace) -> None:
     """Command `ensemble`: run a scene many times with different inputs."""
     import json
 
-    from earthspin.many import ensemble
     from earthspin.progress import lines_to
+    from earthspin.scenes import ensemble
 
     members = options.members
     if members is not None and members.lstrip("+-").isdecimal():

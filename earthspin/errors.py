@@ -96,13 +96,10 @@ class SceneError(EarthspinError, ValueError):
     perturber sun
     """
 
-    def __init__(
-        self, key: str, given: Any, problem: str, *, source: str = "", remedy: str = ""
-    ) -> None:
+    def __init__(self, key: str, given: Any, problem: str, *, source: str = "") -> None:
         self.source, self.key, self.given, self.problem = source, key, given, problem
-        self.remedy = remedy
         place = f"{_named(source)}: {_brief(key)}" if source else _brief(key)
-        super().__init__(_sentence(f"{place} = {_shown(given)}", problem, remedy))
+        super().__init__(f"{place} = {_shown(given)}: {problem}")
 
 
 @dataclass(frozen=True)
@@ -166,9 +163,8 @@ class BodyError(EarthspinError, ValueError):
 
     def __init__(self, body: str, field: str, given: Any, allowed: str) -> None:
         self.body, self.field, self.given, self.allowed = body, field, given, allowed
-        super().__init__(
-            f"body '{_brief(body)}': {field} = {_shown(given)} is not possible; {allowed}"
-        )
+        words = f"{field} = {_shown(given)} is not possible; {allowed}"
+        super().__init__(f"body '{_brief(body)}': {words}")
 
     @classmethod
     def lacking(cls, body: str, forms: Mapping[str, str]) -> BodyError:
@@ -185,9 +181,8 @@ class BodyError(EarthspinError, ValueError):
         names = f"{', '.join(most)} and {last}" if most else last
         given = ", ".join(f"{name} = {form}" for name, form in forms.items())
         error = cls(body, last, None, f"this question needs {names}")
-        error.args = (
-            f"body '{_brief(body)}' has no {names}, which this question needs; give {given}",
-        )
+        words = f"has no {names}, which this question needs; give {given}"
+        error.args = (f"body '{_brief(body)}' {words}",)
         return error
 
 
@@ -213,10 +208,8 @@ class UnitsError(EarthspinError, ValueError):
 
     def __init__(self, what: str, given: Any, wanted: str, example: str) -> None:
         self.what, self.given, self.wanted = what, given, wanted
-        super().__init__(
-            f"{what} = {_shown(given)} is not a value in units of {wanted}; "
-            f"write it like {example!r}"
-        )
+        words = f"is not a value in units of {wanted}; write it like {example!r}"
+        super().__init__(f"{what} = {_shown(given)} {words}")
 
 
 class KernelError(EarthspinError, OSError):
@@ -357,10 +350,8 @@ class AccuracyError(EarthspinError, ValueError):
 
     def __init__(self, asked: float, best: float, unit: str, remedy: str) -> None:
         self.asked, self.best, self.unit = asked, best, unit
-        super().__init__(
-            f"accuracy of {asked:.3g} {unit} was asked for, the best there is here is "
-            f"{_rounded_up(best)} {unit}; {remedy}"
-        )
+        limit = f"the best there is here is {_rounded_up(best)} {unit}"
+        super().__init__(f"accuracy of {asked:.3g} {unit} was asked for, {limit}; {remedy}")
 
 
 class OutputError(EarthspinError, OSError):
@@ -399,9 +390,8 @@ class MissingExtraError(EarthspinError, ImportError):
     def __init__(self, package: str, extra: str | None, purpose: str) -> None:
         self.package, self.extra = package, extra
         what = f"'earthspin[{extra}]'" if extra else package
-        super().__init__(
-            f"{purpose} needs the package '{package}'; install it with pip install {what}"
-        )
+        remedy = f"install it with pip install {what}"
+        super().__init__(f"{purpose} needs the package '{package}'; {remedy}")
 
 
 def _rebuild(

@@ -12,22 +12,12 @@ import datetime as dt
 import math
 import os
 import re
+import typing
 import warnings
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from types import NoneType, UnionType
-from typing import (
-    Annotated,
-    Any,
-    ClassVar,
-    Literal,
-    Protocol,
-    TypeGuard,
-    TypeVar,
-    Union,
-    get_args,
-    get_origin,
-)
+from types import NoneType
+from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeGuard, TypeVar
 
 import numpy as np
 
@@ -359,10 +349,8 @@ class Number:
 
     def _range(self) -> str:
         unit = f" {self.unit}" if self.unit else ""
-        if self.above == 0:
-            return "it is greater than zero"
         if self.above > -math.inf:
-            return f"it is greater than {self.above:g}{unit}"
+            return f"it is greater than {f'{self.above:g}{unit}' if self.above else 'zero'}"
         if self.high < math.inf:
             return f"it lies between {self.low:g} and {self.high:g}{unit}"
         return f"it is at least {self.low:g}{unit}"
@@ -421,7 +409,7 @@ class Numbers:
         """Form stored in scene files: a list of numbers, or the bytes of a long array."""
         if value.size > LONGEST_LIST:
             return pack(value) | {"unit": self.unit}
-        return value.tolist() if not self.unit else _with_unit(value.tolist(), self.unit)
+        return _with_unit(value.tolist(), self.unit) if self.unit else value.tolist()
 
 
 def _with_unit(values: Any, unit: str) -> Any:
@@ -633,15 +621,16 @@ def kind_of(annotation: Any) -> Kind[Any]:
     annotation
         A type that reads itself, an Annotated with a kind, Literal words, or a tuple of them.
     """
-    if get_origin(annotation) is Annotated:
+    origin, options = typing.get_origin(annotation), typing.get_args(annotation)
+    if origin is Annotated:
         return next(extra for extra in annotation.__metadata__ if hasattr(extra, "read"))
-    if get_origin(annotation) in (Union, UnionType):
-        (inner,) = (option for option in get_args(annotation) if option is not NoneType)
+    if NoneType in options:
+        (inner,) = (option for option in options if option is not NoneType)
         return kind_of(inner)
-    if get_origin(annotation) is Literal:
-        return Word(get_args(annotation))
-    if get_origin(annotation) is tuple:
-        return Several(kind_of(get_args(annotation)[0]))
+    if origin is Literal:
+        return Word(options)
+    if origin is tuple:
+        return Several(kind_of(options[0]))
     if hasattr(annotation, "read"):
         return annotation  # type: ignore[no-any-return]
     plain: dict[Any, Kind[Any]] = {str: Text(), int: Whole()}

@@ -8,8 +8,7 @@ import numpy as np
 
 from earthspin.bodies import EARTH, Body
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, key
+from earthspin.engine.question import Question, key, part
 from earthspin.engine.variables import Neglected, Variables, labels, number
 from earthspin.units import FloatArray, Whole
 

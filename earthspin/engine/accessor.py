@@ -174,23 +174,15 @@ class Answer:
         """
         from astropy.coordinates import SkyCoord
 
-        data = self.dataset
-        if not isinstance(name, str):
-            raise SceneError("to_skycoord", name, "give the name of a vector")
-        if not name and {"X", "Y", "Z"} <= set(data.data_vars):
-            x, y, z = (data[axis] for axis in "XYZ")
-        elif name in data.data_vars and "component" in data[name].dims:
-            x, y, z = (data[name].sel(component=axis, drop=True) for axis in "xyz")
+        arrays = {str(n): a for n, a in self.dataset.items() if a.attrs.get("frame") == "GCRS"}
+        vectors = [n for n, array in arrays.items() if "component" in array.dims]
+        if name == "" and {"X", "Y", "Z"} <= arrays.keys():
+            x, y, z = (arrays[axis] for axis in "XYZ")
+        elif name in vectors:
+            x, y, z = (arrays[name].sel(component=axis, drop=True) for axis in "xyz")
         else:
-            vectors = [
-                str(n)
-                for n, array in data.data_vars.items()
-                if "component" in array.dims and array.attrs.get("frame") == "GCRS"
-            ]
             allowed = f"name a vector: {', '.join(vectors)}" if vectors else _NO_VECTOR
             raise SceneError("to_skycoord", name, allowed)
-        if x.attrs.get("frame") != "GCRS":
-            raise SceneError("to_skycoord", name, _NO_VECTOR)
         coordinates = SkyCoord(
             x=x.values, y=y.values, z=z.values, representation_type="cartesian", frame="icrs"
         )
@@ -309,11 +301,8 @@ def _spread(dataset: xr.Dataset) -> xr.Dataset:
     A variable with further dimensions becomes one variable for each of their labels.
     """
     columns: dict[str, xr.DataArray] = {}
-    common = Counter(
-        frozenset(array.dims).difference(("component", "quaternion", "axis"))
-        for array in dataset.data_vars.values()
-        if array.ndim
-    )
+    dims = [frozenset(array.dims) for array in dataset.data_vars.values() if array.ndim]
+    common = Counter(some.difference(("component", "quaternion", "axis")) for some in dims)
     rows = common.most_common(1)[0][0] if common else frozenset()
     for name, array in dataset.data_vars.items():
         along = [str(dim) for dim in array.dims if dim not in rows]

@@ -18,8 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 from earthspin._lazy import xr
 from earthspin._version import __version__, version
 from earthspin.card import card
-from earthspin.engine.part import Part
-from earthspin.engine.question import NEGLECTED, SCENE, Question, scene_text
+from earthspin.engine.question import NEGLECTED, SCENE, Part, Question, scene_text
 from earthspin.engine.variables import CONVENTIONS, Neglected, Variables, error_of
 from earthspin.errors import SceneError, UndefinedError, nearest
 
@@ -236,11 +235,8 @@ class Run:
         of_sections = (part for name in names for part in graph.sections[name])
         ends = [*graph.answer, NEGLECTED, *of_sections]
         parts = tuple(graph.parts[name] for name in self.behind(ends) if name in graph.parts)
-        left_out = {
-            part.title: self.why_not(name) or NOT_REQUESTED
-            for name, part in graph.parts.items()
-            if part not in parts
-        }
+        others = {name: part.title for name, part in graph.parts.items() if part not in parts}
+        left_out = {title: self.why_not(n) or NOT_REQUESTED for n, title in others.items()}
         ran = dict(self._seconds), frozenset(self._reused)
         return Plan(self.question, parts, tuple(names), left_out, *ran)
 
@@ -422,13 +418,9 @@ def _described(question: Question) -> dict[str, str]:
         references += filter(None, (getattr(item, "reference", "") for item in items))
         if items and all(hasattr(item, "changes") for item in items):
             bodies[name] = " ".join(body.name for body in items)
-            changes = [
-                body.changes if body is value else f"{body.name}: {body.changes}"
-                for body in items
-                if body.changes
-            ]
-            if changes:
-                bodies[f"{name}_changes"] = "; ".join(changes)
+            if changed := [body for body in items if body.changes]:
+                words = (b.changes if b is value else f"{b.name}: {b.changes}" for b in changed)
+                bodies[f"{name}_changes"] = "; ".join(words)
         elif items is value and items and all(isinstance(item, str) for item in items):
             bodies[name] = " ".join(items)
     return {

@@ -10,8 +10,7 @@ import numpy as np
 
 from earthspin._lazy import xr
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, setting
+from earthspin.engine.question import Question, part, setting
 from earthspin.engine.variables import Neglected, labels, number
 from earthspin.errors import Where
 from earthspin.numerics.arrays import FloatArray

@@ -12,7 +12,7 @@ from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95
 from earthspin.dates import Epochs, datetime64
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
+from earthspin.engine.question import part
 from earthspin.engine.variables import (
     Neglected,
     Variables,
@@ -29,6 +29,7 @@ from earthspin.nutation import analysis
 from earthspin.nutation import budget as flat
 from earthspin.nutation.budget import Budget, budget_of
 from earthspin.progress import progress
+from earthspin.questions.axis_motion import PULLS, Pulls
 from earthspin.questions.observed_pole import ObservedSizes, ObservedSky, observed_sky
 from earthspin.questions.path import (
     INTERIOR,
@@ -48,7 +49,6 @@ from earthspin.questions.path import (
     rigid,
     steady_figure,
 )
-from earthspin.questions.pulls import PULLS, Pulls
 from earthspin.questions.reasons import neglected_rates
 from earthspin.questions.times import Dated
 from earthspin.sky import iau

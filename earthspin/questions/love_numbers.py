@@ -10,8 +10,7 @@ from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, key
+from earthspin.engine.question import Question, key, part
 from earthspin.engine.variables import Neglected, Variables, labels, number
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import Yielding, elastic, yielding
@@ -76,9 +75,7 @@ class LoveNumbers(
 
 
 #: Where `Yielding` keeps each number.
-_FIELDS = {
-    "k2": "k", "h2": "h", "l2": "l", "k2_load": "k_load", "h2_load": "h_load", "l2_load": "l_load",
-}  # fmt: skip
+_FIELDS = {f"{name}2{load}": f"{name}{load}" for load in ("", "_load") for name in "khl"}
 
 
 def _numbers(response: Yielding) -> ComplexArray:

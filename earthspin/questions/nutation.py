@@ -11,8 +11,7 @@ from earthspin.bodies import Body
 from earthspin.constants import DAYS_PER_CENTURY
 from earthspin.dates import Epochs
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import setting
+from earthspin.engine.question import part, setting
 from earthspin.engine.variables import (
     Neglected,
     Variables,
@@ -29,23 +28,9 @@ from earthspin.nutation import ladder
 from earthspin.nutation.analysis import complex_nutation, phases, responses, without_line
 from earthspin.nutation.ladder import Spread, spread_of
 from earthspin.progress import progress
+from earthspin.questions import path
+from earthspin.questions.axis_motion import PULLS, Pulls
 from earthspin.questions.interiors import SOURCES, Prediction, no_layers, predict
-from earthspin.questions.path import (
-    MERGED,
-    NEIGHBOUR,
-    NEIGHBOUR_SHARE,
-    SERIES,
-    Comparison,
-    PoleComparison,
-    iau_nutation,
-    iau_pole,
-    largest_terms,
-    path_over,
-    pole_analysis,
-    residual_error,
-    steady_figure,
-)
-from earthspin.questions.pulls import PULLS, Pulls
 from earthspin.sky import iau
 from earthspin.units import Number
 
@@ -56,7 +41,7 @@ DAYS_OF_ERRORS = 2000
 
 
 class NutationLadder(
-    Comparison,
+    path.Comparison,
     word="nutation",
     call="nutation_ladder",
     table="nutation",
@@ -106,10 +91,8 @@ class NutationLadder(
         if self.body.labelled:
             raise self.error("body", self.body.name, "give single numbers here, no labelled arrays")
         if self.uncertainty == "sample":
-            problem = (
-                "the errors of the ladder are from a sample of its inputs already; leave it out"
-            )
-            raise self.error("uncertainty", "sample", problem)
+            text = "the errors of the ladder are from a sample of its inputs already; leave it out"
+            raise self.error("uncertainty", "sample", text)
         if why := no_layers(self.body):
             raise self.error("body", self.body.name, f"{why}; leave it out")
 
@@ -128,7 +111,7 @@ def interior_spread(models: Prediction) -> Spread:
 
 @part
 def left(
-    pole_analysis: PoleComparison,
+    pole_analysis: path.PoleComparison,
     models: Prediction,
     interior_spread: Spread,
     pulls: Pulls,
@@ -141,17 +124,17 @@ def left(
     half-width of either from the inputs of the interior, H and integration, rad.
     """
     done = pole_analysis
-    days, ends, theirs = iau_nutation(pulls, epochs)
-    path = path_over(pulls, effects, done.start, ends)
-    own = complex_nutation(iau.nutation_of(steady_figure(path, days), days))
-    circles = done.our_circles
-    factors = {name: models.transfer(name, circles.frequency) - 1 for name in models.rungs}
+    days, ends, theirs = path.iau_nutation(pulls, epochs)
+    figure = path.steady_figure(path.path_over(pulls, effects, done.start, ends), days)
+    own = complex_nutation(iau.nutation_of(figure, days))
+    circles, frequency = done.our_circles, done.our_circles.frequency
+    factors = {name: models.transfer(name, frequency) - 1 for name in models.rungs}
 
     def shifts(at: FloatArray) -> FloatArray:
         added = np.array([*responses(circles, iau.delaunay_arguments(at), factors).values()])
         return np.stack([added.real, added.imag], axis=-1).swapaxes(0, 1)
 
-    error = residual_error(done, pulls.body, theirs, days)
+    error = path.residual_error(done, pulls.body, theirs, days)
     sampled = slice(None, None, max(1, days.size // DAYS_OF_ERRORS))
     phases = circles.multiples @ iau.delaunay_arguments(days[sampled])
     terms = (circles.amplitude[:, np.newaxis] * np.exp(1j * phases)).T
@@ -164,13 +147,8 @@ def left(
             plain = np.stack([eta.real, eta.imag], axis=1)
             residual = without_line(days / DAYS_PER_CENTURY, plain)
             rms = np.sqrt(np.mean(residual**2, axis=0))
-            of_interior = interior_spread.rms_half_width(
-                name,
-                circles.frequency,
-                waves,
-                products,
-                residual[sampled, 0] + 1j * residual[sampled, 1],
-            )
+            eta = residual[sampled, 0] + 1j * residual[sampled, 1]
+            of_interior = interior_spread.rms_half_width(name, frequency, waves, products, eta)
             residuals[name] = np.array([*rms, math.hypot(error, of_interior)])
             advance(1)
     return residuals
@@ -272,27 +250,28 @@ class Terms(Variables, along=("term",)):
         "95 % half-width of a predicted amplitude, from the numbers of the inside",
         along=("rung", "term"),
     )
-    iau = amplitude("mas", MERGED, error="amplitude_error")
+    iau = amplitude("mas", path.MERGED, error="amplitude_error")
     amplitude_error = number(
         "mas", "95 % half-width of an amplitude from its analysis, without the neighbour's share"
     )
-    neighbour = words(NEIGHBOUR)
-    neighbour_in_phase = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
-    neighbour_out_of_phase = number("mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES)
+    neighbour = words(path.NEIGHBOUR)
+    neighbour_in_phase = number("mas", f"{path.NEIGHBOUR_SHARE}, in phase", no_error=path.SERIES)
+    neighbour_out_of_phase = number(
+        "mas", f"{path.NEIGHBOUR_SHARE}, out of phase", no_error=path.SERIES
+    )
     rung = labels()
     term = labels()
 
 
 @part
-def terms(pole_analysis: PoleComparison, models: Prediction, interior_spread: Spread) -> Terms:
+def terms(pole_analysis: path.PoleComparison, models: Prediction, interior_spread: Spread) -> Terms:
     """Compute the largest circular nutation terms of each model, in phase and out of phase."""
-    order, columns = largest_terms(pole_analysis, LARGEST)
+    order, columns = path.largest_terms(pole_analysis, LARGEST)
     circles, names = pole_analysis.our_circles, models.ladder
     frequency, own = circles.frequency[order], circles.amplitude[order]
     predicted = np.array([models.transfer(name, frequency) * own for name in names])
-    spread = np.array(
-        [interior_spread.transfer_half_width(name, frequency) * np.abs(own) for name in names]
-    )
+    spread = np.array([interior_spread.transfer_half_width(name, frequency) for name in names])
+    spread = spread * np.abs(own)
     return Terms(
         **columns,
         predicted=phases(predicted),
@@ -364,10 +343,8 @@ class Transfer(
 @part
 def transfer(models: Prediction) -> Transfer:
     """Compute the transfer function of each model, at frequencies that include its resonances."""
-    names = models.ladder
-    response = np.array(
-        [models.rungs[name].transfer(_IN_SPACE - 1, models.setting.e) for name in names]
-    )
+    names, e = models.ladder, models.setting.e
+    response = np.array([models.rungs[name].transfer(_IN_SPACE - 1, e) for name in names])
     return Transfer(transfer_real=response.real, transfer_imaginary=response.imag, rung=names)
 
 
@@ -381,5 +358,5 @@ nutation_ladder = public_call(
     NutationLadder,
     answer=rung_sizes,
     sections=(beside, terms, modes, transfer, neglected),
-    parts=(*PULLS, iau_pole, pole_analysis, models, interior_spread, left),
+    parts=(*PULLS, path.iau_pole, path.pole_analysis, models, interior_spread, left),
 )

@@ -14,8 +14,7 @@ from earthspin.bodies import Body
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
 from earthspin.dates import Epochs, Span, Step
-from earthspin.engine.part import part
-from earthspin.engine.question import key
+from earthspin.engine.question import key, part
 from earthspin.errors import UndefinedError
 from earthspin.motion import axes
 from earthspin.motion.axes import AxisPath
@@ -26,11 +25,10 @@ from earthspin.nutation import analysis
 from earthspin.nutation.analysis import Circles, PoleAnalysis, Secular
 from earthspin.nutation.budget import published_effects
 from earthspin.progress import progress
+from earthspin.questions import satellites, times
+from earthspin.questions.axis_motion import AxisMotion, Pulls, forces_of
 from earthspin.questions.interiors import CHOSEN, Prediction, no_layers, prediction
-from earthspin.questions.pulls import AxisMotion, Pulls, forces_of
 from earthspin.questions.reasons import no_iau_model
-from earthspin.questions.satellites import drifts, obliquity_of, swings
-from earthspin.questions.times import days_of
 from earthspin.sky import iau
 from earthspin.sky.kernel import DRIFT_FROM, growth
 
@@ -107,10 +105,9 @@ def direction_errors(
     speed = fastest_sweep(body.number("dynamical_flattening"), float(body.spin_rate), nearest)
     of_sky = axes.error_of_sky(path, figure, drift, speed, DRIFT_FROM)
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    method = np.nan if pulls.sky.unmeasured else path.error
     causes = {
-        "direction_error_method": np.full(
-            days.size, np.nan if pulls.sky.unmeasured else path.error
-        ),
+        "direction_error_method": np.full(days.size, method),
         "direction_error_input": axes.error_of_input(path, figure, u_h),
         "direction_error_kernel": max(map(growth, epochs.span())) * of_sky,
     }
@@ -129,11 +126,11 @@ def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
         Times from the start, s.
     """
     body = pulls.body
-    obliquity = obliquity_of(body) if body.satellites else None
+    obliquity = satellites.obliquity_of(body) if body.satellites else None
     if obliquity is None:
         return np.zeros(since.size)
-    nutations = swings(body, pulls.mean_pull(), obliquity)
-    total = np.sum([*drifts(nutations, since).values(), np.zeros(since.size)], axis=0)
+    nutations = satellites.swings(body, pulls.mean_pull(), obliquity)
+    total = np.sum([*satellites.drifts(nutations, since).values(), np.zeros(since.size)], axis=0)
     published = LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
     for rate in published.values():
         total += abs(rate.value) * ARCSEC_PER_YEAR * math.sin(obliquity) * np.abs(since)
@@ -237,7 +234,7 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
     EarthspinError
         If the series does not fit into memory, or lies outside the source of positions.
     """
-    days = days_of(epochs)
+    days = times.days_of(epochs)
     first, last = epochs.span()
     ends = np.array([min(first, 0.0), max(last, 0.0)])
     pulls.sky.check_times(ends, pulls.targets)
@@ -307,11 +304,10 @@ def iau_pole(pulls: Pulls) -> IAUPole:
     """Analyse pole and nutation of the IAU over 150 years, as far as positions are known."""
     days, covered = analysed_days((pulls.limits[0] / DAY, pulls.limits[1] / DAY))
     if covered < SHORTEST_SPAN:
-        raise UndefinedError(
-            f"the positions cover {covered * DAY / JULIAN_YEAR:.1f} years near J2000.0, and the "
-            f"analysis of nutation needs {SHORTEST_SPAN * DAY / JULIAN_YEAR:.0f}; give a longer "
-            "ephemeris, or remove the effect nonrigid"
-        )
+        years, needed = (days * DAY / JULIAN_YEAR for days in (covered, SHORTEST_SPAN))
+        problem = f"the positions cover {years:.1f} years near J2000.0"
+        problem += f", and the analysis of nutation needs {needed:.0f}"
+        raise UndefinedError(f"{problem}; give a longer ephemeris, or remove the effect nonrigid")
     arguments = iau.delaunay_arguments(days)
     analyse = PoleAnalysis(days, arguments, iau.delaunay_rates(), iau.fixed_ecliptic())
     pole, original = iau.pole_and_nutation(days)
@@ -368,10 +364,8 @@ def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp
     """
     ours = analysed.our_circles
     order = np.argsort(-np.abs(ours.amplitude))[:count]
-    at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
-    names, amplitude = analysis.neighbours_of(
-        ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch
-    )
+    sky = iau.delaunay_rates(), iau.delaunay_arguments(np.zeros(1))[:, 0]
+    names, amplitude = analysis.neighbours_of(ours.multiples, ours.frequency, *sky)
     neighbour_in, neighbour_out = analysis.phases(amplitude[order])
     return order, {
         "period": 2 * np.pi / ours.frequency[order],
@@ -397,14 +391,8 @@ def _response_between(
     """Fit the transfer function that relates rigid to non-rigid amplitudes of nutation terms."""
     from earthspin.nutation.response import fit_response
 
-    used = _circles_for_fit(circles)
-    return fit_response(
-        circles.frequency[used],
-        rigid[used],
-        other[used],
-        body.number("dynamical_flattening"),
-        float(body.spin_rate),
-    )
+    used, h, spin = _circles_for_fit(circles), body.number("dynamical_flattening"), body.spin_rate
+    return fit_response(circles.frequency[used], rigid[used], other[used], h, float(spin))
 
 
 def _circles_for_fit(circles: Circles) -> NDArray[np.bool_]:
@@ -527,14 +515,9 @@ def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[
     pair = np.stack([difference.real, difference.imag], axis=1)
     closure = float(np.linalg.norm(np.polynomial.polynomial.polyfit(since, pair, 1)[1]))
     remainder = np.abs(difference) ** 2 - (closure * since) ** 2
-    return Shift(
-        analysed.start,
-        analysed.epoch,
-        circles,
-        rate=published[NONRIGID.name] * sine,
-        closure=closure,
-        residual=math.sqrt(max(0.0, float(np.quantile(remainder, 0.95)))),
-    )
+    residual = math.sqrt(max(0.0, float(np.quantile(remainder, 0.95))))
+    rate = published[NONRIGID.name] * sine
+    return Shift(analysed.start, analysed.epoch, circles, rate, closure, residual)
 
 
 @part

@@ -13,8 +13,7 @@ from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_YEAR, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import setting
+from earthspin.engine.question import part, setting
 from earthspin.engine.run import in_range
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
@@ -33,8 +32,7 @@ from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
 from earthspin.sky.eop import PoleSeries, read_polar_motion
 from earthspin.units import Days, FileName, Number, Numbers, Several, Text, Word, kind_of
 from earthspin.wobble import excitation as ex
-from earthspin.wobble.record import WobbleFit, envelope
-from earthspin.wobble.record import spectrum as amplitude_spectrum
+from earthspin.wobble import record
 
 #: How the free wobble is found.
 Method = Literal["burg", "likelihood"]
@@ -155,10 +153,10 @@ def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> Fr
 
 
 def _free_wobble(
-    time: FloatArray, p: ComplexArray, fit: WobbleFit, window: float | None
+    time: FloatArray, p: ComplexArray, fit: record.WobbleFit, window: float | None
 ) -> FreeWobble:
     """Return the fitted period and quality factor, and wobble amplitudes in sliding windows."""
-    wobbles = envelope(time, p, fit.period, window)
+    wobbles = record.envelope(time, p, fit.period, window)
     low, high = fit.quality_bounds
     return FreeWobble(
         chandler_period=(fit.period * DAY, fit.period_error * DAY),
@@ -190,7 +188,7 @@ class Spectrum(
 @part
 def spectrum(observed_pole: xr.Dataset) -> Spectrum:
     """Compute the amplitude spectrum of the observed pole, at frequencies up to `FASTEST`."""
-    frequency, size = amplitude_spectrum(*complex_pole(observed_pole))
+    frequency, size = record.spectrum(*complex_pole(observed_pole))
     slow = abs(frequency) <= FASTEST
     return Spectrum(spectral_amplitude=size[slow] * MAS, frequency=frequency[slow])
 
@@ -292,12 +290,10 @@ def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArr
     if count < 2:
         raise SceneError("excitation", "its dates", "it has no span in common with the pole")
     if np.max(abs(ends[first : first + count] - time[start : start + count])) > SAME_DAY:
-        raise SceneError(
-            "excitation",
-            f"means about day {middles[0]:.3f}, each {middles[1] - middles[0]:.3g} d",
-            f"give means over the steps of the pole, each {step:.3g} d: those between its days; "
-            "read_excitation(..., daily=True) makes them from 0h to 0h",
-        )
+        given = f"means about day {middles[0]:.3f}, each {middles[1] - middles[0]:.3g} d"
+        means = f"means over the steps of the pole, each {step:.3g} d: those between its days"
+        remedy = "read_excitation(..., daily=True) makes them from 0h to 0h"
+        raise SceneError("excitation", given, f"give {means}; {remedy}")
     both = slice(start, start + count)
     return time[both], p[both], driving[first : first + count - 1]
 
@@ -357,20 +353,17 @@ def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100
     step = _even_step(time)
     chi = ex.excitation(p, step, ex.chandler_frequency(days, q))
     start_x, start_y = ex.coordinates_of(p[0])
-    result = Excitation(
-        time=datetime64(ex.middles_of_steps(time)), chi1=chi.real * MAS, chi2=chi.imag * MAS
-    )
+    middles = datetime64(ex.middles_of_steps(time))
+    result = Excitation(time=middles, chi1=chi.real * MAS, chi2=chi.imag * MAS)
+    start = "start of the pole in mas and in days from J2000.0"
     return result.dataset().assign_attrs(
-        {
-            "chandler_period": days,
-            "chandler_quality_factor": q,
-            "start_x": float(start_x),
-            "start_y": float(start_y),
-            "start_day": float(time[0]),
-            "step": step,
-            "comment": "means over the step (d) around each time; start of the pole in mas and in "
-            "days from J2000.0",
-        }
+        chandler_period=days,
+        chandler_quality_factor=q,
+        start_x=float(start_x),
+        start_y=float(start_y),
+        start_day=float(time[0]),
+        step=step,
+        comment=f"means over the step (d) around each time; {start}",
     )
 
 

@@ -9,8 +9,7 @@ import numpy as np
 from earthspin.constants import DAY, DAYS_PER_YEAR, NORMAL_95
 from earthspin.dates import Span, datetime64
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import setting
+from earthspin.engine.question import part, setting
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import UndefinedError
 from earthspin.interior.named import OBSERVED_CORE_NUTATION
@@ -111,7 +110,7 @@ class CoreNutation(
 
 def shorter_than_a_window(span: Span | None, window: float | None) -> str | None:
     """Return the reason (text) to omit core nutation if the span is below one window, else None."""
-    if span is None or _length(span) >= (core.WINDOW if window is None else window):
+    if _length(span) >= (core.WINDOW if window is None else window):
         return None
     return "the span is shorter than a window, which is three years if not given"
 
@@ -119,16 +118,13 @@ def shorter_than_a_window(span: Span | None, window: float | None) -> str | None
 def too_short_for_a_period(span: Span | None) -> str | None:
     """Return the reason (text) to omit core nutation period if the span is too short, else None."""
     needed = 2 * shortest_span()
-    if span is None or _length(span) >= needed:
-        return None
-    years = needed / DAYS_PER_YEAR
-    return f"the span is shorter than {years:.0f} years, which the fit of a period needs"
+    years = f"{needed / DAYS_PER_YEAR:.0f} years, which the fit of a period needs"
+    return f"the span is shorter than {years}" if _length(span) < needed else None
 
 
-def _length(span: Span) -> float:
+def _length(span: Span | None) -> float:
     """Length of a time span, d."""
-    first, last = span.days
-    return last - first
+    return math.inf if span is None else span.days[1] - span.days[0]
 
 
 @part(unless=shorter_than_a_window)
@@ -180,12 +176,10 @@ def period(offset_table: PoleSeries) -> CorePeriod:
         problem = f"the method of the free wobble finds no free core nutation: {error}"
         raise UndefinedError(problem) from None
     published = OBSERVED_CORE_NUTATION
+    half_width = NORMAL_95 * (published.uncertainty or 0.0) * DAY
     return CorePeriod(
         core_nutation_period=(-mode.period * DAY, mode.period_error * DAY),
-        core_nutation_period_published=(
-            published.value * DAY,
-            NORMAL_95 * (published.uncertainty or 0.0) * DAY,
-        ),
+        core_nutation_period_published=(published.value * DAY, half_width),
     )
 
 

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, setting
+from earthspin.engine.question import Question, part, setting
 from earthspin.engine.variables import Neglected, Variables, labels, number, words
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.times import FromStart, Seconds, SideBySide, instants

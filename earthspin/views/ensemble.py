@@ -261,10 +261,10 @@ def _chief(answer: xr.Dataset, name: str = "") -> Number:
     """
     chiefs = (name,) if name else _chiefs(answer)[:1]
     numbers = [number for number in _numbers(answer) if number.name in chiefs]
-    if not numbers:
-        words = f"'{name}' does not differ among the members" if name else _alike(answer)
-        raise SceneError("ensemble", answer.attrs["title"], words)
-    return numbers[-1]
+    if numbers:
+        return numbers[-1]
+    words = f"'{name}' does not differ among the members" if name else _alike(answer)
+    raise SceneError("ensemble", answer.attrs["title"], words)
 
 
 def _digits(value: float, other: float) -> str:

@@ -39,13 +39,11 @@ def plot_amplitude_and_phase(tree: Result) -> Figure:
 
 def _caption_of_amplitude(tree: Result) -> str:
     first, last = needed(tree, "chandler").middle.values[[0, -1]]
-    words = (
+    near_2018 = " The free wobble almost vanished near 2018 and returned with a different phase."
+    return (
         "Amplitude and phase of the free wobble, fitted in sliding windows of one beat of the free "
-        "and the annual wobble."
+        f"and the annual wobble.{near_2018 if first < np.datetime64('2018-01-01') < last else ''}"
     )
-    if first < np.datetime64("2018-01-01") < last:
-        words += " The free wobble almost vanished near 2018 and returned with a different phase."
-    return words
 
 
 def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None = None) -> Axes:
@@ -326,13 +324,6 @@ SKILL_SETS = {
 }
 
 
-def _days(answer: xr.Dataset) -> FloatArray:
-    """Times of a forecast, in days after the last observation that the forecast uses."""
-    origin = np.datetime64(answer.x.attrs["origin"])
-    days: FloatArray = (answer.time.values - origin) / np.timedelta64(1, "D")
-    return days
-
-
 def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
     """Draw the forecast coordinates x and y of the pole over time, with 95 % bands.
 
@@ -351,9 +342,8 @@ def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
         value, error = answer[name].values * 1e3, answer[f"{name}_error"].values * 1e3
         drawing.band(ax, answer.time.values, value, error, colour, label=f"{name}, 95 %")
         if bulletin is not None:
-            predicted = bulletin[f"bulletin_a_{name}"] * 1e3
-            words = "Bulletin A"
-            ax.plot(bulletin.time, predicted, color=drawing.RED, lw=1, ls="--", label=words)
+            how: dict[str, Any] = {"color": drawing.RED, "lw": 1, "ls": "--", "label": "Bulletin A"}
+            ax.plot(bulletin.time, bulletin[f"bulletin_a_{name}"] * 1e3, **how)
         ax.set_ylabel(f"{name} (mas)")
         ax.legend(loc="best")
     panels[-1].set_xlabel("time (UTC)")
@@ -377,8 +367,9 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.plot(y, x, color=drawing.BLUE, lw=1.4)
     ax.plot(y[0], x[0], "o", color=drawing.BLUE, ms=4)
     note(ax, date(answer.time[0]), (y[0], x[0]), (-5, 4), color=drawing.BLUE, ha="right")
+    days = (answer.time.values - np.datetime64(answer.x.attrs["origin"])) / np.timedelta64(1, "D")
     for day in ELLIPSES:
-        near = np.flatnonzero(abs(_days(answer) - day) < 0.5)
+        near = np.flatnonzero(abs(days - day) < 0.5)
         if near.size == 0:
             continue
         row = answer.isel(time=int(near[0]))

@@ -42,12 +42,9 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
     ax.autoscale_view()
     words = "time from the start (years)"
     ax.figure.colorbar(path, ax=ax, location="bottom", shrink=0.8, aspect=40, label=words)
-    ax.set(
-        aspect="equal",
-        xlabel="psi sin(eps), straight line removed (arcsec)",
-        ylabel="eps, straight line removed (arcsec)",
-        title=f"{axis.replace('_', ' ')} axis",
-    )
+    ax.set(aspect="equal", title=f"{axis.replace('_', ' ')} axis")
+    ax.set_xlabel("psi sin(eps), straight line removed (arcsec)")
+    ax.set_ylabel("eps, straight line removed (arcsec)")
     return ax
 
 
@@ -333,11 +330,8 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     inside = np.abs(at) < SHOWN
     ax.plot(at[inside], ratio[inside], "o", color=drawing.ORANGE, ms=5, label="IAU 2000A / rigid")
     note(ax, "free core nutation", (DAYS_PER_YEAR / CORE_NUTATION.value, 0.9), (-8, 0), ha="right")
-    ax.set(
-        ylim=(0.85, 1.45),
-        xlabel="frequency in space, negative if retrograde (cycles per year)",
-        ylabel="amplitude over that of a rigid body",
-    )
+    ax.set(ylim=(0.85, 1.45), ylabel="amplitude over that of a rigid body")
+    ax.set_xlabel("frequency in space, negative if retrograde (cycles per year)")
     ax.legend(loc="upper right")
     return ax
 

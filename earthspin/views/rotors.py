@@ -176,14 +176,11 @@ def rolling_cones(rotor: SymmetricRotor, title: str, points: int = 241) -> Solid
     omega = rotor.omega_inertial(times)
     speed = float(np.linalg.norm(omega[0]))
     axis = rotor.figure_axis(times)
-    inside = float(rotor.theta) < float(rotor.alpha)
-    roll = "with its inner side on" if inside else "on the outside of"
-    between = (
-        "The body is oblate: the angular momentum lies between the axis and the angular velocity."
-        if inside
-        else "The body is prolate: the angular velocity lies between the angular momentum and the "
-        "axis."
-    )
+    momentum, velocity = "the angular momentum", "the angular velocity"
+    shape, roll, middle, other = "prolate", "on the outside of", velocity, momentum
+    if float(rotor.theta) < float(rotor.alpha):
+        shape, roll, middle, other = "oblate", "with its inner side on", momentum, velocity
+    between = f"The body is {shape}: {middle} lies between {other} and the axis."
     return Solid(
         title=title,
         caption="The body cone (red) is fixed in the body, about its axis; the space cone (blue) "
@@ -270,9 +267,8 @@ def path_of_top(tree: Result) -> solids.Solid:
     """
     answer = answer_of(tree)
     theta, phi = answer.theta.values, answer.phi.values
-    tip = np.stack(
-        [np.sin(theta) * np.sin(phi), -np.sin(theta) * np.cos(phi), np.cos(theta)], axis=-1
-    )
+    across, height = np.sin(theta), np.cos(theta)
+    tip = np.stack([across * np.sin(phi), -across * np.cos(phi), height], axis=-1)
     bounds = needed(tree, "turning").turning_angle.values
     return solids.Solid(
         title=f"{answer.attrs['title']}: {answer.pattern.item()}",
@@ -287,9 +283,6 @@ def path_of_top(tree: Result) -> solids.Solid:
         times=answer.time.values,
         attitude=answer.attitude.values,
     )
-
-
-TOP_SOLIDS = [("turning", path_of_top)]
 
 
 # --- rotation under torques ----------------------------------------------------------------------
@@ -422,11 +415,8 @@ def _largest(vectors: FloatArray) -> float:
     return float(np.max(np.linalg.norm(vectors, axis=1))) or 1.0
 
 
-ROTATION_SOLIDS = [("", turning_body)]
-
-
 VIEWS = {
     "free-rotor": Views(ROTOR_FIGURES, ROTOR_SOLIDS),
-    "top": Views(TOP_FIGURES, TOP_SOLIDS),
-    "rotation": Views(ROTATION_FIGURES, ROTATION_SOLIDS),
+    "top": Views(TOP_FIGURES, [("turning", path_of_top)]),
+    "rotation": Views(ROTATION_FIGURES, [("", turning_body)]),
 }

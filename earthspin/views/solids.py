@@ -71,10 +71,8 @@ def _rounded(points: FloatArray) -> list[Any]:
     digits = np.clip(4 - np.floor(np.log10(size)), -22, 22)
     # a whole number divided by an exact power of ten is the float nearest to its decimal digits
     scale = 10.0 ** np.abs(digits)
-    rounded = np.where(
-        digits >= 0, np.rint(points * scale) / scale, np.rint(points / scale) * scale
-    )
-    numbers: list[Any] = rounded.tolist()
+    small, large = np.rint(points * scale) / scale, np.rint(points / scale) * scale
+    numbers: list[Any] = np.where(digits >= 0, small, large).tolist()
     return numbers
 
 
@@ -114,9 +112,8 @@ def _arrow(name: str, points: FloatArray, colour: str, label: str) -> Item:
 
 def ellipsoid(semi_axes: Sequence[float], rows: int = 17, columns: int = 33) -> FloatArray:
     """Points on an ellipsoid along its principal axes, shape (rows, columns, 3)."""
-    polar, azimuth = np.meshgrid(
-        np.linspace(0, np.pi, rows), np.linspace(0, 2 * np.pi, columns), indexing="ij"
-    )
+    angles = np.linspace(0, np.pi, rows), np.linspace(0, 2 * np.pi, columns)
+    polar, azimuth = np.meshgrid(*angles, indexing="ij")
     unit = [np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)]
     return np.stack([a * u for a, u in zip(semi_axes, unit, strict=True)], axis=-1)
 

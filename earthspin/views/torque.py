@@ -71,9 +71,8 @@ def plot_declination(
     answer = answer_of(result)
     ax = axes(ax)
     for number, (label, row) in enumerate(along(answer, "perturber")):
-        _line_or_band(
-            ax, row.declination, drawing.literal(label), number, _colour(label, number), smooth_days
-        )
+        words, colour = drawing.literal(label), _colour(label, number)
+        _line_or_band(ax, row.declination, words, number, colour, smooth_days)
     ax.set_ylabel("declination (deg)")
     drawing.legend_above(ax)
     return ax

@@ -105,10 +105,8 @@ LADDER_FIGURES = [
 
 
 #: How a number is written in a figure.
-SYMBOLS = {
-    "k2": "$k_2$", "h2": "$h_2$", "l2": "$l_2$",
-    "k2_load": "$k'_2$", "h2_load": "$h'_2$", "l2_load": "$l'_2$",
-}  # fmt: skip
+SYMBOLS = {f"{name}2": f"${name}_2$" for name in "khl"}
+SYMBOLS |= {f"{name}2_load": f"${name}'_2$" for name in "khl"}
 #: Left out of the figure: small as it is, its changes would hide all others.
 SMALL = "l2_load"
 #: Vertical lines, by their periods in days.

@@ -14,9 +14,10 @@ import earthspin
 from earthspin import Scene, SceneError, load_scene, scenes
 from earthspin.engine.run import Run
 from earthspin.questions import averages
-from earthspin.scenes import run, run_blocks
+from earthspin.scenes import run
 from earthspin.sky import ephemeris
 from earthspin.sky.poles import FixedPole
+from tests.blocks import run_blocks
 
 
 class MyPole:
@@ -36,14 +37,13 @@ def opened_kernels(monkeypatch: pytest.MonkeyPatch) -> list[ephemeris.Ephemeris]
     """
     monkeypatch.setattr(averages.torque_samples, "_stored", OrderedDict())
     opened: list[ephemeris.Ephemeris] = []
-    original = ephemeris.Ephemeris
+    initialise = ephemeris.Ephemeris.__init__
 
-    class Watched(original):
-        def __init__(self, *args: object, **kwargs: object) -> None:
-            super().__init__(*args, **kwargs)
-            opened.append(self)
+    def watched(kernel: ephemeris.Ephemeris, *args: object, **kwargs: object) -> None:
+        initialise(kernel, *args, **kwargs)
+        opened.append(kernel)
 
-    monkeypatch.setattr(ephemeris, "Ephemeris", Watched)
+    monkeypatch.setattr(ephemeris.Ephemeris, "__init__", watched)
     return opened
 
 
