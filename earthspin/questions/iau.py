@@ -69,9 +69,10 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     Dataset
         Over `effect`: `psi_rate`, `psi_rate_published`, `omega_rate` (arcsec/yr, at J2000.0), and
         `closure` (arcsec/yr), after the published non-linear term. `earthspin.run_tree(answer)`
-        adds sections: `residuals` (computed pole minus that of the IAU over `time`), the
-        largest nutations, the free core nutation, the angles of precession, and H and C as
-        implied by the rate of the IAU.
+        adds sections: `residuals` (over `time`: `dX`, `dY`, the computed pole minus that of the
+        IAU, mas), the largest nutations, the free core nutation, the angles of precession, and H
+        and C as implied by the rate of the IAU. ``earthspin.compare_iau().earthspin.plot()[0]``
+        draws `dX` and `dY`.
 
     Examples
     --------
@@ -80,10 +81,10 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     >>> print((budget.closure * 1e5).round(1).values, "mas per century")
     -3.5 mas per century
     >>> residuals = earthspin.run_tree(budget, sections=["residuals"])["residuals"]
-    >>> print(residuals.deps.attrs["long_name"])
-    computed pole minus the IAU's in obliquity, straight line removed
-    >>> print(residuals.deps_unfitted.attrs["long_name"])
-    computed pole minus the IAU's in obliquity, nothing removed
+    >>> print(residuals.dX.attrs["long_name"])
+    computed X of the celestial pole minus that of IAU 2006/2000A
+    >>> print(residuals.dX.attrs["units"], residuals.dX.size, residuals.dX_error.size)
+    mas 2923 2923
     """
 
     page, headline = "pole", "closure"
@@ -220,9 +221,11 @@ class Differences:
     days : ndarray, shape (t,)
     models : tuple of str
     plain, fitted : ndarray, shape (t, model, 2)
-        As they are, and after a constant and a rate.
+        Without a fit, and after a constant and a rate are removed.
     chosen : int
-        The model that the effects which are switched on stand for.
+        Index of the model with the effects that are switched on.
+    offsets : ndarray, shape (t, 2)
+        X and Y of that model minus those of the IAU, without a fit.
     error : float
         95 % half-width of either angle after the fit: the integration, and H in the nutation.
     unfitted_error : ndarray, shape (t,)
@@ -234,6 +237,7 @@ class Differences:
     plain: FloatArray
     fitted: FloatArray
     chosen: int
+    offsets: FloatArray
     error: float
     unfitted_error: FloatArray
 
@@ -249,7 +253,7 @@ def differences(
 ) -> Differences:
     """Compute time series of computed pole minus IAU pole, for different sets of effects."""
     done = pole_analysis
-    days, ends, iau_eta = iau_nutation(pulls, epochs)
+    days, ends, iau_pole, iau_eta = iau_nutation(pulls, epochs)
     body = pulls.body
 
     def axes_of(on: list[str], start: FloatArray) -> dict[str, FloatArray]:
@@ -258,18 +262,20 @@ def differences(
     def eta_of(pole: FloatArray) -> ComplexArray:
         return analysis.complex_nutation(iau.nutation_of(pole, days))
 
-    # Each model as `pole` returns it, start included.
+    # Each model as `pole` returns it, start included, but without the semidiurnal motion, which
+    # the celestial pole excludes by definition.
     models = {
-        "first-order": eta_of(axes_of([], pulls.start)["angular_momentum"]),
-        "rigid": eta_of(axes_of(rigid(effects), pulls.start)["figure"]),
+        "first-order": axes_of([], pulls.start)["angular_momentum"],
+        "rigid": axes_of(rigid(effects), pulls.start)["figure"],
     }
     from_mean_pole = axes_of(rigid(effects), done.start)
     for name, shift in (("nonrigid", nonrigid_shift), ("predicted", predicted_shift)):
         if shift is not None:
             shifted = dict(from_mean_pole)
             shift.apply(shifted, days)
-            models[name] = eta_of(shifted["figure"])
-    left = np.stack([model - iau_eta for model in models.values()], axis=1)
+            models[name] = shifted["figure"]
+    chosen = 2 if NONRIGID.name in effects else 1
+    left = np.stack([eta_of(pole) - iau_eta for pole in models.values()], axis=1)
     plain = np.stack([left.real, left.imag], axis=-1)
     centuries = days / DAYS_PER_CENTURY
     error = residual_error(done, body, iau_eta, days)
@@ -280,7 +286,8 @@ def differences(
         models=tuple(models),
         plain=plain,
         fitted=analysis.without_line(centuries, plain.reshape(days.size, -1)).reshape(plain.shape),
-        chosen=2 if NONRIGID.name in effects else 1,
+        chosen=chosen,
+        offsets=([*models.values()][chosen] - iau_pole)[:, :2],
         error=error,
         unfitted_error=np.hypot(error, precession),
     )
@@ -296,33 +303,24 @@ _UNFITTED_HALF_WIDTH = "95 % half-width of a residual without a fit, from H and 
 class Residuals(Dated, error="residual_error"):
     """Time series of computed pole minus IAU pole, with and without a fitted trend removed."""
 
+    dX = measured("mas", "computed X of the celestial pole minus that of IAU 2006/2000A")
+    dY = measured("mas", "computed Y of the celestial pole minus that of IAU 2006/2000A")
     dpsi_sineps = number("mas", _LONGITUDE)
     deps = number("mas", _OBLIQUITY)
     residual_error = number("mas", _HALF_WIDTH, along=())
-    dpsi_sineps_unfitted = number(
-        "mas",
-        "computed pole minus the IAU's in longitude times sin(eps), nothing removed",
-        error="unfitted_error",
-    )
-    deps_unfitted = number(
-        "mas", "computed pole minus the IAU's in obliquity, nothing removed", error="unfitted_error"
-    )
-    unfitted_error = number("mas", _UNFITTED_HALF_WIDTH)
 
 
 @part
 def residuals(differences: Differences) -> Residuals:
     """Return the time series of computed pole minus IAU pole, for the requested effects."""
-    fitted = differences.fitted[:, differences.chosen]
-    plain = differences.plain[:, differences.chosen]
+    fitted, offsets = differences.fitted[:, differences.chosen], differences.offsets
     return Residuals(
         time=datetime64(differences.days),
+        dX=(offsets[:, 0], differences.unfitted_error),
+        dY=(offsets[:, 1], differences.unfitted_error),
         dpsi_sineps=fitted[:, 0],
         deps=fitted[:, 1],
         residual_error=differences.error,
-        dpsi_sineps_unfitted=plain[:, 0],
-        deps_unfitted=plain[:, 1],
-        unfitted_error=differences.unfitted_error,
     )
 
 

@@ -141,7 +141,7 @@ def left(
     half-width of either from the inputs of the interior, H and integration, rad.
     """
     done = pole_analysis
-    days, ends, theirs = iau_nutation(pulls, epochs)
+    days, ends, _, theirs = iau_nutation(pulls, epochs)
     path = path_over(pulls, effects, done.start, ends)
     own = complex_nutation(iau.nutation_of(steady_figure(path, days), days))
     circles = done.our_circles

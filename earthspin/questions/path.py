@@ -220,8 +220,10 @@ def path_over(
     return axes.axis_path(forces, start, pulls.epoch, span, limits=pulls.limits)
 
 
-def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, ComplexArray]:
-    """Nutation of IAU 2000A at the days of a series.
+def iau_nutation(
+    pulls: Pulls, epochs: Epochs
+) -> tuple[FloatArray, FloatArray, FloatArray, ComplexArray]:
+    """Pole and nutation of IAU 2006/2000A at the days of a series.
 
     Returns
     -------
@@ -229,6 +231,8 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
         Days from J2000.0.
     ends : ndarray, shape (2,)
         First and last day of an interval that includes the series and J2000.0.
+    pole : ndarray, shape (t, 3)
+        Unit vectors in the GCRS.
     eta : ndarray, shape (t,), complex
         Nutation dpsi sin(eps0) + i deps, rad.
 
@@ -241,8 +245,8 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
     first, last = epochs.span()
     ends = np.array([min(first, 0.0), max(last, 0.0)])
     pulls.sky.check_times(ends, pulls.targets)
-    angles = iau.at_days(lambda at: iau.nutation_of(iau.true_pole(at), at), days)
-    return days, ends, analysis.complex_nutation(angles)
+    pole = iau.at_days(iau.true_pole, days)
+    return days, ends, pole, analysis.complex_nutation(iau.nutation_of(pole, days))
 
 
 def residual_error(

@@ -187,7 +187,7 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_pole_residuals(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the computed pole minus the IAU pole over time, in longitude and in obliquity.
+    """Draw the computed pole minus the IAU pole over time, with nothing removed: dX and dY.
 
     Parameters
     ----------
@@ -198,15 +198,13 @@ def plot_pole_residuals(result: Result, *, ax: Axes | None = None) -> Axes:
     series = needed(result, "residuals")
     ax = axes(ax, 7.5, 3)
     sizes = []
-    for name, label, colour in (
-        ("dpsi_sineps", "dpsi sin(eps)", drawing.BLUE),
-        ("deps", "deps", drawing.RED),
-    ):
-        ax.plot(series.time, series[name], color=colour, lw=0.6, label=label)
+    for name, colour in (("dX", drawing.BLUE), ("dY", drawing.RED)):
+        error = series[f"{name}_error"]
+        drawing.band(ax, series.time, series[name], error, colour, lw=0.6, label=name)
         sizes.append(f"{float(np.sqrt(np.mean(series[name] ** 2))):.2f}")
     title = f"computed pole minus IAU 2006/2000A; rms {' and '.join(sizes)} mas"
     ax.set_title(title, loc="left", fontsize=9)
-    ax.set(xlabel="time (TDB); constant and rate removed", ylabel="residual (mas)")
+    ax.set(xlabel="time (TDB)", ylabel="dX, dY (mas)")
     ax.legend(loc="best", ncols=2)
     return ax
 
@@ -243,18 +241,19 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
 
 IAU_FIGURES = [
     PageFigure(
+        "Residuals in time",
+        "X and Y of the computed pole minus those of the IAU; nothing is fitted or removed. Bands: "
+        "95 % half-widths.",
+        plot_pole_residuals,
+        section="residuals",
+    ),
+    PageFigure(
         "The budget",
         "Contribution of each effect to the rate of psi_A, measured by switching the effect off, "
         "and the published contribution; the axis is logarithmic to both sides of zero. To see: "
         "where the dots of a pair lie at one place, what is computed agrees with what is "
         "published. Dashed: the closure, what remains of the sum.",
         plot_budget,
-    ),
-    PageFigure(
-        "Residuals in time",
-        "The computed pole minus the IAU's; a fitted constant and rate are removed.",
-        plot_pole_residuals,
-        section="residuals",
     ),
     PageFigure(
         "Response of the deformable body",
