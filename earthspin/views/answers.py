@@ -15,6 +15,7 @@ import xarray as xr
 from earthspin.engine.accessor import is_ensemble
 from earthspin.engine.run import NOT_REQUESTED, REUSED
 from earthspin.errors import SceneError
+from earthspin.progress import progress
 from earthspin.scenes import plan, run_tree
 from earthspin.views import (
     ensemble,
@@ -113,6 +114,7 @@ def _views(tree: Result) -> Views:
     return ensemble.VIEWS if is_ensemble(tree) else VIEWS.get(tree.attrs["compute"], Views())
 
 
+@progress("figures")
 def figures_of(answer: xr.Dataset) -> list[Figure]:
     """Draw the figures of a result, as the views of its question define them.
 
