@@ -128,7 +128,7 @@ def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
     fit, time = _plot_free_wobble(ax, result, drawing.BLUE, "free")
     ax.plot(time, fit.annual_amplitude, color=drawing.GREEN, lw=1, label="annual")
     ax.axhline(200, color=drawing.GREY, lw=0.8, ls="--")
-    note(ax, '0.2", the text', (time[0], 200), (2, 3), color=drawing.GREY)
+    note(ax, '0.2", source text', (time[0], 200), (2, 3), color=drawing.GREY)
     ax.set(ylim=(0, 235), xlabel="time (UTC)", ylabel="amplitude (mas)")
     if metres := _metres(answer_of(result)):
         ax.secondary_yaxis("right", functions=_scaling(metres)).set_ylabel("amplitude (m)")

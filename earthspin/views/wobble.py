@@ -137,7 +137,7 @@ def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
         line, colour = "--" if name.endswith("load") else "-", CYCLE[number % 3]
         above.plot(days, 100 * (abs(ratio) - 1), line, color=colour, label=SYMBOLS[name])
         below.plot(days, -np.degrees(np.angle(ratio)), line, color=colour)
-    above.set(xscale="log", ylabel="over the elastic one (%)")
+    above.set(xscale="log", ylabel="excess over the\nelastic value (%)")
     below.set(ylabel="lag (deg)", xlabel="period (d)")
     where = {"xycoords": ("data", "axes fraction"), "ha": "right", "color": GREY}
     for words, at in MARKS.items():
