@@ -385,7 +385,7 @@ def _verify(options: Namespace) -> None:
     """Command `verify`: compare a stored result with its checksums."""
     from earthspin.engine.store import verify
 
-    print(f"{printable(str(verify(options.file)))} is intact")
+    print(f"{printable(str(verify(options.file)))} is complete and matches its checksums")
 
 
 def _completion(options: Namespace) -> None:

@@ -31,7 +31,7 @@ _T = TypeVar("_T")
 class EarthspinError(Exception):
     """Base class of errors that the user can correct; the command line then exits with status 2.
 
-    The message is one line, whatever was given.
+    The message is always one line.
 
     Examples
     --------
@@ -82,9 +82,9 @@ class SceneError(EarthspinError, ValueError):
     source : str
         The file or command; empty for what was given in Python.
     key : str
-        The offending key.
+        Name of the wrong key.
     given : object
-        What was read.
+        Value that was given.
 
     Examples
     --------
@@ -219,7 +219,7 @@ class KernelError(EarthspinError, OSError):
     Attributes
     ----------
     path : str
-        The kernel, as named.
+        Name or path of the kernel, as given.
 
     Examples
     --------
@@ -244,7 +244,7 @@ class CoverageError(EarthspinError, ValueError):
     kernel : str
         Name of the kernel or table.
     asked, coverage : tuple of str
-        First and last date, TDB.
+        First and last date: requested, and covered; TDB.
 
     Examples
     --------
@@ -336,7 +336,7 @@ class AccuracyError(EarthspinError, ValueError):
     Attributes
     ----------
     asked, best : float
-        Half-widths, in the same unit.
+        Half-widths: requested, and best possible; in the same unit.
 
     Examples
     --------
@@ -363,7 +363,7 @@ class OutputError(EarthspinError, OSError):
     Attributes
     ----------
     path : str
-        Where it should have gone.
+        Path of the result.
 
     Examples
     --------
@@ -414,7 +414,7 @@ def nearest(word: object, allowed: Iterable[str]) -> str:
     Parameters
     ----------
     word : object
-        What was read.
+        Value that was given.
     allowed : iterable of str
         The valid words.
 

@@ -60,7 +60,7 @@ def ensemble(
     block : int, optional
         Number of members that are computed and stored at a time; chosen by their size by default.
     impossible : str, optional
-        Treatment of members that are not possible: ``"refuse"`` the ensemble, or ``"drop"`` them.
+        Treatment of impossible members: ``"refuse"`` the ensemble, or ``"drop"`` them.
 
     Returns
     -------

@@ -73,7 +73,7 @@ class VersionWarning(UserWarning):
 
     Examples
     --------
-    An answer that another version made still runs, and says so:
+    A result of another version is computed again, with this warning:
 
     >>> import warnings
     >>> import earthspin
@@ -92,7 +92,7 @@ def Scene(*, compute: str, **keys: Any) -> Question:
     Parameters
     ----------
     compute : str
-        What is asked: ``"precession"``, ``"torque"``, ...
+        Name of the question: ``"precession"``, ``"torque"``, ...
     **keys
         Keys of that question, as in a scene file or as arguments of its call.
 
@@ -133,9 +133,9 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
         ``"precession"``, the path of a TOML file, the path of a file that earthspin wrote, or an
         answer.
     changes : mapping, optional
-        Keys to set instead of those of the scene; ``"body.j2"`` reaches into a table. Keys that
-        exclude others replace them: ``"times"`` replaces ``"span"`` and ``"step"``. Plain numbers
-        are in SI units here; those in a scene file carry their units.
+        Keys to set instead of those of the scene; ``"body.j2"`` sets a value inside a table. Keys
+        that exclude others replace them: ``"times"`` replaces ``"span"`` and ``"step"``. Plain
+        numbers are in SI units here; those in a scene file carry their units.
 
     Raises
     ------
@@ -291,13 +291,13 @@ def run(scene: Any) -> xr.Dataset:
     ----------
     scene : str, Path, Question, Dataset or DataTree
         The name of a shipped scene, a file, a question, or an answer that is run again: with the
-        same versions, and the same instructions of the processor, it gives the same bits; if
-        versions differ, a warning says which.
+        same versions and processor instructions, the result is bit-identical; if versions differ, a
+        warning names them.
 
     Returns
     -------
     Dataset
-        The answer; `ds.earthspin` knows its plan and its complete question.
+        The answer; `ds.earthspin` gives its plan and its complete question.
 
     Raises
     ------
@@ -395,11 +395,11 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
     scene : str, Path, Question or answer
         One that computes ``torque``, ``pole`` or ``rotation``.
     path : str or Path
-        The Zarr folder; what is there is replaced when all is written. If the run is ended before,
-        the same call goes on from what it had written.
+        The Zarr folder; an existing folder is replaced when the series is complete. After an
+        interruption the same call resumes it.
     client : Client, int or str, optional
-        Of ``dask.distributed``, whose workers make the blocks: a client, a number of workers to
-        start here, or the address of a scheduler. A plain loop without.
+        Cluster of ``dask.distributed`` that computes the blocks: a client, a number of workers to
+        start here, or the address of a scheduler. Without it the blocks are computed here.
 
     Returns
     -------

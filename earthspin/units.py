@@ -122,7 +122,7 @@ def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
     Raises
     ------
     UnitsError
-        If the unit is missing, unknown or of another kind, or it is no number at all.
+        If the unit is missing or unknown or has the wrong dimension, or the value is not a number.
     SceneError
         If a number is masked, missing or not finite, or there is none.
     """
@@ -172,7 +172,7 @@ def unit_factor(unit: str, target: str, where: Where, example: str) -> float:
     Raises
     ------
     UnitsError
-        If the unit is unknown or of another kind.
+        If the unit is unknown or has the wrong dimension.
     """
     return _Target(target, where, example).factor(unit, unit)
 

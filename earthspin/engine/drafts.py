@@ -255,4 +255,4 @@ def check_identity(path: Path, opened: tuple[int, int, int] | None) -> None:
 def mismatch_error(path: Path, what: str) -> OutputError:
     """Make the error for a file that does not match its checksum."""
     remedy = "if they were changed on purpose, read the file with xarray.open_dataset"
-    return OutputError(path, f"{what} are not what was written", remedy)
+    return OutputError(path, f"{what} do not match the stored checksum", remedy)

@@ -127,7 +127,7 @@ def rates_by_effect(
     return budget_of(done.ours, done.theirs, without, off, iau.precession_rates(0.0).psi_a, u_h)
 
 
-_PUBLISHED = "the table that it stands in gives none"
+_PUBLISHED = "the published table gives no errors"
 _ADOPTED = "a model that was adopted, exact by definition"
 
 
@@ -136,7 +136,7 @@ class EffectRates(Variables, no_error="a measure of error itself"):
 
     psi_rate = measured(
         "arcsec/yr",
-        "contribution to the rate of psi_A at J2000.0, by switching off",
+        "contribution to the rate of psi_A at J2000.0: the rate minus that without the effect",
         along=("effect",),
     )
     psi_rate_published = number(
@@ -160,14 +160,14 @@ class EffectRates(Variables, no_error="a measure of error itself"):
     )
     omega_closure_with_tides = number(
         "arcsec/yr",
-        "the same with the published effect of tides in obliquity",
+        "omega_closure with the published effect of tides in obliquity",
         error="omega_rate_total_error",
     )
     closure_over_flattening = number(
-        "1", "closure over what one standard deviation of H makes of the rate"
+        "1", "closure divided by the change of the rate for one standard deviation of H"
     )
     closure_over_uncertainty = number(
-        "1", "closure over one standard deviation of H and the error of the analysis together"
+        "1", "closure divided by the combined uncertainty from H and from the analysis"
     )
     psi_rate_analysis_error = number(
         "arcsec/yr", "error of the analysis, found from the rate of the IAU's own pole"
@@ -328,14 +328,14 @@ class ResidualSizes(Variables, along=("model", "direction"), error="residual_siz
     """Root mean square and maximum of computed minus IAU pole, for different sets of effects."""
 
     residual_rms = number(
-        "mas", "root mean square after removal of a constant and a rate", short="rms"
+        "mas", "rms of the residuals after removal of a constant and a rate", short="rms"
     )
     residual_maximum = number(
-        "mas", "largest after removal of a constant and a rate", short="largest"
+        "mas", "largest residual after removal of a constant and a rate", short="largest"
     )
     residual_rms_unfitted = number(
         "mas",
-        "root mean square of the poles as `pole` returns them, without a fit",
+        "rms of the residuals of the poles as `pole` returns them, without a fit",
         short="rms without a fit",
     )
     residual_size_error = number("mas", _HALF_WIDTH, along=())
@@ -378,7 +378,7 @@ class Nutation(Variables, along=("term",)):
     rigid = amplitude("mas", "computed rigid amplitude", error="amplitude_error")
     iau = amplitude("mas", MERGED, error="amplitude_error")
     amplitude_error = number(
-        "mas", "95 % half-width of an amplitude, without the neighbour's share"
+        "mas", "95 % half-width of an amplitude, without the share of the neighbour"
     )
     neighbour = words(NEIGHBOUR)
     neighbour_in_phase = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
@@ -419,7 +419,7 @@ def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation
     )
 
 
-_ABSORBING = "the response that absorbs what it can"
+_ABSORBING = "the fit to IAU 2000A with its additive terms"
 
 
 class Core(Variables, no_error="part of a fit; its residuals measure it"):
@@ -436,15 +436,15 @@ class Core(Variables, no_error="part of a fit; its residuals measure it"):
     strength_imaginary = number("1", "fitted strength, imaginary part", along=("mode",))
     core_nutation_period_absorbing = number(
         "d",
-        f"the same by {_ABSORBING}",
-        no_error="short of core_nutation_period by what the response absorbs",
+        f"period of the free core nutation from {_ABSORBING}",
+        no_error="its difference from core_nutation_period shows the effect of these terms",
     )
     response_rms = number("uas", f"root mean square of the residuals of {_ABSORBING}")
     response_maximum = number("uas", f"largest residual of {_ABSORBING}")
     apart_rms = number(
         "uas",
-        "root mean square of the residuals of the response that may not absorb additive terms, "
-        "these taken away, the prograde year left out",
+        "root mean square of the residuals of the fit to IAU 2000A without its additive terms; "
+        "the prograde annual term is excluded",
     )
     added_period = number(
         "d",
@@ -453,15 +453,15 @@ class Core(Variables, no_error="part of a fit; its residuals measure it"):
         no_error=_ARGUMENTS,
     )
     added = amplitude(
-        "uas", "IAU 2000A less that response", along=("added_to",), error="added_error"
+        "uas", "IAU 2000A minus the fitted response", along=("added_to",), error="added_error"
     )
     added_error = number(
         "uas",
-        "95 % half-width of what is added, from the period of the core nutation",
+        "95 % half-width of an additive term, from the period of the core nutation",
         along=("added_to",),
     )
     added_published = amplitude(
-        "uas", "what its authors add to a response", along=("added_to",), no_error=_PUBLISHED
+        "uas", "published additive term of IAU 2000A", along=("added_to",), no_error=_PUBLISHED
     )
     mode = labels(default=["constant", "chandler", "core", "inner-core"])
     added_to = labels()

@@ -46,7 +46,7 @@ HALF_SPAN = 27200.0  # d
 SHORTEST_SPAN = 45 * JULIAN_YEAR / DAY  # d
 SAMPLING = 4.0  # d
 #: Descriptions of amplitudes of terms that this span does not separate, in results.
-MERGED = "amplitude of IAU 2000A, together with that of the neighbour, which is no published term"
+MERGED = "amplitude of IAU 2000A, with the share of the neighbour (no published value)"
 NEIGHBOUR = "term that 150 years cannot separate from this one; empty if there is none"
 NEIGHBOUR_SHARE = "share of the neighbour in the amplitude of IAU 2000A"
 SERIES = "coefficients of the adopted series"
@@ -120,7 +120,7 @@ def direction_errors(
 
 
 def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
-    """Largest displacement of the axis by the nodes of satellites, and by C if that is open, rad.
+    """Largest displacement of the axis by the nodes of satellites and by published effects, rad.
 
     Parameters
     ----------

@@ -376,8 +376,8 @@ ROTATION_FIGURES = [
     ),
     PageFigure(
         "How well the attitude is known",
-        "What the attitude may be off by at each time: what two ways of following it differ by, "
-        "and what the uncertainty of given numbers and positions does.",
+        "Error of the attitude over time: from the integration (the difference of two solutions), "
+        "and from the uncertainties of the inputs and of the positions.",
         plot_attitude_error,
     ),
     PageFigure(

@@ -22,15 +22,14 @@ LARGE = 1e9
 SHORT = 32
 #: Characters between two columns on the terminal.
 SPACE = 3
-#: What the brackets mean, for whoever meets them first.
+#: Explanation of errors in brackets, printed below tables.
 BRACKETS = (
     "Every error is the half-width of a 95 % interval; digits in brackets give it in units of the "
     "last digits."
 )
 
-#: Said of a half-width that holds the uncertainty of the input numbers, and nothing that the model
-#: leaves out.
-NUMBERS_ONLY = "numbers only"
+#: Note beside a half-width that includes the uncertainty of the inputs, but no neglected effects.
+NUMBERS_ONLY = "error from inputs only"
 
 
 @dataclass(frozen=True)
@@ -207,10 +206,10 @@ def beside_observed(
     Parameters
     ----------
     value, error : float
-        The half-width holds the input numbers only.
+        The half-width is due to the uncertainty of the inputs only.
     left_out : Dataset or None
         The section `neglected` in the same unit: its sizes, which are systematic, are added to the
-        half-width. Where no size is known, or not all are, the value is followed by "numbers only".
+        half-width. If any size is unknown, `NUMBERS_ONLY` follows the value.
     unit : str
         Written after the numbers.
     """

@@ -57,8 +57,8 @@ def ladder(tree: Result) -> Table:
 def _caption_of_ladder(tree: Result) -> str:
     band = "; the band is the observed period" if section(tree, "observed") is not None else ""
     words = (
-        "Period of the free wobble by a series of models, with 95 % errors from sampled inputs "
-        f"({tables.NUMBERS_ONLY}){band}."
+        "Period of the free wobble from models of increasing detail, with 95 % errors from sampled "
+        f"inputs only{band}."
     )
     return " ".join([words, *changes_of(answer_of(tree), "body")])
 

@@ -48,7 +48,7 @@ ORDER, FITTED_OVER, EXTRAPOLATED = 20, 730, 40
 
 @dataclass(frozen=True)
 class Autoregression:
-    """Autoregression of complex innovations, with residuals that are unequal in both coordinates.
+    """Autoregression of complex innovations; residuals differ in size between both coordinates.
 
     Attributes
     ----------
@@ -76,14 +76,14 @@ class Autoregression:
         return cls(filter_[1:], complex(residuals[-1]), covariance)
 
     def extended(self, series: ComplexArray, days: int) -> ComplexArray:
-        """Extend a series of innovations by some days, with e = 0."""
+        """Predict the innovations of the next days, with all future residuals e set to zero."""
         values = list(series[-ORDER:])
         for _ in range(days):
             values.append(-np.dot(self.coefficients, values[: -ORDER - 1 : -1]))
         return np.array(values[ORDER:], dtype=complex)
 
     def without_error(self, variance: float) -> tuple[complex, FloatArray]:
-        """Most probable last e, if the last observation has an error, and its covariance.
+        """Most probable last residual e given an error of the last observation, and its covariance.
 
         Parameters
         ----------
