@@ -140,7 +140,7 @@ def typeset(words: str) -> Markup:
 
 def _power(match: re.Match[str]) -> str:
     exponent = f"{match[2].strip('+')}{match[3]}".translate(_RAISED)
-    return f"{match[1]} \u00d7 10{exponent}"
+    return f"{match[1]}\u00a0\u00d7\u00a010{exponent}"
 
 
 #: Greys and colours of figures, as the page's style sheet turns them for light and dark.

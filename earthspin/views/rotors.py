@@ -196,7 +196,8 @@ def rolling_cones(rotor: SymmetricRotor, title: str, points: int = 241) -> Solid
             solids.moving_arrow(1.15 * speed * axis, RED, "axis"),
             solids.arrow(np.array([0.0, 0.0, 1.2 * speed]), BLACK, "L"),
         ],
-        radius=float(1.3 * speed),
+        radius=float(0.75 * speed),
+        height=float(0.6 * speed),
         times=times,
         attitude=rotor.attitude(times),
     )

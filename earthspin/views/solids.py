@@ -40,6 +40,8 @@ class Solid:
         "body".
     turn, tilt : float
         The first view: azimuth and elevation, rad.
+    height : float
+        Height of the middle of the picture along the third axis.
     """
 
     title: str
@@ -51,6 +53,7 @@ class Solid:
     attitude: ArrayLike = ((1.0, 0.0, 0.0, 0.0),)
     turn: float = 0.6
     tilt: float = 0.35
+    height: float = 0.0
 
     def json(self) -> str:
         """Convert the picture to JSON for the page's script, with arrays rounded to five digits.
