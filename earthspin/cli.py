@@ -1,6 +1,6 @@
 """Commands of the command line: report, play, run, ensemble, plan, scenes, keys, ...
 
-What can be asked, and what a shell completes, comes from the questions.
+Commands, options and completions follow from the classes of the questions.
 """
 
 from __future__ import annotations

@@ -318,7 +318,7 @@ class Ends:
     Attributes
     ----------
     first, last : float
-        In the unit that `time` returns.
+        Time in the unit that `time` returns.
     """
 
     first: float

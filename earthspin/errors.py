@@ -112,7 +112,7 @@ class Where:
     Attributes
     ----------
     key : str
-        As the reader would write it, ``"body.j2"``.
+        Key as a user would write it, ``"body.j2"``.
     source : str
         The file or call; empty if there is nothing to name.
     typed : bool
@@ -173,7 +173,7 @@ class BodyError(EarthspinError, ValueError):
         body : str
             Its name.
         forms : mapping of str to str
-            By field: what one writes for any body, its unit or its definition.
+            Example, unit or definition of a missing property, by field.
         """
         *most, last = forms
         names = f"{', '.join(most)} and {last}" if most else last

@@ -39,7 +39,7 @@ def ensemble(
     Parameters
     ----------
     question : str, Path, Question or answer
-        As `load_scene` takes it.
+        See `load_scene`.
     members : int, mapping, Dataset or path, optional
         A number of members: they are drawn from the published uncertainties of the bodies, or as
         the table ``members`` of the question says. A mapping of inputs to distributions:

@@ -42,12 +42,12 @@ def progress(label: str, total: int | None = None, already: int = 0) -> Iterator
     Parameters
     ----------
     label : str
-        What is being done.
+        Name of the work.
     total : int, optional
         Amount of work. If it is None, the bar moves to and fro, and a bar of known length inside
         this work replaces it for its time.
     already : int
-        How much of it was done before, which counts as done and not for the rate.
+        Amount that was done before; it counts as done, but not for the rate.
 
     Yields
     ------

@@ -263,7 +263,7 @@ def plan(scene: Any, sections: str | Iterable[str] = ()) -> Plan:
     Parameters
     ----------
     scene : str, Path, Question, Dataset or DataTree
-        As `load_scene` takes it.
+        See `load_scene`.
     sections : str or iterable of str
         Sections that are wanted beside the answer; ``"all"`` takes all that apply.
 
@@ -326,7 +326,7 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
     Parameters
     ----------
     scene : str, Path, Question, Dataset or DataTree
-        As `run` takes it.
+        See `run`.
     sections : str or iterable of str
         Names of sections, or ``"all"``.
 
@@ -373,7 +373,7 @@ def warn_of_versions(
         Attributes of the stored result.
     new : Dataset or DataTree
     stacklevel : int
-        As of `warnings.warn`.
+        See `warnings.warn`.
     """
     differ = [
         f"{name} {old[name]}, now {new.attrs.get(name)}"
@@ -393,7 +393,7 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
     Parameters
     ----------
     scene : str, Path, Question or answer
-        One that computes ``torque``, ``pole`` or ``rotation``.
+        Scene that computes ``torque``, ``pole`` or ``rotation``.
     path : str or Path
         The Zarr folder; an existing folder is replaced when the series is complete. After an
         interruption the same call resumes it.
@@ -463,7 +463,7 @@ def run_blocks(scene: Any) -> Iterator[xr.Dataset]:
     Parameters
     ----------
     scene : str, Path or Question
-        One that computes ``torque``, ``pole`` or ``rotation``.
+        Scene that computes ``torque``, ``pole`` or ``rotation``.
 
     Yields
     ------

@@ -110,9 +110,9 @@ def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
     unit : str
         The unit wanted, as astropy writes it.
     where : Where
-        What is being read.
+        Name of the input.
     example : str
-        How it should look, for the message.
+        Example for the message.
 
     Returns
     -------
@@ -564,7 +564,7 @@ class FileName(_AsItIs):
     known : collection of str
         Words that stand for something else than a file of this name.
     content : str
-        What such a file holds.
+        Content of such a file.
     """
 
     words = "the path of a file"

@@ -168,7 +168,7 @@ def output_errors(path: str | Path, remedy: str = "") -> Iterator[None]:
 def claimed(box: Path, target: Path) -> Iterator[None]:
     """Create the folder of a draft and lock it; a context manager.
 
-    Where the file system has no locks, writers are not kept apart. Folders that are created for it
+    On a file system without locks, two writers are not detected. Folders that are created for it
     are removed at the end if they are empty.
 
     Parameters

@@ -365,7 +365,7 @@ def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp
     Returns
     -------
     order : ndarray, shape (count,)
-        Their places among the circles.
+        Indices of these terms among the circles.
     columns : dict of str
         Variables of a table of terms: periods, amplitudes of IAU 2000A with their half-widths, and
         the neighbours that this span does not separate from them.

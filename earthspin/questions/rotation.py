@@ -216,9 +216,9 @@ class Rotor:
     Attributes
     ----------
     body : Rigid
-        In further lanes its neighbours.
+        The body; further lanes are copies of it with one changed input each.
     changed : tuple of str
-        What each of these has changed.
+        Changed input of each copy.
     masses : Masses
     start : State
     begin, end : float

@@ -122,7 +122,7 @@ def shares(planet: Planet, satellites: Satellites) -> tuple[FloatArray, FloatArr
     Returns
     -------
     q, l : ndarray, shape (m, n)
-        Of each satellite.
+        One value for each planet and satellite.
     """
     obliquity = planet.obliquity
     if abs(np.sin(2 * obliquity)) < _LEAST_SINE:

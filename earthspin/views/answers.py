@@ -65,7 +65,7 @@ def tables_for(tree: Result) -> list[Table]:
     Parameters
     ----------
     tree : Dataset or DataTree
-        As `run` or `run_tree` give it; sections that it does not hold are not shown.
+        Result of `run` or `run_tree`; only sections that it contains are shown.
 
     Returns
     -------
@@ -217,7 +217,7 @@ def page_of(
     lead : str, optional
         A sentence at the head; that of the first question by default.
     drawings : sequence of Drawing, optional
-        Those of the answers by default.
+        Figures of the page; those of the results by default.
     links : sequence of (str, str)
         Words and addresses of other pages, relative to this one.
 

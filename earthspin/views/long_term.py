@@ -35,9 +35,9 @@ def plot_climate(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``long-term``.
+        Answer to the question ``long-term``.
     ax : Axes, optional
-        For the obliquity alone.
+        Axes to draw only the obliquity on.
     """
     answer = in_order(answer_of(result))
     panels = (
@@ -55,9 +55,9 @@ def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``long-term``.
+        Answer to the question ``long-term``.
     ax : Axes, optional
-        For that of all together alone.
+        Axes to draw only the period of all perturbers together on.
     """
     answer = in_order(answer_of(result))
     period, error = answer.precession_period / 1000, answer.precession_period_error / 1000
@@ -108,8 +108,8 @@ def plot_pole(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``long-term``; of its span what lies within 13,000 years is drawn. Epochs
-        of every thousand years are joined by a cubic.
+        Answer to the question ``long-term``; only the part within 13,000 years of J2000.0 is drawn.
+        Epochs of every thousand years are joined by a cubic.
     ax : Axes, optional
     """
     from scipy.interpolate import CubicSpline
@@ -148,7 +148,7 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``long-term``; the section ``budget`` is run if it is not there.
+        Answer to the question ``long-term``; the section ``budget`` is computed if it is missing.
     ax : Axes, optional
     """
     shares: xr.Dataset = needed(result, "budget")

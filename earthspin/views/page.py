@@ -37,7 +37,7 @@ def page(
         If the first is square, it stands beside the title.
     solids : sequence of Solid
     last : sequence of Table
-        At the end, folded away.
+        Tables at the end, collapsed.
     **words
         `lead` and `note`, a sentence at the head, and what holds for all that follows; `links`,
         pairs of words and addresses of other pages, relative to this one; and `footer`.
@@ -156,9 +156,10 @@ def figure_on_page(svg: str, name: str, words: str, width: str) -> Markup:
     ----------
     svg : str
     name : str
-        Of the figure on its page; its parts are named after it, so that no two are alike.
+        Name of the figure on its page; the parts of the figure are named after it, so that all
+        names differ.
     words : str
-        What it shows, for those who do not see it.
+        Description of the figure for screen readers.
     width : str
         ``"narrow"`` if it is shown on a phone alone, ``"usual"`` if elsewhere alone.
 

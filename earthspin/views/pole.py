@@ -20,7 +20,7 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``pole``; some years of it, with psi and eps.
+        Answer to the question ``pole`` over some years, with psi and eps.
     axis : str
         Which of the three.
     ax : Axes, optional
@@ -159,7 +159,7 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``iau``.
+        Answer to the question ``iau``.
     ax : Axes, optional
     """
     ax = axes(ax, 7.2, 3.4)
@@ -192,7 +192,7 @@ def plot_pole_residuals(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``iau``; without its section ``residuals`` it is run again.
+        Answer to the question ``iau``; computed again if the section ``residuals`` is missing.
     ax : Axes, optional
     """
     series = needed(result, "residuals")
@@ -215,7 +215,8 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``iau``; without its sections ``nutation`` and ``core`` it is run again.
+        Answer to the question ``iau``; computed again if its section ``nutation`` or ``core`` is
+        missing.
     ax : Axes, optional
     """
     terms, period = needed(result, "nutation"), float(needed(result, "core").core_nutation_period)
@@ -281,7 +282,7 @@ def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``nutation``.
+        Answer to the question ``nutation``.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
@@ -309,8 +310,8 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``nutation``; without its sections ``transfer`` and ``terms`` it is run
-        again.
+        Answer to the question ``nutation``; computed again if its section ``transfer`` or ``terms``
+        is missing.
     ax : Axes, optional
     """
     data, main = needed(result, "transfer"), needed(result, "terms")

@@ -283,9 +283,10 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``precession``; without the section ``convergence`` it is run again.
+        Answer to the question ``precession``; computed again if the section
+        ``convergence`` is missing.
     year : Dataset or DataTree
-        Of the question ``torque``.
+        Answer to the question ``torque``.
     figure : Figure, optional
         A figure of its own by default.
     """
@@ -314,7 +315,8 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``precession``; without the section ``convergence`` it is run again.
+        Answer to the question ``precession``; computed again if the section
+        ``convergence`` is missing.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
@@ -370,7 +372,7 @@ def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``precession``.
+        Answer to the question ``precession``.
     ax : Axes, optional
     """
     total = answer_of(result).isel(perturber=-1)

@@ -34,7 +34,7 @@ def plot_components(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``free-rotor``.
+        Answer to the question ``free-rotor``.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
@@ -52,7 +52,7 @@ def plot_herpolhode(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``free-rotor``; without the section ``poinsot`` it is run again.
+        Answer to the question ``free-rotor``; computed again if the section ``poinsot`` is missing.
     ax : Axes, optional
     """
     poinsot = needed(result, "poinsot")
@@ -233,7 +233,7 @@ def plot_effective_potential(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``top``; without the sections ``potential`` and ``turning`` it is run
+        Answer to the question ``top``; without the sections ``potential`` and ``turning`` it is run
         again.
     ax : Axes, optional
         Drawn on a figure of its own by default.
@@ -319,7 +319,7 @@ def plot_spin(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``rotation``.
+        Answer to the question ``rotation``.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
@@ -335,7 +335,7 @@ def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``rotation``.
+        Answer to the question ``rotation``.
     ax : Axes, optional
     """
     ax = axes(ax, 8, 3.4)
@@ -355,7 +355,8 @@ def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``rotation``; without the section ``divergence`` it is run again.
+        Answer to the question ``rotation``; computed again if the section
+        ``divergence`` is missing.
     ax : Axes, optional
     """
     ax = axes(ax, 8, 3.4)

@@ -30,14 +30,14 @@ class Solid:
     ----------
     title, caption : str
     items : sequence of dict
-        As `mesh`, `line`, `arrow` and `moving_arrow` make them.
+        Parts made by `mesh`, `line`, `arrow` and `moving_arrow`.
     radius : float
         Half the extent that is shown at first.
     times : sequence of float
-        In `unit`; one entry for a still picture.
+        Times in `unit`; one entry for a still picture.
     attitude : sequence of quaternions
-        w, x, y, z, body to space, one a time or one for all times; carries what has the frame
-        "body".
+        w, x, y, z, from body to space, one for each time or one for all; it rotates items with the
+        frame "body".
     turn, tilt : float
         The first view: azimuth and elevation, rad.
     height : float

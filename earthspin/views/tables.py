@@ -274,7 +274,7 @@ class _DataColumn:
     values : DataArray
         Along the dimension of the rows, or a single number.
     errors : DataArray or None
-        In the unit of the values.
+        Half-widths in the unit of the values.
     """
 
     name: str
@@ -311,7 +311,7 @@ def tables(tree: Result, without: Iterable[str] = ()) -> list[Table]:
     Parameters
     ----------
     tree : Dataset or DataTree
-        As `run` or `run_tree` give it.
+        Result of `run` or `run_tree`.
     without : iterable of str
         Sections that are not shown; the answer itself is the empty text.
     """

@@ -61,10 +61,9 @@ def plot_declination(
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``torque``.
+        Answer to the question ``torque``.
     smooth_days : float, optional
-        What swings more often than is seen is drawn as a band, between the extremes within this
-        time.
+        Fast oscillations are drawn as a band between their extremes within this time.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
@@ -87,7 +86,7 @@ def plot_torque(
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``torque``, evenly spaced.
+        Answer to the question ``torque``, evenly spaced.
     smooth_days : float, optional
         Width of a running mean, drawn as a second line; what swings more often than is seen is
         drawn as a band, between the extremes within this time.
@@ -158,7 +157,7 @@ def plot_states(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``cassini-states``.
+        Answer to the question ``cassini-states``.
     ax : Axes, optional
     """
     answer = answer_of(result)

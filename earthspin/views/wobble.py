@@ -69,7 +69,7 @@ def plot_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``wobble``.
+        Answer to the question ``wobble``.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
@@ -122,7 +122,7 @@ def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``love-numbers``.
+        Answer to the question ``love-numbers``.
     figure : Figure, optional
         Drawn on one of its own by default.
     """
