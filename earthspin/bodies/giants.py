@@ -131,7 +131,7 @@ SATURN_MOMENT = Constant(
     0.2181,
     "",
     0.0020,
-    "Militzer & Hubbard 2023; uncertainty assumed, ten times theirs",
+    "Militzer & Hubbard 2023; uncertainty assumed, ten times the published one",
     "abstract, arXiv:2308.04986",
 )
 #: Published precession constants (rate divided by cos obliquity), satellites included.

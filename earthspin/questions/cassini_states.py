@@ -199,8 +199,8 @@ def neglected(body: Body, own_orbit: Orbit) -> Neglected:
     if sizes and body.is_as_named and own_orbit == PRECESSING_ORBITS.get(body.known_as):
         return Neglected.cited(sizes, "change of the obliquity in the upright state")
     return Neglected(
-        what="libration, pulls beside that of the primary, a core that does not follow, and terms "
-        f"that turn with the pericentre: not measured for {in_a_sentence(body.name)}"
+        what="libration, torques of other bodies, a decoupled core, and terms in the longitude of "
+        f"the pericentre: not measured for {in_a_sentence(body.name)}"
     )
 
 

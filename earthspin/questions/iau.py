@@ -92,10 +92,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     def check(self) -> None:
         """Refuse bodies whose position errors are unknown, as the comparison needs them."""
         super().check()
-        problem = (
-            "how far off its positions are was never measured, and the comparison with the IAU "
-            "gives errors; use pole() for them"
-        )
+        problem = "the error of its positions is not known, and errors are needed; use pole()"
         for member in (self.body, *self.perturbers):
             placed = member.position is None or is_measured(member.position)
             if not placed or member.orbit is not None:

@@ -122,7 +122,7 @@ class ByPeriod(Variables, along=("love", "love_period"), no_error=FROM_LAYERS):
     love_number_by_period = number("1", "Love number")
     love_number_by_period_imaginary = number("1", "imaginary part, negative for a lag")
     love = labels(default=list(_FIELDS))
-    love_period = labels("period of what deforms the body", "d", default=PERIODS / DAY)
+    love_period = labels("period of the deformation", "d", default=PERIODS / DAY)
 
 
 @part

@@ -308,7 +308,7 @@ def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     return time, ex.excitation_of(chi1, chi2) / MAS
 
 
-class Excitation(Daily, no_error="the table from which it is read gives none"):
+class Excitation(Daily, no_error="the table gives no errors"):
     """Excitation of polar motion."""
 
     chi1 = number("mas", "excitation, towards the prime meridian")
@@ -434,7 +434,7 @@ def polar_motion_from(
     ends = ex.ends_of_steps(time, step)
     if fitted_to is not None:
         if start is not None:
-            raise SceneError("start", start, "it is fitted to the pole; leave it or fitted_to out")
+            raise SceneError("start", start, "fitted_to determines it; remove one of them")
         ends, observed, driving = _together(fitted_to, chi)
         begin = ex.fitted_start(ends, observed, driving, s)
     else:
@@ -522,6 +522,6 @@ def _even_step(time: FloatArray) -> float:
     """Time step of an evenly spaced series, d."""
     steps = np.diff(time)
     if steps.size == 0 or np.any(abs(steps - steps[0]) > SAME_DAY):
-        problem = "fill the gaps first: the exact pair needs even ones"
+        problem = "fill the gaps first; an even step is needed"
         raise SceneError("time", "uneven steps", problem)
     return float((time[-1] - time[0]) / steps.size)

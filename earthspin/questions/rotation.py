@@ -498,7 +498,7 @@ def divergence(parting: Divergence, rotor: Rotor, epochs: Epochs) -> Growth:
 
 #: Effects that no rigid body of three moments has.
 _BEYOND = (
-    "deformation and flow of the inside, harmonics of the figure beyond the moments, J3 and J4"
+    "deformation and flow of the interior, harmonics of the figure beyond the moments, J3 and J4"
 )
 
 

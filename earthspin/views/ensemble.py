@@ -86,8 +86,8 @@ def _percentages(answer: xr.Dataset) -> xr.Dataset:
         share = xr.concat([share.where(seen, 0.0), rest], "input")
         share.attrs = {
             "units": "%",
-            "long_name": f"share of the variance of {name.replace('_', ' ')}, by straight lines in "
-            "all inputs together; the last row is what the lines leave",
+            "long_name": f"share of the variance of {name.replace('_', ' ')}, from a linear fit "
+            "in all inputs; the last row is the unexplained part",
             "ancillary_variables": f"{name}_error",
         }
         half = xr.concat([error.where(seen, 0.0), xr.zeros_like(rest)], "input")

@@ -175,7 +175,7 @@ FIGURES = [
         "The pole among the stars",
         "Path of the celestial pole among the stars, seen from inside, within 13,000 years of "
         "the present. It does not close: the plane of the orbit moves, too. The cross is the "
-        "pole of the ecliptic of J2000.0; stars stand where they stood then.",
+        "pole of the ecliptic of J2000.0; the stars are at their positions of J2000.0.",
         plot_pole,
         applies=lambda tree: path_is_there(in_order(answer_of(tree)).epoch.values),
         square=True,
@@ -186,15 +186,15 @@ FIGURES = [
     ),
     PageFigure(
         "Period of precession",
-        "Time of one full turn at the rate of each epoch, and by each alone of those that "
-        "pull. Bands are 95 % half-widths.",
+        "Period of precession at the rate of each epoch, in total and for each perturber alone. "
+        "Bands are 95 % half-widths.",
         plot_periods,
     ),
     PageFigure(
         "How well the perihelion is known",
-        "What each cause adds to the 95 % half-width of the longitude of perihelion: the "
-        "largest up to that distance from J2000.0, past or future. Far out, what is not "
-        "known of tides and figure counts for more than any method.",
+        "Contribution of each cause to the 95 % half-width of the longitude of perihelion: the "
+        "largest up to that distance from J2000.0, past or future. Far from the present, the "
+        "uncertainty of tides and figure exceeds that of the method.",
         plot_budget,
         section="budget",
     ),

@@ -439,14 +439,14 @@ FORECAST_FIGURES = [
     ),
     PageFigure(
         "Path of the pole",
-        "Forecast path of the pole over the ground; ellipses hold it in 95 % of cases.",
+        "Forecast path of the pole over the ground; ellipses contain it in 95 % of cases.",
         plot_path,
     ),
     PageFigure(
         "Error and coverage by horizon",
-        "Mean absolute error of one coordinate and share of 95 % intervals that hold the observed "
-        "pole, in hindcasts with C04 and on releases of finals2000A; dashed, the other forecast "
-        "from the same origins.",
+        "Mean absolute error of one coordinate and share of 95 % intervals that contain the "
+        "observed pole, in hindcasts with C04 and on releases of finals2000A; dashed, the other "
+        "forecast from the same origins.",
         plot_skill,
         section="skill",
     ),

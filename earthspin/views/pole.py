@@ -252,8 +252,8 @@ IAU_FIGURES = [
         "The budget",
         "Contribution of each effect to the rate of psi_A, measured by switching the effect off, "
         "and the published contribution; the axis is logarithmic to both sides of zero. To see: "
-        "where the dots of a pair lie at one place, what is computed agrees with what is "
-        "published. Dashed: the closure, what remains of the sum.",
+        "the two dots of a pair coincide if the computed and the published contribution agree. "
+        "Dashed: the closure, the unexplained rest.",
         plot_budget,
     ),
     PageFigure(
@@ -345,13 +345,13 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
 NUTATION_FIGURES = [
     PageFigure(
         "From a rigid body to half a milliarcsecond",
-        "What is left of each model against IAU 2000A. To see: which steps down are large.",
+        "Residuals of each model from IAU 2000A. To see: which effects reduce them most.",
         plot_nutation_ladder,
     ),
     PageFigure(
         "Through the resonance",
-        "Nutation of the body over that of a rigid one. Dots: the terms of IAU 2000A over the "
-        "rigid ones. The resonance is the free core nutation.",
+        "Ratio of nutation to that of a rigid body. Dots: terms of IAU 2000A divided by rigid "
+        "terms. The resonance is the free core nutation.",
         plot_transfer,
         section="transfer",
         uses=["terms"],

@@ -227,7 +227,7 @@ def iau(tree: Result) -> Table:
         rows,
         "The sizes of the effects left out are published: Capitaine, Wallace & Chapront 2003, "
         "table 3. H itself comes from observed precession, so the comparison tests consistency, "
-        "not the theory. Errors hold the uncertainty of the input numbers only. The "
+        "not the theory. Errors include the uncertainty of the inputs only. The "
         f"difference that remains is {_millionths(known)} millionths of the rate.",
     )
 

@@ -383,8 +383,8 @@ ROTATION_FIGURES = [
         plot_attitude_error,
     ),
     PageFigure(
-        "How neighbours part",
-        "Logarithm of the distance of a neighbour; a straight line is chaos.",
+        "Divergence of neighbouring rotations",
+        "Logarithm of the distance of neighbouring rotations; a straight line means chaos.",
         plot_growth,
         section="divergence",
     ),

@@ -142,12 +142,9 @@ TORQUE_FIGURES = [PageFigure("Declination and torque", _caption_of_torque, _plot
 
 
 def _caption_of_states(tree: Result) -> str:
-    words = (
-        "Spin axes in the states, in the plane of the orbit's normal (dashed) and of the pole that "
-        "it goes round (dotted)."
-    )
+    words = "Spin axes, in the plane of the orbit normal (dashed) and its mean (dotted)."
     if not bool(answer_of(tree).stable.all()):
-        words += " An axis beside a blue one stays there; beside the red one it leaves."
+        words += " An axis near a blue state stays near it; near the red one it does not."
     return words
 
 

@@ -41,9 +41,8 @@ def ladder(tree: Result) -> Table:
         source = observed.observed_period.attrs.get("references", "")
         notes.append(
             f"Source of the observed period: {source}. "
-            "The errors hold the uncertainty of the input numbers; that of the last rung, which "
-            "stands beside the observed period, holds the sizes of what it leaves out, too, where "
-            "they are known."
+            "The errors include the uncertainty of the inputs; that of the last rung, compared "
+            "with the observed period, also includes the known sizes of neglected effects."
         )
     columns = (
         Column("period_solar", period, "days of 86400 s"),
@@ -150,10 +149,9 @@ def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
 
 LOVE_FIGURES = [
     PageFigure(
-        "Softer and later with the period",
-        "Love numbers of tide and load, by the period of what deforms the body: how much larger "
-        "they are than those of the elastic body, at 1 s, and by which angle they lag. The small "
-        "tangential one of a load is left out.",
+        "Love numbers by period",
+        "Excess of the Love numbers of tide and load over those of the elastic body (at 1 s), "
+        "and their phase lag, by period. The small tangential load Love number is left out.",
         plot_by_period,
         section="by_period",
     )
