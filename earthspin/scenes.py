@@ -452,7 +452,7 @@ def series_length(question: Question) -> int:
 
 
 def members_of(question: Question) -> int:
-    """Number of bodies for which a question is computed at once; one without labelled arrays."""
+    """Number of bodies for which a question is computed at once; 1 without labelled arrays."""
     groups = [value if isinstance(value, tuple) else (value,) for value in question.keys().values()]
     return members(value for group in groups for value in group if isinstance(value, Body))
 

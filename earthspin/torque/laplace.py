@@ -69,7 +69,7 @@ class Satellites:
 
 @dataclass(frozen=True)
 class Planet:
-    """Planets that differ in their numbers, of which each attribute has the shape (m, 1).
+    """One or more planets with different numbers; each attribute has the shape (m, 1).
 
     Attributes
     ----------

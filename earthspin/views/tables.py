@@ -362,7 +362,7 @@ def numbered(tables: Iterable[Table]) -> list[Table]:
 
 
 def _names(data: xr.Dataset) -> list[str]:
-    """Names of the variables that tables show: all but half-widths, and shares of these."""
+    """Names of the variables that tables show: all except half-widths and their contributions."""
     names = [str(name) for name in data.data_vars]
     beside = {_half_width(data, name) for name in names}
     return [name for name in names if name not in beside and "_error_" not in name]
