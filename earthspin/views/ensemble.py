@@ -73,7 +73,7 @@ def _spread(answer: xr.Dataset) -> xr.Dataset:
 
 
 def _percentages(answer: xr.Dataset) -> xr.Dataset:
-    """Share of each input in the variance of the main quantities, and the unexplained rest, in %."""
+    """Share of each input in the variance of the main quantities, and the unexplained part, %."""
     result, shares = answer.earthspin.sensitivity(), xr.Dataset()
     labels = ("input", [*map(str, result["input"].values), "rest"], result["input"].attrs)
     result = result.drop_vars("input")  # xarray 2025.6 cannot concatenate labels that are words
