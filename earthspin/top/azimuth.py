@@ -113,12 +113,12 @@ def mean_precession_rate(top: HeavyTop) -> FloatArray:
 
 
 def _lower_winding(nutation: Nutation) -> FloatArray:
-    """Quarter turns (-1, 0 or 1) that an arctangent term adds to (phi + psi)/2 per half nutation."""
+    """Quarter turns (-1, 0 or 1) that an arctangent adds to (phi + psi)/2 per half nutation."""
     return np.where(_has_lower_arc(nutation), np.sign(nutation.start.b_plus_a), 0.0)
 
 
 def _upper_winding(nutation: Nutation) -> FloatArray:
-    """Quarter turns (-1, 0 or 1) that an arctangent term adds to (phi - psi)/2 per half nutation."""
+    """Quarter turns (-1, 0 or 1) that an arctangent adds to (phi - psi)/2 per half nutation."""
     return np.where(_has_upper_arc(nutation), np.sign(nutation.start.b_minus_a), 0.0)
 
 
