@@ -36,14 +36,13 @@ def opened_kernels(monkeypatch: pytest.MonkeyPatch) -> list[ephemeris.Ephemeris]
     """
     monkeypatch.setattr(averages.torque_samples, "_stored", OrderedDict())
     opened: list[ephemeris.Ephemeris] = []
-    original = ephemeris.Ephemeris
+    initialise = ephemeris.Ephemeris.__init__
 
-    class Watched(original):
-        def __init__(self, *args: object, **kwargs: object) -> None:
-            super().__init__(*args, **kwargs)
-            opened.append(self)
+    def watched(kernel: ephemeris.Ephemeris, *args: object, **kwargs: object) -> None:
+        initialise(kernel, *args, **kwargs)
+        opened.append(kernel)
 
-    monkeypatch.setattr(ephemeris, "Ephemeris", Watched)
+    monkeypatch.setattr(ephemeris.Ephemeris, "__init__", watched)
     return opened
 
 
