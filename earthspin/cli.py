@@ -1,6 +1,6 @@
 """Commands of the command line: report, play, run, ensemble, plan, scenes, keys, ...
 
-What can be asked, and what a shell completes, comes from the questions.
+Commands, options and completions follow from the classes of the questions.
 """
 
 from __future__ import annotations
@@ -376,7 +376,7 @@ def _verify(options: Namespace) -> None:
     """Command `verify`: compare a stored result with its checksums."""
     from earthspin.engine.store import verify
 
-    print(f"{printable(str(verify(options.file)))} is intact")
+    print(f"{printable(str(verify(options.file)))} is complete and matches its checksums")
 
 
 def _completion(options: Namespace) -> None:

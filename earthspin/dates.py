@@ -320,7 +320,7 @@ class Ends:
     Attributes
     ----------
     first, last : float
-        In the unit that `time` returns.
+        Time in the unit that `time` returns.
     """
 
     first: float

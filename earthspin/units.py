@@ -100,9 +100,9 @@ def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
     unit : str
         The unit wanted, as astropy writes it.
     where : Where
-        What is being read.
+        Name of the input.
     example : str
-        How it should look, for the message.
+        Example for the message.
 
     Returns
     -------
@@ -112,7 +112,7 @@ def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
     Raises
     ------
     UnitsError
-        If the unit is missing, unknown or of another kind, or it is no number at all.
+        If the unit is missing or unknown or has the wrong dimension, or the value is not a number.
     SceneError
         If a number is masked, missing or not finite, or there is none.
     """
@@ -162,7 +162,7 @@ def unit_factor(unit: str, target: str, where: Where, example: str) -> float:
     Raises
     ------
     UnitsError
-        If the unit is unknown or of another kind.
+        If the unit is unknown or has the wrong dimension.
     """
     return _Target(target, where, example).factor(unit, unit)
 
@@ -554,7 +554,7 @@ class FileName(_AsItIs):
     known : collection of str
         Words that stand for something else than a file of this name.
     content : str
-        What such a file holds.
+        Content of such a file.
     """
 
     words = "the path of a file"

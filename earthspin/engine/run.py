@@ -1,6 +1,6 @@
 """Run a question: each part is computed when its result is first asked for.
 
-What is not asked for is not computed. The plan that people read is the same walk through the parts,
+Other parts are not computed. The plan that users read comes from the same walk through the parts,
 without the calls.
 """
 

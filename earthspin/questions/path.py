@@ -44,7 +44,7 @@ HALF_SPAN = 27200.0  # d
 SHORTEST_SPAN = 45 * JULIAN_YEAR / DAY  # d
 SAMPLING = 4.0  # d
 #: Descriptions of amplitudes of terms that this span does not separate, in results.
-MERGED = "amplitude of IAU 2000A, together with that of the neighbour, which is no published term"
+MERGED = "amplitude of IAU 2000A, with the share of the neighbour (no published value)"
 NEIGHBOUR = "term that 150 years cannot separate from this one; empty if there is none"
 NEIGHBOUR_SHARE = "share of the neighbour in the amplitude of IAU 2000A"
 SERIES = "coefficients of the adopted series"
@@ -117,7 +117,7 @@ def direction_errors(
 
 
 def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
-    """Largest displacement of the axis by the nodes of satellites, and by C if that is open, rad.
+    """Largest displacement of the axis by the nodes of satellites and by published effects, rad.
 
     Parameters
     ----------
@@ -217,8 +217,10 @@ def path_over(
     return axes.axis_path(forces, start, pulls.epoch, span, limits=pulls.limits)
 
 
-def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, ComplexArray]:
-    """Nutation of IAU 2000A at the days of a series.
+def iau_nutation(
+    pulls: Pulls, epochs: Epochs
+) -> tuple[FloatArray, FloatArray, FloatArray, ComplexArray]:
+    """Pole and nutation of IAU 2006/2000A at the days of a series.
 
     Returns
     -------
@@ -226,6 +228,8 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
         Days from J2000.0.
     ends : ndarray, shape (2,)
         First and last day of an interval that includes the series and J2000.0.
+    pole : ndarray, shape (t, 3)
+        Unit vectors in the GCRS.
     eta : ndarray, shape (t,), complex
         Nutation dpsi sin(eps0) + i deps, rad.
 
@@ -238,8 +242,8 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
     first, last = epochs.span()
     ends = np.array([min(first, 0.0), max(last, 0.0)])
     pulls.sky.check_times(ends, pulls.targets)
-    angles = iau.at_days(lambda at: iau.nutation_of(iau.true_pole(at), at), days)
-    return days, ends, analysis.complex_nutation(angles)
+    pole = iau.at_days(iau.true_pole, days)
+    return days, ends, pole, analysis.complex_nutation(iau.nutation_of(pole, days))
 
 
 def residual_error(
@@ -357,7 +361,7 @@ def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp
     Returns
     -------
     order : ndarray, shape (count,)
-        Their places among the circles.
+        Indices of these terms among the circles.
     columns : dict of str
         Variables of a table of terms: periods, amplitudes of IAU 2000A with their half-widths, and
         the neighbours that this span does not separate from them.

@@ -44,7 +44,7 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     Raises
     ------
     EarthspinError
-        For a top that cannot be, or a start out of range.
+        If the moments are impossible, or an initial value is out of range.
 
     Examples
     --------

@@ -38,9 +38,9 @@ def plot_climate(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``long-term``.
+        Answer to the question ``long-term``.
     ax : Axes, optional
-        For the obliquity alone.
+        Axes to draw only the obliquity on.
     """
     answer = in_order(answer_of(result))
     panels = (
@@ -58,9 +58,9 @@ def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``long-term``.
+        Answer to the question ``long-term``.
     ax : Axes, optional
-        For that of all together alone.
+        Axes to draw only the period of all perturbers together on.
     """
     answer = in_order(answer_of(result))
     period, error = answer.precession_period / 1000, answer.precession_period_error / 1000
@@ -170,8 +170,8 @@ def plot_pole(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``long-term``; of its span what lies within 13,000 years is drawn. Epochs
-        of every thousand years are joined by a cubic.
+        Answer to the question ``long-term``; only the part within 13,000 years of J2000.0 is drawn.
+        Epochs of every thousand years are joined by a cubic.
     ax : Axes, optional
     """
     from scipy.interpolate import CubicSpline
@@ -210,7 +210,7 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``long-term``; the section ``budget`` is run if it is not there.
+        Answer to the question ``long-term``; the section ``budget`` is computed if it is missing.
     ax : Axes, optional
     """
     shares: xr.Dataset = needed(result, "budget")
@@ -237,7 +237,7 @@ FIGURES = [
         "The pole among the stars",
         "Path of the celestial pole among the stars, seen from inside, within 13,000 years of "
         "the present. It does not close: the plane of the orbit moves, too. The cross is the "
-        "pole of the ecliptic of J2000.0; stars stand where they stood then.",
+        "pole of the ecliptic of J2000.0; the stars are at their positions of J2000.0.",
         plot_pole,
         applies=lambda tree: path_is_there(in_order(answer_of(tree)).epoch.values),
         square=True,
@@ -248,15 +248,15 @@ FIGURES = [
     ),
     PageFigure(
         "Period of precession",
-        "Time of one full turn at the rate of each epoch, and by each alone of those that "
-        "pull. Bands are 95 % half-widths.",
+        "Period of precession at the rate of each epoch, in total and for each perturber alone. "
+        "Bands are 95 % half-widths.",
         plot_periods,
     ),
     PageFigure(
         "How well the perihelion is known",
-        "What each cause adds to the 95 % half-width of the longitude of perihelion: the "
-        "largest up to that distance from J2000.0, past or future. Far out, what is not "
-        "known of tides and figure counts for more than any method.",
+        "Contribution of each cause to the 95 % half-width of the longitude of perihelion: the "
+        "largest up to that distance from J2000.0, past or future. Far from the present, the "
+        "uncertainty of tides and figure exceeds that of the method.",
         plot_budget,
         section="budget",
     ),
