@@ -47,6 +47,7 @@ from earthspin.questions.path import (
     path_over,
     residual_error,
     rigid,
+    same_paths,
     steady_figure,
 )
 from earthspin.questions.reasons import neglected_rates
@@ -102,7 +103,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
 # --- the answer: rates effect by effect ----------------------------------------------------------
 
 
-@part
+@part(same_for=same_paths)
 def rates_by_effect(
     pole_analysis: PoleComparison, pulls: Pulls, effects: tuple[str, ...]
 ) -> Budget:

@@ -124,7 +124,7 @@ def left(
     half-width of either from the inputs of the interior, H and integration, rad.
     """
     done = pole_analysis
-    days, ends, theirs = path.iau_nutation(pulls, epochs)
+    days, ends, _, theirs = path.iau_nutation(pulls, epochs)
     figure = path.steady_figure(path.path_over(pulls, effects, done.start, ends), days)
     own = complex_nutation(iau.nutation_of(figure, days))
     circles, frequency = done.our_circles, done.our_circles.frequency

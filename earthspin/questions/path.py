@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +18,7 @@ from earthspin.engine.question import key, part
 from earthspin.errors import UndefinedError
 from earthspin.motion import axes
 from earthspin.motion.axes import AxisPath
-from earthspin.motion.effects import GEODESIC, NONRIGID
+from earthspin.motion.effects import GEODESIC, NONRIGID, TRIAXIALITY
 from earthspin.motion.forces import fastest_sweep
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import analysis
@@ -210,9 +210,10 @@ def path_over(
 ) -> AxisPath:
     """Integrate the motion of the rigid body's axes over a range of days.
 
-    Positions of the perturbers are stored for the next run.
+    Semidiurnal terms are left out. Positions of the perturbers are stored for the next run.
     """
-    forces = forces_of(pulls, rigid(effects), keep=True)
+    steady = [effect for effect in rigid(effects) if effect != TRIAXIALITY.name]
+    forces = forces_of(pulls, steady, keep=True)
     span = days[0] * DAY, days[-1] * DAY
     return axes.axis_path(forces, start, pulls.epoch, span, limits=pulls.limits)
 
@@ -262,6 +263,12 @@ def residual_error(
 def rigid(effects: Sequence[str]) -> list[str]:
     """Select the effects that apply to a rigid body: all except the non-rigid response."""
     return [effect for effect in effects if effect != NONRIGID.name]
+
+
+def same_paths(pulls: Pulls, effects: Sequence[str], **inputs: object) -> Hashable:
+    """Value that is equal if `path_over` gives the same path; None if its inputs may change."""
+    perturbers = *pulls.gm.items(), *pulls.targets.items(), *pulls.sky.reach.items()
+    return pulls.sky.unchanged(pulls.body, also=(perturbers, pulls.limits, *rigid(effects)))
 
 
 @dataclass(frozen=True)
@@ -320,7 +327,7 @@ def iau_pole(pulls: Pulls) -> IAUPole:
     return IAUPole(days, nutation, analyse, analyse.secular(pole), circles)
 
 
-@part(unless=no_iau_model)
+@part(unless=no_iau_model, same_for=same_paths)
 def pole_analysis(pulls: Pulls, effects: tuple[str, ...], iau_pole: IAUPole) -> PoleComparison:
     """Separate the computed pole over 150 years into precession and circular terms, as the IAU's.
 
@@ -435,7 +442,7 @@ class ResponseFit:
     added: ComplexArray
 
 
-@part(loads=("earthspin.nutation.response",))
+@part(same_for=same_paths, loads=("earthspin.nutation.response",))
 def response_apart(
     pole_analysis: PoleComparison, pulls: Pulls, effects: tuple[str, ...]
 ) -> ResponseFit:
