@@ -18,8 +18,9 @@ from earthspin.questions import MODULES as _QUESTIONS
 _HOME = {
     "earthspin.bodies": ("BODIES", "EARTH", "MARS", "MOON", "SUN", "Body", "Orbit"),
     "earthspin.sky.orbit_files": ("read_orbit",),
-    "earthspin.insolation": ("daily_insolation",),
+    "earthspin.questions.insolation": ("daily_insolation",),
     "earthspin.stars_near_pole": ("pole_stars",),
+    "earthspin.solutions": ("read_solution",),
     "earthspin.questions.polar_motion": (
         "excitation",
         "fit_chandler",

@@ -33,8 +33,9 @@ from earthspin.bodies import SUN as SUN
 from earthspin.bodies import Body as Body
 from earthspin.bodies import Orbit as Orbit
 from earthspin.sky.orbit_files import read_orbit as read_orbit
-from earthspin.insolation import daily_insolation as daily_insolation
+from earthspin.questions.insolation import daily_insolation as daily_insolation
 from earthspin.stars_near_pole import pole_stars as pole_stars
+from earthspin.solutions import read_solution as read_solution
 from earthspin.questions.polar_motion import excitation as excitation
 from earthspin.questions.polar_motion import fit_chandler as fit_chandler
 from earthspin.questions.polar_motion import polar_motion_from as polar_motion_from
@@ -217,6 +218,36 @@ def long_term(
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
 ) -> xr.Dataset: ...
+def insolation(
+    start: Date | None = ...,
+    stop: Date | None = ...,
+    step: Value | None = ...,
+    *,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
+    ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
+    times: Epochs | None = ...,
+    orbit: str | PathLike[str] | OrbitTable | None = ...,
+    tides: Value | None = ...,
+    ellipticity: Value | None = ...,
+    j2_rate: Value | None = ...,
+    obliquity_shift: Value | None = ...,
+    longitude_shift: Value | None = ...,
+    latitude: Values | None = ...,
+    longitude: Values | None = ...,
+    day: Values | None = ...,
+    window: Value | None = ...,
+    solar_constant: Value | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
+) -> xr.Dataset: ...
 def rotation(
     start: Date | None = ...,
     stop: Date | None = ...,
@@ -389,6 +420,7 @@ __all__ = [
     "forecast",
     "free_rotor",
     "heavy_top",
+    "insolation",
     "load_scene",
     "long_term",
     "love_numbers",
@@ -404,6 +436,7 @@ __all__ = [
     "read",
     "read_excitation",
     "read_orbit",
+    "read_solution",
     "rotation",
     "run",
     "run_tree",

@@ -1,6 +1,6 @@
 """Commands of the command line: report, play, run, ensemble, plan, scenes, keys, ...
 
-What can be asked, and what a shell completes, comes from the questions.
+Commands, options and completions follow from the classes of the questions.
 """
 
 from __future__ import annotations
@@ -145,6 +145,8 @@ def _parser() -> ArgumentParser:
     add("--json", **flag, help="print the result as JSON")
     words = sections("none on the screen, all with --out")
     add("--sections", metavar="NAMES|all", help=words)
+    words = "columns of a .csv file, each with its errors (default: those most used)"
+    add("--columns", metavar="NAMES|all", help=words)
 
     ensemble = of_scene("ensemble", _ensemble, "run an ensemble of a scene")
     add = ensemble.add_argument
@@ -245,8 +247,10 @@ def _run(options: Namespace) -> None:
     from earthspin.scenes import members_of, run_tree, series_length, write_series
     from earthspin.views.reading import closing_line
 
-    question, sections = _question(options), _sections(options)
+    question, sections = _question(options), _listed(options.sections)
     data = page = None
+    if options.columns is not None and Path(options.out or "").suffix != ".csv":
+        raise SceneError("--columns", options.columns, "give a file, --out FILE.csv")
     if options.out is not None:
         data, name = Path(options.out), Path(options.scene).stem
         if data.suffix not in ("", ".nc", ".zarr", ".csv") and not data.is_dir():
@@ -268,8 +272,7 @@ def _run(options: Namespace) -> None:
             sections = "all"
     tree = run_tree(question, sections or ())
     if data is not None and data.suffix == ".csv":
-        with drafts.replacing(data) as draft:
-            tree.to_dataset().earthspin.to_frame().to_csv(draft, index=False)
+        tree.to_dataset().earthspin.to_csv(data, _listed(options.columns))
     elif data is not None:
         store.write(tree, data)
     with _note_of_results(data):
@@ -325,7 +328,7 @@ def _plan(options: Namespace) -> None:
     """Command `plan`: print the computations that a scene runs, and those that are left out."""
     from earthspin.scenes import plan
 
-    print(plan(_question(options), _sections(options) or ()))
+    print(plan(_question(options), _listed(options.sections) or ()))
 
 
 def _scenes(_: Namespace) -> None:
@@ -373,7 +376,7 @@ def _verify(options: Namespace) -> None:
     """Command `verify`: compare a stored result with its checksums."""
     from earthspin.engine.store import verify
 
-    print(f"{printable(str(verify(options.file)))} is intact")
+    print(f"{printable(str(verify(options.file)))} is complete and matches its checksums")
 
 
 def _completion(options: Namespace) -> None:
@@ -412,11 +415,11 @@ def _note_of_results(data: str | Path | None) -> Iterator[None]:
         raise
 
 
-def _sections(options: Namespace) -> str | list[str] | None:
-    """Return the section names given by the option --sections; None if the option is absent."""
-    if options.sections is None or options.sections.strip() == "all":
-        return options.sections and "all"
-    return [name.strip() for name in options.sections.split(",") if name.strip()]
+def _listed(names: str | None) -> str | list[str] | None:
+    """Return the names that an option lists; "all" as it is, and None if the option is absent."""
+    if names is None or names.strip() == "all":
+        return names and "all"
+    return [name.strip() for name in names.split(",") if name.strip()]
 
 
 def _keys_of(scene: str) -> str:

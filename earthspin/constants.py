@@ -32,8 +32,7 @@ class Constant:
         confirms the value less closely than the source states it, the uncertainty contains the
         difference.
     source : str
-        Where the value stands in print. Where no public copy was found, "(not verified)" is
-        appended.
+        Place of the value in the source. If no public copy was found, "(not verified)" is appended.
     read_in : str
         Copy, abstract or code in which the value was read; `UNVERIFIED` if none was found; empty
         for a number of the user's own.

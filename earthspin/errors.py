@@ -31,7 +31,7 @@ _T = TypeVar("_T")
 class EarthspinError(Exception):
     """Base class of errors that the user can correct; the command line then exits with status 2.
 
-    The message is one line, whatever was given.
+    The message is always one line.
 
     Examples
     --------
@@ -82,9 +82,9 @@ class SceneError(EarthspinError, ValueError):
     source : str
         The file or command; empty for what was given in Python.
     key : str
-        The offending key.
+        Name of the wrong key.
     given : object
-        What was read.
+        Value that was given.
 
     Examples
     --------
@@ -109,7 +109,7 @@ class Where:
     Attributes
     ----------
     key : str
-        As the reader would write it, ``"body.j2"``.
+        Key as a user would write it, ``"body.j2"``.
     source : str
         The file or call; empty if there is nothing to name.
     typed : bool
@@ -175,7 +175,7 @@ class BodyError(EarthspinError, ValueError):
         body : str
             Its name.
         forms : mapping of str to str
-            By field: what one writes for any body, its unit or its definition.
+            Example, unit or definition of a missing property, by field.
         """
         *most, last = forms
         names = f"{', '.join(most)} and {last}" if most else last
@@ -218,7 +218,7 @@ class KernelError(EarthspinError, OSError):
     Attributes
     ----------
     path : str
-        The kernel, as named.
+        Name or path of the kernel, as given.
 
     Examples
     --------
@@ -243,7 +243,7 @@ class CoverageError(EarthspinError, ValueError):
     kernel : str
         Name of the kernel or table.
     asked, coverage : tuple of str
-        First and last date, TDB.
+        First and last date: requested, and covered; TDB.
 
     Examples
     --------
@@ -335,7 +335,7 @@ class AccuracyError(EarthspinError, ValueError):
     Attributes
     ----------
     asked, best : float
-        Half-widths, in the same unit.
+        Half-widths: requested, and best possible; in the same unit.
 
     Examples
     --------
@@ -360,7 +360,7 @@ class OutputError(EarthspinError, OSError):
     Attributes
     ----------
     path : str
-        Where it should have gone.
+        Path of the result.
 
     Examples
     --------
@@ -410,7 +410,7 @@ def nearest(word: object, allowed: Iterable[str]) -> str:
     Parameters
     ----------
     word : object
-        What was read.
+        Value that was given.
     allowed : iterable of str
         The valid words.
 

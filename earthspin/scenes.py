@@ -74,7 +74,7 @@ class VersionWarning(UserWarning):
 
     Examples
     --------
-    An answer that another version made still runs, and says so:
+    A result of another version is computed again, with this warning:
 
     >>> import warnings
     >>> import earthspin
@@ -93,7 +93,7 @@ def Scene(*, compute: str, **keys: Any) -> Question:
     Parameters
     ----------
     compute : str
-        What is asked: ``"precession"``, ``"torque"``, ...
+        Name of the question: ``"precession"``, ``"torque"``, ...
     **keys
         Keys of that question, as in a scene file or as arguments of its call.
 
@@ -134,9 +134,9 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
         ``"precession"``, the path of a TOML file, the path of a file that earthspin wrote, or an
         answer.
     changes : mapping, optional
-        Keys to set instead of those of the scene; ``"body.j2"`` reaches into a table. Keys that
-        exclude others replace them: ``"times"`` replaces ``"span"`` and ``"step"``. Plain numbers
-        are in SI units here; those in a scene file carry their units.
+        Keys to set instead of those of the scene; ``"body.j2"`` sets a value inside a table. Keys
+        that exclude others replace them: ``"times"`` replaces ``"span"`` and ``"step"``. Plain
+        numbers are in SI units here; those in a scene file carry their units.
 
     Raises
     ------
@@ -229,10 +229,11 @@ def _changed(
     if "compute" not in table:
         raise SceneError("compute", None, f"it is missing; {nearest('', QUESTIONS)}", source=source)
     question = question_named(table.pop("compute"), source)
-    for group in question.exclusive:  # `times` replace the scene's `span` and `step`
-        if not changes.keys().isdisjoint(group):
-            others = {key for other in question.exclusive if other != group for key in other}
-            table = {key: table[key] for key in table if key not in others - changes.keys()}
+    for groups in question.exclusive:  # `times` replace the scene's `span` and `step`
+        for group in groups:
+            if not changes.keys().isdisjoint(group):
+                others = {key for other in groups if other != group for key in other}
+                table = {key: table[key] for key in table if key not in others - changes.keys()}
     return question.from_table(table, source=source, title=title, typed=typed)
 
 
@@ -264,7 +265,7 @@ def plan(scene: Any, sections: str | Iterable[str] = ()) -> Plan:
     Parameters
     ----------
     scene : str, Path, Question, Dataset or DataTree
-        As `load_scene` takes it.
+        See `load_scene`.
     sections : str or iterable of str
         Sections that are wanted beside the answer; ``"all"`` takes all that apply.
 
@@ -292,13 +293,13 @@ def run(scene: Any) -> xr.Dataset:
     ----------
     scene : str, Path, Question, Dataset or DataTree
         The name of a shipped scene, a file, a question, or an answer that is run again: with the
-        same versions, and the same instructions of the processor, it gives the same bits; if
-        versions differ, a warning says which.
+        same versions and processor instructions, the result is bit-identical; if versions differ, a
+        warning names them.
 
     Returns
     -------
     Dataset
-        The answer; `ds.earthspin` knows its plan and its complete question.
+        The answer; `ds.earthspin` gives its plan and its complete question.
 
     Raises
     ------
@@ -327,7 +328,7 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
     Parameters
     ----------
     scene : str, Path, Question, Dataset or DataTree
-        As `run` takes it.
+        See `run`.
     sections : str or iterable of str
         Names of sections, or ``"all"``.
 
@@ -374,7 +375,7 @@ def warn_of_versions(
         Attributes of the stored result.
     new : Dataset or DataTree
     stacklevel : int
-        As of `warnings.warn`.
+        See `warnings.warn`.
     """
     changed = [name for name in VERSIONS if name in old and old[name] != new.attrs.get(name)]
     if changed:
@@ -391,13 +392,13 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
     Parameters
     ----------
     scene : str, Path, Question or answer
-        One that computes ``torque``, ``pole`` or ``rotation``.
+        Scene that computes ``torque``, ``pole`` or ``rotation``.
     path : str or Path
-        The Zarr folder; what is there is replaced when all is written. If the run is ended before,
-        the same call goes on from what it had written.
+        The Zarr folder; an existing folder is replaced when the series is complete. After an
+        interruption the same call resumes it.
     client : Client, int or str, optional
-        Of ``dask.distributed``, whose workers make the blocks: a client, a number of workers to
-        start here, or the address of a scheduler. A plain loop without.
+        Cluster of ``dask.distributed`` that computes the blocks: a client, a number of workers to
+        start here, or the address of a scheduler. Without it the blocks are computed here.
 
     Returns
     -------
@@ -450,7 +451,7 @@ def series_length(question: Question) -> int:
 
 
 def members_of(question: Question) -> int:
-    """Number of bodies for which a question is computed at once; one without labelled arrays."""
+    """Number of bodies for which a question is computed at once; 1 without labelled arrays."""
     groups = [value if isinstance(value, tuple) else (value,) for value in question.keys().values()]
     return members(value for group in groups for value in group if isinstance(value, Body))
 
@@ -477,7 +478,7 @@ def ensemble(
     Parameters
     ----------
     question : str, Path, Question or answer
-        As `load_scene` takes it.
+        See `load_scene`.
     members : int, mapping, Dataset or path, optional
         A number of members: they are drawn from the published uncertainties of the bodies, or as
         the table ``members`` of the question says. A mapping of inputs to distributions:
@@ -498,7 +499,7 @@ def ensemble(
     block : int, optional
         Number of members that are computed and stored at a time; chosen by their size by default.
     impossible : str, optional
-        Treatment of members that are not possible: ``"refuse"`` the ensemble, or ``"drop"`` them.
+        Treatment of impossible members: ``"refuse"`` the ensemble, or ``"drop"`` them.
 
     Returns
     -------

@@ -100,9 +100,9 @@ def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
     unit : str
         The unit wanted, as astropy writes it.
     where : Where
-        What is being read.
+        Name of the input.
     example : str
-        How it should look, for the message.
+        Example for the message.
 
     Returns
     -------
@@ -112,7 +112,7 @@ def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
     Raises
     ------
     UnitsError
-        If the unit is missing, unknown or of another kind, or it is no number at all.
+        If the unit is missing or unknown or has the wrong dimension, or the value is not a number.
     SceneError
         If a number is masked, missing or not finite, or there is none.
     """
@@ -162,13 +162,14 @@ def unit_factor(unit: str, target: str, where: Where, example: str) -> float:
     Raises
     ------
     UnitsError
-        If the unit is unknown or of another kind.
+        If the unit is unknown or has the wrong dimension.
     """
     return _Target(target, where, example).factor(unit, unit)
 
 
 def _in_symbols(text: str) -> str:
-    """Replace the names of units of time by symbols: "12 hours" becomes "12 h"."""
+    """Replace units of time by symbols ("12 hours" by "12 h"), and degrees_north by degrees."""
+    text = re.sub("degrees?_(?:north|east)", "deg", text)
     return _WORD.sub(lambda match: _SYMBOLS[match[1].lower()], text)
 
 
@@ -385,6 +386,7 @@ class Numbers:
     def words(self) -> str:
         """Text for error messages: shape of the allowed array, and an example of an element."""
         size = " x ".join("n" if n is None else str(n) for n in self.shape)
+        size = f"one or {size}" if self.optional_row and len(self.shape) == 1 else size
         return f'{size} values like "{self.example}"' if self.unit else f"{size} numbers"
 
     def read(self, value: object, where: Where) -> FloatArray:
@@ -400,7 +402,7 @@ class Numbers:
         fits = len(shape) == values.ndim and all(
             size in (None, n) and n > 0 for size, n in zip(shape, values.shape, strict=True)
         )
-        if not fits or values.ndim == 0:
+        if not fits or values.ndim < len(self.shape) - self.optional_row:
             raise where.error(f"shape {values.shape}", f"give {self.words}")
         values.flags.writeable = False
         return values
@@ -552,7 +554,7 @@ class FileName(_AsItIs):
     known : collection of str
         Words that stand for something else than a file of this name.
     content : str
-        What such a file holds.
+        Content of such a file.
     """
 
     words = "the path of a file"

@@ -58,6 +58,7 @@ USED = {
     "torque": KERNEL,
     "pole": {*KERNEL, *LEAST_SQUARES, "scipy.optimize"},
     "long-term": KERNEL,
+    "insolation": KERNEL,
     "iau": KERNEL | LEAST_SQUARES,
     "nutation": {*KERNEL, *LEAST_SQUARES, "scipy.special"},
     "rotation": {*KERNEL, *LEAST_SQUARES, "scipy.spatial", "scipy.special"},

@@ -57,7 +57,7 @@ def gravity(body: Body, surface: FloatArray) -> Gravity:
 
 @part
 def neglected() -> Neglected:
-    """What an even density leaves out."""
+    """Effect that the uniform density neglects."""
     return Neglected(what="a density that grows inwards")
 
 

@@ -72,9 +72,8 @@ class Body(FromMass):
     spin_period : float
         One turn relative to the stars, s; negative if retrograde, that is backwards about `pole`.
     pole : Pole
-        Direction of the spin axis: `IAU_2006` (``"iau2006"``), or a `FixedPole`, for which a right
-        ascension
-        and a declination may be given (ICRF, J2000.0, rad).
+        Direction of the spin axis: `IAU_2006` (``"iau2006"``), or a `FixedPole`, which may be given
+        as right ascension and declination (ICRF, J2000.0, rad).
     pole_uncertainty : float or None
         One standard deviation of `pole` at J2000.0 in each of two directions, rad; None if it is
         not known.
@@ -106,16 +105,16 @@ class Body(FromMass):
         Satellites that precess together with the body; `gm` and the moments are without them. They
         may be given as a list of tables.
     reference : str
-        Where the numbers come from.
+        Source of the numbers.
     obliquity : float
-        Instead of `pole`: angle from the normal of the orbit to the pole, rad, 0 to pi. The
-        equinox stays where it is; that of a new body is the node of its orbit on the equator of the
-        ICRF. It is read, and kept as `pole`.
+        Given instead of `pole`, and stored as `pole`: angle from the orbit normal to the pole, rad,
+        0 to pi. The direction of the equinox does not change; for a new body it is the node of the
+        orbit on the equator of the ICRF.
 
     Raises
     ------
     UnitsError
-        If a unit is unknown, or of another kind.
+        If a unit is unknown, or has the wrong dimension.
     BodyError
         If a field is not finite, a mass is negative, C exceeds A + B, or j2 and H differ in sign.
 
@@ -299,7 +298,8 @@ class Body(FromMass):
         ----------
         name : str
         numbers : mapping of str to Constant
-            By field, in the unit of the field. An angle has no relative uncertainty.
+            Values with sources and uncertainties, by field and in its unit. An angle has no
+            relative uncertainty.
         **others
             Non-numeric fields.
         """
@@ -510,7 +510,7 @@ class Body(FromMass):
         BodyError
             If the changes contradict each other or make an impossible body.
         UnitsError
-            If a unit is missing, unknown, or of another kind.
+            If a unit is missing or unknown, or has the wrong dimension.
 
         Examples
         --------

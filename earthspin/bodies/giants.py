@@ -112,7 +112,7 @@ _JUPITER_INSIDE = (
     "Militzer & Hubbard 2023; uncertainty: half of 0.2629 to 0.2645, Helled et al. 2011"
 )
 _JUPITER_INSIDE_READ = "abstracts, arXiv:2308.04986 and arXiv:1109.1627"
-_SATURN_INSIDE = "Militzer & Hubbard 2023; uncertainty assumed, ten times theirs"
+_SATURN_INSIDE = "Militzer & Hubbard 2023; uncertainty assumed, ten times the published one"
 #: C/(M R2) of the planets alone, from interior models.
 JUPITER_MOMENT = Constant(0.2639, "", 0.0008, _JUPITER_INSIDE, _JUPITER_INSIDE_READ)
 SATURN_MOMENT = Constant(0.2181, "", 0.0020, _SATURN_INSIDE, "abstract, arXiv:2308.04986")

@@ -75,7 +75,7 @@ class Orbit:
     about : str
         Name of the central body; empty for the spinning body.
     reference : str
-        Where the numbers come from.
+        Source of the numbers.
 
     Raises
     ------
@@ -211,7 +211,7 @@ class Satellite:
     gm_uncertainty : float
         One standard deviation of `gm`, m3 s-2.
     reference : str
-        Where the numbers come from.
+        Source of the numbers.
 
     Raises
     ------

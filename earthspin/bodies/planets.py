@@ -159,7 +159,7 @@ class BeyondRigid:
     sizes : mapping of str to tuple of float
         Largest change of the attitude up to each of `DAYS`, arcsec, by effect.
     source : str
-        Where the sizes come from.
+        Source of the sizes.
     """
 
     sizes: Mapping[str, tuple[float, ...]]

@@ -99,7 +99,7 @@ def missing_blocks(folder: Path, layout: Layout) -> list[int]:
     try:
         return sorted(zarr_of().missing_blocks(folder / STORE, layout.along))
     except OutputError:
-        raise _damaged(folder, "what its blocks share is") from None
+        raise _damaged(folder, "the part that its blocks share is") from None
 
 
 def finish(folder: Path, layout: Layout, target: Path) -> None:
@@ -108,7 +108,7 @@ def finish(folder: Path, layout: Layout, target: Path) -> None:
     Raises
     ------
     OutputError
-        If a file differs from what was written; the next run makes its block again.
+        If a file does not match its checksum; the next run makes its block again.
     """
     store = folder / STORE
     for stray in store.rglob("*.partial"):  # a chunk whose writer was killed
@@ -198,7 +198,7 @@ def refuse_another(folder: Path, request: Mapping[str, str]) -> None:
 
 
 def _damaged(folder: Path, what: str) -> OutputError:
-    return OutputError(folder, f"{what} not what was written", "remove it and run it again")
+    return OutputError(folder, f"{what} damaged", "remove it and run it again")
 
 
 def begin(folder: Path, request: Mapping[str, str], layout: Layout, first: xr.Dataset) -> None:

@@ -363,7 +363,7 @@ class Ensemble:
             error.args = (f"member {which}: {error}",)
             raise
         for name, label in self.nominal.coords.items():
-            if name not in answer.coords or not label.equals(answer.coords[name]):
+            if name not in answer.coords or not label.variable.equals(answer[name].variable):
                 problem = f"member {which} has other labels along '{name}'"
                 raise self.question.error("members", list(self.inputs), problem)
         return answer

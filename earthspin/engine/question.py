@@ -24,12 +24,14 @@ from typing import Any, ClassVar, Generic, Literal, NamedTuple, ParamSpec, Self,
 
 from earthspin.card import card
 from earthspin.engine.members import Members
-from earthspin.engine.variables import Variable, Variables
+from earthspin.engine.variables import Variables
 from earthspin.errors import EarthspinError, SceneError, Where, nearest
 from earthspin.units import Kind, kind_of
 
 #: Name of the part that lists the effects that the model of a question does not include.
 NEGLECTED = "neglected"
+#: Word that requests all sections that apply, or all columns.
+ALL = "all"
 #: Attribute of an answer that holds the complete question as the text of a scene file.
 SCENE = "scene"
 
@@ -108,6 +110,24 @@ def _shown(value: Any, kind: Kind[Any]) -> Any:
     return plain_words(value) if hasattr(bodies[0], "reference") else kind.write(value)
 
 
+def names_in(value: str | Iterable[str], key: str) -> list[str]:
+    """List the names that a user gives, which are one name, several, or `ALL`.
+
+    Raises
+    ------
+    SceneError
+        If they are no names; `key` is the argument in its message.
+    """
+    try:
+        names = [value] if isinstance(value, str) else [*value]
+    except Exception:  # not iterable
+        raise SceneError(key, value, f"give names, or '{ALL}'") from None
+    for name in names:
+        if not isinstance(name, str):
+            raise SceneError(key, name, f"give names, or '{ALL}'")
+    return names
+
+
 def plain_words(value: Any) -> str:
     """Convert a value to text on one line, with bodies by name."""
     if isinstance(value, (tuple, list)):
@@ -130,10 +150,12 @@ class Question:
         Page of the documentation that explains the method; empty if there is none.
     headline : str
         Variable of the answer, or error of several variables, that is quoted first.
+    columns : tuple of str
+        Variables of the answer that a CSV file has by default, with their errors; all if empty.
     positional : tuple of str
         Positional arguments of the call.
-    exclusive : tuple of tuple of str
-        Groups of keys that exclude one another, such as `times` and (`span`, `step`).
+    exclusive : tuple of tuple of tuple of str
+        Choices between groups of keys, such as `times` or (`span`, `step`).
     by_body : tuple of str
         Keys whose defaults depend on the numbers of a body; all members of an ensemble have those
         of the nominal body.
@@ -144,8 +166,9 @@ class Question:
     table: ClassVar[str]
     page: ClassVar[str] = ""
     headline: ClassVar[str] = ""
+    columns: ClassVar[tuple[str, ...]] = ()
     positional: ClassVar[tuple[str, ...]]
-    exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    exclusive: ClassVar[tuple[tuple[tuple[str, ...], ...], ...]] = ()
     by_body: ClassVar[tuple[str, ...]] = ()
     graph: ClassVar[Graph]
     key_table: ClassVar[dict[str, Key]]
@@ -210,10 +233,11 @@ class Question:
                 value = entry.default
             object.__setattr__(self, name, value)
         object.__setattr__(self, "title", self.title or self.word)
-        groups = [group for group in self.exclusive if self.given & set(group)]
-        if len(groups) > 1:
-            ways = ", or ".join(" and ".join(group) for group in self.exclusive)
-            raise self.error(groups[0][0], "...", f"give either {ways}")
+        for groups in self.exclusive:
+            used = [group for group in groups if self.given & set(group)]
+            if len(used) > 1:
+                ways = ", or ".join(" and ".join(group) for group in groups)
+                raise self.error(used[0][0], "...", f"give either {ways}")
         if self.uncertainty == "sample" and self.members is not None:
             problem = "an ensemble is a sample already; give either members or uncertainty"
             raise self.error("uncertainty", "sample", problem)
@@ -295,8 +319,10 @@ class Question:
         table: dict[str, Any] = {"compute": self.word}
         own: dict[str, Any] = {}
         keys = keys_of(type(self))
-        used = next((group for group in self.exclusive if self.given & set(group)), None)
-        without_effect = set[str]().union(*self.exclusive).difference(used) if used else set()
+        without_effect = set[str]()
+        for groups in self.exclusive:
+            if used := [group for group in groups if self.given & set(group)]:
+                without_effect |= set[str]().union(*groups).difference(*used)
         omitted = keys.keys() - self.given if given else without_effect
         for name, entry in keys.items():
             value = getattr(self, name)
@@ -419,6 +445,8 @@ class Part(Generic[P, R]):
         Names of the required and of the optional parameters.
     gives : mapping of str to Variable
         The variables that the part adds to an answer or section; empty for an intermediate part.
+    fields : frozenset of str
+        Names of the declared variables and labels.
     unless : tuple of callable
         Each takes keys of the question by name and returns a reason for leaving the part out.
     describe : callable or None
@@ -442,7 +470,8 @@ class Part(Generic[P, R]):
         self.describe, self.same_for = describe, same_for
         self._stored: OrderedDict[Hashable, R] = OrderedDict()
         self._lock = Lock()
-        self.gives = _schema_of(function)
+        returned = _returned(function)
+        self.gives, self.fields = returned.schema, frozenset(returned.fields)
         self.name = function.__name__
         line = (function.__doc__ or "").strip().split("\n")[0].rstrip(".")
         self.does = line[:1].lower() + line[1:] if line[1:2].islower() else line
@@ -530,14 +559,14 @@ def _arguments(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, 
     return {name: keys[name] for name in _parameters(function, inspect.Parameter.empty)}
 
 
-def _schema_of(function: Callable[..., Any]) -> Mapping[str, Variable]:
-    """Declared variables that a function returns, by name; empty for other return types."""
+def _returned(function: Callable[..., Any]) -> type[Variables]:
+    """Class of variables that a function returns; the base class, which has none, by default."""
     returned = function.__annotations__.get("return")
     if isinstance(returned, str):
         returned = function.__globals__.get(returned)
     if isinstance(returned, type) and issubclass(returned, Variables):
-        return returned.schema
-    return {}
+        return returned
+    return Variables
 
 
 @cache
@@ -575,10 +604,11 @@ class Graph:
     widest: int = 1
 
     @cached_property
-    def labels(self) -> frozenset[str]:
+    def labels(self) -> set[str]:
         """Names of all variables of results, and of their dimensions."""
-        declared = [item for part in self.parts.values() for item in part.gives.items()]
-        return frozenset(name for variable, entry in declared for name in (variable, *entry.dims))
+        parts = self.parts.values()
+        dims = {name for part in parts for entry in part.gives.values() for name in entry.dims}
+        return dims.union(*(part.fields | part.gives.keys() for part in parts))
 
 
 Parts = Part[..., Any] | tuple[Part[..., Any], ...]

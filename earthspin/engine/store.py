@@ -240,7 +240,7 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
     Raises
     ------
     OutputError
-        If the file is not a result, is truncated, or differs from what was written. A Zarr store
+        If the file is not a result, is truncated, or does not match its checksum. A Zarr store
         may raise it later, if a chunk is missing or the store was replaced.
     TypeError
         If `path` is not a path.

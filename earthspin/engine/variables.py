@@ -27,7 +27,7 @@ CONVENTIONS = "CF-1.11"
 #: Units that are SI themselves; "1" for pure numbers, "" for text and dates.
 _SI = (
     "", "1", "m", "s", "J", "rad", "N m", "kg m2", "kg m2 / s", "rad/s", "rad2 / s2", "1/s",
-    "m/s2", "J/kg",
+    "m/s2", "J/kg", "W m-2",
 )  # fmt: skip
 
 #: Factor from SI to each unit of results.

@@ -168,7 +168,7 @@ def metadata_of(store: Path) -> dict[str, Any]:
     Raises
     ------
     OutputError
-        If they differ from what was written.
+        If they do not match the stored hash.
     """
     try:
         metadata = json.loads((store / ".zmetadata").read_bytes())["metadata"]

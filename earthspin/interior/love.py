@@ -231,7 +231,7 @@ def yielding(body: LayeredBody, strain: Any = 0.0) -> Yielding:
         if 0 < radius < SMALLEST_CORE * body.radius:
             raise UndefinedError(
                 f"interior '{body.name}': {what} of {radius / 1000:.4g} km is less than a "
-                "hundredth of the radius, too small to be told from none; leave it out"
+                "hundredth of the radius, too small to have an effect; leave it out"
             )
     strain = np.asarray(strain)
     flat = np.atleast_1d(strain).ravel()

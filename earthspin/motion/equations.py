@@ -22,12 +22,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
-from earthspin.torque.gravity import zonal_law
+from earthspin.torque.gravity import cross, zonal_law
 
 #: Torque divided by C along the body's axes, s-2, shape (m, 3), from times (s), shape (m,),
 #: quaternions (m, 4) and angular velocities along the body's axes, rad/s (m, 3).
@@ -75,12 +76,12 @@ class Rigid:
     epoch: float = 0.0
     own: CustomTorque | None = None
 
-    @property
+    @cached_property
     def moments(self) -> FloatArray:
         """Principal moments A, B, C of each body, divided by its C, shape (3, lanes)."""
         return np.stack([1 - self.c_minus_a, 1 - self.c_minus_b, np.ones_like(self.c_minus_a)])
 
-    @property
+    @cached_property
     def levers(self) -> FloatArray:
         """Moment differences C - B, A - C, B - A of each body over its C, shape (3, lanes)."""
         return np.stack([self.c_minus_b, -self.c_minus_a, self.c_minus_a - self.c_minus_b])
@@ -160,14 +161,13 @@ class Equations:
     ) -> None:
         self._body, self._pull, self._in_space = body, pull, in_space
         self._lanes, self._nodes = start.shape[1], since.size
-        self._times = np.tile(pull.times, self._lanes)
         self._spin_per_momentum = self._rows(body.unit / body.moments)
         self._levers = self._rows(3 / body.unit * body.levers)
-        self._places = np.tile(pull.places, self._lanes)
+        self._places = self._in_lanes(pull.places)
         square = np.einsum("ipm,ipm->pm", pull.places, pull.places)
         strength = pull.gm[:, np.newaxis] / (square * square * np.sqrt(square))
         strength = strength * (1 + body.trend * (body.epoch + pull.times))
-        self._strength = np.tile(strength, self._lanes) * self._rows(body.tide)
+        self._strength = self._in_lanes(strength) * self._rows(body.tide)
         zonal = {degree: coefficient / body.unit for degree, coefficient in body.zonal}
         near = pull.gm[: pull.near, np.newaxis, np.newaxis]
         places = pull.places[:, : pull.near, np.newaxis]
@@ -179,13 +179,17 @@ class Equations:
         #: as the angular momentum.
         self.steady = _out_of(matrix, spin) if in_space else spin
         self._steady = self._rows(self.steady)
-        ahead = rotations.rotation_about(self._steady, np.tile(since, self._lanes))
+        ahead = rotations.rotation_about(self._steady, self._in_lanes(since))
         self._ahead = rotations.left(ahead) if in_space else rotations.right(ahead)
         self._matrix_ahead = rotations.matrices(ahead)
 
     def _rows(self, values: FloatArray) -> FloatArray:
         """Repeat the value of each body (lane) for all nodes of the time window."""
         return np.repeat(values, self._nodes, axis=-1)
+
+    def _in_lanes(self, values: FloatArray) -> FloatArray:
+        """Repeat the values at all nodes of the time window for each body (lane)."""
+        return np.concatenate([values] * self._lanes, axis=-1)
 
     def attitude(self, unknowns: FloatArray) -> FloatArray:
         """Attitude quaternions of all bodies from the unknowns, shape (4, bodies * nodes)."""
@@ -199,9 +203,9 @@ class Equations:
 
         This is only valid for the form with the angular momentum along the sky's axes.
         """
-        q = np.tile(state[3:], self._lanes)
+        q = self._in_lanes(state[3:])
         p = np.einsum("bam,bm->am", self._ahead, q)  # the inverse of a rotation is its transpose
-        return np.concatenate([np.tile(state[:3], self._lanes), p])
+        return np.concatenate([self._in_lanes(state[:3]), p])
 
     def rates(self, unknowns: FloatArray) -> FloatArray:
         """Time derivatives of the unknowns: angular momentum and relative attitude, s-1.
@@ -213,9 +217,7 @@ class Equations:
         in_body = _into(matrix, momentum) if self._in_space else momentum
         spin = self._spin_per_momentum * in_body
         torque = self._torque(q, matrix, spin)
-        rate = (
-            _out_of(matrix, torque) if self._in_space else rotations.cross(momentum, spin) + torque
-        )
+        rate = _out_of(matrix, torque) if self._in_space else cross(momentum, spin) + torque
         if self._body.zonal or self._pull.laws:
             in_space = momentum if self._in_space else _out_of(matrix, momentum)
             further = self._further_torque(matrix, in_space)
@@ -237,7 +239,8 @@ class Equations:
         products = position.take((1, 0, 0), 0) * position.take((2, 2, 1), 0)
         torque = self._levers * np.einsum("pm,ipm->im", self._strength, products)
         if self._body.own is not None:
-            torque += self._body.own(self._times, q.T, spin.T).T / self._body.unit
+            times = self._in_lanes(self._pull.times)
+            torque += self._body.own(times, q.T, spin.T).T / self._body.unit
         return np.asarray(torque)
 
     def _further_torque(self, matrix: FloatArray, momentum: FloatArray) -> FloatArray:

@@ -326,11 +326,12 @@ class Motion:
                     tell(float(self._current[1].edges[-1]))
             upto = int(np.searchsorted(times, self._current[1].edges[-1], side="right"))
             part = times[done:upto]
-            states.append(self._current[1].at(part)[:, 0])
             edges = self._current[0].edges
             last_edge = np.clip(np.searchsorted(edges, part) - 1, 0, None)
             before = self._errors_until(edges)[..., last_edge]
-            errors.append(np.maximum(before, self._errors(part)))
+            state, error = self._state_and_errors(part)
+            states.append(state)
+            errors.append(np.maximum(before, error))
             done = upto
         state = np.concatenate(states, axis=1)
         return RotationSeries(
@@ -342,13 +343,14 @@ class Motion:
 
     def _errors_until(self, edges: FloatArray) -> FloatArray:
         """Largest error of the rotation from the initial time up to each edge of the windows."""
-        return np.maximum(np.maximum.accumulate(self._errors(edges), axis=2), self._worst)
+        errors = self._state_and_errors(edges)[1]
+        return np.maximum(np.maximum.accumulate(errors, axis=2), self._worst)
 
-    def _errors(self, times: FloatArray) -> FloatArray:
-        """Errors of attitude, spin and angular momentum at given times, for each cause.
+    def _state_and_errors(self, times: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """State of the body at given times, and errors of attitude, spin and angular momentum.
 
-        The shape is (lanes, kinds, t): the first lane has the error of the method, each other lane
-        that of one uncertain input.
+        The errors have the shape (lanes, kinds, t): the first lane has the error of the method,
+        each other lane that of one uncertain input.
         """
         assert self._current is not None
         rough, exact = self._current
@@ -360,7 +362,7 @@ class Motion:
             differences(self._body, states[:, 0], states[:, lane])
             for lane in range(1, states.shape[1])
         ]
-        return np.stack([method, *shares])
+        return states[:, 0].copy(), np.stack([method, *shares])
 
 
 def shares_of(

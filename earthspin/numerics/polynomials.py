@@ -24,7 +24,7 @@ from earthspin.numerics.arrays import Array, ComplexArray, FloatArray
 #: Real values, or complex values for vectors in a plane.
 _AnyArray = TypeVar("_AnyArray", FloatArray, ComplexArray)
 
-_CHUNK = 1 << 15  # times evaluated in one call, so that the basis stays in the processor's cache
+_CHUNK = 1 << 15  # values evaluated in one call, so that the terms stay in the processor's cache
 
 
 class Windows:
@@ -89,12 +89,13 @@ class Windows:
         ndarray, shape (k, t)
         """
         values: Any = np.empty((len(coefficients), times.size), dtype=coefficients.dtype)
-        for first in range(0, times.size, _CHUNK):
-            part = times[first : first + _CHUNK]
+        chunk = _CHUNK // len(coefficients) + 1
+        for first in range(0, times.size, chunk):
+            part = times[first : first + chunk]
             window = np.clip(np.searchsorted(self.edges, part) - 1, 0, len(self.half) - 1)
             x = (part - self.middle[window, 0]) / self.half[window, 0]
             basis = legendre.legvander(x, coefficients.shape[-1] - 1)
-            values[:, first : first + _CHUNK] = np.einsum(
+            values[:, first : first + chunk] = np.einsum(
                 "ktm,tm->kt", coefficients[:, window, :], basis
             )
         result: _AnyArray = values

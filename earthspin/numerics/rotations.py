@@ -34,7 +34,6 @@ _VECTOR_WITH = np.ascontiguousarray(_PRODUCT[:, 1:]).reshape(4, 12)
 _MATRIX = np.ascontiguousarray(
     np.einsum("cdb,dav,b->cvab", _PRODUCT, _PRODUCT, _CONJUGATE)[1:, 1:]
 ).reshape(9, 16)
-_CROSS = np.ascontiguousarray(_PRODUCT[1:, 1:, 1:]).reshape(3, 9)
 
 
 def matrices(q: FloatArray) -> FloatArray:
@@ -79,12 +78,6 @@ def vector_times(v: FloatArray, p: FloatArray) -> FloatArray:
     """Product of the quaternion of a vector (3, m) with a quaternion (4, m)."""
     m = p.shape[-1]
     return np.asarray(_VECTOR_WITH @ (v[:, np.newaxis] * p).reshape(12, m))
-
-
-def cross(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Cross product of two arrays of vectors, shape (3, m)."""
-    m = a.shape[-1]
-    return np.asarray(_CROSS @ (a[:, np.newaxis] * b).reshape(9, m))
 
 
 def conjugate(q: FloatArray) -> FloatArray:

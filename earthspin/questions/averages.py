@@ -20,7 +20,7 @@ from earthspin.questions.elements import ellipse_chains, exact_means, locked_err
 from earthspin.questions.satellites import Carried, carried, without_swings
 from earthspin.questions.sky import Sky, Stretch
 from earthspin.sky.elements import Elements
-from earthspin.sky.poles import FixedPole, IAU2006Pole, MovingPole, angle, rotate
+from earthspin.sky.poles import angle, rotate
 from earthspin.torque import average, cassini, rates
 from earthspin.torque.average import Window, best_window, precessing_torque, window_mean_and_error
 from earthspin.torque.gravity import torque_from_declination
@@ -80,17 +80,10 @@ class Samples:
     are_stored: bool = False
 
 
-def _same_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]) -> Hashable:
-    """Inputs on which samples depend; None if they contain arrays or objects, which may change."""
-    bodies, places = (body, *perturbers), (sky.centre, *sky.targets.values())
-    fixed = isinstance(body.pole, (FixedPole, IAU2006Pole, MovingPole))
-    fixed = fixed and all(isinstance(place, int) for place in places)
-    if not fixed or any(member.labelled for member in bodies):
-        return None
-    return frozenset(sky.provenance.items()), places, stretch, bodies
-
-
-@part(unless=exact_means, same_for=_same_samples)
+@part(
+    unless=exact_means,
+    same_for=lambda sky, stretch, body, perturbers: sky.unchanged(body, *perturbers, also=stretch),
+)
 def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]) -> Samples:
     """Sample the torques of all perturbers, from their declinations, over the averaging time."""
     body = without_swings(body)
@@ -126,7 +119,7 @@ def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Bod
         unmeasured=sky.unmeasured,
         no_error=sky.no_error,
         strength=strength,
-        are_stored=_same_samples(sky, stretch, body, perturbers) is not None,
+        are_stored=sky.unchanged(body, *perturbers) is not None,
     )
 
 

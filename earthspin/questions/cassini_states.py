@@ -26,20 +26,20 @@ class CassiniStates(
 ):
     """Cassini states of a body: spin axis, orbit normal and mean orbit normal in one plane.
 
-    The orbit's node turns evenly on its plane. The spin may be locked to the orbit, like that of
-    the Moon (one turn in each) and of Mercury (three in two), or free.
+    The node of the orbit moves at a constant rate. The spin may be free, or locked to the orbit, as
+    that of the Moon (one rotation per orbit) and of Mercury (three in two orbits).
 
     Returns
     -------
     Dataset
         Over `state` (1 to 4, or 2 and 3, after Peale 1969): `obliquity` to the body's own orbit,
-        `tilt`, the angle to the pole that the orbit's normal goes round (deg), each with its error,
-        and whether the state is `stable`.
+        `tilt`, the angle to the mean orbit normal (deg), each with its error, and whether the state
+        is `stable`.
 
     Raises
     ------
     EarthspinError
-        If the body has no figure, or the orbit's node does not turn.
+        If the figure of the body is not known, or the node of the orbit does not move.
 
     Examples
     --------
@@ -131,17 +131,17 @@ def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
     return Precessing(axial, locked if locking.locked else 0.0, orbit.i, node)
 
 
-class States(Variables, along=("state",), no_error="it is so or not"):
+class States(Variables, along=("state",), no_error="true or false"):
     """Obliquity, tilt to the mean orbit normal, and stability of each Cassini state of a body."""
 
     obliquity = measured(
         "deg",
-        "angle from the normal of the orbit to the axis",
+        "angle from the orbit normal to the spin axis",
         comment="half-widths from the uncertainty of the body's numbers",
     )
-    tilt = measured("deg", "angle from the pole of the orbit's plane to the axis")
-    towards_pole = number("1", "whether the axis leans from the normal towards that pole")
-    stable = number("1", "whether an axis beside it stays")
+    tilt = measured("deg", "angle from the mean orbit normal to the spin axis")
+    towards_pole = number("1", "whether the axis is tilted towards the mean orbit normal")
+    stable = number("1", "whether a slightly displaced axis stays near it")
     state = labels("number of the state after Peale (1969)", "1")
 
 
@@ -192,8 +192,8 @@ def neglected(body: Body, own_orbit: Orbit) -> Neglected:
     if sizes and body.is_as_named and own_orbit == PRECESSING_ORBITS.get(body.known_as):
         return Neglected.cited(sizes, "change of the obliquity in the upright state")
     return Neglected(
-        what="libration, pulls beside that of the primary, a core that does not follow, and terms "
-        f"that turn with the pericentre: not measured for {in_a_sentence(body.name)}"
+        what="libration, torques of other bodies, a decoupled core, and terms in the longitude of "
+        f"the pericentre: not measured for {in_a_sentence(body.name)}"
     )
 
 

@@ -149,8 +149,9 @@ class LongTerm(
     """
 
     page, headline = "long_term", "obliquity"
+    columns = ("obliquity", "eccentricity", "longitude_of_perihelion", "climatic_precession")
 
-    exclusive = (("times",), ("span", "step"))
+    exclusive = ((("times",), ("span", "step")),)
     many_pulls = True
 
     span: YearSpan = key(
@@ -541,14 +542,17 @@ def neglected() -> Neglected:
     )
 
 
-long_term = public_call(
-    LongTerm,
-    answer=series,
-    sections=(budget, matrices, neglected),
-    parts=(places, sky, stretch, wanted, *MEANS, orbit_table, numbers, strength, solved, readings),
-    together=(
+#: Parts that every question on the long-term motion shares, and how their members are computed.
+SHARED: dict[str, Any] = {
+    "parts": (
+        *(places, sky, stretch, wanted, *MEANS),
+        *(orbit_table, numbers, strength, solved, readings),
+    ),
+    "together": (
         *("body", "perturbers", "tides", "ellipticity", "j2_rate"),
         *("obliquity_shift", "longitude_shift"),
     ),
-    widest=64,
-)
+    "widest": 64,
+}
+
+long_term = public_call(LongTerm, answer=series, sections=(budget, matrices, neglected), **SHARED)

@@ -49,17 +49,17 @@ class NutationLadder(
 ):
     """Nutation from a ladder of increasingly detailed models of the Earth's interior.
 
-    A ladder of models, each of which adds one thing to the model before, from a rigid Earth to
-    the layers of the `interior` of the body. The dynamical flattening H is the observed one
-    throughout; nothing is fitted to nutation, save where a rung says so.
+    Each model (rung) adds one effect to the model before, from a rigid Earth to the layers of the
+    `interior` of the body. All models use the observed dynamical flattening H. Only rungs that say
+    so contain numbers fitted to nutation.
 
     Returns
     -------
     Dataset
-        Along `rung`: `rms_dpsi_sineps` and `rms_deps` (mas), what is left against IAU 2000A after
-        a constant and a rate, and `adds`, what the rung adds. `earthspin.run_tree` adds the
-        sections: two models outside the ladder, the main circular terms, the free modes, and the
-        transfer function.
+        Along `rung`: `rms_dpsi_sineps` and `rms_deps` (mas), the residuals from IAU 2000A after
+        removal of a constant and a rate, and `adds`, what the rung adds. `earthspin.run_tree` adds
+        the sections: two models outside the ladder, the main circular terms, the free modes, and
+        the transfer function.
 
     Raises
     ------
@@ -78,7 +78,7 @@ class NutationLadder(
 
     coupling: Literal["none", "inferred"] = setting(
         "none",
-        doc="coupling at the boundaries of the core in a last rung; its numbers are inferred "
+        doc="coupling at the boundaries of the core, as one more model; its numbers are inferred "
         "from nutation",
     )
     anelastic_exponent: Annotated[float, Number("", "0.09", low=0.0, high=0.2)] = setting(
@@ -124,7 +124,7 @@ def left(
     half-width of either from the inputs of the interior, H and integration, rad.
     """
     done = pole_analysis
-    days, ends, theirs = path.iau_nutation(pulls, epochs)
+    days, ends, _, theirs = path.iau_nutation(pulls, epochs)
     figure = path.steady_figure(path.path_over(pulls, effects, done.start, ends), days)
     own = complex_nutation(iau.nutation_of(figure, days))
     circles, frequency = done.our_circles, done.our_circles.frequency
@@ -160,7 +160,7 @@ _OBLIQUITY = "obliquity, straight line removed"
 _RMS_ERROR = (
     "95 % half-width of a root mean square, from the inputs of the interior, H and integration"
 )
-_ADDS = "what the model adds, or what it is"
+_ADDS = "what the model adds to the one before, or its description"
 
 
 class RungSizes(Variables, along=("rung",), error="rms_error"):
@@ -171,8 +171,8 @@ class RungSizes(Variables, along=("rung",), error="rms_error"):
         f"{_RMS} {_LONGITUDE}",
         references=SOURCES,
         short="dpsi sin(eps)",
-        comment="H is the observed one throughout; the rungs up to 'anelastic' take no other "
-        "number from the motion of the pole",
+        comment="all models use the observed H; those up to 'anelastic' use no other number from "
+        "the motion of the pole",
     )
     rms_deps = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
     rms_error = number("mas", _RMS_ERROR)
@@ -205,8 +205,8 @@ class ModelSizes(Variables, along=("model",), error="model_rms_error"):
     model_adds = words(
         _ADDS,
         short="what it adds",
-        comment="a core in a rigid mantle has a far shorter nutation of its own; the H of "
-        "hydrostatic equilibrium is one per cent too small",
+        comment="the free core nutation of a core in a rigid mantle has a far shorter period; H "
+        "in hydrostatic equilibrium is one per cent too small",
     )
     model = labels()
 
@@ -243,11 +243,11 @@ class Terms(Variables, along=("term",)):
         "predicted amplitude",
         along=("rung", "term"),
         error="predicted_error",
-        comment="the half-widths do not hold the sizes of what a rung leaves out",
+        comment="the half-widths exclude the effects that a model neglects",
     )
     predicted_error = number(
         "mas",
-        "95 % half-width of a predicted amplitude, from the numbers of the inside",
+        "95 % half-width of a predicted amplitude, from the parameters of the interior",
         along=("rung", "term"),
     )
     iau = amplitude("mas", path.MERGED, error="amplitude_error")
@@ -283,20 +283,19 @@ def terms(pole_analysis: path.PoleComparison, models: Prediction, interior_sprea
 class Modes(Variables, along=("mode",)):
     """Periods and quality factors of the free modes (wobbles and nutations) of each model."""
 
-    mode_rung = words("rung that has the mode", short="rung")
+    mode_rung = words("model (rung) that has the mode", short="rung")
     mode_name = words("name of the mode", short="mode")
     mode_period = measured(
         "d",
-        "period: of a nutation in space, negative if retrograde; else in the body",
+        "period, of a nutation in space (negative if retrograde), of a wobble in the body",
         short="period",
-        comment="a rung that lacks a part lacks its mode; half-widths from the Love numbers, the "
-        "core and the inner core, the ocean, the loss in the mantle, and numbers inferred from "
-        "nutation",
+        comment="modes of a region exist only in models with this region; half-widths from the "
+        "Love numbers, cores, ocean, anelasticity and numbers inferred from nutation",
     )
     mode_quality = number(
         "1",
-        "quality factor of the mode; infinite where nothing is lost",
-        no_error="it follows from published quality factors, which have none",
+        "quality factor of the mode; infinite without dissipation",
+        no_error="it follows from published quality factors, which have no errors",
         short="Q",
     )
     mode = labels()
@@ -332,8 +331,8 @@ class Transfer(
 ):
     """Transfer function from rigid to non-rigid nutation, for each model of the ladder."""
 
-    transfer_real = number("1", "nutation over that of a rigid body, real part")
-    transfer_imaginary = number("1", "nutation over that of a rigid body, imaginary part")
+    transfer_real = number("1", "ratio of nutation to that of a rigid body, real part")
+    transfer_imaginary = number("1", "ratio of nutation to that of a rigid body, imaginary part")
     rung = labels()
     frequency = labels(
         "frequency in space, cycles per rotation of the body", "1", default=_IN_SPACE

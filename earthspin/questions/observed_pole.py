@@ -243,6 +243,7 @@ _RMS = "root mean square of the model minus the observed celestial pole"
 _LINE = "a constant and a rate removed"
 _CORE = "the free core nutation, fitted to the observed offsets, removed"
 _AS_RETURNED = "nothing removed"
+_OF_FIT = "observed_size_error applies after removal of a constant and a rate"
 
 
 class ObservedSizes(Variables, along=("model", "direction"), error="observed_size_error"):
@@ -251,10 +252,10 @@ class ObservedSizes(Variables, along=("model", "direction"), error="observed_siz
     observed_rms = number("mas", f"{_RMS}, {_LINE}", short="rms")
     observed_rms_without_core = number("mas", f"{_RMS}, {_LINE}, {_CORE}", short="rms without FCN")
     observed_rms_unfitted = number(
-        "mas", f"{_RMS}, {_AS_RETURNED}", short="rms as returned", no_error=_AS_RETURNED
+        "mas", f"{_RMS}, {_AS_RETURNED}", short="rms as returned", no_error=_OF_FIT
     )
     observed_rms_without_core_unfitted = number(
-        "mas", f"{_RMS}, {_CORE}", short="rms as returned, without FCN", no_error=_AS_RETURNED
+        "mas", f"{_RMS}, {_CORE}", short="rms as returned, without FCN", no_error=_OF_FIT
     )
     observed_size_error = number(
         "mas",

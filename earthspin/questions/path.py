@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +18,7 @@ from earthspin.engine.question import key, part
 from earthspin.errors import UndefinedError
 from earthspin.motion import axes
 from earthspin.motion.axes import AxisPath
-from earthspin.motion.effects import GEODESIC, NONRIGID
+from earthspin.motion.effects import GEODESIC, NONRIGID, TRIAXIALITY
 from earthspin.motion.forces import fastest_sweep
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import analysis
@@ -44,7 +44,7 @@ HALF_SPAN = 27200.0  # d
 SHORTEST_SPAN = 45 * JULIAN_YEAR / DAY  # d
 SAMPLING = 4.0  # d
 #: Descriptions of amplitudes of terms that this span does not separate, in results.
-MERGED = "amplitude of IAU 2000A, together with that of the neighbour, which is no published term"
+MERGED = "amplitude of IAU 2000A, with the share of the neighbour (no published value)"
 NEIGHBOUR = "term that 150 years cannot separate from this one; empty if there is none"
 NEIGHBOUR_SHARE = "share of the neighbour in the amplitude of IAU 2000A"
 SERIES = "coefficients of the adopted series"
@@ -117,7 +117,7 @@ def direction_errors(
 
 
 def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
-    """Largest displacement of the axis by the nodes of satellites, and by C if that is open, rad.
+    """Largest displacement of the axis by the nodes of satellites and by published effects, rad.
 
     Parameters
     ----------
@@ -210,15 +210,18 @@ def path_over(
 ) -> AxisPath:
     """Integrate the motion of the rigid body's axes over a range of days.
 
-    Positions of the perturbers are stored for the next run.
+    Semidiurnal terms are left out. Positions of the perturbers are stored for the next run.
     """
-    forces = forces_of(pulls, rigid(effects), keep=True)
+    steady = [effect for effect in rigid(effects) if effect != TRIAXIALITY.name]
+    forces = forces_of(pulls, steady, keep=True)
     span = days[0] * DAY, days[-1] * DAY
     return axes.axis_path(forces, start, pulls.epoch, span, limits=pulls.limits)
 
 
-def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, ComplexArray]:
-    """Nutation of IAU 2000A at the days of a series.
+def iau_nutation(
+    pulls: Pulls, epochs: Epochs
+) -> tuple[FloatArray, FloatArray, FloatArray, ComplexArray]:
+    """Pole and nutation of IAU 2006/2000A at the days of a series.
 
     Returns
     -------
@@ -226,6 +229,8 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
         Days from J2000.0.
     ends : ndarray, shape (2,)
         First and last day of an interval that includes the series and J2000.0.
+    pole : ndarray, shape (t, 3)
+        Unit vectors in the GCRS.
     eta : ndarray, shape (t,), complex
         Nutation dpsi sin(eps0) + i deps, rad.
 
@@ -238,8 +243,8 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
     first, last = epochs.span()
     ends = np.array([min(first, 0.0), max(last, 0.0)])
     pulls.sky.check_times(ends, pulls.targets)
-    angles = iau.at_days(lambda at: iau.nutation_of(iau.true_pole(at), at), days)
-    return days, ends, analysis.complex_nutation(angles)
+    pole = iau.at_days(iau.true_pole, days)
+    return days, ends, pole, analysis.complex_nutation(iau.nutation_of(pole, days))
 
 
 def residual_error(
@@ -258,6 +263,12 @@ def residual_error(
 def rigid(effects: Sequence[str]) -> list[str]:
     """Select the effects that apply to a rigid body: all except the non-rigid response."""
     return [effect for effect in effects if effect != NONRIGID.name]
+
+
+def same_paths(pulls: Pulls, effects: Sequence[str], **inputs: object) -> Hashable:
+    """Value that is equal if `path_over` gives the same path; None if its inputs may change."""
+    perturbers = *pulls.gm.items(), *pulls.targets.items(), *pulls.sky.reach.items()
+    return pulls.sky.unchanged(pulls.body, also=(perturbers, pulls.limits, *rigid(effects)))
 
 
 @dataclass(frozen=True)
@@ -316,7 +327,7 @@ def iau_pole(pulls: Pulls) -> IAUPole:
     return IAUPole(days, nutation, analyse, analyse.secular(pole), circles)
 
 
-@part(unless=no_iau_model)
+@part(unless=no_iau_model, same_for=same_paths)
 def pole_analysis(pulls: Pulls, effects: tuple[str, ...], iau_pole: IAUPole) -> PoleComparison:
     """Separate the computed pole over 150 years into precession and circular terms, as the IAU's.
 
@@ -357,7 +368,7 @@ def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp
     Returns
     -------
     order : ndarray, shape (count,)
-        Their places among the circles.
+        Indices of these terms among the circles.
     columns : dict of str
         Variables of a table of terms: periods, amplitudes of IAU 2000A with their half-widths, and
         the neighbours that this span does not separate from them.
@@ -431,7 +442,7 @@ class ResponseFit:
     added: ComplexArray
 
 
-@part(loads=("earthspin.nutation.response",))
+@part(same_for=same_paths, loads=("earthspin.nutation.response",))
 def response_apart(
     pole_analysis: PoleComparison, pulls: Pulls, effects: tuple[str, ...]
 ) -> ResponseFit:

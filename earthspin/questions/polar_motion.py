@@ -50,9 +50,9 @@ class PolarMotion(OfTable, word="polar-motion", call="polar_motion", table="pola
     Returns
     -------
     Dataset
-        Over `time`: `x`, `y` (arcsec) with their 95 % half-widths. `earthspin.run_tree` gives what
-        `fit_chandler` finds in it as the section `chandler`, over `middle`, the middles of sliding
-        windows, and its amplitudes over `frequency` as the section `spectrum`.
+        Over `time`: `x`, `y` (arcsec) with their 95 % half-widths. `earthspin.run_tree` adds the
+        sections `chandler`, the result of `fit_chandler` over `middle`, the middles of sliding
+        windows, and `spectrum`, the amplitudes over `frequency`.
 
     Raises
     ------
@@ -119,7 +119,7 @@ class FreeWobble(
         cell_methods="middle: mean (one beat of the wobbles)",
         comment="mean over one beat of the free and the annual wobble",
     )
-    chandler_phase = number("deg", "phase of the free wobble against a steady one of its period")
+    chandler_phase = number("deg", "phase of the free wobble relative to a sinusoid of its period")
     annual_amplitude = number(
         "mas", "amplitude of the annual wobble, prograde", error="chandler_amplitude_error"
     )
@@ -235,9 +235,9 @@ def fit_chandler(
         Length of the sliding windows (a number is in days); one beat of annual and free wobble by
         default.
     excitation : Dataset, optional
-        `chi1`, `chi2` (mas) over `time`, means over the steps of the pole. What it drives is then
-        taken away, with the same period and quality factor, and the likelihood is that of the rest;
-        over the span that both cover.
+        `chi1`, `chi2` (mas) over `time`, means over the steps of the pole. The motion that it
+        drives, for the same period and quality factor, is subtracted before the likelihood is
+        computed. Only the common span is used.
 
     Returns
     -------
@@ -249,8 +249,8 @@ def fit_chandler(
     Raises
     ------
     EarthspinError
-        If the series is uneven, has no numbers, or is too short (it says how long is needed), or if
-        there is no wobble in it.
+        If the series is uneven, has no numbers, or is too short (the message names the needed
+        length), or contains no wobble.
 
     Examples
     --------
@@ -304,7 +304,7 @@ def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     return time, ex.excitation_of(chi1, chi2) / MAS
 
 
-class Excitation(Daily, no_error="the table from which it is read gives none"):
+class Excitation(Daily, no_error="the table gives no errors"):
     """Excitation of polar motion."""
 
     chi1 = number("mas", "excitation, towards the prime meridian")
@@ -327,8 +327,9 @@ def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100
     ds : Dataset
         `x` and `y` over `time`, evenly spaced.
     period : duration
-        Of the free wobble; a number is in days.
+        Period of the free wobble; plain numbers are in days.
     quality_factor : float
+        Quality factor of the free wobble.
 
     Returns
     -------
@@ -386,12 +387,13 @@ def polar_motion_from(
     chi : Dataset
         `chi1`, `chi2` (mas) over `time`, means over even steps.
     period, quality_factor : duration, float, optional
-        Of the free wobble (a number is in days); those that `excitation` noted by default.
+        Of the free wobble (plain numbers in days); by default those stored by `excitation`.
     start : pair of angles, optional
-        x and y at the start (a number is in mas); by default as `excitation` noted them, or zero.
+        x and y at the start (plain numbers in mas); by default those stored by `excitation`, or
+        zero.
     fitted_to : Dataset, optional
-        `x` and `y` as observed; the start is then the one that comes nearest to them beside drift
-        and seasonal terms, over the span that both cover.
+        Observed `x` and `y`; the start is then fitted to them together with drift and seasonal
+        terms, over the common span.
 
     Returns
     -------
@@ -425,7 +427,7 @@ def polar_motion_from(
     ends = ex.ends_of_steps(time, step)
     if fitted_to is not None:
         if start is not None:
-            raise SceneError("start", start, "it is fitted to the pole; leave it or fitted_to out")
+            raise SceneError("start", start, "fitted_to determines it; remove one of them")
         ends, observed, driving = _together(fitted_to, chi)
         begin = ex.fitted_start(ends, observed, driving, s)
     else:
@@ -462,15 +464,15 @@ def read_excitation(
     Parameters
     ----------
     path : str, Path or sequence of them
-        Files, or folders of them: yearly files of a component are joined, epochs that stand twice
-        count once.
+        Files, or folders of them: yearly files of a component are joined, and repeated epochs count
+        once.
     components : sequence of str, optional
-        Of ``"AAM"``, ``"OAM"``, ``"HAM"``, ``"SLAM"``, as they stand in the names of files; the sum
-        of all by default.
+        Of ``"AAM"``, ``"OAM"``, ``"HAM"``, ``"SLAM"``, as in the names of files; the sum of all by
+        default.
     terms : sequence of str
         ``"mass"``, ``"motion"``, or both.
     daily : bool
-        Whether to average to days, from 0h to 0h, as `excitation` of a daily pole is.
+        Average over days from 0h to 0h, as in the `excitation` of daily polar motion.
 
     Returns
     -------
@@ -513,6 +515,6 @@ def _even_step(time: FloatArray) -> float:
     """Time step of an evenly spaced series, d."""
     steps = np.diff(time)
     if steps.size == 0 or np.any(abs(steps - steps[0]) > SAME_DAY):
-        problem = "fill the gaps first: the exact pair needs even ones"
+        problem = "fill the gaps first; an even step is needed"
         raise SceneError("time", "uneven steps", problem)
     return float((time[-1] - time[0]) / steps.size)

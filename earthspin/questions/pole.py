@@ -31,11 +31,11 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
     The path starts at J2000.0 from the pole of the body; for the Earth, from the true pole of IAU
     2006/2000A. By default every effect that is known for the body acts, for the unchanged Earth
     under Sun and Moon also `nonrigid`, the response of its interior; ``effects="rigid"`` leaves
-    this out. The response is `fitted` to IAU 2000A, with what that adds to a response, or
-    `predicted` from the layers. The effect `geodesic` needs the Sun among the perturbers and turns
-    a sphere, too. With `nonrigid` the rigid axes start where their mean
-    pole meets that of the IAU, and all axes receive the published contribution of the non-rigid
-    Earth to the rate of precession.
+    this out. The response is `fitted` to IAU 2000A, including its additive terms, or `predicted`
+    from the layers. The effect `geodesic` needs the Sun among the perturbers and also moves the
+    axis of a sphere. With `nonrigid` the initial axes are such that their mean pole agrees with
+    that of the IAU, and all axes receive the published contribution of the non-rigid Earth to the
+    rate of precession.
 
     Returns
     -------
@@ -252,7 +252,7 @@ class Angles(Dated, along=("time", "axis"), error="direction_error"):
     """Longitude psi and inclination eps of the axes, relative to the body's orbit at J2000.0."""
 
     psi = number("arcsec", "precession and nutation in longitude along the orbit of J2000.0")
-    eps = number("arcsec", "angle of the axis from the normal of that orbit")
+    eps = number("arcsec", "angle of the axis from the normal of the orbit of J2000.0")
     axis = labels()
 
 
@@ -292,7 +292,7 @@ def neglected(
     axis_path: AxisPath,
     epochs: Epochs,
 ) -> Neglected:
-    """Sizes of what is not modelled, such as the effects that are switched off.
+    """Sizes of effects that are not modelled, such as those that are switched off.
 
     They are the largest changes of the figure axis from J2000.0 to the first and the last date.
     """

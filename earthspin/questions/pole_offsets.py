@@ -26,8 +26,8 @@ FIRST_MJD = 45700.0
 class PoleOffsets(OfTable, word="pole-offsets", call="pole_offsets", table="pole_offsets"):
     """Observed celestial pole offsets, and the free core nutation in them.
 
-    The offsets dX, dY are what very long baseline interferometry adds to the X, Y of IAU
-    2006/2000A. Predicted rows, and rows before there were observations, are left out.
+    The offsets dX, dY are X, Y observed by very long baseline interferometry minus those of IAU
+    2006/2000A. Predicted rows, and rows before the first observation, are left out.
 
     Returns
     -------
@@ -87,7 +87,7 @@ def observed_offsets(offset_table: PoleSeries) -> ObservedOffsets:
 class CoreNutation(
     Variables,
     along=("middle",),
-    no_error="a test, in which noise alone passes in 1 % of the windows",
+    no_error="a test that noise alone passes in 1 % of the windows",
 ):
     """Amplitude and phase of the free core nutation in sliding windows."""
 
@@ -97,14 +97,14 @@ class CoreNutation(
         cell_methods="middle: mean (one window)",
         short="amplitude",
         comment="a constant, a line and a retrograde circle of the published period are fitted in "
-        "each window; half-widths from the noise at the same frequency in the other sense",
+        "each window; half-widths from the noise at the opposite frequency",
     )
     core_nutation_phase = measured(
-        "deg", "phase of the free core nutation against a steady circle of its published period"
+        "deg", "phase of the free core nutation relative to a circle of its published period"
     )
     detection_limit = number("uas", "amplitude that noise alone exceeds in 1 % of the windows")
     detected = number("1", "1 where the amplitude is above the detection limit, else 0")
-    window_length = number("d", "length of a window", along=(), no_error="it is chosen")
+    window_length = number("d", "length of a window", along=(), no_error="an input")
     middle = labels("middle of a window")
 
 

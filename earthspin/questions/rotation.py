@@ -45,10 +45,10 @@ SECONDS_PER_TURN, MOST_TURNS = 4e-3, 1e6
 class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start", "stop", "step")):
     """Attitude and spin of a rigid body, without averaging (source text, I.2, I.4, I.9.34).
 
-    Any three moments, any spin, a locked or a tumbling one among them. The motion begins at the
-    first date, with the body's own pole, meridian and spin, or as `start_attitude` and
-    `start_omega` say. The effects `second-order` and `triaxiality` cannot be switched off here, and
-    `nonrigid` not on.
+    The body may have any three moments and any spin, and may be locked or tumble. The motion begins
+    at the first date, with the pole, meridian and spin of the body, or with `start_attitude` and
+    `start_omega`. The effects `second-order` and `triaxiality` are always included; `nonrigid` is
+    not available.
 
     Returns
     -------
@@ -56,7 +56,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
         Over `time`: `attitude` (unit quaternion along `quaternion`, body to ICRF), `omega` (rad/s)
         along the principal axes and `angular_momentum` (kg m2/s) along the ICRF, each along
         `component`, with their errors, the largest up to that time. `earthspin.run_tree` adds
-        `divergence`, how fast neighbouring rotations part.
+        `divergence`, the growth of the distance between neighbouring rotations.
 
     Examples
     --------
@@ -105,7 +105,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
     @property
     def unused(self) -> str:
-        """Satellites that are left out; of those of a body in an orbit, nodes have a size."""
+        """Satellites that are left out; empty if the size of their effect is listed."""
         known = self.perturbers and obliquity_of(self.body) is not None
         return "" if known else super().unused
 
@@ -200,9 +200,9 @@ class Rotor:
     Attributes
     ----------
     body : Rigid
-        In further lanes its neighbours.
+        The body; further lanes are copies of it with one changed input each.
     changed : tuple of str
-        What each of these has changed.
+        Changed input of each copy.
     masses : Masses
     start : State
     begin, end : float
@@ -300,8 +300,8 @@ def motion(rotor: Rotor, tolerance: float) -> Motion:
 
 #: Shares of the errors.
 _CAUSES = {
-    "method": "the two ways of following it",
-    "input": "given numbers",
+    "method": "the integration (difference of two solutions)",
+    "input": "the uncertainties of the inputs",
     "kernel": "the positions of the bodies",
 }
 
@@ -405,19 +405,19 @@ class Growth(Dated):
 
     growth = number(
         "1",
-        "natural logarithm of how far neighbouring rotations have parted",
+        "natural logarithm of the growth of the distance between two neighbouring rotations",
         no_error="its scatter is growth_rate_error",
     )
-    growth_rate = number("1/s", "mean rate of growth; Lyapunov's exponent if chaotic", along=())
+    growth_rate = number("1/s", "mean growth rate; Lyapunov exponent if chaotic", along=())
     growth_rate_error = number(
         "1/s",
         "95 % half-width of the rate, from its scatter between stretches of the span",
         along=(),
     )
-    course = words("chaotic, if neighbours part faster than by powers of time; regular", along=())
+    course = words("chaotic if growth is faster than a power of time, else regular", along=())
     #: Only where the motion is chaotic.
     lyapunov_time = number(
-        "d", "time in which neighbours part e times as far", along=(), default=None
+        "d", "time in which the distance grows by the factor e", along=(), default=None
     )
     lyapunov_time_error = number("d", "95 % half-width of that time", along=(), default=None)
 
@@ -425,7 +425,7 @@ class Growth(Dated):
 def one_date(span: Span, times: TimeList | None) -> str | None:
     """Return the reason (text) to omit divergence if only one date is requested, else None."""
     first, last = span.days if times is None else times.span()
-    return None if last > first else "neighbours part in time, and one date is asked for"
+    return None if last > first else "the divergence needs more than one date"
 
 
 @part(unless=one_date, loads=("earthspin.motion.divergence",))
@@ -459,7 +459,7 @@ def divergence(parting: Divergence, rotor: Rotor, epochs: Epochs) -> Growth:
 
 #: Effects that no rigid body of three moments has.
 _BEYOND = (
-    "deformation and flow of the inside, harmonics of the figure beyond the moments, J3 and J4"
+    "deformation and flow of the interior, harmonics of the figure beyond the moments, J3 and J4"
 )
 
 

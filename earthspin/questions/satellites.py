@@ -209,7 +209,7 @@ def largest_torques_of_satellites(body: Body, pull: float) -> dict[str, float]:
 
 
 def largest_drifts(nutations: Mapping[str, Swing], span: float) -> dict[str, float]:
-    """Largest displacements of the pole by the nodes of satellites within a span of s, rad."""
+    """Largest displacements of the pole by the nodes of satellites within a time span (s), rad."""
     return {
         name: 2 * swing.angle * math.sin(min(swing.node_rate * span, math.pi) / 2)
         for name, swing in nutations.items()

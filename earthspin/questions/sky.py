@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Any, ClassVar
@@ -22,7 +22,7 @@ from earthspin.sky import sources
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
 from earthspin.sky.ephemeris import NAMED_KERNELS
 from earthspin.sky.iau import Nutation, true_equator
-from earthspin.sky.poles import Pole, rotate, spherical
+from earthspin.sky.poles import FixedPole, IAU2006Pole, MovingPole, Pole, rotate, spherical
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
 from earthspin.sky.sources import SourceName
 from earthspin.units import FileName
@@ -215,6 +215,18 @@ class Sky:
         By default the targets are the perturbers.
         """
         self.source.check_times(np.array(list(days)), self._all(targets))
+
+    def unchanged(self, *bodies: Body, also: Hashable = None) -> Hashable:
+        """Value that is equal for the same positions, bodies and further inputs `also`.
+
+        None if they contain arrays or objects, which may change.
+        """
+        places = self.centre, *self.targets.values()
+        if any(body.labelled for body in bodies) or not all(isinstance(p, int) for p in places):
+            return None
+        if not isinstance(bodies[0].pole, (FixedPole, IAU2006Pole, MovingPole)):
+            return None
+        return frozenset(self.provenance.items()), places, bodies, also
 
     def _all(self, targets: Mapping[str, Place] | None) -> set[Place]:
         return {*(self.targets if targets is None else targets).values(), self.centre}

@@ -32,7 +32,7 @@ class Spheroid(
     Raises
     ------
     EarthspinError
-        For a body without a figure, or positions that are not finite.
+        If the body has no figure, or a position is not finite.
 
     Examples
     --------
@@ -44,7 +44,7 @@ class Spheroid(
 
     page, headline = "rotors", "potential"
 
-    body: Body = key(EARTH, doc="body whose mass and figure the spheroid has")
+    body: Body = key(EARTH, doc="body that gives mass and figure of the spheroid")
     position: Annotated[FloatArray, Numbers("m", "7000 km", (None, 3))] = setting(
         doc="coordinates from the centre, z along the axis"
     )

@@ -31,7 +31,7 @@ SPAN_DOC = "first and last date, TDB; the last is included if the step meets it"
 class Series(PerturbedBody):
     """Base class of questions whose results are time series at given dates."""
 
-    exclusive = (("times",), ("span", "step"))
+    exclusive = ((("times",), ("span", "step")),)
 
     span: Span = key(doc=SPAN_DOC)
     step: Step = key(doc="time between two dates")

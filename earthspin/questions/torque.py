@@ -94,9 +94,9 @@ class Torques(Dated, along=("time", "perturber")):
     )
     torque_magnitude = measured("N m", "magnitude of the torque")
     direction_error = number(
-        "arcsec", "bound on right ascension and declination", along=("perturber",)
+        "arcsec", "bound on the error of right ascension and declination", along=("perturber",)
     )
-    distance_error = number("m", "bound on the distance from the kernel", along=("perturber",))
+    distance_error = number("m", "bound on the error of the distance", along=("perturber",))
     perturber = labels()
     component = labels(default=["x", "y", "z"])
 

@@ -35,8 +35,8 @@ _INTERIOR = {name: name for name in _KEYS} | {"ocean_love_number": "ocean"}
 class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
     """Period of the free wobble, by models from rigid to deformable (source text, I.6).
 
-    A ladder of models: each rung adds one effect to the rung before. The `interior` of the body
-    determines the last rung.
+    Each model (rung) adds one effect to the model before. The `interior` of the body determines the
+    last model.
 
     Returns
     -------
@@ -44,7 +44,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
         Along `rung` (flattening, rigid, triaxial, elastic, fluid-core, ocean, anelastic):
         `period_solar` (d of 86400 s) with its 95 % half-width, `period_sidereal`, `factor`,
         `quality_factor`. `earthspin.run_tree` adds the sections: the observed period, the
-        sensitivity of the last rung, the free core nutation, and the Love numbers.
+        sensitivity of the last model, the free core nutation, and the Love numbers.
 
     Examples
     --------
@@ -204,7 +204,7 @@ class Rungs(
         "period of the free wobble in turns of the body, its sidereal days",
         short="sidereal days",
     )
-    factor = number("1", "ratio of the period to that of the rung before")
+    factor = number("1", "ratio of the period to that of the model before")
     quality_factor = number(
         "1",
         "quality factor of the free wobble",
@@ -277,17 +277,17 @@ def _stacked(values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
 # --- sections --------------------------------------------------------------------------------
 
 
-class Sensitivity(Variables, along=("input",), no_error="a share of an error, or an input of it"):
+class Sensitivity(Variables, along=("input",), no_error="a part of an error, or an input of it"):
     """Derivative of the wobble period with respect to each input, and error of that input.
 
     The period is that of the most detailed model; errors are 95 % half-widths.
     """
 
-    days_per_unit = number("d", "change of the last rung per unit of the input")
+    days_per_unit = number("d", "change of the period of the last model per unit of the input")
     input_value = number("1", "value of the input")
     input_half_width = number("1", "95 % half-width of the input")
     days_from_input = number(
-        "d", "95 % half-width of the last rung from the uncertainty of the input"
+        "d", "95 % half-width of the period of the last model from the uncertainty of the input"
     )
 
 
@@ -351,7 +351,7 @@ def neglected(body: Body, inside: Inside | None = None) -> Neglected:
     if not left_out or not body.is_as_named:
         effects = "an inner core, and rotation and ellipticity in the Love number"
         return Neglected(what=f"{effects}: their sizes were not found for this {body.name}")
-    what = "change of the last rung; winds and currents drive the wobble, and not its period"
+    what = "change of the last period; winds and currents drive the wobble, and not its period"
     return Neglected.cited(left_out, what)
 
 

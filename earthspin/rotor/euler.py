@@ -210,7 +210,7 @@ def euler_rates(moments: Moments, omega: Any, torque: Any = 0.0) -> FloatArray:
     Parameters
     ----------
     moments : sequence of three numbers, mapping or PrincipalMoments
-        As for `principal_moments`, kg m2.
+        Moments of inertia, see `principal_moments`, kg m2.
     omega : array_like, shape (..., 3)
         rad/s.
     torque : array_like, shape (..., 3)

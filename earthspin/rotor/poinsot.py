@@ -54,7 +54,7 @@ def inertia_ellipsoid(moments: Moments, omega: Any) -> FloatArray:
     Parameters
     ----------
     moments : sequence of three numbers, mapping or PrincipalMoments
-        As for `principal_moments`, kg m2.
+        Moments of inertia, see `principal_moments`, kg m2.
     omega : array_like, shape (..., 3)
         Angular velocity along the principal axes at any time, rad/s.
 
@@ -77,7 +77,7 @@ def rescaled_inertia_ellipsoid(moments: Moments) -> FloatArray:
     Parameters
     ----------
     moments : sequence of three numbers, mapping or PrincipalMoments
-        As for `principal_moments`, kg m2.
+        Moments of inertia, see `principal_moments`, kg m2.
 
     Returns
     -------

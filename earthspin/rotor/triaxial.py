@@ -162,7 +162,7 @@ def jacobi_motion(moments: Moments, omega: Any) -> JacobiMotion:
     Parameters
     ----------
     moments : sequence of three numbers, mapping or PrincipalMoments
-        As for `principal_moments`, kg m2; of shape (..., 3) for many bodies.
+        Moments of inertia, see `principal_moments`, kg m2; of shape (..., 3) for many bodies.
     omega : array_like, shape (..., 3)
         Angular velocity at t = 0 along the principal axes, rad/s. Bodies and starts
         broadcast against each other.
@@ -413,7 +413,7 @@ def free_rotation(moments: Moments, omega: Any, times: Any) -> FreeRotation:
     Parameters
     ----------
     moments : sequence of three numbers, mapping or PrincipalMoments
-        As for `principal_moments`, kg m2; of shape (..., 3) for many bodies.
+        Moments of inertia, see `principal_moments`, kg m2; of shape (..., 3) for many bodies.
     omega : array_like, shape (..., 3)
         Angular velocity at t = 0 along the principal axes, rad/s. Bodies and starts
         broadcast against each other.

@@ -157,7 +157,7 @@ class Solved:
     setting : Setting
     uncertainty : Uncertainty
     others : tuple of (str, Trajectory, Setting)
-        By cause: the trajectory with that cause changed, and its setting.
+        Trajectory with one cause changed, and its setting, by cause.
     """
 
     path: Trajectory

@@ -35,7 +35,7 @@ WINDOW, TERMS = 20_000 * JULIAN_YEAR, 16
 DENSE = 3
 #: Cache of evaluated orbits: largest number of times per set, and number of sets. Solutions with
 #: different causes of error evaluate the orbit at the same times.
-LONGEST_REMEMBERED, SETS_REMEMBERED = 2048, 32
+LONGEST_REMEMBERED, SETS_REMEMBERED = 1 << 14, 32
 #: Largest total size of the arrays of a file, bytes; a billion years need 13 million.
 LARGEST = 1 << 26
 #: Unit in which coefficients are stored as integers.
@@ -133,6 +133,11 @@ class OrbitTable:
     def provenance(self) -> dict[str, str]:
         """SHA-256 hash of the file of the table, for the attributes of a result."""
         return {"orbit_sha256": self.sha256} if self.sha256 else {}
+
+    @property
+    def reference(self) -> str:
+        """Origin of the orbit, for the references of a result."""
+        return f"orbit of {self.name}: {self.source}"
 
     @property
     def coverage(self) -> tuple[float, float]:

@@ -344,7 +344,7 @@ class MovingPole:
     Attributes
     ----------
     right_ascension, declination : float
-        At J2000.0 without periodic terms, ICRF, rad.
+        Direction at J2000.0 without periodic terms, ICRF, rad.
     right_ascension_rate, declination_rate : float
         rad/s.
     right_ascension_swings, declination_swings : tuple of Swing

@@ -191,8 +191,15 @@ def apply(tensor: FloatArray, vector: FloatArray) -> FloatArray:
     return result
 
 
+#: Vector products of all pairs of unit vectors, shape (3, 9).
+_CROSS = np.cross(np.eye(3)[:, np.newaxis], np.eye(3)).reshape(9, 3).T.copy()
+
+
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:
     """Vector product of two arrays of vectors, shape (3, ...)."""
+    if np.ndim(a) == np.ndim(b) and np.size(a) + np.size(b) < 3000:  # same bits, fewer calls
+        products = np.asarray(a)[:, np.newaxis] * b
+        return (_CROSS @ products.reshape(9, -1)).reshape(3, *products.shape[2:])
     (ax, ay, az), (bx, by, bz) = a, b
     result = np.empty(np.broadcast_shapes(np.shape(a), np.shape(b)))
     for row, a1, b2, a2, b1 in zip(
@@ -294,7 +301,7 @@ def largest_torque_on_figure(
     Parameters
     ----------
     pulls : sequence of (gm, distance)
-        Of each perturber, m3 s-2 and smallest distance, m.
+        GM of each perturber, m3 s-2, and its smallest distance, m.
     mass, radius : float
         Mass and equatorial radius of the body, kg and m.
     zonal : mapping of int to float

@@ -166,7 +166,7 @@ class PageFigure:
     applies : callable, optional
         Condition that the answer must meet.
     square : bool
-        As of `Drawing`.
+        See `Drawing`.
     phone : float
         Height of the same drawn anew for a phone, inches; 0 if it is only made narrower.
     """

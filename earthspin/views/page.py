@@ -35,7 +35,7 @@ def page(
         If the first is square, it stands beside the title.
     solids : sequence of Solid
     last : sequence of Table
-        At the end, folded away.
+        Tables at the end, collapsed.
     **words
         `lead` and `note`, a sentence at the head, and what holds for all that follows; `links`,
         pairs of words and addresses of other pages, relative to this one; and `footer`.
@@ -125,7 +125,7 @@ def typeset(words: str) -> Markup:
 
 def _power(match: re.Match[str]) -> str:
     exponent = f"{match[2].strip('+')}{match[3]}".translate(RAISED)
-    return f"{match[1]} \u00d7 10{exponent}"
+    return f"{match[1]}\u00a0\u00d7\u00a010{exponent}"
 
 
 #: Greys and colours of figures, as the page's style sheet turns them for light and dark.
@@ -141,9 +141,10 @@ def figure_on_page(svg: str, name: str, words: str, width: str) -> Markup:
     ----------
     svg : str
     name : str
-        Of the figure on its page; its parts are named after it, so that no two are alike.
+        Name of the figure on its page; the parts of the figure are named after it, so that all
+        names differ.
     words : str
-        What it shows, for those who do not see it.
+        Description of the figure for screen readers.
     width : str
         ``"narrow"`` if it is shown on a phone alone, ``"usual"`` if elsewhere alone.
 

@@ -128,7 +128,7 @@ def write_page(name: str, file: str | Path) -> Path:
     Parameters
     ----------
     name : str
-        As of `play_page`.
+        See `play_page`.
     file : str or Path
 
     Returns

@@ -207,7 +207,7 @@ def iau(tree: Result) -> Table:
         rows,
         "The sizes of the effects left out are published: Capitaine, Wallace & Chapront 2003, "
         "table 3. H itself comes from observed precession, so the comparison tests consistency, "
-        "not the theory. Errors hold the uncertainty of the input numbers only. The "
+        "not the theory. Errors include the uncertainty of the inputs only. The "
         f"difference that remains is {_millionths(known)} millionths of the rate.",
     )
 
@@ -263,9 +263,10 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``precession``; without the section ``convergence`` it is run again.
+        Answer to the question ``precession``; computed again if the section
+        ``convergence`` is missing.
     year : Dataset or DataTree
-        Of the question ``torque``.
+        Answer to the question ``torque``.
     figure : Figure, optional
         A figure of its own by default.
     """
@@ -293,7 +294,8 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``precession``; without the section ``convergence`` it is run again.
+        Answer to the question ``precession``; computed again if the section
+        ``convergence`` is missing.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
@@ -349,7 +351,7 @@ def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``precession``.
+        Answer to the question ``precession``.
     ax : Axes, optional
     """
     total = answer_of(result).isel(perturber=-1)

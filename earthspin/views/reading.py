@@ -92,7 +92,7 @@ def _first_case(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
     if question is None:
         return data
     declared = {n: v for part in question.graph.parts.values() for n, v in part.gives.items()}
-    known = {"effect", "part", *(dim for variable in declared.values() for dim in variable.dims)}
+    known = {"effect", "part", *question.graph.labels}
     first = data.isel({dim: 0 for dim in data.dims if dim not in known}).copy()
     for name in first.variables.keys() & declared.keys():
         first[name].attrs |= {"short": declared[str(name)].short}

@@ -52,7 +52,7 @@ def write_report(
     Returns
     -------
     tree : DataTree
-        Of the scene ``precession``.
+        Answer to the scene ``precession``.
     written : list of Path
 
     Raises

@@ -34,7 +34,7 @@ def plot_components(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``free-rotor``.
+        Answer to the question ``free-rotor``.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
@@ -52,7 +52,7 @@ def plot_herpolhode(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``free-rotor``; without the section ``poinsot`` it is run again.
+        Answer to the question ``free-rotor``; computed again if the section ``poinsot`` is missing.
     ax : Axes, optional
     """
     poinsot = needed(result, "poinsot")
@@ -193,7 +193,8 @@ def rolling_cones(rotor: SymmetricRotor, title: str, points: int = 241) -> Solid
             solids.moving_arrow(1.15 * speed * axis, RED, "axis"),
             solids.arrow(np.array([0.0, 0.0, 1.2 * speed]), BLACK, "L"),
         ],
-        radius=float(1.3 * speed),
+        radius=float(0.75 * speed),
+        height=float(0.6 * speed),
         times=times,
         attitude=rotor.attitude(times),
     )
@@ -229,7 +230,7 @@ def plot_effective_potential(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``top``; without the sections ``potential`` and ``turning`` it is run
+        Answer to the question ``top``; without the sections ``potential`` and ``turning`` it is run
         again.
     ax : Axes, optional
         Drawn on a figure of its own by default.
@@ -311,7 +312,7 @@ def plot_spin(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``rotation``.
+        Answer to the question ``rotation``.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
@@ -327,7 +328,7 @@ def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``rotation``.
+        Answer to the question ``rotation``.
     ax : Axes, optional
     """
     ax = axes(ax, 8, 3.4)
@@ -347,7 +348,8 @@ def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``rotation``; without the section ``divergence`` it is run again.
+        Answer to the question ``rotation``; computed again if the section
+        ``divergence`` is missing.
     ax : Axes, optional
     """
     ax = axes(ax, 8, 3.4)
@@ -369,13 +371,13 @@ ROTATION_FIGURES = [
     ),
     PageFigure(
         "How well the attitude is known",
-        "What the attitude may be off by at each time: what two ways of following it differ by, "
-        "and what the uncertainty of given numbers and positions does.",
+        "Error of the attitude over time: from the integration (the difference of two solutions), "
+        "and from the uncertainties of the inputs and of the positions.",
         plot_attitude_error,
     ),
     PageFigure(
-        "How neighbours part",
-        "Logarithm of the distance of a neighbour; a straight line is chaos.",
+        "Divergence of neighbouring rotations",
+        "Logarithm of the distance of neighbouring rotations; a straight line means chaos.",
         plot_growth,
         section="divergence",
     ),

@@ -30,16 +30,18 @@ class Solid:
     ----------
     title, caption : str
     items : sequence of dict
-        As `mesh`, `line`, `arrow` and `moving_arrow` make them.
+        Parts made by `mesh`, `line`, `arrow` and `moving_arrow`.
     radius : float
         Half the extent that is shown at first.
     times : sequence of float
-        In `unit`; one entry for a still picture.
+        Times in `unit`; one entry for a still picture.
     attitude : sequence of quaternions
-        w, x, y, z, body to space, one a time or one for all times; carries what has the frame
-        "body".
+        w, x, y, z, from body to space, one for each time or one for all; it rotates items with the
+        frame "body".
     turn, tilt : float
         The first view: azimuth and elevation, rad.
+    height : float
+        Height of the middle of the picture along the third axis.
     """
 
     title: str
@@ -51,6 +53,7 @@ class Solid:
     attitude: ArrayLike = ((1.0, 0.0, 0.0, 0.0),)
     turn: float = 0.6
     tilt: float = 0.35
+    height: float = 0.0
 
     def json(self) -> str:
         """Convert the picture to JSON for the page's script, with arrays rounded to five digits.

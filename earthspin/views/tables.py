@@ -22,15 +22,14 @@ LARGE = 1e9
 SHORT = 32
 #: Characters between two columns on the terminal.
 SPACE = 3
-#: What the brackets mean, for whoever meets them first.
+#: Explanation of errors in brackets, printed below tables.
 BRACKETS = (
     "Every error is the half-width of a 95 % interval; digits in brackets give it in units of the "
     "last digits."
 )
 
-#: Said of a half-width that holds the uncertainty of the input numbers, and nothing that the model
-#: leaves out.
-NUMBERS_ONLY = "numbers only"
+#: Note beside a half-width that includes the uncertainty of the inputs, but no neglected effects.
+NUMBERS_ONLY = "error from inputs only"
 
 
 @dataclass(frozen=True)
@@ -207,10 +206,10 @@ def beside_observed(
     Parameters
     ----------
     value, error : float
-        The half-width holds the input numbers only.
+        The half-width is due to the uncertainty of the inputs only.
     left_out : Dataset or None
         The section `neglected` in the same unit: its sizes, which are systematic, are added to the
-        half-width. Where no size is known, or not all are, the value is followed by "numbers only".
+        half-width. If any size is unknown, `NUMBERS_ONLY` follows the value.
     unit : str
         Written after the numbers.
     """
@@ -276,7 +275,7 @@ class _DataColumn:
     values : DataArray
         Along the dimension of the rows, or a single number.
     errors : DataArray or None
-        In the unit of the values.
+        Half-widths in the unit of the values.
     """
 
     name: str
@@ -305,7 +304,7 @@ def tables(tree: Result, without: Iterable[str] = ()) -> list[Table]:
     Parameters
     ----------
     tree : Dataset or DataTree
-        As `run` or `run_tree` give it.
+        Result of `run` or `run_tree`.
     without : iterable of str
         Sections that are not shown; the answer itself is the empty text.
     """
@@ -357,7 +356,7 @@ def numbered(tables: Iterable[Table]) -> list[Table]:
 
 
 def _names(data: xr.Dataset) -> list[str]:
-    """Names of the variables that tables show: all but half-widths, and shares of these."""
+    """Names of the variables that tables show: all except half-widths and their contributions."""
     names = [str(name) for name in data.data_vars]
     beside = {_half_width(data, name) for name in names}
     return [name for name in names if name not in beside and "_error_" not in name]

@@ -261,12 +261,12 @@ class Likelihood:
 class LikelihoodWithExcitation(Likelihood):
     """Likelihood of a driven wobble after the effect of a known excitation is subtracted.
 
-    Where the pole stood at the start is a column more, exp(i s t).
+    The initial position of the pole is one more column, exp(i s t).
 
     Parameters
     ----------
     time, p
-        As of `Likelihood`.
+        See `Likelihood`.
     chi : complex array, shape (n - 1,)
         Mean excitation of each step, in the unit of p.
     """
@@ -340,7 +340,7 @@ def lowest(
     ----------
     likelihood : Likelihood
     start : array, shape (6,)
-        Where the search starts.
+        Initial values of the search.
     fixed : int, optional
         Number of a parameter that stays as it is.
     """

@@ -169,7 +169,7 @@ def envelope(
         d, evenly spaced.
     p : complex array
     period : float
-        Of the free wobble, d.
+        Period of the free wobble, d.
     window : float, optional
         Length, d; one beat of the two wobbles by default, the shortest that parts them.
     step : float
@@ -238,14 +238,14 @@ def spectrum(time: FloatArray, p: ComplexArray) -> tuple[FloatArray, FloatArray]
     time : array
         d, evenly spaced.
     p : complex array
-        In any unit; a cubic drift is removed and a Hann window applied.
+        Polar motion in any unit; a cubic drift is removed and a Hann window is applied.
 
     Returns
     -------
     frequency : array
         Cycles per unit of time, ascending; negative is retrograde.
     amplitude : array
-        Of a sinusoid that stands alone, in the unit of p.
+        Amplitude of a single sinusoid, in the unit of p.
     """
     step = (time[-1] - time[0]) / (time.size - 1)
     drift = drift_terms(time)

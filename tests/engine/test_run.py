@@ -13,8 +13,8 @@ import xarray as xr
 import earthspin
 from earthspin import Scene, SceneError, load_scene, scenes
 from earthspin.engine.run import Run
-from earthspin.questions import averages
-from earthspin.scenes import run
+from earthspin.questions import averages, path
+from earthspin.scenes import run, run_tree
 from earthspin.sky import ephemeris
 from earthspin.sky.poles import FixedPole
 from tests.blocks import run_blocks
@@ -120,6 +120,26 @@ def test_means_are_reused_for_equal_inputs_only(
         file.write(b"edited")
     os.utime(kernel, (1e9, 1e9))
     assert rate(ephemeris=kernel)[1]
+
+
+def test_paths_of_the_pole_are_reused_for_other_dates_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    parts = path.pole_analysis, path.response_apart
+    span, dates = ["2000-01-01", "2000-01-03"], {"span": ["2001-01-01", "2001-01-03"]}
+    heavy_moon = earthspin.MOON.replace(gm=1.01 * earthspin.MOON.gm)
+
+    def pole(changed: dict[str, object], status: str) -> xr.DataTree:
+        tree = run_tree(load_scene("pole", {"span": span, "step": "1 d"} | changed), [])
+        assert {str(tree["plan"].status.sel(part=p.title).values) for p in parts} == {status}
+        return tree
+
+    for part in parts:
+        monkeypatch.setattr(part, "_stored", OrderedDict())
+    first = pole(dates, "ran")
+    pole({"effects": ["planets", "j3", "geodesic", "nonrigid"]}, "ran")
+    pole({"body": earthspin.EARTH.replace(dynamical_flattening=0.00328)}, "ran")
+    pole({"perturbers": [earthspin.SUN, heavy_moon]}, "ran")
+    pole({}, "reused")
+    assert pole(dates, "reused").dataset.equals(first.dataset)
 
 
 def test_times_need_not_be_sorted() -> None:

@@ -62,6 +62,7 @@ def test_95_per_cent_of_draws_move_the_rms_by_less_than_its_error(
         assert 0.904 < inside.min() < 0.996, name
 
 
+@pytest.mark.slow
 def test_95_per_cent_of_draws_move_a_period_by_less_than_its_error(
     run: Run, models: Prediction, drawn: list[Prediction]
 ) -> None:

@@ -113,5 +113,5 @@ def test_sizes_add_up_without_their_signs() -> None:
     left_out = Neglected({"a": -0.02, "b": 0.01}, "1").dataset()
     assert beside_observed(1.0, 0.02, left_out) == "1.000(50)"
     assert beside_observed(1.0, 0.02, left_out, "d") == "1.000(50) d"
-    assert beside_observed(1.0, 0.02, None) == "1.000(20), numbers only"
+    assert beside_observed(1.0, 0.02, None) == f"1.000(20), {NUMBERS_ONLY}"
     assert beside_observed(1.0, 0.0, Neglected().dataset()) == "1"

@@ -60,6 +60,9 @@ def test_counts_that_are_none(count: object) -> None:
     past = earthspin.long_term("-1 kyr", "0 kyr", "1 kyr")
     with pytest.raises(earthspin.SceneError, match="whole number"):
         earthspin.pole_stars(past, count)
+
+
+def test_answers_without_stars_near_the_pole() -> None:
     many = earthspin.ensemble("long-term", 2)
     with pytest.raises(earthspin.SceneError, match="an answer for several bodies"):
         earthspin.pole_stars(many)

@@ -7,7 +7,12 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from earthspin.errors import UndefinedError
-from earthspin.torque.gravity import torque_error, torque_from_declination, torque_from_position
+from earthspin.torque.gravity import (
+    cross,
+    torque_error,
+    torque_from_declination,
+    torque_from_position,
+)
 
 GM, BULGE = 1.3e20, 2.6e35
 unit = st.floats(-1, 1, allow_nan=False)
@@ -17,6 +22,13 @@ directions = arrays(float, 3, elements=unit).filter(lambda v: np.linalg.norm(v) 
 def spherical(v: np.ndarray) -> tuple[np.ndarray, ...]:
     x, y, z = v.T
     return np.arctan2(y, x), np.arctan2(z, np.hypot(x, y)), np.sqrt(x * x + y * y + z * z)
+
+
+@pytest.mark.parametrize("lanes", [(), (1, 16), (1, 2000)])
+def test_vector_products_of_few_and_of_many_have_the_bits_of_numpy(lanes: tuple[int, ...]) -> None:
+    a, b = np.random.default_rng(1).normal(size=(2, 3, *lanes))
+    b = b * np.ones((3, *(4 for _ in lanes[1:]), *lanes[-1:]))  # several for each of `a`
+    np.testing.assert_array_equal(cross(a, b), np.cross(a, b, axis=0), strict=True)
 
 
 @given(directions, st.floats(1e7, 1e13))
