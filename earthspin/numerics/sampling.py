@@ -1,4 +1,4 @@
-"""Statistics of samples: quantiles, and the contribution of each input to the variance.
+"""Statistics of samples: quantiles, block means, and contributions of inputs to the variance.
 
 An input is a number, or a class without order, such as a name. Samples are along the first axis.
 """
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.constants import NORMAL_95
-from earthspin.numerics.arrays import BoolArray, FloatArray
+from earthspin.numerics.arrays import BoolArray, ComplexArray, FloatArray
 
 #: Standard errors by which the correlation of two inputs must differ from zero to be used.
 SIGNIFICANT = 4.0
@@ -39,6 +39,25 @@ def quantiles(samples: FloatArray, shares: FloatArray) -> FloatArray:
     part = (place - below).reshape(-1, *(1,) * (samples.ndim - 1))
     rise = np.subtract(high, low, out=np.zeros_like(low), where=low != high)
     return np.asarray(low + np.multiply(part, rise, out=np.zeros_like(rise), where=part > 0))
+
+
+def block_means(values: Any, size: int) -> Any:
+    """Means of consecutive blocks along the first axis; an incomplete last block is dropped."""
+    count = len(values) // size
+    return values[: count * size].reshape(count, size, *values.shape[1:]).mean(axis=1)
+
+
+def in_blocks(
+    time: FloatArray, p: ComplexArray, length: float
+) -> tuple[FloatArray, ComplexArray, float]:
+    """Means of times and values in consecutive blocks, and the block length in the unit of time.
+
+    Blocks have about the given length, in the same unit. A sinusoid stays one and is shortened by
+    sinc(block/T).
+    """
+    step = (time[-1] - time[0]) / (time.size - 1)
+    size = max(1, round(length / step))
+    return block_means(time, size), block_means(p, size), size * float(step)
 
 
 class Shares(NamedTuple):

@@ -11,7 +11,7 @@ from earthspin.constants import DAYS_PER_YEAR, NORMAL_95
 from earthspin.errors import UndefinedError
 from earthspin.interior.named import OBSERVED_CORE_NUTATION
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.wobble.record import in_blocks
+from earthspin.numerics.sampling import in_blocks
 
 # --- amplitude and phase of the free core nutation ------------------------------------------------
 # The offsets are one complex number, eta = dX + i dY. The free core nutation is a retrograde circle

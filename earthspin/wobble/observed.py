@@ -24,9 +24,10 @@ from scipy.special import fdtri
 from earthspin.constants import NORMAL_95
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.numerics.sampling import block_means, in_blocks
 from earthspin.wobble import record
 from earthspin.wobble.excitation import polar_motion_from
-from earthspin.wobble.record import BAND, NEAR, YEAR, WobbleFit, in_blocks, known_terms
+from earthspin.wobble.record import BAND, NEAR, YEAR, WobbleFit, known_terms
 from earthspin.wobble.state_space import DrivenOscillator, burg
 
 # --- is there a wobble: Fisher's ratio of powers --------------------------------------------------
@@ -221,11 +222,8 @@ class Likelihood:
     def _averaged(time: FloatArray, columns: ComplexArray) -> ComplexArray:
         """Block means of series after removal of the rotation at the expected wobble frequency."""
         t, means, step = in_blocks(time, columns, SAMPLE)
-        return np.asarray(
-            record.block_means(
-                means * record.turning(t, -NEAR)[:, None], max(1, round(LIKELIHOOD_BLOCK / step))
-            )
-        )
+        turned = means * record.turning(t, -NEAR)[:, None]
+        return np.asarray(block_means(turned, max(1, round(LIKELIHOOD_BLOCK / step))))
 
     def data(self, s: complex) -> ComplexArray:
         """Matrix with a column for each term to fit, with the polar motion record as the last."""

@@ -13,6 +13,7 @@ import numpy as np
 from earthspin.constants import DAYS_PER_YEAR, NORMAL_95
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.numerics.sampling import in_blocks
 
 # --- checks, drift and seasonal terms -------------------------------------------------------------
 
@@ -85,26 +86,6 @@ def known_terms(time: FloatArray, drift: int = DRIFT) -> ComplexArray:
     """Values of the drift and seasonal terms at given times, shape (n, drift + 5)."""
     seasons = [turning(time, period) for period in SEASONS]
     return np.column_stack([drift_terms(time, drift), *seasons])
-
-
-def block_means(values: Any, size: int) -> Any:
-    """Means of consecutive blocks along the first axis; an incomplete last block is dropped."""
-    count = len(values) // size
-    return values[: count * size].reshape(count, size, *values.shape[1:]).mean(axis=1)
-
-
-def in_blocks(
-    time: FloatArray, p: ComplexArray, length: float
-) -> tuple[FloatArray, ComplexArray, float]:
-    """Mean times and mean polar motion of consecutive blocks, and the block length, d.
-
-    Blocks have about the given length in days.
-
-    A sinusoid stays one and is shortened by sinc(block/T).
-    """
-    step = (time[-1] - time[0]) / (time.size - 1)
-    size = max(1, round(length / step))
-    return block_means(time, size), block_means(p, size), size * float(step)
 
 
 def least_squares(columns: ComplexArray, values: ComplexArray) -> ComplexArray:

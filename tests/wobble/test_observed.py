@@ -13,6 +13,7 @@ from scipy.signal import lfilter
 import earthspin
 from earthspin import SceneError, UndefinedError, UnitsError
 from earthspin.constants import ARCSEC, DAY, MAS, TROPICAL_YEAR
+from earthspin.numerics.sampling import block_means
 from earthspin.sky.eop import read_polar_motion
 from earthspin.wobble import observed, record
 from earthspin.wobble.state_space import burg
@@ -192,8 +193,8 @@ def test_annual_wobble_since_1984(c04: tuple[np.ndarray, np.ndarray]) -> None:
 def test_the_pole_turns_forwards(c04: tuple[np.ndarray, np.ndarray]) -> None:
     """Nearly all monthly steps turn the same way about the slowly moving mean."""
     time, p = c04
-    smooth = record.block_means(p, 30)
-    seasons = record.known_terms(record.block_means(time, 30))
+    smooth = block_means(p, 30)
+    seasons = record.known_terms(block_means(time, 30))
     drift = seasons[:, :4] @ record.least_squares(seasons, smooth)[:4]
     away = smooth - drift
     assert np.mean(np.angle(away[1:] / away[:-1]) > 0) > 0.97
