@@ -36,10 +36,10 @@ def opened_kernels(monkeypatch: pytest.MonkeyPatch) -> list[ephemeris.Ephemeris]
     """
     monkeypatch.setattr(averages.torque_samples, "_stored", OrderedDict())
     opened: list[ephemeris.Ephemeris] = []
-    original = ephemeris.Ephemeris.__init__
+    initialise = ephemeris.Ephemeris.__init__
 
     def watched(kernel: ephemeris.Ephemeris, *args: object, **kwargs: object) -> None:
-        original(kernel, *args, **kwargs)
+        initialise(kernel, *args, **kwargs)
         opened.append(kernel)
 
     monkeypatch.setattr(ephemeris.Ephemeris, "__init__", watched)
