@@ -16,8 +16,8 @@ PAGE = Path(__file__).parents[1] / "docs" / "measured" / "constants.md"
 HEAD = """# Constants and where they were read
 
 `python -m data_tools constants` writes this page. *Read in* names the public copy, abstract or
-code in which a value was read; the source is where the value stands in print. {count} entries,
-{missing} of them **not verified**: no public copy was found. The word stands in the source of such
+code in which a value was read; the source is the publication of the value. {count} entries,
+{missing} of them **not verified**: no public copy was found. These words are in the source of such
 a number, and so in each answer that names the source. Where a copy confirms a number less closely
 than the source states it, the uncertainty contains the difference.
 

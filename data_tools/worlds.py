@@ -20,13 +20,15 @@ from earthspin.constants import NORMAL_95, PSI_A_RATE
 from earthspin.errors import EarthspinError
 from earthspin.questions.cassini_states import CassiniStates
 from earthspin.questions.precession import Precession
-from earthspin.views.tables import NUMBERS_ONLY, some_unknown, systematic_size
+from earthspin.views.tables import systematic_size
 
 #: Signs of units, and their size in degrees; obliquities below `SMALL` (deg) are in minutes of arc.
 UNITS, SMALL = {"arcmin": "′", "deg": "°"}, 0.1
 PAGE = Path(__file__).parents[1] / "docs" / "measured" / "worlds.inc"
 #: Start of the reason in a comparison with the observation that the body's numbers come from.
 CIRCULAR = "circular: "
+#: Entry of a half-width if the sizes of neglected effects are not known.
+UNKNOWN = "unknown"
 
 
 @dataclass(frozen=True)
@@ -132,9 +134,9 @@ class World:
     refused: str = ""
 
     def in_all(self, factor: float = 1.0) -> str:
-        """Half-width plus the sizes of what is left out; `NUMBERS_ONLY` if these are not known."""
+        """Half-width plus the sizes of what is left out; `UNKNOWN` if these are not known."""
         whole = factor * (self.error + self.left_out)
-        return NUMBERS_ONLY if math.isnan(whole) else f"{whole:.2g}"
+        return UNKNOWN if math.isnan(whole) else f"{whole:.2g}"
 
 
 def left_out(tree: xr.DataTree) -> float:
@@ -143,8 +145,7 @@ def left_out(tree: xr.DataTree) -> float:
     The nodes of satellites do not count: they move the pole about the mean that has this rate.
     """
     section = tree["neglected"].to_dataset()
-    known = section.sizes["effect"] and not some_unknown(section)
-    return systematic_size(section) if known else math.nan
+    return systematic_size(section)
 
 
 def world(name: str) -> World:
@@ -218,7 +219,7 @@ def table_of_locked(rows: list[World]) -> str:
         known = OBSERVED[row.name]
         sign, factor = ("′", 60.0) if row.obliquity < SMALL else ("°", 1.0)
         error = f"{factor * row.error:.2g}{sign}" if row.error else ""
-        whole = row.in_all(factor) + (sign if row.in_all() != NUMBERS_ONLY else "")
+        whole = row.in_all(factor) + (sign if row.in_all() != UNKNOWN else "")
         columns = " |  | "
         if known.number is not None:
             unit = UNITS[known.number.unit]

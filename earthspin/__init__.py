@@ -9,48 +9,35 @@ from __future__ import annotations
 from importlib import import_module as _import_module
 
 from earthspin import engine as _engine
+from earthspin import errors as _errors
 from earthspin._lazy import submodule as _submodule
 from earthspin._version import __version__ as __version__
-from earthspin.errors import checked as _checked
 from earthspin.questions import MODULES as _QUESTIONS
 
 #: Public names besides the questions, by their modules.
 _HOME = {
     "earthspin.bodies": ("BODIES", "EARTH", "MARS", "MOON", "SUN", "Body", "Orbit"),
     "earthspin.sky.orbit_files": ("read_orbit",),
-    "earthspin.insolation": ("daily_insolation",),
+    "earthspin.questions.insolation": ("daily_insolation",),
     "earthspin.stars_near_pole": ("pole_stars",),
+    "earthspin.solutions": ("read_solution",),
     "earthspin.questions.polar_motion": (
         "excitation",
         "fit_chandler",
         "polar_motion_from",
         "read_excitation",
     ),
-    "earthspin.errors": (
-        "AccuracyError",
-        "ApartError",
-        "ArgumentError",
-        "BodyError",
-        "CoverageError",
-        "EarthspinError",
-        "KernelError",
-        "MissingExtraError",
-        "OutputError",
-        "SceneError",
-        "SeriesError",
-        "UndefinedError",
-        "UnitsError",
-    ),
+    "earthspin.errors": tuple(name for name in vars(_errors) if name.endswith("Error")),
     "earthspin.scenes": (
         "Scene",
         "VersionWarning",
+        "ensemble",
         "load_scene",
         "plan",
         "run",
         "run_tree",
         "write_series",
     ),
-    "earthspin.many": ("ensemble",),
     "earthspin.engine.store": ("open", "read", "verify", "write"),
 }
 _MODULE_OF = _QUESTIONS | {name: module for module, names in _HOME.items() for name in names}
@@ -69,7 +56,7 @@ def __getattr__(name: str) -> object:
     if name in _MODULE_OF:
         value = getattr(_import_module(_MODULE_OF[name]), name)
         if not isinstance(value, type) and callable(value) and name not in _QUESTIONS:
-            value = _checked(value)
+            value = _errors.checked(value)
             value.__module__, value.__qualname__ = __name__, name  # where pickle finds it
         globals()[name] = value
         return value

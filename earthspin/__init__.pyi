@@ -33,33 +33,34 @@ from earthspin.bodies import SUN as SUN
 from earthspin.bodies import Body as Body
 from earthspin.bodies import Orbit as Orbit
 from earthspin.sky.orbit_files import read_orbit as read_orbit
-from earthspin.insolation import daily_insolation as daily_insolation
+from earthspin.questions.insolation import daily_insolation as daily_insolation
 from earthspin.stars_near_pole import pole_stars as pole_stars
+from earthspin.solutions import read_solution as read_solution
 from earthspin.questions.polar_motion import excitation as excitation
 from earthspin.questions.polar_motion import fit_chandler as fit_chandler
 from earthspin.questions.polar_motion import polar_motion_from as polar_motion_from
 from earthspin.questions.polar_motion import read_excitation as read_excitation
-from earthspin.errors import AccuracyError as AccuracyError
-from earthspin.errors import ApartError as ApartError
-from earthspin.errors import ArgumentError as ArgumentError
-from earthspin.errors import BodyError as BodyError
-from earthspin.errors import CoverageError as CoverageError
 from earthspin.errors import EarthspinError as EarthspinError
-from earthspin.errors import KernelError as KernelError
-from earthspin.errors import MissingExtraError as MissingExtraError
-from earthspin.errors import OutputError as OutputError
+from earthspin.errors import ArgumentError as ArgumentError
 from earthspin.errors import SceneError as SceneError
-from earthspin.errors import SeriesError as SeriesError
-from earthspin.errors import UndefinedError as UndefinedError
+from earthspin.errors import BodyError as BodyError
 from earthspin.errors import UnitsError as UnitsError
+from earthspin.errors import KernelError as KernelError
+from earthspin.errors import CoverageError as CoverageError
+from earthspin.errors import UndefinedError as UndefinedError
+from earthspin.errors import ApartError as ApartError
+from earthspin.errors import SeriesError as SeriesError
+from earthspin.errors import AccuracyError as AccuracyError
+from earthspin.errors import OutputError as OutputError
+from earthspin.errors import MissingExtraError as MissingExtraError
 from earthspin.scenes import Scene as Scene
 from earthspin.scenes import VersionWarning as VersionWarning
+from earthspin.scenes import ensemble as ensemble
 from earthspin.scenes import load_scene as load_scene
 from earthspin.scenes import plan as plan
 from earthspin.scenes import run as run
 from earthspin.scenes import run_tree as run_tree
 from earthspin.scenes import write_series as write_series
-from earthspin.many import ensemble as ensemble
 from earthspin.engine.store import open as open
 from earthspin.engine.store import read as read
 from earthspin.engine.store import verify as verify
@@ -213,6 +214,36 @@ def long_term(
     j2_rate: Value | None = ...,
     obliquity_shift: Value | None = ...,
     longitude_shift: Value | None = ...,
+    members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
+    uncertainty: Literal["linear", "sample"] | None = ...,
+    n: int | None = ...,
+) -> xr.Dataset: ...
+def insolation(
+    start: Date | None = ...,
+    stop: Date | None = ...,
+    step: Value | None = ...,
+    *,
+    body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
+    perturbers: Body
+    | str
+    | Mapping[str, Any]
+    | VectorFunction
+    | Sequence[Body | str | Mapping[str, Any] | VectorFunction]
+    | None = ...,
+    ephemeris: str | PathLike[str] | SpiceKernel | None = ...,
+    source: Literal["jplephem", "skyfield"] | None = ...,
+    times: Epochs | None = ...,
+    orbit: str | PathLike[str] | OrbitTable | None = ...,
+    tides: Value | None = ...,
+    ellipticity: Value | None = ...,
+    j2_rate: Value | None = ...,
+    obliquity_shift: Value | None = ...,
+    longitude_shift: Value | None = ...,
+    latitude: Values | None = ...,
+    longitude: Values | None = ...,
+    day: Values | None = ...,
+    window: Value | None = ...,
+    solar_constant: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,
@@ -389,6 +420,7 @@ __all__ = [
     "forecast",
     "free_rotor",
     "heavy_top",
+    "insolation",
     "load_scene",
     "long_term",
     "love_numbers",
@@ -404,6 +436,7 @@ __all__ = [
     "read",
     "read_excitation",
     "read_orbit",
+    "read_solution",
     "rotation",
     "run",
     "run_tree",

@@ -1,6 +1,6 @@
 """Commands of the command line: report, play, run, ensemble, plan, scenes, keys, ...
 
-What can be asked, and what a shell completes, comes from the questions.
+Commands, options and completions follow from the classes of the questions.
 """
 
 from __future__ import annotations
@@ -16,14 +16,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import earthspin
 from earthspin._version import __version__
-from earthspin.errors import (
-    EarthspinError,
-    MissingExtraError,
-    OutputError,
-    SceneError,
-    nearest,
-    printable,
-)
+from earthspin.errors import EarthspinError, MissingExtraError, OutputError, SceneError, printable
 from earthspin.process import RESULTS, USAGE_ERROR, run_command
 
 if TYPE_CHECKING:
@@ -152,6 +145,8 @@ def _parser() -> ArgumentParser:
     add("--json", **flag, help="print the result as JSON")
     words = sections("none on the screen, all with --out")
     add("--sections", metavar="NAMES|all", help=words)
+    words = "columns of a .csv file, each with its errors (default: those most used)"
+    add("--columns", metavar="NAMES|all", help=words)
 
     ensemble = of_scene("ensemble", _ensemble, "run an ensemble of a scene")
     add = ensemble.add_argument
@@ -159,20 +154,15 @@ def _parser() -> ArgumentParser:
     add("--members", metavar="N|FILE", help=words)
     add("--seed", type=int, metavar="N", help="seed of the random numbers (default: 0)")
     add("--out", required=True, metavar="X.zarr", help="store; an unfinished one is resumed")
-    cluster = ensemble.add_mutually_exclusive_group()
-    cluster.add_argument(
-        "--workers", type=int, metavar="N", help="start a local cluster of N workers"
-    )
-    cluster.add_argument(
-        "--scheduler", metavar="ADDRESS", help="use a running cluster, like tcp://host:8786"
-    )
+    cluster = ensemble.add_mutually_exclusive_group().add_argument
+    cluster("--workers", type=int, metavar="N", help="start a local cluster of N workers")
+    cluster("--scheduler", metavar="ADDRESS", help="a running cluster, like tcp://host:8786")
     add("--block", type=int, metavar="N", help="number of members computed and stored at a time")
     add("--drop", **flag, help="leave out and count members that are not possible")
     add("--json", **flag, help="print progress as lines of JSON")
 
-    add = of_scene(
-        "plan", _plan, "show which parts a scene needs, and which it leaves out"
-    ).add_argument
+    words = "show which parts a scene needs, and which it leaves out"
+    add = of_scene("plan", _plan, words).add_argument
     add("--sections", metavar="NAMES|all", help=sections("none"))
 
     command("scenes", _scenes, "list the shipped scenes")
@@ -180,9 +170,8 @@ def _parser() -> ArgumentParser:
     add = command("keys", _keys, "list the questions and their keys").add_argument
     add("question", nargs="?", help="default: all")
 
-    add = command(
-        "info", _info, "print versions and kernels, or the numbers of bodies"
-    ).add_argument
+    words = "print versions and kernels, or the numbers of bodies"
+    add = command("info", _info, words).add_argument
     add("what", nargs="?", choices=("bodies",), help="bodies: list them")
     add("name", nargs="?", metavar="NAME", help="body whose numbers and sources are printed")
 
@@ -199,6 +188,7 @@ def _check_command(word: str, parser: ArgumentParser) -> None:
     commands = parser.get_default("commands")
     if not word or word in commands:
         return
+    from earthspin.errors import nearest
     from earthspin.scenes import QUESTIONS, load_scene, shipped_scenes
 
     question = next((q for q, call in QUESTIONS.calls.items() if word in (q, call)), word)
@@ -257,8 +247,10 @@ def _run(options: Namespace) -> None:
     from earthspin.scenes import members_of, run_tree, series_length, write_series
     from earthspin.views.reading import closing_line
 
-    question, sections = _question(options), _sections(options)
+    question, sections = _question(options), _listed(options.sections)
     data = page = None
+    if options.columns is not None and Path(options.out or "").suffix != ".csv":
+        raise SceneError("--columns", options.columns, "give a file, --out FILE.csv")
     if options.out is not None:
         data, name = Path(options.out), Path(options.scene).stem
         if data.suffix not in ("", ".nc", ".zarr", ".csv") and not data.is_dir():
@@ -280,8 +272,7 @@ def _run(options: Namespace) -> None:
             sections = "all"
     tree = run_tree(question, sections or ())
     if data is not None and data.suffix == ".csv":
-        with drafts.replacing(data) as draft:
-            tree.to_dataset().earthspin.to_frame().to_csv(draft, index=False)
+        tree.to_dataset().earthspin.to_csv(data, _listed(options.columns))
     elif data is not None:
         store.write(tree, data)
     with _note_of_results(data):
@@ -306,8 +297,8 @@ def _ensemble(options: Namespace) -> None:
     """Command `ensemble`: run a scene many times with different inputs."""
     import json
 
-    from earthspin.many import ensemble
     from earthspin.progress import lines_to
+    from earthspin.scenes import ensemble
 
     members = options.members
     if members is not None and members.lstrip("+-").isdecimal():
@@ -337,7 +328,7 @@ def _plan(options: Namespace) -> None:
     """Command `plan`: print the computations that a scene runs, and those that are left out."""
     from earthspin.scenes import plan
 
-    print(plan(_question(options), _sections(options) or ()))
+    print(plan(_question(options), _listed(options.sections) or ()))
 
 
 def _scenes(_: Namespace) -> None:
@@ -385,7 +376,7 @@ def _verify(options: Namespace) -> None:
     """Command `verify`: compare a stored result with its checksums."""
     from earthspin.engine.store import verify
 
-    print(f"{printable(str(verify(options.file)))} is intact")
+    print(f"{printable(str(verify(options.file)))} is complete and matches its checksums")
 
 
 def _completion(options: Namespace) -> None:
@@ -424,11 +415,11 @@ def _note_of_results(data: str | Path | None) -> Iterator[None]:
         raise
 
 
-def _sections(options: Namespace) -> str | list[str] | None:
-    """Return the section names given by the option --sections; None if the option is absent."""
-    if options.sections is None or options.sections.strip() == "all":
-        return options.sections and "all"
-    return [name.strip() for name in options.sections.split(",") if name.strip()]
+def _listed(names: str | None) -> str | list[str] | None:
+    """Return the names that an option lists; "all" as it is, and None if the option is absent."""
+    if names is None or names.strip() == "all":
+        return names and "all"
+    return [name.strip() for name in names.split(",") if name.strip()]
 
 
 def _keys_of(scene: str) -> str:

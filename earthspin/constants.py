@@ -32,8 +32,7 @@ class Constant:
         confirms the value less closely than the source states it, the uncertainty contains the
         difference.
     source : str
-        Where the value stands in print. Where no public copy was found, "(not verified)" is
-        appended.
+        Place of the value in the source. If no public copy was found, "(not verified)" is appended.
     read_in : str
         Copy, abstract or code in which the value was read; `UNVERIFIED` if none was found; empty
         for a number of the user's own.
@@ -108,32 +107,22 @@ G = Constant(6.67430e-11, "m3 kg-1 s-2", 1.5e-15, "CODATA 2018, 2022", "astropy.
 SIDEREAL_YEAR = Constant(365.256363004 * 86400.0, "s", 0.0, _SIMON, _EOP_PC)
 
 # 1296000" over the rate of the mean longitude W1, 1732559343.73604" a century: 27.321662 d
-SIDEREAL_MONTH = Constant(
-    1296000.0 / 1732559343.73604 * 36525.0 * 86400.0,
-    "s",
-    0.0,
-    "Chapront-Touze & Chapront 1983, A&A 124, 50 (ELP 2000), rate of W1",
-    "codes of ELP 2000-82B and ELP/MPP02 in public repositories, rate of W1",
-)
+_ELP = "Chapront-Touze & Chapront 1983, A&A 124, 50 (ELP 2000), rate of W1"
+_ELP_READ = "codes of ELP 2000-82B and ELP/MPP02 in public repositories, rate of W1"
+_MONTH = 1296000.0 / 1732559343.73604 * 36525.0 * 86400.0
+SIDEREAL_MONTH = Constant(_MONTH, "s", 0.0, _ELP, _ELP_READ)
 
 TROPICAL_YEAR = Constant(365.242190402 * 86400.0, "s", 0.0, _SIMON, _EOP_PC)
 
+_FACT_SHEETS = "4332.589 d: planetary fact sheets and ephemeris codes in public repositories"
 JUPITER_ORBITAL_PERIOD = Constant(
-    4332.59 * 86400.0,
-    "s",
-    None,
-    "mean sidereal period, rounded",
-    "4332.589 d: planetary fact sheets and ephemeris codes in public repositories",
+    4332.59 * 86400.0, "s", None, "mean sidereal period, rounded", _FACT_SHEETS
 )
 
 # --- light ----------------------------------------------------------------------------------
-SOLAR_CONSTANT = Constant(
-    1361.0,
-    "W m-2",
-    0.0,
-    "IAU 2015 Resolution B3: nominal total solar irradiance at 1 au",
-    "public pages that quote the nominal value on the scale of IAU 2015, 1361 W/m2",
-)
+_NOMINAL = "IAU 2015 Resolution B3: nominal total solar irradiance at 1 au"
+_NOMINAL_READ = "public pages that quote the nominal value on the scale of IAU 2015, 1361 W/m2"
+SOLAR_CONSTANT = Constant(1361.0, "W m-2", 0.0, _NOMINAL, _NOMINAL_READ)
 
 # --- what the IAU adopted, and what others found --------------------------------------------
 EPSILON_0 = Constant(84381.406, "arcsec", 0.001, P03 + ": obliquity at J2000.0", ERFA_P06E)
@@ -158,11 +147,9 @@ PUBLISHED_EFFECTS: dict[str, Constant] = {
     "j4": _rate(2.60e-5, _P03_TABLE3, _TABLE3_READ),
 }
 
-FIRST_ORDER_RATE = _rate(
-    54.94062986,
-    "Capitaine et al. 2004: first order, over cos(epsilon_0)",
-    "follows from the rate of psi_A (ERFA, eraP06e) less the total of " + _TABLE3_READ,
-)
+_REST_READ = "follows from the rate of psi_A (ERFA, eraP06e) less the total of " + _TABLE3_READ
+_FIRST_ORDER = "Capitaine et al. 2004: first order, over cos(epsilon_0)"
+FIRST_ORDER_RATE = _rate(54.94062986, _FIRST_ORDER, _REST_READ)
 J2_AND_TILT_RATE = _rate(-269.43e-5, _P03_TABLE3 + ": J2, planetary tilt", _TABLE3_READ)
 
 #: Of the rate of omega_A: the tides that the Earth raises and drags along tilt its axis.
@@ -175,13 +162,8 @@ MARS_GRAVITY = "Konopliv et al. 2011, Icarus 211, 401 (MRO110B)"
 MARS_RADIUS = Constant(
     3396000.0, "m", None, "reference radius of Konopliv et al. 2011", _MRO110B_READ
 )
-MARS_J2 = Constant(
-    8.7502e-4 * math.sqrt(5.0),
-    "",
-    1e-9,
-    MARS_GRAVITY + ", normalised C20 = -8.7502e-4",
-    _MRO110B_READ,
-)
+_C20 = MARS_GRAVITY + ", normalised C20 = -8.7502e-4"
+MARS_J2 = Constant(8.7502e-4 * math.sqrt(5.0), "", 1e-9, _C20, _MRO110B_READ)
 #: C/(M R2). With it our rate, geodesic precession included, is that observed from the ground.
 MARS_POLAR_MOMENT = Constant(
     0.36367,

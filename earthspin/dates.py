@@ -282,7 +282,7 @@ def _epochs(value: Any, where: Where) -> Any:
         times = np.array([seconds(time, where) for time in value], dtype=float)
     elif _is_duration(value):
         try:
-            times = quantity(value, "s", where, DURATION)
+            times = np.asarray(quantity(value, "s", where, DURATION))
         except UnitsError:
             problem = f"give a time from J2000.0 like '{DURATION}', or a date like {EXAMPLES}"
             raise where.error(value, problem) from None
@@ -307,8 +307,10 @@ def _is_duration(value: Any) -> bool:
     if isinstance(value, str):
         return not _DATE.fullmatch(value.strip())
     is_quantity = hasattr(value, "to_value") and not is_time(value)
-    is_timedelta = getattr(getattr(value, "dtype", None), "kind", "") == "m"
-    return is_quantity or is_timedelta or isinstance(value, dt.timedelta)
+    kind = getattr(getattr(value, "dtype", None), "kind", "")
+    # numbers with a unit are labelled arrays, such as the epochs of an answer
+    has_unit = kind in "iuf" and "units" in getattr(value, "attrs", ())
+    return is_quantity or kind == "m" or has_unit or isinstance(value, dt.timedelta)
 
 
 @dataclass(frozen=True)
@@ -318,7 +320,7 @@ class Ends:
     Attributes
     ----------
     first, last : float
-        In the unit that `time` returns.
+        Time in the unit that `time` returns.
     """
 
     first: float

@@ -14,7 +14,7 @@ import re
 import stat
 import traceback
 import unicodedata
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, ParamSpec, TypeVar
 
@@ -31,7 +31,7 @@ _T = TypeVar("_T")
 class EarthspinError(Exception):
     """Base class of errors that the user can correct; the command line then exits with status 2.
 
-    The message is one line, whatever was given.
+    The message is always one line.
 
     Examples
     --------
@@ -82,9 +82,9 @@ class SceneError(EarthspinError, ValueError):
     source : str
         The file or command; empty for what was given in Python.
     key : str
-        The offending key.
+        Name of the wrong key.
     given : object
-        What was read.
+        Value that was given.
 
     Examples
     --------
@@ -96,13 +96,10 @@ class SceneError(EarthspinError, ValueError):
     perturber sun
     """
 
-    def __init__(
-        self, key: str, given: Any, problem: str, *, source: str = "", remedy: str = ""
-    ) -> None:
+    def __init__(self, key: str, given: Any, problem: str, *, source: str = "") -> None:
         self.source, self.key, self.given, self.problem = source, key, given, problem
-        self.remedy = remedy
         place = f"{_named(source)}: {_brief(key)}" if source else _brief(key)
-        super().__init__(_sentence(f"{place} = {_shown(given)}", problem, remedy))
+        super().__init__(f"{place} = {_shown(given)}: {problem}")
 
 
 @dataclass(frozen=True)
@@ -112,7 +109,7 @@ class Where:
     Attributes
     ----------
     key : str
-        As the reader would write it, ``"body.j2"``.
+        Key as a user would write it, ``"body.j2"``.
     source : str
         The file or call; empty if there is nothing to name.
     typed : bool
@@ -134,6 +131,12 @@ class Where:
     def at(self, inner: str) -> Where:
         """Return the location of an element of this value, such as `body.j2` inside `body`."""
         return Where(f"{self.key}.{inner}", self.source, self.typed)
+
+    def refuse_unknown(self, table: Mapping[str, Any], names: Collection[str]) -> None:
+        """Raise an error for the first key of a table that is not among the allowed names."""
+        for name in table:
+            if name not in names:
+                raise self.at(name).error(table[name], nearest(name, names))
 
 
 class BodyError(EarthspinError, ValueError):
@@ -160,9 +163,8 @@ class BodyError(EarthspinError, ValueError):
 
     def __init__(self, body: str, field: str, given: Any, allowed: str) -> None:
         self.body, self.field, self.given, self.allowed = body, field, given, allowed
-        super().__init__(
-            f"body '{_brief(body)}': {field} = {_shown(given)} is not possible; {allowed}"
-        )
+        words = f"{field} = {_shown(given)} is not possible; {allowed}"
+        super().__init__(f"body '{_brief(body)}': {words}")
 
     @classmethod
     def lacking(cls, body: str, forms: Mapping[str, str]) -> BodyError:
@@ -173,15 +175,14 @@ class BodyError(EarthspinError, ValueError):
         body : str
             Its name.
         forms : mapping of str to str
-            By field: what one writes for any body, its unit or its definition.
+            Example, unit or definition of a missing property, by field.
         """
         *most, last = forms
         names = f"{', '.join(most)} and {last}" if most else last
         given = ", ".join(f"{name} = {form}" for name, form in forms.items())
         error = cls(body, last, None, f"this question needs {names}")
-        error.args = (
-            f"body '{_brief(body)}' has no {names}, which this question needs; give {given}",
-        )
+        words = f"has no {names}, which this question needs; give {given}"
+        error.args = (f"body '{_brief(body)}' {words}",)
         return error
 
 
@@ -207,10 +208,8 @@ class UnitsError(EarthspinError, ValueError):
 
     def __init__(self, what: str, given: Any, wanted: str, example: str) -> None:
         self.what, self.given, self.wanted = what, given, wanted
-        super().__init__(
-            f"{what} = {_shown(given)} is not a value in units of {wanted}; "
-            f"write it like {example!r}"
-        )
+        words = f"is not a value in units of {wanted}; write it like {example!r}"
+        super().__init__(f"{what} = {_shown(given)} {words}")
 
 
 class KernelError(EarthspinError, OSError):
@@ -219,7 +218,7 @@ class KernelError(EarthspinError, OSError):
     Attributes
     ----------
     path : str
-        The kernel, as named.
+        Name or path of the kernel, as given.
 
     Examples
     --------
@@ -244,7 +243,7 @@ class CoverageError(EarthspinError, ValueError):
     kernel : str
         Name of the kernel or table.
     asked, coverage : tuple of str
-        First and last date, TDB.
+        First and last date: requested, and covered; TDB.
 
     Examples
     --------
@@ -336,14 +335,14 @@ class AccuracyError(EarthspinError, ValueError):
     Attributes
     ----------
     asked, best : float
-        Half-widths, in the same unit.
+        Half-widths: requested, and best possible; in the same unit.
 
     Examples
     --------
     >>> import earthspin
-    >>> from earthspin.mass.multipoles import legendre_coefficients
+    >>> from earthspin.mass.multipoles import moments_of_density
     >>> try:
-    ...     legendre_coefficients(lambda x: abs(x) ** 0.1, 2, accuracy=1e-16)
+    ...     moments_of_density(lambda r, theta: r % 0.1, lambda theta: 1.0 + 0 * theta)
     ... except earthspin.AccuracyError as error:
     ...     print(error.best > error.asked)
     True
@@ -351,10 +350,8 @@ class AccuracyError(EarthspinError, ValueError):
 
     def __init__(self, asked: float, best: float, unit: str, remedy: str) -> None:
         self.asked, self.best, self.unit = asked, best, unit
-        super().__init__(
-            f"accuracy of {asked:.3g} {unit} was asked for, the best there is here is "
-            f"{_rounded_up(best)} {unit}; {remedy}"
-        )
+        limit = f"the best there is here is {_rounded_up(best)} {unit}"
+        super().__init__(f"accuracy of {asked:.3g} {unit} was asked for, {limit}; {remedy}")
 
 
 class OutputError(EarthspinError, OSError):
@@ -363,7 +360,7 @@ class OutputError(EarthspinError, OSError):
     Attributes
     ----------
     path : str
-        Where it should have gone.
+        Path of the result.
 
     Examples
     --------
@@ -393,9 +390,8 @@ class MissingExtraError(EarthspinError, ImportError):
     def __init__(self, package: str, extra: str | None, purpose: str) -> None:
         self.package, self.extra = package, extra
         what = f"'earthspin[{extra}]'" if extra else package
-        super().__init__(
-            f"{purpose} needs the package '{package}'; install it with pip install {what}"
-        )
+        remedy = f"install it with pip install {what}"
+        super().__init__(f"{purpose} needs the package '{package}'; {remedy}")
 
 
 def _rebuild(
@@ -414,7 +410,7 @@ def nearest(word: object, allowed: Iterable[str]) -> str:
     Parameters
     ----------
     word : object
-        What was read.
+        Value that was given.
     allowed : iterable of str
         The valid words.
 

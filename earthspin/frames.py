@@ -11,21 +11,11 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import astropy.coordinates as coord
 import astropy.units as u
 import erfa
 import numpy as np
 import xarray as xr
-from astropy.coordinates import (
-    ICRS,
-    Attribute,
-    BaseCoordinateFrame,
-    BaseRADecFrame,
-    DynamicMatrixTransform,
-    SphericalCosLatDifferential,
-    SphericalRepresentation,
-    TimeAttribute,
-    frame_transform_graph,
-)
 from astropy.time import Time
 
 from earthspin.bodies import in_a_sentence
@@ -212,7 +202,7 @@ def _at(model: Model, time: Any, where: Where) -> tuple[FloatArray, FloatArray]:
     return solved.matrix.reshape(*times.shape, 3, 3), solved.error.reshape(times.shape)
 
 
-class _DateAttribute(TimeAttribute):  # type: ignore[misc]
+class _DateAttribute(coord.TimeAttribute):  # type: ignore[misc]
     """Attribute of an astropy frame that holds dates, read as in the questions."""
 
     def convert_input(self, value: Any) -> tuple[Any, bool]:
@@ -223,7 +213,7 @@ class _DateAttribute(TimeAttribute):  # type: ignore[misc]
         return Time(J2000_JD + whole, rest, format="jd", scale="tdb"), True
 
 
-class _ModelAttribute(Attribute):  # type: ignore[misc]
+class _ModelAttribute(coord.Attribute):  # type: ignore[misc]
     """Attribute of an astropy frame that holds a result of this package.
 
     astropy hands the attributes of one frame on to others by their names, so that each frame checks
@@ -264,7 +254,7 @@ class _Computed:
         return _at(self.model, self.obstime, Where("obstime"))
 
 
-class EquatorOfDate(_Computed, BaseRADecFrame):  # type: ignore[misc]
+class EquatorOfDate(_Computed, coord.BaseRADecFrame):  # type: ignore[misc]
     """Frame of astropy: equator and equinox of date of a computed pole.
 
     Directions and velocities are rotated only: no light time, aberration or light deflection is
@@ -315,7 +305,7 @@ class EquatorOfDate(_Computed, BaseRADecFrame):  # type: ignore[misc]
     _words = ("long-term", "pole")
 
 
-class BodyFixed(_Computed, BaseCoordinateFrame):  # type: ignore[misc]
+class BodyFixed(_Computed, coord.BaseCoordinateFrame):  # type: ignore[misc]
     """Frame of astropy: principal axes of a rotating body, computed by `rotation`.
 
     Vectors are rotated only: a velocity remains the velocity relative to the ICRS.
@@ -340,8 +330,8 @@ class BodyFixed(_Computed, BaseCoordinateFrame):  # type: ignore[misc]
         If `model` is no such answer, or if `obstime` is before its start.
     """
 
-    default_representation = SphericalRepresentation
-    default_differential = SphericalCosLatDifferential
+    default_representation = coord.SphericalRepresentation
+    default_differential = coord.SphericalCosLatDifferential
     obstime = _DateAttribute(default=Time(J2000_JD, format="jd", scale="tdb"))
     model = _ModelAttribute(default=None)
     _words = ("rotation",)
@@ -349,11 +339,12 @@ class BodyFixed(_Computed, BaseCoordinateFrame):  # type: ignore[misc]
 
 for _frame in (EquatorOfDate, BodyFixed):
     for _from, _to, _matrix in (
-        (ICRS, _frame, lambda _, to: to.matrix),
-        (_frame, ICRS, lambda frame, _: np.swapaxes(frame.matrix, -1, -2)),
+        (coord.ICRS, _frame, lambda _, to: to.matrix),
+        (_frame, coord.ICRS, lambda frame, _: np.swapaxes(frame.matrix, -1, -2)),
         (_frame, _frame, lambda frame, to: to.matrix @ np.swapaxes(frame.matrix, -1, -2)),
     ):
-        frame_transform_graph.add_transform(_from, _to, DynamicMatrixTransform(_matrix, _from, _to))
+        _transform = coord.DynamicMatrixTransform(_matrix, _from, _to)
+        coord.frame_transform_graph.add_transform(_from, _to, _transform)
 
 
 class SkyfieldFrame:
@@ -406,10 +397,7 @@ def rotations(answer: xr.Dataset) -> Rotation:
 
     if "attitude" not in getattr(answer, "data_vars", ()):
         word = getattr(answer, "attrs", {}).get("compute")
-        problem = "give an answer to 'rotation', 'free-rotor' or 'top', which has attitudes"
-        raise SceneError(
-            "answer", f"an answer to '{word}'" if word else type(answer).__name__, problem
-        )
-    return Rotation.from_quat(
-        answer.attitude.transpose(..., "quaternion").values, scalar_first=True
-    )
+        given = f"an answer to '{word}'" if word else type(answer).__name__
+        raise SceneError("answer", given, _give(("rotation", "free-rotor", "top")))
+    attitude = answer.attitude.transpose(..., "quaternion").values
+    return Rotation.from_quat(attitude, scalar_first=True)

@@ -99,8 +99,8 @@ def _judged(error: Exception) -> tuple[int, str]:
         return USAGE_ERROR, f"the output cannot be written: {one_line(error)}"
     words = str(EarthspinError(f"{type(error).__name__}: {error}"))
     return DEFECT, (
-        f"a defect of earthspin, not of what was given: {words}; please report it, with the "
-        "command, to whoever you have it from; --traceback shows where it arose"
+        f"a defect of earthspin, not of the input: {words}; please report it, with the "
+        "command, to its maintainers; --traceback shows where it arose"
     )
 
 

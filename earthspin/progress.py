@@ -21,8 +21,9 @@ EVERY = 1.0
 
 #: Held by whoever shows a bar: of work within work, only the outer is shown.
 _watching = Lock()
-#: Functions that hide a bar of unknown length, so that a bar of known length can be shown.
-_hiders: list[Callable[[], None]] = []
+#: Bars: when each began, and functions that hide it while a bar within it is shown, and show it
+#: again.
+_outer: list[tuple[float, Callable[[], None], Callable[[], None]]] = []
 #: Where lines for programs go; none where a person watches.
 _lines: list[TextIO] = []
 
@@ -41,33 +42,36 @@ def progress(label: str, total: int | None = None, already: int = 0) -> Iterator
     Parameters
     ----------
     label : str
-        What is being done.
+        Name of the work.
     total : int, optional
-        Amount of work. If it is None, the bar moves to and fro until a bar of known length inside
-        this work replaces it.
+        Amount of work. If it is None, the bar moves to and fro, and a bar of known length inside
+        this work replaces it for its time.
     already : int
-        How much of it was done before, which counts as done and not for the rate.
+        Amount that was done before; it counts as done, but not for the rate.
 
     Yields
     ------
     Advance
         To be called as the work proceeds.
     """
-    if total is not None and not _watching.locked():
-        for hide in _hiders:  # before isatty(): a visible bar replaces sys.stderr
-            hide()
-    unwatched = not (_lines or sys.stderr.isatty()) or (total is None and (_lines or _hiders))
-    if _watching.locked() or unwatched:
-        yield lambda amount: None
-        return
-    if total is None:
-        yield from _bar(label, None, 0)
-        return
-    with _watching:
-        if _lines:
-            yield from _in_lines(label, total, already, _lines[-1])
+    replaced = [] if total is None or _watching.locked() else [*_outer]
+    for _, hide, _ in replaced:  # before isatty(): a visible bar replaces sys.stderr
+        hide()
+    unwatched = not (_lines or sys.stderr.isatty()) or (total is None and (_lines or _outer))
+    try:
+        if _watching.locked() or unwatched:
+            yield lambda amount: None
+        elif total is None:
+            yield from _bar(label, None, 0)
         else:
-            yield from _bar(label, total, already)
+            with _watching:
+                if _lines:
+                    yield from _in_lines(label, total, already, _lines[-1])
+                else:
+                    yield from _bar(label, total, already)
+    finally:
+        for _, _, show_again in replaced:
+            show_again()
 
 
 @contextmanager
@@ -106,16 +110,26 @@ def _in_lines(label: str, total: int, already: int, stream: TextIO) -> Iterator[
 def _bar(label: str, total: int | None, already: int) -> Iterator[Advance]:
     done = already
     shown: list[Any] = []
+    # A bar within another waits no longer than that: two seconds from the start of all the work.
+    begun = _outer[0][0] if _outer else time.monotonic()
+    late: Timer
 
     def show() -> None:
         shown.append(_rich_bar(label, total, done))
         shown[0].start()
 
+    def show_later() -> None:
+        # A clock of its own, for a first step that lasts longer than anyone likes to wait.
+        nonlocal late
+        late = Timer(max(0.0, begun + PATIENCE - time.monotonic()), show)
+        late.daemon = True
+        late.start()
+
     def hide() -> None:
         late.cancel()
         late.join()
         if shown:
-            shown[0].stop()
+            shown.pop().stop()
 
     def advance(amount: int) -> None:
         nonlocal done
@@ -123,15 +137,12 @@ def _bar(label: str, total: int | None, already: int) -> Iterator[Advance]:
         if shown:
             shown[0].update(shown[0].task_ids[0], completed=done)
 
-    # A clock of its own, for a first step that lasts longer than anyone likes to wait.
-    late = Timer(PATIENCE, show)
-    late.daemon = True
-    late.start()
-    _hiders.append(hide)
+    show_later()
+    _outer.append((begun, hide, show_later))
     try:
         yield advance
     finally:
-        _hiders.remove(hide)
+        _outer.pop()
         hide()
 
 

@@ -1,4 +1,4 @@
-"""Read and run scenes: tables of inputs for one computation (question), such as precession."""
+"""Read and run scenes, tables of inputs for one computation (question), also for many members."""
 
 from __future__ import annotations
 
@@ -7,28 +7,29 @@ import re
 import tomllib
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from importlib import import_module, resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, Literal
 
 import numpy as np
 
+from earthspin._lazy import xr
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
 from earthspin.engine import answers, blocks
 from earthspin.engine.blocks import Series
-from earthspin.engine.members import ENDLESS, MOST_PARTS, TWICE
-from earthspin.engine.part import BLOCK as BY_BLOCK
+from earthspin.engine.drafts import as_path
+from earthspin.engine.ensemble import Ensemble
+from earthspin.engine.members import ENDLESS, LARGEST_SEED, MOST_PARTS, TWICE, Members
+from earthspin.engine.question import BLOCK as BY_BLOCK
 from earthspin.engine.question import Question, keys_of, scene_of
 from earthspin.engine.run import Plan, Run
 from earthspin.engine.store import open as open_file
-from earthspin.errors import SceneError, nearest, no_plain_file
+from earthspin.errors import OutputError, SceneError, Where, nearest, no_plain_file
 from earthspin.questions import MODULES
 from earthspin.questions.times import epochs
-from earthspin.units import FileName
-
-if TYPE_CHECKING:
-    import xarray as xr
+from earthspin.units import FileName, Whole, is_whole
 
 
 class _Questions(Mapping[str, type[Question]]):
@@ -73,7 +74,7 @@ class VersionWarning(UserWarning):
 
     Examples
     --------
-    An answer that another version made still runs, and says so:
+    A result of another version is computed again, with this warning:
 
     >>> import warnings
     >>> import earthspin
@@ -92,7 +93,7 @@ def Scene(*, compute: str, **keys: Any) -> Question:
     Parameters
     ----------
     compute : str
-        What is asked: ``"precession"``, ``"torque"``, ...
+        Name of the question: ``"precession"``, ``"torque"``, ...
     **keys
         Keys of that question, as in a scene file or as arguments of its call.
 
@@ -133,9 +134,9 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
         ``"precession"``, the path of a TOML file, the path of a file that earthspin wrote, or an
         answer.
     changes : mapping, optional
-        Keys to set instead of those of the scene; ``"body.j2"`` reaches into a table. Keys that
-        exclude others replace them: ``"times"`` replaces ``"span"`` and ``"step"``. Plain numbers
-        are in SI units here; those in a scene file carry their units.
+        Keys to set instead of those of the scene; ``"body.j2"`` sets a value inside a table. Keys
+        that exclude others replace them: ``"times"`` replaces ``"span"`` and ``"step"``. Plain
+        numbers are in SI units here; those in a scene file carry their units.
 
     Raises
     ------
@@ -228,10 +229,11 @@ def _changed(
     if "compute" not in table:
         raise SceneError("compute", None, f"it is missing; {nearest('', QUESTIONS)}", source=source)
     question = question_named(table.pop("compute"), source)
-    for group in question.exclusive:  # `times` replace the scene's `span` and `step`
-        if not changes.keys().isdisjoint(group):
-            others = {key for other in question.exclusive if other != group for key in other}
-            table = {key: table[key] for key in table if key not in others - changes.keys()}
+    for groups in question.exclusive:  # `times` replace the scene's `span` and `step`
+        for group in groups:
+            if not changes.keys().isdisjoint(group):
+                others = {key for other in groups if other != group for key in other}
+                table = {key: table[key] for key in table if key not in others - changes.keys()}
     return question.from_table(table, source=source, title=title, typed=typed)
 
 
@@ -263,7 +265,7 @@ def plan(scene: Any, sections: str | Iterable[str] = ()) -> Plan:
     Parameters
     ----------
     scene : str, Path, Question, Dataset or DataTree
-        As `load_scene` takes it.
+        See `load_scene`.
     sections : str or iterable of str
         Sections that are wanted beside the answer; ``"all"`` takes all that apply.
 
@@ -291,13 +293,13 @@ def run(scene: Any) -> xr.Dataset:
     ----------
     scene : str, Path, Question, Dataset or DataTree
         The name of a shipped scene, a file, a question, or an answer that is run again: with the
-        same versions, and the same instructions of the processor, it gives the same bits; if
-        versions differ, a warning says which.
+        same versions and processor instructions, the result is bit-identical; if versions differ, a
+        warning names them.
 
     Returns
     -------
     Dataset
-        The answer; `ds.earthspin` knows its plan and its complete question.
+        The answer; `ds.earthspin` gives its plan and its complete question.
 
     Raises
     ------
@@ -326,7 +328,7 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
     Parameters
     ----------
     scene : str, Path, Question, Dataset or DataTree
-        As `run` takes it.
+        See `run`.
     sections : str or iterable of str
         Names of sections, or ``"all"``.
 
@@ -373,15 +375,12 @@ def warn_of_versions(
         Attributes of the stored result.
     new : Dataset or DataTree
     stacklevel : int
-        As of `warnings.warn`.
+        See `warnings.warn`.
     """
-    differ = [
-        f"{name} {old[name]}, now {new.attrs.get(name)}"
-        for name in VERSIONS
-        if name in old and old[name] != new.attrs.get(name)
-    ]
-    if differ:
-        warnings.warn(f"made with {'; '.join(differ)}", VersionWarning, stacklevel=stacklevel)
+    changed = [name for name in VERSIONS if name in old and old[name] != new.attrs.get(name)]
+    if changed:
+        words = "; ".join(f"{name} {old[name]}, now {new.attrs.get(name)}" for name in changed)
+        warnings.warn(f"made with {words}", VersionWarning, stacklevel=stacklevel)
 
 
 # --- long series ---------------------------------------------------------------------------------
@@ -393,13 +392,13 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
     Parameters
     ----------
     scene : str, Path, Question or answer
-        One that computes ``torque``, ``pole`` or ``rotation``.
+        Scene that computes ``torque``, ``pole`` or ``rotation``.
     path : str or Path
-        The Zarr folder; what is there is replaced when all is written. If the run is ended before,
-        the same call goes on from what it had written.
+        The Zarr folder; an existing folder is replaced when the series is complete. After an
+        interruption the same call resumes it.
     client : Client, int or str, optional
-        Of ``dask.distributed``, whose workers make the blocks: a client, a number of workers to
-        start here, or the address of a scheduler. A plain loop without.
+        Cluster of ``dask.distributed`` that computes the blocks: a client, a number of workers to
+        start here, or the address of a scheduler. Without it the blocks are computed here.
 
     Returns
     -------
@@ -452,27 +451,113 @@ def series_length(question: Question) -> int:
 
 
 def members_of(question: Question) -> int:
-    """Number of bodies for which a question is computed at once; one without labelled arrays."""
+    """Number of bodies for which a question is computed at once; 1 without labelled arrays."""
     groups = [value if isinstance(value, tuple) else (value,) for value in question.keys().values()]
     return members(value for group in groups for value in group if isinstance(value, Body))
 
 
-def run_blocks(scene: Any) -> Iterator[xr.Dataset]:
-    """Compute a time series of torques, pole or rotation, and yield it block by block.
+# --- ensembles -----------------------------------------------------------------------------------
+
+
+def ensemble(
+    question: Any,
+    members: Any = None,
+    *,
+    seed: int | None = None,
+    rng: int | np.random.Generator | np.random.SeedSequence | None = None,
+    path: str | Path | None = None,
+    client: object = None,
+    block: int | None = None,
+    impossible: Literal["refuse", "drop"] | None = None,
+) -> xr.Dataset:
+    """Answer one question (computation) for many members, which differ in their inputs.
+
+    The random numbers of a member depend only on the seed and on the number of the member, not on
+    blocks or workers.
 
     Parameters
     ----------
-    scene : str, Path or Question
-        One that computes ``torque``, ``pole`` or ``rotation``.
+    question : str, Path, Question or answer
+        See `load_scene`.
+    members : int, mapping, Dataset or path, optional
+        A number of members: they are drawn from the published uncertainties of the bodies, or as
+        the table ``members`` of the question says. A mapping of inputs to distributions:
+        ``{"n": 1000, "body.j2": {"normal": [1.0826e-3, 1e-10]}}``, with ``normal``, ``uniform``,
+        ``choice`` and ``grid``; the last two also take words, such as the paths of orbits:
+        ``{"orbit": {"grid": ["own", "la2010a.dat"]}}``. Or values: a Dataset of variables along
+        `member`, named after the inputs, or the path of a file (.csv, .nc, .zarr) with one.
+    seed : int, optional
+        Seed of the random numbers; 0 by default.
+    rng : int, Generator or SeedSequence, optional
+        Instead of `seed`: a seed, or a source of random numbers of NumPy, from which a seed is
+        drawn (SPEC 7).
+    path : str or Path, optional
+        Zarr store to write, block by block; after an interruption the same call resumes it.
+    client : Client, int or str, optional
+        Cluster of ``dask.distributed`` that computes the blocks: a client, a number of workers to
+        start here, or the address of a scheduler. Without it the blocks are computed here.
+    block : int, optional
+        Number of members that are computed and stored at a time; chosen by their size by default.
+    impossible : str, optional
+        Treatment of impossible members: ``"refuse"`` the ensemble, or ``"drop"`` them.
 
-    Yields
-    ------
+    Returns
+    -------
     Dataset
-        Consecutive stretches of the series.
+        Answer along `member`, with the inputs as coordinates; variables that depend on no input
+        have no dimension `member`. ``ds.earthspin.quantiles()`` and
+        ``ds.earthspin.sensitivity()`` summarise it. With `path` it is opened from the store.
+
+    Raises
+    ------
+    EarthspinError
+        If an input is wrong or a member is not possible; the message is one line.
+
+    Examples
+    --------
+    >>> import earthspin
+    >>> earths = earthspin.ensemble("precession", 1000)
+    >>> total = earths.precession_period.sel(perturber="total")
+    >>> print(f"{float(total.mean()):.1f} +/- {2 * float(total.std()):.3f} years")
+    25712.1 +/- 0.016 years
     """
-    series = _series(load_scene(scene))
-    for number in range(series.layout.count):
-        yield series.make(number)
+    loaded = load_scene(question)
+    if rng is not None:
+        if seed is not None:
+            raise loaded.error("rng", rng, "give either seed or rng")
+        seed = _seed_from(rng)
+    request = _with_members(loaded, members, {"seed": seed, "impossible": impossible})
+    if block is not None:
+        block = Whole().read(block, request.where("block"))
+    if path is not None and as_path(path).suffix != ".zarr":
+        raise OutputError(path, "its name does not end in .zarr", "an ensemble goes to Zarr")
+    work = Ensemble(request, block=block, in_memory=path is None)
+    if path is None:
+        return work.hold(client)
+    answer = open_file(blocks.write(work, path, client=client))
+    return answer.to_dataset() if isinstance(answer, xr.DataTree) else answer
+
+
+def _with_members(question: Question, members: object, settings: dict[str, Any]) -> Question:
+    """Return a question with changed members; a whole number changes only how many there are."""
+    own, where = question.members, question.where("members")
+    request: Members | None = own if members is None else Members.read(members, where)
+    if request is None:
+        raise where.error(None, "give the number of members, a file or a table")
+    if own is not None and is_whole(members):
+        request = replace(own, n=request.n)
+    changes = {name: value for name, value in settings.items() if value is not None}
+    checked = Members.read(changes, where)
+    changes = {name: getattr(checked, name) for name in changes}
+    return question.replace(members=replace(request, **changes))
+
+
+def _seed_from(rng: int | np.random.Generator | np.random.SeedSequence) -> int:
+    """Return a given integer seed, or draw one from a NumPy generator or seed sequence."""
+    if isinstance(rng, (np.random.Generator, np.random.SeedSequence)):
+        return int(np.random.default_rng(rng).integers(2**32))
+    others = ", or a Generator or SeedSequence of NumPy"
+    return Whole(0, LARGEST_SEED, others).read(rng, Where("rng"))
 
 
 # --- reading -------------------------------------------------------------------------------------
@@ -578,9 +663,9 @@ def _set_key(table: dict[str, Any], key: str, value: Any, source: str) -> None:
     for step in path:
         inner = table.get(step, {})
         # `body = "earth"` with body.j2 set means: start from that body.
-        table[step] = inner = (
-            {"from": inner} if step == "body" and isinstance(inner, str) else inner
-        )
+        if step == "body" and isinstance(inner, str):
+            inner = {"from": inner}
+        table[step] = inner
         if not isinstance(inner, dict):
             raise SceneError(key, value, f"'{step}' is not a table", source=source)
         table = inner

@@ -9,11 +9,21 @@ import xarray as xr
 
 from earthspin.bodies import in_a_sentence
 from earthspin.constants import JULIAN_YEAR
-from earthspin.engine.variables import si
+from earthspin.engine.variables import Variables, labels, measured, number, si, words
 from earthspin.errors import SceneError, Where
 from earthspin.progress import progress
 from earthspin.sky.stars import STARS, UNKNOWN_MOTION, directions
 from earthspin.units import Whole
+
+
+class NearestStars(Variables, along=("nearest", "epoch")):
+    """Stars of the list that are nearest to the celestial pole at each epoch."""
+
+    star = words("star")
+    separation = measured("deg", "distance from the celestial pole")
+    magnitude = number("1", "visual magnitude", no_error="a number of the catalogue")
+    nearest = labels()
+    epoch = labels()
 
 
 @progress("stars near the pole")
@@ -71,24 +81,12 @@ def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
     unknown = np.array([star.proper_motion is None for star in STARS])
     motion = np.where(unknown[order], UNKNOWN_MOTION * np.abs(seconds), 0.0)
     error = np.hypot(motion, si(result["pole_error"]).values)
-    dims = ("nearest", "epoch")
-
-    def column(values: Any, long_name: str, units: str) -> xr.Variable:
-        return xr.Variable(dims, values, {"long_name": long_name, "units": units})
-
-    return xr.Dataset(
-        {
-            "star": (dims, np.array([star.name for star in STARS])[order], {"long_name": "star"}),
-            "separation": column(
-                np.degrees(separation[order, columns]), "distance from the celestial pole", "deg"
-            ),
-            "separation_error": column(
-                np.degrees(error), "95 % half-width of the distance from the celestial pole", "deg"
-            ),
-            "magnitude": column(
-                np.array([star.magnitude for star in STARS])[order], "visual magnitude", "1"
-            ),
-        },
-        {"epoch": result["epoch"], "nearest": np.arange(1, count + 1)},
-        {"references": "ESA 1997, The Hipparcos and Tycho Catalogues, SP-1200"},
+    near = NearestStars(
+        star=np.array([star.name for star in STARS])[order],
+        separation=(separation[order, columns], error),
+        magnitude=np.array([star.magnitude for star in STARS])[order],
+        nearest=np.arange(1, count + 1),
+        epoch=result["epoch"],
     )
+    source = "ESA 1997, The Hipparcos and Tycho Catalogues, SP-1200"
+    return near.dataset().assign_attrs(references=source)

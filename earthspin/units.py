@@ -12,22 +12,12 @@ import datetime as dt
 import math
 import os
 import re
+import typing
 import warnings
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from types import NoneType, UnionType
-from typing import (
-    Annotated,
-    Any,
-    ClassVar,
-    Literal,
-    Protocol,
-    TypeGuard,
-    TypeVar,
-    Union,
-    get_args,
-    get_origin,
-)
+from types import NoneType
+from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeGuard, TypeVar
 
 import numpy as np
 
@@ -110,9 +100,9 @@ def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
     unit : str
         The unit wanted, as astropy writes it.
     where : Where
-        What is being read.
+        Name of the input.
     example : str
-        How it should look, for the message.
+        Example for the message.
 
     Returns
     -------
@@ -122,7 +112,7 @@ def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
     Raises
     ------
     UnitsError
-        If the unit is missing, unknown or of another kind, or it is no number at all.
+        If the unit is missing or unknown or has the wrong dimension, or the value is not a number.
     SceneError
         If a number is masked, missing or not finite, or there is none.
     """
@@ -172,13 +162,14 @@ def unit_factor(unit: str, target: str, where: Where, example: str) -> float:
     Raises
     ------
     UnitsError
-        If the unit is unknown or of another kind.
+        If the unit is unknown or has the wrong dimension.
     """
     return _Target(target, where, example).factor(unit, unit)
 
 
 def _in_symbols(text: str) -> str:
-    """Replace the names of units of time by symbols: "12 hours" becomes "12 h"."""
+    """Replace units of time by symbols ("12 hours" by "12 h"), and degrees_north by degrees."""
+    text = re.sub("degrees?_(?:north|east)", "deg", text)
     return _WORD.sub(lambda match: _SYMBOLS[match[1].lower()], text)
 
 
@@ -359,10 +350,8 @@ class Number:
 
     def _range(self) -> str:
         unit = f" {self.unit}" if self.unit else ""
-        if self.above == 0:
-            return "it is greater than zero"
         if self.above > -math.inf:
-            return f"it is greater than {self.above:g}{unit}"
+            return f"it is greater than {f'{self.above:g}{unit}' if self.above else 'zero'}"
         if self.high < math.inf:
             return f"it lies between {self.low:g} and {self.high:g}{unit}"
         return f"it is at least {self.low:g}{unit}"
@@ -397,6 +386,7 @@ class Numbers:
     def words(self) -> str:
         """Text for error messages: shape of the allowed array, and an example of an element."""
         size = " x ".join("n" if n is None else str(n) for n in self.shape)
+        size = f"one or {size}" if self.optional_row and len(self.shape) == 1 else size
         return f'{size} values like "{self.example}"' if self.unit else f"{size} numbers"
 
     def read(self, value: object, where: Where) -> FloatArray:
@@ -412,7 +402,7 @@ class Numbers:
         fits = len(shape) == values.ndim and all(
             size in (None, n) and n > 0 for size, n in zip(shape, values.shape, strict=True)
         )
-        if not fits or values.ndim == 0:
+        if not fits or values.ndim < len(self.shape) - self.optional_row:
             raise where.error(f"shape {values.shape}", f"give {self.words}")
         values.flags.writeable = False
         return values
@@ -421,7 +411,7 @@ class Numbers:
         """Form stored in scene files: a list of numbers, or the bytes of a long array."""
         if value.size > LONGEST_LIST:
             return pack(value) | {"unit": self.unit}
-        return value.tolist() if not self.unit else _with_unit(value.tolist(), self.unit)
+        return _with_unit(value.tolist(), self.unit) if self.unit else value.tolist()
 
 
 def _with_unit(values: Any, unit: str) -> Any:
@@ -564,7 +554,7 @@ class FileName(_AsItIs):
     known : collection of str
         Words that stand for something else than a file of this name.
     content : str
-        What such a file holds.
+        Content of such a file.
     """
 
     words = "the path of a file"
@@ -633,15 +623,16 @@ def kind_of(annotation: Any) -> Kind[Any]:
     annotation
         A type that reads itself, an Annotated with a kind, Literal words, or a tuple of them.
     """
-    if get_origin(annotation) is Annotated:
+    origin, options = typing.get_origin(annotation), typing.get_args(annotation)
+    if origin is Annotated:
         return next(extra for extra in annotation.__metadata__ if hasattr(extra, "read"))
-    if get_origin(annotation) in (Union, UnionType):
-        (inner,) = (option for option in get_args(annotation) if option is not NoneType)
+    if NoneType in options:
+        (inner,) = (option for option in options if option is not NoneType)
         return kind_of(inner)
-    if get_origin(annotation) is Literal:
-        return Word(get_args(annotation))
-    if get_origin(annotation) is tuple:
-        return Several(kind_of(get_args(annotation)[0]))
+    if origin is Literal:
+        return Word(options)
+    if origin is tuple:
+        return Several(kind_of(options[0]))
     if hasattr(annotation, "read"):
         return annotation  # type: ignore[no-any-return]
     plain: dict[Any, Kind[Any]] = {str: Text(), int: Whole()}

@@ -11,6 +11,7 @@ from pathlib import Path
 from unittest import mock
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 
@@ -135,6 +136,71 @@ def test_run_as_json(capsys: pytest.CaptureFixture[str]) -> None:
     rates = data["data_vars"]["precession_rate"]
     assert rates["attrs"]["units"] == "arcsec/yr"
     assert np.isclose(rates["data"][2], 50.4043, rtol=0, atol=1e-4)
+
+
+USED = ("obliquity", "eccentricity", "longitude_of_perihelion", "climatic_precession")
+
+
+@pytest.mark.parametrize(
+    ("scene", "words", "columns"),
+    [
+        ("long-term", [], ["epoch", *(f"{n}{end}" for n in USED for end in ("", "_error"))]),
+        ("long-term", ["--columns", "all"], 37),
+        (
+            "long-term",
+            ["--columns", "epoch, pole_x,psi_A"],
+            ["epoch", "pole_x", "psi_A", "psi_A_error"],
+        ),
+        (
+            "long-term",
+            ["--columns", "pole"],
+            ["epoch", *(f"pole_{n}" for n in ("x", "y", "z", "error"))],
+        ),
+        ("precession", [], 10),
+        ("love-numbers", ["--columns", "love_number"], ["love", "love_number"]),
+    ],
+)
+def test_columns_of_a_csv_file(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    scene: str,
+    words: list[str],
+    columns: list[str] | int,
+) -> None:
+    """Names carry units, as pandas reads them without options, and come in the order asked for."""
+    file = tmp_path / "x.csv"
+    status, out, _ = run(capsys, "run", scene, "--out", str(file), *words)
+    assert (status, f"wrote {file}" in out) == (0, True)
+    frame, answer = pd.read_csv(file), earthspin.run(scene)
+    plain = [name.split(" (")[0] for name in frame]
+    assert plain == columns or len(plain) == columns
+    for name, header in zip(plain, frame, strict=True):
+        unit = answer[name].attrs.get("units", "1") if name in answer.variables else "1"
+        if name in answer.variables:
+            assert header == (name if unit == "1" else f"{name} ({unit})")
+        assert frame[header].tolist() == answer.earthspin.to_frame()[name].tolist()
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (["--columns", "obliqity", "--out", "x.csv"], "did you mean 'obliquity'"),
+        (["--columns", "obliquity"], "FILE.csv"),
+        (["--columns", "all", "--out", "x.nc"], "FILE.csv"),
+    ],
+)
+def test_columns_that_are_refused(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    words: list[str],
+    expected: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    status, _, err = run(capsys, "run", "long-term", *words)
+    assert (status, err.count("\n")) == (2, 1)
+    assert expected in err
+    assert not [*tmp_path.iterdir()]
 
 
 def test_a_series_too_long_for_memory_goes_to_zarr(

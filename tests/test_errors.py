@@ -11,10 +11,8 @@ import pytest
 from earthspin import errors
 
 EXAMPLES = [
-    errors.SceneError(
-        "step", "0 h", "a step is greater than zero", source="x.toml", remedy="try 1 h"
-    ),
-    errors.SceneError("a\nb", "0\nh", "two\nlines", source="c\nd.toml", remedy="e\nf"),
+    errors.SceneError("step", "0 h", "a step is greater than zero", source="x.toml"),
+    errors.SceneError("a\nb", "0\nh", "two\nlines", source="c\nd.toml"),
     errors.BodyError("earth", "gm", -1.0, "a mass is zero or more"),
     errors.UnitsError("step", "6", "s", "6 h"),
     errors.KernelError("x.bsp", "the file is empty", "fetch it again"),

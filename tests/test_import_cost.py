@@ -58,6 +58,7 @@ USED = {
     "torque": KERNEL,
     "pole": {*KERNEL, *LEAST_SQUARES, "scipy.optimize"},
     "long-term": KERNEL,
+    "insolation": KERNEL,
     "iau": KERNEL | LEAST_SQUARES,
     "nutation": {*KERNEL, *LEAST_SQUARES, "scipy.special"},
     "rotation": {*KERNEL, *LEAST_SQUARES, "scipy.spatial", "scipy.special"},
@@ -113,7 +114,7 @@ def test_a_question_loads_the_heavy_modules_that_it_uses() -> None:
 
 #: Runs a scene, and leaves in `sys.modules` only what was imported while a part ran.
 DURING_PARTS = """
-from earthspin.engine.part import Part
+from earthspin.engine.question import Part
 from earthspin.engine.run import Run
 from earthspin.scenes import load_scene
 during = set()

@@ -63,12 +63,27 @@ def test_work_of_known_amount_hides_that_of_unknown(monkeypatch: pytest.MonkeyPa
             time.sleep(0.3)
             assert "counted" in before
             assert "endless" not in screen.getvalue().removeprefix(before)
+        before = screen.getvalue()
+        time.sleep(0.6)
+        assert "endless" in screen.getvalue().removeprefix(before)
+
+
+def test_short_steps_of_long_work_are_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    screen = watched(monkeypatch)
+    monkeypatch.setattr(module, "PATIENCE", 0.5)
+    with progress("whole"):
+        for step in ("first", "second", "third"):
+            with progress(step, 1):
+                time.sleep(0.4)
+    assert "first" not in screen.getvalue()
+    assert "third" in screen.getvalue()
 
 
 PAST = earthspin.long_term("-2 kyr", "0 kyr", "1 kyr")
 CALLS: dict[str, Callable[[], Any]] = {
     "answer": lambda: earthspin.run("precession"),
     "answer with sections": lambda: earthspin.run_tree("precession", "seasons"),
+    "figures": lambda: PAST.earthspin.plot(),
     "insolation": lambda: earthspin.daily_insolation(PAST, "65 deg", "90 deg"),
     "stars near the pole": lambda: earthspin.pole_stars(PAST),
     "axes of the frame": lambda: EquatorOfDate(model=PAST, obstime="2010-01-01").error,

@@ -78,6 +78,8 @@ def faults_of_pages(folder: Path) -> Iterator[str]:
             yield f"{name}: neither a previous nor a next page"
         if far := re.findall(r'<(?:script|link|img)[^>]+(?:src|href)="https?://[^"]+"', text):
             yield f"{name}: needs the network, {far[0]}"
+        if "&lt;Figure size" in text:
+            yield f"{name}: a figure is shown as text; begin its cell with %matplotlib inline"
         if dead := re.findall(r'mathvariant="(?!normal)[^"]+"', text):
             yield f"{name}: a formula with {dead[0]}, which browsers do not draw"
         for words in re.findall(r"<dt><strong>([^<]*[ `][^<]*)</strong>", text):

@@ -1,4 +1,4 @@
-"""A source of positions of one's own: a body that passes once, which no ellipse describes."""
+"""Custom positions: a body that passes once, on a path that is not an ellipse."""
 
 from __future__ import annotations
 

@@ -8,8 +8,7 @@ import numpy as np
 
 from earthspin.bodies import EARTH, Body
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, key
+from earthspin.engine.question import Question, key, part
 from earthspin.engine.variables import Neglected, Variables, labels, number
 from earthspin.units import FloatArray, Whole
 
@@ -58,7 +57,7 @@ def gravity(body: Body, surface: FloatArray) -> Gravity:
 
 @part
 def neglected() -> Neglected:
-    """What an even density leaves out."""
+    """Effect that the uniform density neglects."""
     return Neglected(what="a density that grows inwards")
 
 

@@ -13,22 +13,14 @@ from dataclasses import InitVar, dataclass, field, fields
 from dataclasses import replace as _replace
 from functools import reduce
 from operator import and_
-from typing import Annotated, Any, ClassVar, get_origin, get_type_hints
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
 from earthspin import constants as c
-from earthspin.bodies import checks
+from earthspin.bodies import checks, kinds
 from earthspin.bodies.checks import all_of, are_close, is_close, is_same
-from earthspin.bodies.kinds import (
-    CitedPeriod,
-    Codes,
-    Magnitude,
-    Moments,
-    OwnPlace,
-    Uncertainties,
-    UnderTheSurface,
-)
+from earthspin.bodies.kinds import Magnitude
 from earthspin.bodies.orbit import Orbit, Satellite, SatelliteList
 from earthspin.bodies.shapes import FromMass, figure_of, moments_of
 from earthspin.card import card
@@ -80,9 +72,8 @@ class Body(FromMass):
     spin_period : float
         One turn relative to the stars, s; negative if retrograde, that is backwards about `pole`.
     pole : Pole
-        Direction of the spin axis: `IAU_2006` (``"iau2006"``), or a `FixedPole`, for which a right
-        ascension
-        and a declination may be given (ICRF, J2000.0, rad).
+        Direction of the spin axis: `IAU_2006` (``"iau2006"``), or a `FixedPole`, which may be given
+        as right ascension and declination (ICRF, J2000.0, rad).
     pole_uncertainty : float or None
         One standard deviation of `pole` at J2000.0 in each of two directions, rad; None if it is
         not known.
@@ -114,16 +105,16 @@ class Body(FromMass):
         Satellites that precess together with the body; `gm` and the moments are without them. They
         may be given as a list of tables.
     reference : str
-        Where the numbers come from.
+        Source of the numbers.
     obliquity : float
-        Instead of `pole`: angle from the normal of the orbit to the pole, rad, 0 to pi. The
-        equinox stays where it is; that of a new body is the node of its orbit on the equator of the
-        ICRF. It is read, and kept as `pole`.
+        Given instead of `pole`, and stored as `pole`: angle from the orbit normal to the pole, rad,
+        0 to pi. The direction of the equinox does not change; for a new body it is the node of the
+        orbit on the equator of the ICRF.
 
     Raises
     ------
     UnitsError
-        If a unit is unknown, or of another kind.
+        If a unit is unknown, or has the wrong dimension.
     BodyError
         If a field is not finite, a mass is negative, C exceeds A + B, or j2 and H differ in sign.
 
@@ -138,7 +129,7 @@ class Body(FromMass):
 
     name: Annotated[str, Text()]
     gm: Annotated[Numeric, Magnitude("m3/s2", "3.986e14 m3/s2")]
-    naif: Annotated[tuple[int, ...], Codes()] = ()
+    naif: Annotated[tuple[int, ...], kinds.Codes()] = ()
     radius: Annotated[Numeric | None, Magnitude("m", "6378 km")] = None
     j2: Annotated[Numeric | None, Magnitude("", "1.08e-3", "(C - A)/(M a2)")] = None
     dynamical_flattening: Annotated[Numeric | None, Magnitude("", "3.27e-3", "(C - A)/C")] = None
@@ -156,11 +147,11 @@ class Body(FromMass):
     cycle: Annotated[float, Magnitude("s", "4333 d")] = c.JUPITER_ORBITAL_PERIOD.value
     # from the scatter of averages about epochs every 1500 d in DE440 (docs/accuracy.md)
     slow_swing: Annotated[float, Magnitude("", "2e-7")] = 2e-7
-    interior: Annotated[str | LayeredBody | None, UnderTheSurface()] = None
-    observed_wobble: Annotated[c.Constant | None, CitedPeriod()] = None
-    position: Annotated[Any, OwnPlace()] = None
+    interior: Annotated[str | LayeredBody | None, kinds.UnderTheSurface()] = None
+    observed_wobble: Annotated[c.Constant | None, kinds.CitedPeriod()] = None
+    position: Annotated[Any, kinds.OwnPlace()] = None
     orbit: Annotated[Orbit | None, Orbit] = None
-    relative_uncertainty: Annotated[Mapping[str, float], Uncertainties()] = field(
+    relative_uncertainty: Annotated[Mapping[str, float], kinds.Uncertainties()] = field(
         default_factory=dict
     )
     satellites: Annotated[tuple[Satellite, ...], SatelliteList()] = ()
@@ -307,7 +298,8 @@ class Body(FromMass):
         ----------
         name : str
         numbers : mapping of str to Constant
-            By field, in the unit of the field. An angle has no relative uncertainty.
+            Values with sources and uncertainties, by field and in its unit. An angle has no
+            relative uncertainty.
         **others
             Non-numeric fields.
         """
@@ -336,9 +328,7 @@ class Body(FromMass):
             return _placed(value, where) if hasattr(value, "target") else body(value, where)
         table = dict(value)
         start = table.pop("from", "earth")
-        for key, entry in table.items():
-            if key not in _READ_AS:
-                raise where.at(key).error(entry, nearest(key, ["from", *_READ_AS]))
+        where.refuse_unknown(table, ["from", *_READ_AS])
         changes = {key: _READ_AS[key].read(entry, where.at(key)) for key, entry in table.items()}
         try:
             if start in _LEAST:
@@ -490,8 +480,8 @@ class Body(FromMass):
 
     def magnitudes(self) -> dict[str, Magnitude]:
         """Converters between text and SI values for the mass and each numerical field set."""
-        kinds = {name: self.KINDS[name] for name in self.UNITS if getattr(self, name) is not None}
-        return kinds | {"mass": _READ_AS["mass"]}
+        numbers = {n: self.KINDS[n] for n in self.UNITS if getattr(self, n) is not None}
+        return numbers | {"mass": _READ_AS["mass"]}
 
     @property
     def labelled(self) -> bool:
@@ -520,7 +510,7 @@ class Body(FromMass):
         BodyError
             If the changes contradict each other or make an impossible body.
         UnitsError
-            If a unit is missing, unknown, or of another kind.
+            If a unit is missing or unknown, or has the wrong dimension.
 
         Examples
         --------
@@ -617,11 +607,7 @@ class Body(FromMass):
         return all_of(self.are_as_named)
 
 
-Body.KINDS = {
-    name: hint.__metadata__[0]
-    for name, hint in get_type_hints(Body, include_extras=True).items()
-    if get_origin(hint) is not ClassVar and not isinstance(hint, InitVar)
-}
+Body.KINDS = kinds.kinds_of(Body)
 Body.UNITS = {name: kind.unit for name, kind in Body.KINDS.items() if isinstance(kind, Magnitude)}
 Body.LABELLED = frozenset(Body.UNITS) - {
     "meridian", "pole_uncertainty", "orbital_period", "cycle", "slow_swing",
@@ -629,7 +615,7 @@ Body.LABELLED = frozenset(Body.UNITS) - {
 
 #: Converters of all keys by which a body can be created or changed.
 _READ_AS: dict[str, Any] = {
-    **Body.KINDS, "mass": Magnitude("kg", "5.97e24 kg"), "moments": Moments(),
+    **Body.KINDS, "mass": Magnitude("kg", "5.97e24 kg"), "moments": kinds.Moments(),
     "obliquity": Magnitude("rad", "40 deg"),
 }  # fmt: skip
 

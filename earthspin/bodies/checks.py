@@ -65,6 +65,7 @@ NO_STAR, LEAST_STAR = (1e11, 1e16), 1e18
 #: Largest GM of a star, of 500 solar masses, m3 s-2. Black holes are larger, and of any density.
 LARGEST_STAR = 6.6e22
 
+_THIN_DISC = "C cannot exceed A + B, so H = (C - A)/C is at most 0.5 (the thin disc)"
 #: Conditions on single numbers, in the order of the checks, with the text of the message.
 _HOLDS: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
     ("gm", lambda gm: gm >= 0, "a mass must be zero or more"),
@@ -75,11 +76,7 @@ _HOLDS: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
     ("spin_period", lambda p: p != 0, "a period must not be zero"),
     ("spin_period", lambda p: abs(p) <= LONGEST_DAY, f"give at most {LONGEST_DAY:g} s"),
     ("flattening", lambda f: f < 1, "a flattening must be less than 1"),
-    (
-        "dynamical_flattening",
-        lambda h: h <= 0.5,
-        "C cannot exceed A + B, so H = (C - A)/C is at most 0.5 (the thin disc)",
-    ),
+    ("dynamical_flattening", lambda h: h <= 0.5, _THIN_DISC),
     ("triaxiality", lambda t: t >= 0, "(B - A)/(M a2) must be zero or more"),
     ("pole_uncertainty", lambda u: u >= 0, "an uncertainty must be zero or more"),
     ("slow_swing", lambda swing: swing >= 0, "a variation must be zero or more"),

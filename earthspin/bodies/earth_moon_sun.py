@@ -4,24 +4,9 @@ from __future__ import annotations
 
 import math
 
+from earthspin import constants as c
 from earthspin.bodies.body import Body
-from earthspin.constants import (
-    ARCSEC,
-    DAY,
-    DAYS_PER_CENTURY,
-    DE440,
-    EPSILON_0,
-    GM_HORIZONS,
-    IERS_2010,
-    IERS_TABLE_READ,
-    P03,
-    PCK11,
-    SHTOOLS,
-    SIDEREAL_MONTH,
-    SIDEREAL_YEAR,
-    Constant,
-    Tabulated,
-)
+from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, EPSILON_0, Constant, Tabulated
 from earthspin.sky.poles import IAU_2006, Direction, MovingPole
 
 # --- Earth ----------------------------------------------------------------------------------------
@@ -29,6 +14,15 @@ from earthspin.sky.poles import IAU_2006, Direction, MovingPole
 _EGM2008 = "Pavlis et al. 2012, JGR 117, B04406 (EGM2008)"
 _EGM2008_READ = "coefficient files of EGM2008 in public repositories"
 _ROTATION_ANGLE = "Capitaine, Guinot & McCarthy 2000, A&A 355, 398, eq. 14"
+_GM = c.DE440 + "; uncertainty from " + c.IERS_2010
+_MHB = "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068; uncertainty from " + c.IERS_2010
+_MHB_READ = f"{c.IERS_TABLE_READ}; uncertainty: {c.SHTOOLS}Earth.py"
+_REBOUND = c.P03 + ": -3.001e-9 a century, sect. 4.1"
+_REBOUND_READ = "public code that cites IAU 2006 for it"
+_ZERO_TIDE = c.IERS_2010 + " (zero-tide)"
+_DAY_OF_IAU = _ROTATION_ANGLE + " (IAU 2000 Resolution B1.8)"
+_WOBBLE = "Nastula & Gross 2015, JGR Solid Earth 120, 6474"
+_WOBBLE_READ = "value and uncertainty as quoted in a text on the wobble in a public repository"
 
 # Normalised coefficients of EGM2008, of degree and order 2.
 _C22, _S22 = 2.43938357e-6, -1.40027370e-6
@@ -36,32 +30,18 @@ _C22, _S22 = 2.43938357e-6, -1.40027370e-6
 _TURNS_A_DAY, _TURNS_AT_START = 1.00273781191135448, 0.7790572732640
 
 EARTH_NUMBERS = {
-    "gm": Constant(
-        398600.435507e9, "m3 s-2", 8e5, DE440 + "; uncertainty from " + IERS_2010, GM_HORIZONS
-    ),
+    "gm": Constant(398600.435507e9, "m3 s-2", 8e5, _GM, c.GM_HORIZONS),
     "radius": Constant(
-        6378136.6, "m", 0.1, IERS_2010 + " (equatorial, zero-tide)", IERS_TABLE_READ
+        6378136.6, "m", 0.1, c.IERS_2010 + " (equatorial, zero-tide)", c.IERS_TABLE_READ
     ),
-    "j2": Constant(1.0826359e-3, "", 1e-10, IERS_2010 + " (zero-tide)", IERS_TABLE_READ),
-    "dynamical_flattening": Constant(
-        0.0032737949,
-        "",
-        1e-9,
-        "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068; uncertainty from " + IERS_2010,
-        f"{IERS_TABLE_READ}; uncertainty: {SHTOOLS}Earth.py",
-    ),
+    "j2": Constant(1.0826359e-3, "", 1e-10, _ZERO_TIDE, c.IERS_TABLE_READ),
+    "dynamical_flattening": Constant(0.0032737949, "", 1e-9, _MHB, _MHB_READ),
     # (B - A)/(M a2) = 4 sqrt(5/12) |C22 + i S22|
     "triaxiality": Constant(7.2624e-6, "", None, _EGM2008 + ", degree 2, order 2", _EGM2008_READ),
     # J_n = -sqrt(2n + 1) C_n0 of the normalised coefficients
     "j3": Constant(-9.57161207e-7 * math.sqrt(7.0), "", None, _EGM2008, _EGM2008_READ),
     "j4": Constant(-5.39965866e-7 * 3.0, "", None, _EGM2008, _EGM2008_READ),
-    "j2_rate": Constant(
-        -3.001e-9 / (DAYS_PER_CENTURY * DAY),
-        "s-1",
-        None,
-        P03 + ": -3.001e-9 a century, sect. 4.1",
-        "public code that cites IAU 2006 for it",
-    ),
+    "j2_rate": Constant(-3.001e-9 / (DAYS_PER_CENTURY * DAY), "s-1", None, _REBOUND, _REBOUND_READ),
     # Angle of the axis of least moment at J2000.0 TDB from the x axis of the GCRS: the Earth
     # Rotation Angle at UT1 = TDB - 63.83 s, and the longitude atan2(S22, C22)/2 = -14.93 deg.
     "meridian": Constant(
@@ -74,15 +54,9 @@ EARTH_NUMBERS = {
     "pole_uncertainty": Constant(
         (EPSILON_0.uncertainty or 0.0) * ARCSEC, "rad", None, EPSILON_0.source, EPSILON_0.read_in
     ),
-    "flattening": Constant(1 / 298.25642, "", 1.1e-10, IERS_2010 + " (zero-tide)", IERS_TABLE_READ),
-    "spin_period": Constant(
-        DAY / _TURNS_A_DAY,
-        "s",
-        0.0,
-        _ROTATION_ANGLE + " (IAU 2000 Resolution B1.8)",
-        "ERFA, eraEra00",
-    ),
-    "orbital_period": SIDEREAL_YEAR,
+    "flattening": Constant(1 / 298.25642, "", 1.1e-10, _ZERO_TIDE, c.IERS_TABLE_READ),
+    "spin_period": Constant(DAY / _TURNS_A_DAY, "s", 0.0, _DAY_OF_IAU, "ERFA, eraEra00"),
+    "orbital_period": c.SIDEREAL_YEAR,
 }
 
 EARTH = Body.cited(
@@ -91,13 +65,7 @@ EARTH = Body.cited(
     naif=(399,),
     pole=IAU_2006,
     interior="prem",
-    observed_wobble=Constant(
-        430.9,
-        "d",
-        0.7,
-        "Nastula & Gross 2015, JGR Solid Earth 120, 6474",
-        "value and uncertainty as quoted in a text on the wobble in a public repository",
-    ),
+    observed_wobble=Constant(430.9, "d", 0.7, _WOBBLE, _WOBBLE_READ),
     reference="IERS Conventions (2010); Mathews, Herring & Buffett 2002; DE440",
 )
 
@@ -105,18 +73,16 @@ EARTH = Body.cited(
 # --- Moon -----------------------------------------------------------------------------------------
 
 _GRAIL = "Williams et al. 2014, JGR Planets 119, 1546 (GRAIL and laser ranging)"
-_GRAIL_READ = SHTOOLS + "Moon.py"
+_GRAIL_READ = c.SHTOOLS + "Moon.py"
+_MOON_GM = c.DE440 + "; uncertainty: the difference from DE421's 4902.800076"
+_NODE = "Simon et al. 1994, A&A 282, 663, sect. 3.5: rate of the mean longitude of the node"
 #: Gravity field of DE430, by degree and order.
 _DE430_READ = "mockingbirdnest/Principia, astronomy/sol_gravity_model.proto.txt"
 
+_CASSINI = "1.543 to the ecliptic (arXiv:2201.00803) and 5.145 of the orbit"
+_CASSINI_READ = "arXiv:2201.00803; page of the Moon of JPL Horizons"
 #: Observed obliquity of the Moon to its orbit.
-MOON_OBLIQUITY = Constant(
-    6.688,
-    "deg",
-    None,
-    "1.543 to the ecliptic (arXiv:2201.00803) and 5.145 of the orbit",
-    "arXiv:2201.00803; page of the Moon of JPL Horizons",
-)
+MOON_OBLIQUITY = Constant(6.688, "deg", None, _CASSINI, _CASSINI_READ)
 #: (C - A)/B and (B - A)/C.
 MOON_BETA = Constant(6.310213e-4, "", 3.1e-9, _GRAIL, _GRAIL_READ)
 MOON_GAMMA = Constant(2.277317e-4, "", 4.2e-9, _GRAIL, _GRAIL_READ)
@@ -129,13 +95,7 @@ _B = (1 + MOON_GAMMA.value) / (1 + MOON_BETA.value)
 _H = 1 - (_B - MOON_GAMMA.value / 2)
 
 MOON_NUMBERS = {
-    "gm": Constant(
-        4902.800118e9,
-        "m3 s-2",
-        4.2e4,
-        DE440 + "; uncertainty: the difference from DE421's 4902.800076",
-        GM_HORIZONS,
-    ),
+    "gm": Constant(4902.800118e9, "m3 s-2", 4.2e4, _MOON_GM, c.GM_HORIZONS),
     "radius": Constant(1738.0e3, "m", None, "reference radius of " + _GRAIL, _DE430_READ),
     "j2": MOON_J2,
     "dynamical_flattening": Constant(_H, "", 4e-9, "from beta and gamma: " + _GRAIL, _GRAIL_READ),
@@ -143,20 +103,16 @@ MOON_NUMBERS = {
         MOON_GAMMA.value * MOON_J2.value / _H, "", None, "gamma C/(M R2): " + _GRAIL, _GRAIL_READ
     ),
     # synchronous rotation
-    "spin_period": SIDEREAL_MONTH,
-    "orbital_period": SIDEREAL_MONTH,
+    "spin_period": c.SIDEREAL_MONTH,
+    "orbital_period": c.SIDEREAL_MONTH,
     # period of the node, 1296000"/6962890.5431" centuries = 6798.383 d
     "cycle": Constant(
-        1296000.0 / 6962890.5431 * DAYS_PER_CENTURY * DAY,
-        "s",
-        0.0,
-        "Simon et al. 1994, A&A 282, 663, sect. 3.5: rate of the mean longitude of the node",
-        "ERFA, eraFaom03",
+        1296000.0 / 6962890.5431 * DAYS_PER_CENTURY * DAY, "s", 0.0, _NODE, "ERFA, eraFaom03"
     ),
 }
 
 MOON_POLE = Tabulated(
-    "pole of the Moon", "Archinal et al. 2011, Celest. Mech. 109, 101 (IAU 2009)", PCK11
+    "pole of the Moon", "Archinal et al. 2011, Celest. Mech. 109, 101 (IAU 2009)", c.PCK11
 )
 #: Terms of the IAU pole: phase at J2000.0 (deg) and rate (deg/d) of E1 to E4, E6, E7, E10, E13.
 _POLE_TERMS = {
@@ -201,21 +157,10 @@ MOON = Body.cited(
 
 # --- Sun ------------------------------------------------------------------------------------------
 
+_SOLAR_RADIUS = "IAU 2015 Resolution B3: nominal solar radius"
 SUN_NUMBERS = {
-    "gm": Constant(
-        132712440041.279419e9,
-        "m3 s-2",
-        1e10,
-        DE440 + "; uncertainty from " + IERS_2010,
-        GM_HORIZONS,
-    ),
-    "radius": Constant(
-        6.957e8,
-        "m",
-        0.0,
-        "IAU 2015 Resolution B3: nominal solar radius",
-        "R_sun of astropy.constants",
-    ),
+    "gm": Constant(132712440041.279419e9, "m3 s-2", 1e10, _GM, c.GM_HORIZONS),
+    "radius": Constant(6.957e8, "m", 0.0, _SOLAR_RADIUS, "R_sun of astropy.constants"),
 }
 
 SUN = Body.cited("sun", SUN_NUMBERS, naif=(10,), reference=SUN_NUMBERS["gm"].source)

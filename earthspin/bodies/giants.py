@@ -9,23 +9,12 @@ from __future__ import annotations
 
 import math
 
+from earthspin import constants as c
 from earthspin.bodies.body import Body
 from earthspin.bodies.inner import IAU_2015, SWING
 from earthspin.bodies.orbit import Orbit, Satellite
 from earthspin.bodies.shapes import flattening_of
-from earthspin.constants import (
-    ARCSEC,
-    AU,
-    DAY,
-    DE440,
-    GM_HORIZONS,
-    JUPITER_ORBITAL_PERIOD,
-    PCK11,
-    STANDISH_READ,
-    UNVERIFIED,
-    Constant,
-    Tabulated,
-)  # fmt: skip
+from earthspin.constants import ARCSEC, AU, DAY, Constant, Tabulated
 from earthspin.sky.poles import Direction, MovingPole
 
 ELEMENTS = "Standish & Williams, approximate elements 1800-2050"
@@ -34,7 +23,7 @@ _CASSINI = "Iess et al. 2019, Science 364, eaat2965 (Cassini)"
 _URANUS = "Jacobson 2014, AJ 148:76"
 _NEPTUNE = "Jacobson 2009, AJ 137, 4322"
 _CODES = "codes in public repositories that cite the paper: "
-POLES = Tabulated("poles of the giant planets", IAU_2015, PCK11)
+POLES = Tabulated("poles of the giant planets", IAU_2015, c.PCK11)
 
 
 #: Sources of masses and orbits of satellites.
@@ -54,7 +43,7 @@ _FITTED = (
 _OF_URANUS = (
     _ELEMENTS[0],
     "that of Umbriel in a public file of JPL Horizons; the others agree to 5e-4 with GM and the "
-    f"rotation in {PCK11}",
+    f"rotation in {c.PCK11}",
 )
 
 
@@ -74,7 +63,7 @@ def _moon(
     }
 
 
-_POLES = (f"{IAU_2015}: radius of the circle of the pole of the moon", PCK11)
+_POLES = (f"{IAU_2015}: radius of the circle of the pole of the moon", c.PCK11)
 #: Large satellites by planet: GM, semi-major axis, and inclination to the Laplace plane.
 SATELLITES = {
     "jupiter": {
@@ -119,37 +108,27 @@ def _satellites(planet: str) -> tuple[Satellite, ...]:
     )
 
 
+_JUPITER_INSIDE = (
+    "Militzer & Hubbard 2023; uncertainty: half of 0.2629 to 0.2645, Helled et al. 2011"
+)
+_JUPITER_INSIDE_READ = "abstracts, arXiv:2308.04986 and arXiv:1109.1627"
+_SATURN_INSIDE = "Militzer & Hubbard 2023; uncertainty assumed, ten times the published one"
 #: C/(M R2) of the planets alone, from interior models.
-JUPITER_MOMENT = Constant(
-    0.2639,
-    "",
-    0.0008,
-    "Militzer & Hubbard 2023; uncertainty: half of 0.2629 to 0.2645, Helled et al. 2011",
-    "abstracts, arXiv:2308.04986 and arXiv:1109.1627",
-)
-SATURN_MOMENT = Constant(
-    0.2181,
-    "",
-    0.0020,
-    "Militzer & Hubbard 2023; uncertainty assumed, ten times theirs",
-    "abstract, arXiv:2308.04986",
-)
+JUPITER_MOMENT = Constant(0.2639, "", 0.0008, _JUPITER_INSIDE, _JUPITER_INSIDE_READ)
+SATURN_MOMENT = Constant(0.2181, "", 0.0020, _SATURN_INSIDE, "abstract, arXiv:2308.04986")
 #: Published precession constants (rate divided by cos obliquity), satellites included.
-JUPITER_CONSTANT = Constant(2.7, "arcsec yr-1", None, "Ward & Canup 2006, ApJ 640, L91", UNVERIFIED)
+JUPITER_CONSTANT = Constant(
+    2.7, "arcsec yr-1", None, "Ward & Canup 2006, ApJ 640, L91", c.UNVERIFIED
+)
 SATURN_CONSTANT = Constant(
-    0.83, "arcsec yr-1", None, "Ward & Hamilton 2004, AJ 128, 2501", UNVERIFIED
+    0.83, "arcsec yr-1", None, "Ward & Hamilton 2004, AJ 128, 2501", c.UNVERIFIED
 )
 
 
 def _year(days: float) -> Constant:
     """Return a sidereal orbital period, given in days, as a `Constant` in seconds with source."""
-    return Constant(
-        days * DAY,
-        "s",
-        None,
-        "mean sidereal period, rounded",
-        "ephemeris codes in public repositories",
-    )
+    read_in = "ephemeris codes in public repositories"
+    return Constant(days * DAY, "s", None, "mean sidereal period, rounded", read_in)
 
 
 def _numbers(
@@ -160,12 +139,12 @@ def _numbers(
     GM, that of planet and satellites, is in km3 s-2, the radius in km and the spin in deg/d.
     """
     alone = gm * 1e9 - sum(moon["gm"].value for moon in SATELLITES[planet].values())
-    source = f"{DE440}, less the large satellites ({_GM})"
+    source = f"{c.DE440}, less the large satellites ({_GM})"
     return {
-        "gm": Constant(alone, "m3 s-2", None, source, f"{GM_HORIZONS}; {_GM_READ}"),
+        "gm": Constant(alone, "m3 s-2", None, source, f"{c.GM_HORIZONS}; {_GM_READ}"),
         "radius": Constant(radius * 1e3, "m", None, j2.source, j2.read_in),
         "j2": j2,
-        "spin_period": Constant(360.0 / spin * DAY, "s", None, IAU_2015, PCK11),
+        "spin_period": Constant(360.0 / spin * DAY, "s", None, IAU_2015, c.PCK11),
         "orbital_period": orbit,
         "slow_swing": SWING,
     }
@@ -185,7 +164,7 @@ def _orbit(a: float, e: float, i: float, node: float, perihelion: float, mean: f
     )
 
 
-ELLIPSES = Tabulated("mean orbits of the giant planets", ELEMENTS, STANDISH_READ)
+ELLIPSES = Tabulated("mean orbits of the giant planets", ELEMENTS, c.STANDISH_READ)
 #: Mean orbits, for averages over intervals longer than kernels cover.
 ORBITS = {
     "jupiter": _orbit(5.20288700, 0.04838624, 1.30439695, 100.47390909, 14.72847983, 34.39644051),
@@ -206,7 +185,7 @@ _JUPITER = _numbers(
     71492.0,
     Constant(14696.57e-6, "", 1e-8, _JUNO, _CODES + "14696.5735e-6 at 71,492 km"),
     870.536,
-    JUPITER_ORBITAL_PERIOD,
+    c.JUPITER_ORBITAL_PERIOD,
 )
 _SATURN = _numbers(
     "saturn",
@@ -243,20 +222,19 @@ JUPITER = Body.cited(
     satellites=_satellites("jupiter"),
     reference=f"{_JUNO}; {JUPITER_MOMENT.source}; {IAU_2015}; DE440",
 )
+_SATURN_POLES = (
+    "poles of IAU 2015 and of Jacobson 2007, BAAS 39, 317, at J2000.0: 2.9 arcsec apart, taken as "
+    "the half-width of 95 %"
+)
+_SATURN |= {
+    "dynamical_flattening": flattening_of(_SATURN["j2"], SATURN_MOMENT),
+    "pole_uncertainty": Constant(
+        1.5 * ARCSEC, "rad", None, _SATURN_POLES, f"{c.PCK11}; abstract of the report"
+    ),
+}
 SATURN = Body.cited(
     "saturn",
-    _SATURN
-    | {
-        "dynamical_flattening": flattening_of(_SATURN["j2"], SATURN_MOMENT),
-        "pole_uncertainty": Constant(
-            1.5 * ARCSEC,
-            "rad",
-            None,
-            "poles of IAU 2015 and of Jacobson 2007, BAAS 39, 317, at J2000.0: 2.9 arcsec apart, "
-            "taken as the half-width of 95 %",
-            f"{PCK11}; abstract of the report",
-        ),
-    },
+    _SATURN,
     naif=(699, 6),
     pole=MovingPole.published((40.589, -0.036), (83.537, -0.004)),
     orbit_pole=_normal("saturn"),

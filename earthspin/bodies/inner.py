@@ -4,36 +4,21 @@ from __future__ import annotations
 
 import math
 
+from earthspin import constants as c
 from earthspin.bodies.body import Body
 from earthspin.bodies.orbit import Orbit
 from earthspin.bodies.shapes import flattening_of
-from earthspin.constants import (
-    ARCSEC,
-    ASSUMED,
-    DAY,
-    DE440,
-    GM_HORIZONS,
-    JULIAN_YEAR,
-    MARS_GM,
-    MARS_GRAVITY,
-    MARS_J2,
-    MARS_POLAR_MOMENT,
-    MARS_RADIUS,
-    PCK11,
-    STANDISH_READ,
-    Constant,
-    Tabulated,
-)
+from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR, Constant, Tabulated
 from earthspin.sky.poles import Direction, FixedPole, MovingPole
 
 # --- Mercury and Venus ----------------------------------------------------------------------------
 
 IAU_2015 = "Archinal et al. 2018, Celest. Mech. 130:22 (IAU 2015)"
 ELEMENTS = "Standish & Williams, approximate elements, sidereal"
-POLES = Tabulated("poles of Mercury and Venus", IAU_2015, PCK11)
-PLANES = Tabulated("planes of the orbits of Mercury and Venus", ELEMENTS, STANDISH_READ)
+POLES = Tabulated("poles of Mercury and Venus", IAU_2015, c.PCK11)
+PLANES = Tabulated("planes of the orbits of Mercury and Venus", ELEMENTS, c.STANDISH_READ)
 #: Relative variation, over centuries, of the mean torque that a planet exerts on other bodies.
-SWING = Constant(1e-3, "", None, "a bound for planets: not measured", ASSUMED)
+SWING = Constant(1e-3, "", None, "a bound for planets: not measured", c.ASSUMED)
 
 _MARGOT_2012 = "Margot et al. 2012, JGR 117, E00L09"
 _MARGOT_2012_READ = "abstract, doi.org/10.1029/2012JE004161"
@@ -42,14 +27,20 @@ _MARGOT_2021_READ = "abstract, arXiv:2103.01504"
 _VERMA = "Verma & Margot 2016, JGR Planets (arXiv:1608.01360)"
 _VERMA_READ = "abstract, arXiv:1608.01360"
 _GRAVITY_READ = "mockingbirdnest/Principia, astronomy/sol_gravity_model.proto.txt"
+_STARK = (
+    "obliquity of 2.029 +- 0.085 arcmin: Stark et al. 2015, Geophys. Res. Lett., First MESSENGER "
+    "orbital observations of Mercury's librations"
+)
+_VENUS_YEAR_READ = "ephemeris codes in public repositories: 224.7008001 d"
 
 # J2 = -sqrt(5) C20 and C22 = sqrt(5/12) times the normalised coefficient
+_NORM_22 = math.sqrt(5 / 12)
 _MERCURY_J2 = Constant(
     2.25100e-5 * math.sqrt(5.0), "", 1.3e-9 * math.sqrt(5.0), _VERMA, _VERMA_READ
 )
 #: C/(M R2).
 MERCURY_MOMENT = Constant(0.346, "", 0.014, _MARGOT_2012, _MARGOT_2012_READ)
-_MERCURY_YEAR = Constant(87.96926 * DAY, "s", None, ELEMENTS, STANDISH_READ)
+_MERCURY_YEAR = Constant(87.96926 * DAY, "s", None, ELEMENTS, c.STANDISH_READ)
 _VENUS_J2 = Constant(
     4.404e-6, "", None, "Konopliv et al. 1999, Icarus 139, 3 (MGNP180U), rounded", _GRAVITY_READ
 )
@@ -61,29 +52,20 @@ VENUS_PRECESSION = Constant(44.58, "arcsec yr-1", 3.3, _MARGOT_2021, _MARGOT_202
 MERCURY = Body.cited(
     "mercury",
     {
-        "gm": Constant(22031.868551e9, "m3 s-2", None, DE440, GM_HORIZONS),
+        "gm": Constant(22031.868551e9, "m3 s-2", None, c.DE440, c.GM_HORIZONS),
         "radius": Constant(2440e3, "m", None, "reference radius of " + _VERMA, _GRAVITY_READ),
         "j2": _MERCURY_J2,
         "dynamical_flattening": flattening_of(_MERCURY_J2, MERCURY_MOMENT),
         # (B - A)/(M a2) = 4 C22
         "triaxiality": Constant(
-            4 * 1.24973e-5 * math.sqrt(5 / 12),
-            "",
-            4 * 1.2e-9 * math.sqrt(5 / 12),
-            _VERMA,
-            _VERMA_READ,
+            4 * 1.24973e-5 * _NORM_22, "", 4 * 1.2e-9 * _NORM_22, _VERMA, _VERMA_READ
         ),
         # 3:2 spin-orbit resonance
-        "spin_period": Constant(360 / 6.1385108 * DAY, "s", None, IAU_2015, PCK11),
+        "spin_period": Constant(360 / 6.1385108 * DAY, "s", None, IAU_2015, c.PCK11),
         "orbital_period": _MERCURY_YEAR,
         "slow_swing": SWING,
         "pole_uncertainty": Constant(
-            0.085 * 60 * ARCSEC,
-            "rad",
-            None,
-            "obliquity of 2.029 +- 0.085 arcmin: Stark et al. 2015, Geophys. Res. Lett., First "
-            "MESSENGER orbital observations of Mercury's librations",
-            "abstract of the paper",
+            0.085 * 60 * ARCSEC, "rad", None, _STARK, "abstract of the paper"
         ),
     },
     naif=(199, 1),
@@ -107,13 +89,13 @@ MERCURY_PLANE = Tabulated(
     "plane on which the orbit of Mercury precesses",
     MERCURY_ORBIT.reference,
     "follows but for the share of either number: sin(i) times the rate of the node, to 0.1 per "
-    f"cent, from the rates of {STANDISH_READ}",
+    f"cent, from the rates of {c.STANDISH_READ}",
 )
 
 VENUS = Body.cited(
     "venus",
     {
-        "gm": Constant(324858.592e9, "m3 s-2", None, DE440, GM_HORIZONS),
+        "gm": Constant(324858.592e9, "m3 s-2", None, c.DE440, c.GM_HORIZONS),
         "radius": Constant(
             6051e3, "m", None, "reference radius of Konopliv et al. 1999", _GRAVITY_READ
         ),
@@ -123,11 +105,7 @@ VENUS = Body.cited(
             -243.0226 * DAY, "s", 0.0013 * DAY, _MARGOT_2021, _MARGOT_2021_READ
         ),
         "orbital_period": Constant(
-            224.70079922 * DAY,
-            "s",
-            None,
-            "mean sidereal period",
-            "ephemeris codes in public repositories: 224.7008001 d",
+            224.70079922 * DAY, "s", None, "mean sidereal period", _VENUS_YEAR_READ
         ),
         "slow_swing": SWING,
     },
@@ -144,62 +122,42 @@ VENUS = Body.cited(
 # Normalised coefficients of degree and order 2.
 _C22, _S22 = -8.463591e-5, 4.893449e-5
 
-#: Rate of precession of the spin axis, geodesic precession included.
-MARS_PRECESSION = Constant(
-    -7.6083,
-    "arcsec yr-1",
-    0.0021,
-    "Konopliv et al. 2016, Icarus 274, 253",
-    "abstract, doi.org/10.1016/j.icarus.2016.02.052",
+_KONOPLIV_2016 = "Konopliv et al. 2016, Icarus 274, 253"
+_KONOPLIV_2016_READ = "abstract, doi.org/10.1016/j.icarus.2016.02.052"
+_MARS_POLES = (
+    "poles of IAU 2009 and IAU 2015 at J2000.0: 0.89 arcsec apart without nutation, taken as the "
+    "half-width of 95 %"
 )
+_MARS_ORDER_2 = c.MARS_GRAVITY + ", degree 2, order 2"
+_IAU_2009 = "Archinal et al. 2011, Celest. Mech. 109, 101"
+_MARS_AXES = "Archinal et al. 2018, Celest. Mech. 130:22, table 4"
+_MARS_YEAR_READ = "ephemeris codes in public repositories: 686.9798519 d"
+_MARS_WOBBLE = "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568; half of the last digit"
+#: Rate of precession of the spin axis, geodesic precession included.
+MARS_PRECESSION = Constant(-7.6083, "arcsec yr-1", 0.0021, _KONOPLIV_2016, _KONOPLIV_2016_READ)
 
 MARS_POLE = Tabulated(
     "pole of Mars",
     "Kuchynka et al. 2014, Icarus 229, 340; Archinal et al. 2018, Celest. Mech. 130:22 (IAU 2015)",
-    PCK11,
+    c.PCK11,
 )
 MARS_PLANE = Tabulated(
-    "plane of the orbit of Mars", "Standish & Williams, approximate elements", STANDISH_READ
+    "plane of the orbit of Mars", "Standish & Williams, approximate elements", c.STANDISH_READ
 )
 
 MARS_NUMBERS = {
-    "pole_uncertainty": Constant(
-        0.46 * ARCSEC,
-        "rad",
-        None,
-        "poles of IAU 2009 and IAU 2015 at J2000.0: 0.89 arcsec apart without nutation, taken as "
-        "the half-width of 95 %",
-        PCK11,
-    ),
-    "gm": MARS_GM,
-    "radius": MARS_RADIUS,
-    "j2": MARS_J2,
-    "dynamical_flattening": flattening_of(MARS_J2, MARS_POLAR_MOMENT),
+    "pole_uncertainty": Constant(0.46 * ARCSEC, "rad", None, _MARS_POLES, c.PCK11),
+    "gm": c.MARS_GM,
+    "radius": c.MARS_RADIUS,
+    "j2": c.MARS_J2,
+    "dynamical_flattening": flattening_of(c.MARS_J2, c.MARS_POLAR_MOMENT),
     # (B - A)/(M a2) = 4 sqrt(5/12) |C22 + i S22|
     "triaxiality": Constant(
-        4 * math.sqrt(5 / 12) * math.hypot(_C22, _S22),
-        "",
-        None,
-        MARS_GRAVITY + ", degree 2, order 2",
-        MARS_J2.read_in,
+        4 * _NORM_22 * math.hypot(_C22, _S22), "", None, _MARS_ORDER_2, c.MARS_J2.read_in
     ),
-    "flattening": Constant(
-        (3396.19 - 3376.20) / 3396.19,
-        "",
-        4e-5,
-        "Archinal et al. 2018, Celest. Mech. 130:22, table 4",
-        PCK11,
-    ),
-    "spin_period": Constant(
-        360.0 / 350.89198226 * DAY, "s", None, "Archinal et al. 2011, Celest. Mech. 109, 101", PCK11
-    ),
-    "orbital_period": Constant(
-        686.9798 * DAY,
-        "s",
-        None,
-        "mean sidereal period",
-        "ephemeris codes in public repositories: 686.9798519 d",
-    ),
+    "flattening": Constant((3396.19 - 3376.20) / 3396.19, "", 4e-5, _MARS_AXES, c.PCK11),
+    "spin_period": Constant(360.0 / 350.89198226 * DAY, "s", None, _IAU_2009, c.PCK11),
+    "orbital_period": Constant(686.9798 * DAY, "s", None, "mean sidereal period", _MARS_YEAR_READ),
 }
 
 MARS = Body.cited(
@@ -228,11 +186,7 @@ MARS = Body.cited(
     orbit_pole=Direction.across(math.radians(1.84969142), math.radians(49.55953891)),
     interior="mars-insight",
     observed_wobble=Constant(
-        207.0,
-        "d",
-        0.5,
-        "Konopliv et al. 2020, Geophys. Res. Lett. 47, e2020GL090568; half of the last digit",
-        "about 207 d in press reports of the paper",
+        207.0, "d", 0.5, _MARS_WOBBLE, "about 207 d in press reports of the paper"
     ),
     reference="Konopliv et al. 2011; Archinal et al. 2011, 2018; DE440",
 )

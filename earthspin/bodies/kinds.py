@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
 from itertools import pairwise
-from typing import Any
+from typing import Any, get_type_hints
 
 import numpy as np
 
@@ -15,12 +15,9 @@ from earthspin.errors import EarthspinError, Where, nearest
 from earthspin.interior.layers import Layer, LayeredBody, from_samples
 from earthspin.interior.named import INTERIORS
 from earthspin.sky.sources import read_position, write_position
-from earthspin.units import Text, is_whole, pack, quantity, real_numbers, unpack
+from earthspin.units import Plain, Text, is_whole, pack, quantity, real_numbers, unpack
 
 # --- numbers, words, codes and positions ----------------------------------------------------------
-
-#: A value that a scene file can hold.
-Plain = Any
 
 
 @dataclass(frozen=True)
@@ -63,7 +60,6 @@ class Magnitude:
         return f"{float(value)!r} {self.unit}" if self.unit else value
 
 
-@dataclass(frozen=True)
 class Moments:
     """Converter of three principal moments of inertia, the polar one last, kg m2."""
 
@@ -76,7 +72,6 @@ class Moments:
         return [quantity(moment, "kg m2", where, "8.03e37 kg m2") for moment in value]
 
 
-@dataclass(frozen=True)
 class Codes:
     """Converter of the NAIF codes of a body: integers that identify the body in kernels."""
 
@@ -93,7 +88,6 @@ class Codes:
         return list(value)
 
 
-@dataclass(frozen=True)
 class Uncertainties:
     """Converter of a table of relative standard deviations of the fields of a body."""
 
@@ -114,43 +108,11 @@ class Uncertainties:
         return dict(value)
 
 
-@dataclass(frozen=True)
-class OneOf:
-    """Converter of a field whose value must be one of several allowed words.
-
-    Attributes
-    ----------
-    allowed : tuple of str
-    """
-
-    allowed: tuple[str, ...]
-
-    hint = "str"
-
-    @property
-    def words(self) -> str:
-        """The allowed words as text, for error messages."""
-        return " or ".join(f'"{word}"' for word in self.allowed)
-
-    def read(self, value: object, where: Where) -> str:
-        """Return the given word unchanged; refuse a word that is not allowed."""
-        if not isinstance(value, str) or value not in self.allowed:
-            raise where.error(value, nearest(value, self.allowed))
-        return value
-
-    def write(self, value: str) -> Plain:
-        """Return the word unchanged, because scene files store it as text."""
-        return value
-
-
-@dataclass(frozen=True)
 class CitedPeriod:
     """Converter of a period in days, with its uncertainty and source, such as a wobble period."""
 
-    words, hint = (
-        "a table of value, unit, uncertainty and source",
-        "Mapping[str, object] | Constant",
-    )
+    words = "a table of value, unit, uncertainty and source"
+    hint = "Mapping[str, object] | Constant"
 
     def read(self, value: object, where: Where) -> Constant:
         """Read a period in days from a `Constant`, or from a table of its fields."""
@@ -174,6 +136,13 @@ class CitedPeriod:
     def write(self, value: Constant) -> Plain:
         """Convert the `Constant` to a table of all fields that are set, for scene files."""
         return {name: entry for name, entry in asdict(value).items() if entry not in (None, "")}
+
+
+def kinds_of(record: type) -> dict[str, Any]:
+    """Return the converters in the annotations of a class, by field."""
+    hints = get_type_hints(record, include_extras=True)
+    annotated = {name: hint for name, hint in hints.items() if hasattr(hint, "__metadata__")}
+    return {name: hint.__metadata__[0] for name, hint in annotated.items()}
 
 
 class OwnPlace:
@@ -215,12 +184,10 @@ def _labels_of(array: Any) -> dict[str, Any]:
     tables: dict[str, Any] = {}
     for name, label in array.coords.items():
         floats = label.dtype.kind == "f" and label.size
-        dates = label.dtype.kind == "M"
-        tables[str(name)] = {"dims": list(map(str, label.dims)), "dtype": str(label.dtype)} | (
-            pack(label.values)
-            if floats
-            else {"values": (label.values.astype(str) if dates else label.values).tolist()}
-        )
+        values = label.values.astype(str) if label.dtype.kind == "M" else label.values
+        content = pack(values) if floats else {"values": values.tolist()}
+        dims = list(map(str, label.dims))
+        tables[str(name)] = {"dims": dims, "dtype": str(label.dtype)} | content
     return tables
 
 

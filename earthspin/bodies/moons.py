@@ -8,20 +8,13 @@ from __future__ import annotations
 
 import math
 
+from earthspin import constants as c
 from earthspin.bodies.body import Body
 from earthspin.bodies.giants import JPL, JPL_READ, SATELLITES
 from earthspin.bodies.inner import IAU_2015
 from earthspin.bodies.orbit import Orbit
 from earthspin.bodies.shapes import flattening_of
-from earthspin.constants import (
-    DAY,
-    DAYS_PER_CENTURY,
-    JULIAN_YEAR,
-    PCK11,
-    UNVERIFIED,
-    Constant,
-    Tabulated,
-)
+from earthspin.constants import DAY, DAYS_PER_CENTURY, JULIAN_YEAR, Constant, Tabulated
 from earthspin.mass.figure import homogeneous_ellipsoid
 from earthspin.sky.poles import MovingPole
 
@@ -37,29 +30,19 @@ _HYDROSTATIC_READ = (
 _PHOBOS = (13.0, 11.4, 9.1)
 _AXES = f"homogeneous ellipsoid of {' x '.join(map(str, _PHOBOS))} km, {IAU_2015}"
 _IAU_2011 = "Archinal et al. 2011, Celest. Mech. 109, 101 (IAU 2009)"
-POLES = Tabulated("poles of Phobos, Titan and Iapetus", _IAU_2011, PCK11)
+POLES = Tabulated("poles of Phobos, Titan and Iapetus", _IAU_2011, c.PCK11)
 _TITAN = SATELLITES["saturn"]["Titan"]
 
 _TITAN_J2 = Constant(33.599e-6, "", 0.67e-6, _HYDROSTATIC, _HYDROSTATIC_READ)
+_BALAND = "Baland et al. 2011, A&A 530, A141"
+_BALAND_READ = "quoted in Baland et al. 2011, aanda.org/articles/aa/full_html/2011/06/aa16578-11"
+_MERIGGIOLA = "Meriggiola et al. 2016, Icarus 275, 183"
+_MERIGGIOLA_READ = "abstract, doi.org/10.1016/j.icarus.2016.01.019"
 #: C/(M R2) of Titan in hydrostatic equilibrium.
-TITAN_MOMENT = Constant(
-    0.3414,
-    "",
-    0.0005,
-    "Iess et al. 2010, Science 327, 1367",
-    "quoted in Baland et al. 2011, aanda.org/articles/aa/full_html/2011/06/aa16578-11",
-)
+TITAN_MOMENT = Constant(0.3414, "", 0.0005, "Iess et al. 2010, Science 327, 1367", _BALAND_READ)
 #: Observed obliquity of Titan to its orbit, and the prediction for a solid body.
-TITAN_OBLIQUITY = Constant(
-    0.31,
-    "deg",
-    None,
-    "Meriggiola et al. 2016, Icarus 275, 183",
-    "abstract, doi.org/10.1016/j.icarus.2016.01.019",
-)
-TITAN_OBLIQUITY_IF_SOLID = Constant(
-    0.113, "deg", None, "Baland et al. 2011, A&A 530, A141", UNVERIFIED
-)
+TITAN_OBLIQUITY = Constant(0.31, "deg", None, _MERIGGIOLA, _MERIGGIOLA_READ)
+TITAN_OBLIQUITY_IF_SOLID = Constant(0.113, "deg", None, _BALAND, c.UNVERIFIED)
 
 
 def _days(days: float, source: str, read_in: str) -> Constant:
@@ -85,7 +68,7 @@ def _locked(
 def _of_phobos() -> dict[str, Constant]:
     j2, h, triaxiality = homogeneous_ellipsoid(*_PHOBOS)
     figure = {"j2": j2, "dynamical_flattening": h, "triaxiality": triaxiality}
-    return {name: Constant(value, "", None, _AXES, PCK11) for name, value in figure.items()}
+    return {name: Constant(value, "", None, _AXES, c.PCK11) for name, value in figure.items()}
 
 
 #: Phase at J2000.0 (deg) and rate (deg a century) of M1, the node of Phobos.
@@ -98,7 +81,7 @@ PHOBOS = Body.cited(
         _PHOBOS[0],
         _days(0.31891023, JPL, "asa.hmnao.com, satellite orbital data of 2012"),
         _AXES,
-        PCK11,
+        c.PCK11,
     )
     | _of_phobos(),
     naif=(401,),
@@ -129,7 +112,7 @@ IAPETUS = Body.cited(
     _locked(
         SATELLITES["saturn"]["Iapetus"]["gm"],
         734.5,
-        _days(360 / 4.5379572, IAU_2015, PCK11),
+        _days(360 / 4.5379572, IAU_2015, c.PCK11),
         JPL,
         "codes in public repositories",
     ),
@@ -142,9 +125,9 @@ TRITON = Body.cited(
     _locked(
         SATELLITES["neptune"]["Triton"]["gm"],
         1352.6,
-        _days(5.876854, IAU_2015, PCK11),
+        _days(5.876854, IAU_2015, c.PCK11),
         IAU_2015,
-        PCK11,
+        c.PCK11,
     ),
     naif=(801,),
     reference=JPL,

@@ -6,12 +6,12 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar, get_origin, get_type_hints
+from typing import Annotated, Any, ClassVar
 
-from earthspin.bodies.kinds import Magnitude, OneOf, Plain
+from earthspin.bodies.kinds import Magnitude, kinds_of
 from earthspin.dates import MICROSECONDS_PER_DAY, microseconds
-from earthspin.errors import Where, nearest
-from earthspin.units import Text
+from earthspin.errors import Where
+from earthspin.units import Plain, Text, Word
 
 # --- orbits ---------------------------------------------------------------------------------------
 
@@ -75,7 +75,7 @@ class Orbit:
     about : str
         Name of the central body; empty for the spinning body.
     reference : str
-        Where the numbers come from.
+        Source of the numbers.
 
     Raises
     ------
@@ -104,7 +104,7 @@ class Orbit:
     epoch: Annotated[float, Epoch()] = 0.0
     node_period: Annotated[float | None, Magnitude("s", "-6793.5 d")] = None
     pericentre_period: Annotated[float | None, Magnitude("s", "2191 d")] = None
-    plane: Annotated[str, OneOf(PLANES)] = "ecliptic"
+    plane: Annotated[str, Word(PLANES)] = "ecliptic"
     about: Annotated[str, Text()] = ""
     reference: Annotated[str, Text()] = ""
 
@@ -129,9 +129,7 @@ class Orbit:
             return value
         if not isinstance(value, Mapping):
             raise where.error(value, f"give {cls.words}")
-        for name in value:
-            if name not in _KINDS:
-                raise where.at(name).error(value[name], nearest(name, _KINDS))
+        where.refuse_unknown(value, _KINDS)
         return cls(**_checked(value, where))
 
     def write(self) -> Plain:
@@ -148,11 +146,7 @@ class Orbit:
         return ", ".join(elements)
 
 
-_KINDS: dict[str, Any] = {
-    name: hint.__metadata__[0]
-    for name, hint in get_type_hints(Orbit, include_extras=True).items()
-    if get_origin(hint) is Annotated
-}
+_KINDS = kinds_of(Orbit)
 _DEFAULTS = {f.name: f.default for f in fields(Orbit)}
 
 #: Plausibility bound: above the size and age of the observable universe, m and s.
@@ -217,7 +211,7 @@ class Satellite:
     gm_uncertainty : float
         One standard deviation of `gm`, m3 s-2.
     reference : str
-        Where the numbers come from.
+        Source of the numbers.
 
     Raises
     ------
@@ -267,18 +261,12 @@ class Satellite:
             return value
         if not isinstance(value, Mapping):
             raise where.error(value, f"give {cls.words}")
-        for key in value:
-            if key not in _SATELLITE_KINDS:
-                raise where.at(key).error(value[key], nearest(key, _SATELLITE_KINDS))
+        where.refuse_unknown(value, _SATELLITE_KINDS)
         for key in ("name", "gm", "a"):
             if key not in value:
                 raise where.at(key).error(None, f"give {cls.words}")
-        return cls(
-            **{
-                key: _SATELLITE_KINDS[key].read(entry, where.at(key))
-                for key, entry in value.items()
-            }
-        )
+        kinds = _SATELLITE_KINDS
+        return cls(**{key: kinds[key].read(entry, where.at(key)) for key, entry in value.items()})
 
     def write(self) -> Plain:
         """Convert the satellite to a table of all numbers that are set, for scene files."""
@@ -286,27 +274,17 @@ class Satellite:
         return {n: _SATELLITE_KINDS[n].write(v) for n, v in values.items() if v not in (0.0, "")}
 
 
-_SATELLITE_KINDS: dict[str, Any] = {
-    name: hint.__metadata__[0]
-    for name, hint in get_type_hints(Satellite, include_extras=True).items()
-    if hasattr(hint, "__metadata__")
-}
+_SATELLITE_KINDS = kinds_of(Satellite)
 #: Plausibility bound: above mass and size of the observable universe, SI.
 _LARGEST_SATELLITE = 1e60
 #: Smallest GM, that of a rock of 15 kg, m3 s-2.
 _LEAST = 1e-9
+_RANGE_OF_GM = f"it is {_LEAST:g} to {_LARGEST_SATELLITE:g} m3 s-2; leave out what has no mass"
+_RANGE_OF_A = f"it is greater than zero, and at most {_LARGEST_SATELLITE:g} m"
 #: Conditions on each number.
 _SATELLITE_RULES: tuple[tuple[str, Callable[[float], bool], str], ...] = (
-    (
-        "gm",
-        lambda gm: _LEAST <= gm <= _LARGEST_SATELLITE,
-        f"it is {_LEAST:g} to {_LARGEST_SATELLITE:g} m3 s-2; leave out what has no mass",
-    ),
-    (
-        "a",
-        lambda a: 0 < a <= _LARGEST_SATELLITE,
-        f"it is greater than zero, and at most {_LARGEST_SATELLITE:g} m",
-    ),
+    ("gm", lambda gm: _LEAST <= gm <= _LARGEST_SATELLITE, _RANGE_OF_GM),
+    ("a", lambda a: 0 < a <= _LARGEST_SATELLITE, _RANGE_OF_A),
     ("i", lambda i: 0 <= i <= math.pi, "an inclination must be 0 to 180 deg"),
     ("gm_uncertainty", lambda u: u >= 0, "an uncertainty must be zero or more"),
 )

@@ -10,19 +10,11 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from earthspin import errors
 from earthspin.bodies.checks import all_of
 from earthspin.bodies.kinds import Layers
 from earthspin.constants import Constant, G
-from earthspin.errors import (
-    BodyError,
-    MissingExtraError,
-    SeriesError,
-    Where,
-    checked,
-    nearest,
-    no_plain_file,
-    one_line,
-)
+from earthspin.errors import BodyError, SeriesError, Where, checked, nearest
 from earthspin.interior.equilibrium import equilibrium, figure
 from earthspin.numerics.arrays import FloatArray, Numeric
 from earthspin.units import is_masked, quantity
@@ -37,13 +29,8 @@ def flattening_of(j2: Constant, moment: Constant) -> Constant:
     """Dynamical flattening H = J2/(C/(M R2)), with its propagated uncertainty."""
     h = j2.value / moment.value
     u = math.hypot(j2.relative_uncertainty, moment.relative_uncertainty)
-    return Constant(
-        h,
-        "",
-        h * u,
-        f"J2 over C/(M R2): {j2.source}; {moment.source}",
-        f"{j2.read_in}; {moment.read_in}",
-    )
+    source = f"J2 over C/(M R2): {j2.source}; {moment.source}"
+    return Constant(h, "", h * u, source, f"{j2.read_in}; {moment.read_in}")
 
 
 def moments_of(j2: float, h: float, triaxiality: float) -> FloatArray:
@@ -157,17 +144,17 @@ def _read(file: Path) -> Any:
     try:
         import trimesh
     except ImportError:
-        raise MissingExtraError("trimesh", "mesh", "a mesh from a file") from None
+        raise errors.MissingExtraError("trimesh", "mesh", "a mesh from a file") from None
     kind = file.suffix.lstrip(".").lower()
     formats = sorted(trimesh.exchange.load.mesh_formats())
     if kind not in formats:
         raise SeriesError(file, f"'.{kind}' is not a mesh format", nearest(kind, formats))
-    if problem := no_plain_file(file) or (not file.exists() and "there is no such file"):
+    if problem := errors.no_plain_file(file) or (not file.exists() and "there is no such file"):
         raise SeriesError(file, problem)
     try:
         mesh = trimesh.load_mesh(file, process=True)
     except Exception as error:  # readers raise errors of many types
-        raise SeriesError(file, f"it cannot be read: {one_line(error)}") from None
+        raise SeriesError(file, f"it cannot be read: {errors.one_line(error)}") from None
     if not np.size(getattr(mesh, "vertices", ())):
         raise SeriesError(file, "it contains no mesh")
     return mesh

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections import Counter
 from itertools import product
+from pathlib import Path
 from types import MethodType
 from typing import TYPE_CHECKING, Any
 
@@ -14,8 +15,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from earthspin.engine import METHODS, registered
+from earthspin.engine import METHODS, drafts, registered
 from earthspin.engine.members import MEMBER
+from earthspin.engine.question import ALL, names_in, scene_of
 from earthspin.errors import SceneError, nearest
 from earthspin.numerics import sampling
 from earthspin.units import real_numbers
@@ -117,16 +119,27 @@ class Answer:
             raise SceneError("section", name, problem)
         return _without_inherited(self._sections[name])
 
-    def to_frame(self) -> pd.DataFrame:
+    def to_frame(self, columns: str | Sequence[str] = ALL) -> pd.DataFrame:
         """Return the result as a pandas table: a row for each label, a column for each number.
 
         The rows are labelled by the dimensions that most variables have. Further dimensions,
         including `component`, `quaternion` and `axis`, become columns. Each error follows its
         value. If some variables have dimensions, variables without dimensions are omitted.
 
+        Parameters
+        ----------
+        columns : str or sequence of str
+            Names of variables, each of which comes with its own errors, or of single columns such
+            as ``"pole_x"``; by default all.
+
         Returns
         -------
         DataFrame
+
+        Raises
+        ------
+        SceneError
+            If the result has no such column.
 
         Examples
         --------
@@ -138,15 +151,67 @@ class Answer:
              moon            37613.9
             total            25712.1
         """
-        spread = _spread(self.dataset)
+        spread, variables = _spread(self.dataset), [*map(str, self.dataset.data_vars)]
+        wanted = names_in(columns, "columns")
+        if wanted == [ALL]:
+            wanted = [str(n) for n, v in spread.data_vars.items() if v.ndim or not spread.sizes]
+        # a column belongs to the variable with the longest name with which its own begins
+        owners = {
+            column: max((v for v in variables if f"{column}_".startswith(f"{v}_")), key=len)
+            for column in map(str, spread)
+        }
         names: list[str] = []
-        for name in (str(n) for n, v in spread.data_vars.items() if v.ndim or not spread.sizes):
-            errors = [str(n) for n in spread.data_vars if str(n).startswith(f"{name}{_ERROR}")]
-            names += [n for n in (name, *errors) if n not in names]
+        for name in wanted:
+            found = [c for c in owners if name in (c, owners[c]) or c.startswith(f"{name}{_ERROR}")]
+            if not found and name not in spread.dims:
+                raise SceneError("columns", name, nearest(name, variables))
+            names += [column for column in found if column not in names]
         if not spread.sizes:  # an answer without dimensions is one row
             return spread.expand_dims("row").to_dataframe().reset_index(drop=True)[names]
         frame = spread.to_dataframe()
         return frame.reset_index()[[*map(str, frame.index.names), *names]]
+
+    def to_csv(self, path: str | Path, columns: str | Sequence[str] | None = None) -> Path:
+        """Write the table of `to_frame` as a CSV file, with units in the names of its columns.
+
+        A column is named like ``obliquity (deg)``, and by its name alone if it has no unit, so that
+        any program reads the file without options; ``name.split(" (")[0]`` is the plain name.
+
+        Parameters
+        ----------
+        path : str or Path
+        columns : str or sequence of str, optional
+            As for `to_frame`; ``"all"`` for all. By default those that the question declares: of
+            `long_term` obliquity, eccentricity, longitude of perihelion and climatic precession
+            with their errors, of most questions all.
+
+        Returns
+        -------
+        Path
+
+        Raises
+        ------
+        SceneError
+            If the result has no such column.
+        OutputError
+            If the file cannot be written.
+
+        Examples
+        --------
+        >>> import earthspin
+        >>> past = earthspin.long_term("-2 kyr", "0 kyr", "1 kyr")
+        >>> print(past.earthspin.to_csv("past.csv", "obliquity").read_text().split()[0])
+        epoch (yr),obliquity (deg),obliquity_error (deg)
+        """
+        if columns is None:
+            declared = self.scene.columns if scene_of(self.dataset) else ()
+            columns = [name for name in declared if name in self.dataset] or ALL
+        frame, spread = self.to_frame(columns), _spread(self.dataset)
+        units = {name: spread[name].attrs.get("units", "1") for name in frame}
+        header = [name if unit == "1" else f"{name} ({unit})" for name, unit in units.items()]
+        with drafts.replacing(path) as draft:
+            frame.to_csv(draft, index=False, header=header)
+        return Path(path)
 
     def to_skycoord(self, name: str = "") -> SkyCoord:
         """Return the unit vectors of the result as astropy coordinates in the ICRS.
@@ -174,23 +239,15 @@ class Answer:
         """
         from astropy.coordinates import SkyCoord
 
-        data = self.dataset
-        if not isinstance(name, str):
-            raise SceneError("to_skycoord", name, "give the name of a vector")
-        if not name and {"X", "Y", "Z"} <= set(data.data_vars):
-            x, y, z = (data[axis] for axis in "XYZ")
-        elif name in data.data_vars and "component" in data[name].dims:
-            x, y, z = (data[name].sel(component=axis, drop=True) for axis in "xyz")
+        arrays = {str(n): a for n, a in self.dataset.items() if a.attrs.get("frame") == "GCRS"}
+        vectors = [n for n, array in arrays.items() if "component" in array.dims]
+        if name == "" and {"X", "Y", "Z"} <= arrays.keys():
+            x, y, z = (arrays[axis] for axis in "XYZ")
+        elif name in vectors:
+            x, y, z = (arrays[name].sel(component=axis, drop=True) for axis in "xyz")
         else:
-            vectors = [
-                str(n)
-                for n, array in data.data_vars.items()
-                if "component" in array.dims and array.attrs.get("frame") == "GCRS"
-            ]
             allowed = f"name a vector: {', '.join(vectors)}" if vectors else _NO_VECTOR
             raise SceneError("to_skycoord", name, allowed)
-        if x.attrs.get("frame") != "GCRS":
-            raise SceneError("to_skycoord", name, _NO_VECTOR)
         coordinates = SkyCoord(
             x=x.values, y=y.values, z=z.values, representation_type="cartesian", frame="icrs"
         )
@@ -309,11 +366,8 @@ def _spread(dataset: xr.Dataset) -> xr.Dataset:
     A variable with further dimensions becomes one variable for each of their labels.
     """
     columns: dict[str, xr.DataArray] = {}
-    common = Counter(
-        frozenset(array.dims).difference(("component", "quaternion", "axis"))
-        for array in dataset.data_vars.values()
-        if array.ndim
-    )
+    dims = [frozenset(array.dims) for array in dataset.data_vars.values() if array.ndim]
+    common = Counter(some.difference(("component", "quaternion", "axis")) for some in dims)
     rows = common.most_common(1)[0][0] if common else frozenset()
     for name, array in dataset.data_vars.items():
         along = [str(dim) for dim in array.dims if dim not in rows]

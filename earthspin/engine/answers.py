@@ -13,8 +13,8 @@ import numpy as np
 from earthspin._lazy import xr
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.members import MEMBER, Members
-from earthspin.engine.question import NEGLECTED, Key, Question, define_parts, keys_of
-from earthspin.engine.run import ALL, Run
+from earthspin.engine.question import ALL, NEGLECTED, Key, Question, define_parts, keys_of
+from earthspin.engine.run import Run
 from earthspin.errors import SceneError, checked
 from earthspin.progress import progress
 

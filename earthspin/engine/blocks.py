@@ -31,18 +31,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 from earthspin._lazy import xr
 from earthspin._version import __version__, version
 from earthspin.engine import drafts
-from earthspin.engine.part import BLOCK, Block
-from earthspin.engine.question import NEGLECTED, Question, scene_text
+from earthspin.engine.question import BLOCK, NEGLECTED, Block, Question, scene_text
 from earthspin.engine.run import Run
 from earthspin.engine.store import FORMAT, MADE_OF, VERSION, encoding_of, spelled, verify, zarr_of
-from earthspin.errors import (
-    EarthspinError,
-    MissingExtraError,
-    OutputError,
-    SceneError,
-    Where,
-    one_line,
-)
+from earthspin.errors import MissingExtraError, OutputError, SceneError, Where, one_line
 from earthspin.progress import progress
 from earthspin.units import Whole
 
@@ -104,11 +96,10 @@ def missing_blocks(folder: Path, layout: Layout) -> list[int]:
     OutputError
         If the metadata, or a variable that is not written in blocks, is damaged.
     """
-    zarr_folder = zarr_of()
     try:
-        return sorted(zarr_folder.missing_blocks(folder / STORE, layout.along))
+        return sorted(zarr_of().missing_blocks(folder / STORE, layout.along))
     except OutputError:
-        raise _damaged(folder, "what its blocks share is") from None
+        raise _damaged(folder, "the part that its blocks share is") from None
 
 
 def finish(folder: Path, layout: Layout, target: Path) -> None:
@@ -117,16 +108,15 @@ def finish(folder: Path, layout: Layout, target: Path) -> None:
     Raises
     ------
     OutputError
-        If a file differs from what was written; the next run makes its block again.
+        If a file does not match its checksum; the next run makes its block again.
     """
-    zarr_folder = zarr_of()
     store = folder / STORE
     for stray in store.rglob("*.partial"):  # a chunk whose writer was killed
         stray.unlink()
     if missing_blocks(folder, layout):
         problem = "a block differs from what was just written"
         raise OutputError(folder, problem, "check the disk and run it again")
-    zarr_folder.close(store)
+    zarr_of().close(store)
     drafts.put_in_place(store, target, folder)
     drafts.remove(folder)
 
@@ -147,7 +137,6 @@ def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) ->
     OutputError
         If the folder does not exist, or the block does not fit into the store.
     """
-    zarr_folder = zarr_of()
     store = folder / STORE
     if not store.is_dir():
         raise OutputError(folder, "it was removed while it was written", "run it again")
@@ -155,7 +144,7 @@ def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) ->
     # With an index, to_zarr would not write the coordinate along the region.
     grown = block.drop_vars(constant).drop_indexes(layout.along, errors="ignore")
     try:
-        zarr_folder.write_region(grown, store, {layout.along: slice(*layout.bounds(number))})
+        zarr_of().write_region(grown, store, {layout.along: slice(*layout.bounds(number))})
     except ValueError as error:
         raise OutputError(folder, f"block {number} does not fit: {one_line(error)}") from None
 
@@ -209,7 +198,7 @@ def refuse_another(folder: Path, request: Mapping[str, str]) -> None:
 
 
 def _damaged(folder: Path, what: str) -> OutputError:
-    return OutputError(folder, f"{what} not what was written", "remove it and run it again")
+    return OutputError(folder, f"{what} damaged", "remove it and run it again")
 
 
 def begin(folder: Path, request: Mapping[str, str], layout: Layout, first: xr.Dataset) -> None:
@@ -314,8 +303,8 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
     client = _checked(client)
     place = drafts.as_path(path)
     if place.suffix != ".zarr":
-        problem = "its name does not end in .zarr"
-        raise OutputError(place, problem, "long results can only be written to Zarr")
+        remedy = "long results can only be written to Zarr"
+        raise OutputError(place, "its name does not end in .zarr", remedy)
     zarr_of()
     target, layout = drafts.prepared(place), work.layout
     size = f"{layout.size} along {layout.along} by {layout.block}"
@@ -411,8 +400,6 @@ def _blocks_from_cluster(
     for future in running:
         try:
             yield future.result()
-        except EarthspinError:
-            raise
         except Exception as error:
             if type(error).__module__.partition(".")[0] != "distributed":
                 raise

@@ -168,7 +168,7 @@ def output_errors(path: str | Path, remedy: str = "") -> Iterator[None]:
 def claimed(box: Path, target: Path) -> Iterator[None]:
     """Create the folder of a draft and lock it; a context manager.
 
-    Where the file system has no locks, writers are not kept apart. Folders that are created for it
+    On a file system without locks, two writers are not detected. Folders that are created for it
     are removed at the end if they are empty.
 
     Parameters
@@ -255,4 +255,4 @@ def check_identity(path: Path, opened: tuple[int, int, int] | None) -> None:
 def mismatch_error(path: Path, what: str) -> OutputError:
     """Make the error for a file that does not match its checksum."""
     remedy = "if they were changed on purpose, read the file with xarray.open_dataset"
-    return OutputError(path, f"{what} are not what was written", remedy)
+    return OutputError(path, f"{what} do not match the stored checksum", remedy)

@@ -38,6 +38,7 @@ BLOCK_BYTES, LONGEST_BLOCK = 8_000_000, 16_384
 SEPARATE_BLOCK = 16
 #: Largest memory, bytes, and run time, days, of an ensemble that is not written to a store.
 LARGEST_IN_MEMORY, LONGEST_IN_MEMORY = 4_000_000_000, 1
+TO_A_STORE = "give a path to write them to a store"
 #: Number of members that are drawn in a second; of more, memory and run time are estimated before.
 MANY = 100_000
 #: Combinations of names whose results are kept at a time.
@@ -99,14 +100,11 @@ class Ensemble:
         self.which = np.array(members.only) if members.only else np.arange(n)
         if in_memory and self.which.size > MANY:
             self._refuse_what_does_not_fit(members)
-        drawn = {
-            name: distribution.checked(self.inputs[name].kind, where.at(name))
-            for name, distribution in distributions.items()
-        }
+        kinds = {name: entry.kind for name, entry in self.inputs.items()}
+        drawn = {n: d.checked(kinds[n], where.at(n)) for n, d in distributions.items()}
         self.values = draw(members, drawn, self.which, where)
         for name, listed in members.values.items():
-            values = listed.checked(self.inputs[name].kind, where.at(name))
-            self.values[name] = values[self.which]
+            self.values[name] = listed.checked(kinds[name], where.at(name))[self.which]
         self.dropped: list[int] = []
         self._drop_impossible_members(members.impossible == "drop", n)
 
@@ -130,23 +128,19 @@ class Ensemble:
         begun = time.perf_counter()
         answer = few.make(0)
         days = (time.perf_counter() - begun) / together * self.which.size / 86_400
-        varying = (array for array in answer.variables.values() if MEMBER in array.dims)
-        self._refuse_size(sum(array.nbytes for array in varying))
+        arrays = answer.variables.values()
+        self._refuse_size(sum(array.nbytes for array in arrays if MEMBER in array.dims))
         if days > LONGEST_IN_MEMORY:
-            problem = (
-                f"they take about {days:.2g} days, and {LONGEST_IN_MEMORY} is allowed in memory; "
-                "give a path to write them to a store, which an interrupted run continues"
-            )
+            problem = f"they take about {days:.2g} days, and {LONGEST_IN_MEMORY} is allowed; "
+            problem += f"{TO_A_STORE}, which an interrupted run continues"
             raise self.question.error("members", self.which.size, problem)
 
     def _refuse_size(self, member: int) -> None:
         """Raise an error if the answers, each of so many bytes, are too large for memory."""
         size = 2 * member * self.which.size  # of all blocks, and of the whole made of them
         if size > LARGEST_IN_MEMORY:
-            problem = (
-                f"they need about {size / 1e9:.3g} GB of memory, and {LARGEST_IN_MEMORY / 1e9:g}"
-            )
-            problem += " are allowed; give a path to write them to a store"
+            needed, allowed = f"{size / 1e9:.3g} GB of memory", f"{LARGEST_IN_MEMORY / 1e9:g}"
+            problem = f"they need about {needed}, and {allowed} are allowed; {TO_A_STORE}"
             raise self.question.error("members", self.which.size, problem)
 
     # --- members that cannot exist ---------------------------------------------------------------
@@ -159,8 +153,7 @@ class Ensemble:
         indices = sorted(impossible)
         numbers = self.which[indices].tolist()
         if not drop or len(numbers) == len(self.which):
-            count = f"{len(numbers)} of {n} members cannot exist"
-            problem = f"{count}: {impossible[indices[0]]}"
+            problem = f"{len(numbers)} of {n} members cannot exist: {impossible[indices[0]]}"
             remedy = "" if drop else "; change the distributions, or set impossible = 'drop'"
             raise self.question.error("members", _list_of_numbers(numbers), problem + remedy)
         possible = np.delete(np.arange(len(self.which)), indices)
@@ -207,8 +200,8 @@ class Ensemble:
         """Indices of members with equal inputs by name (such as files), by the tuple of names."""
         if not self.named:
             return {(): np.arange(len(self.which))}
-        columns = [self.values[name].tolist() for name in self.named]
         indices: dict[Names, list[int]] = {}
+        columns = (self.values[name].tolist() for name in self.named)
         for index, names in enumerate(zip(*columns, strict=True)):
             indices.setdefault(names, []).append(index)
         return {names: np.array(group) for names, group in indices.items()}
@@ -265,20 +258,20 @@ class Ensemble:
         """Number of members that are computed together as arrays; 1 if each is computed alone."""
         graph = self.question.graph
         widest = BLOCK_BYTES * 4 // (self.nominal.nbytes * ROW) * ROW
-        if self.numbers:  # otherwise one answer for each combination of names is computed
-            entries = self.numbers.values()
-            fit = all(entry.key in graph.together and entry.labelled for entry in entries)
-            widest = min(widest, graph.widest) if fit else 1
-        return widest or 1
+        entries = self.numbers.values()
+        if not all(entry.key in graph.together and entry.labelled for entry in entries):
+            return 1
+        # without numbers, one answer for each combination of names is computed
+        return (min(widest, graph.widest) if self.numbers else widest) or 1
 
     @cached_property
     def layout(self) -> Layout:
         """Division of the ensemble into blocks of members."""
         length = self._length
         if length is None:
-            fits = BLOCK_BYTES // self.nominal.nbytes
-            rows = max(1, min(fits, LONGEST_BLOCK) // ROW) * ROW
-            length = rows if self.width > 1 else max(1, min(fits, SEPARATE_BLOCK))
+            fits = max(1, BLOCK_BYTES // self.nominal.nbytes)
+            rows = max(ROW, min(fits, LONGEST_BLOCK) // ROW * ROW)
+            length = rows if self.width > 1 else min(fits, SEPARATE_BLOCK)
         return Layout(MEMBER, len(self.which), min(length, len(self.which)))
 
     @cached_property
@@ -370,7 +363,7 @@ class Ensemble:
             error.args = (f"member {which}: {error}",)
             raise
         for name, label in self.nominal.coords.items():
-            if name not in answer.coords or not label.equals(answer.coords[name]):
+            if name not in answer.coords or not label.variable.equals(answer[name].variable):
                 problem = f"member {which} has other labels along '{name}'"
                 raise self.question.error("members", list(self.inputs), problem)
         return answer

@@ -213,7 +213,7 @@ class Members:
     Attributes
     ----------
     n : int or None
-        How many members are drawn; None if the number follows from grids or values.
+        Number of members that are drawn; None if it follows from grids or values.
     seed : int
     published : bool
         Whether the numbers of the bodies are drawn from their published uncertainties.
@@ -478,7 +478,7 @@ def standard_normal(seed: int, which: IntArray, inputs: int) -> FloatArray:
     which : ndarray of int, shape (n,)
         Numbers of the members.
     inputs : int
-        How many numbers each member draws.
+        Number of random numbers for each member.
 
     Returns
     -------

@@ -1,25 +1,37 @@
-"""Questions: classes that declare the inputs (keys) of each computation, with their types.
+"""Questions, and the parts that compute their answers.
 
-The fields define the keys of a scene file, the names that ``--set`` takes, the signature and
-docstring of the public call, completion in the shell, and the page of keys.
+A question is a class that declares the inputs (keys) of a computation, with their types. The fields
+define the keys of a scene file, the names that ``--set`` takes, the signature and docstring of the
+public call, completion in the shell, and the page of keys.
+
+A part is a typed function that computes one piece of an answer. The inputs of a part follow from
+its signature: each parameter is a key of the question or the result of another part, by name. A
+parameter whose default is None is optional. A part with only optional parameters needs at least one
+of them.
 """
 
 from __future__ import annotations
 
+import inspect
 import textwrap
-from collections.abc import Collection, Iterable, Mapping
+import typing
+from collections import OrderedDict
+from collections.abc import Callable, Collection, Hashable, Iterable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
-from functools import cached_property
-from typing import Any, ClassVar, Literal, Self, get_type_hints
+from functools import cache, cached_property, partial, update_wrapper
+from threading import Lock
+from typing import Any, ClassVar, Generic, Literal, NamedTuple, ParamSpec, Self, TypeVar, overload
 
 from earthspin.card import card
 from earthspin.engine.members import Members
-from earthspin.engine.part import BLOCK, Part
+from earthspin.engine.variables import Variables
 from earthspin.errors import EarthspinError, SceneError, Where, nearest
 from earthspin.units import Kind, kind_of
 
 #: Name of the part that lists the effects that the model of a question does not include.
 NEGLECTED = "neglected"
+#: Word that requests all sections that apply, or all columns.
+ALL = "all"
 #: Attribute of an answer that holds the complete question as the text of a scene file.
 SCENE = "scene"
 
@@ -98,6 +110,24 @@ def _shown(value: Any, kind: Kind[Any]) -> Any:
     return plain_words(value) if hasattr(bodies[0], "reference") else kind.write(value)
 
 
+def names_in(value: str | Iterable[str], key: str) -> list[str]:
+    """List the names that a user gives, which are one name, several, or `ALL`.
+
+    Raises
+    ------
+    SceneError
+        If they are no names; `key` is the argument in its message.
+    """
+    try:
+        names = [value] if isinstance(value, str) else [*value]
+    except Exception:  # not iterable
+        raise SceneError(key, value, f"give names, or '{ALL}'") from None
+    for name in names:
+        if not isinstance(name, str):
+            raise SceneError(key, name, f"give names, or '{ALL}'")
+    return names
+
+
 def plain_words(value: Any) -> str:
     """Convert a value to text on one line, with bodies by name."""
     if isinstance(value, (tuple, list)):
@@ -120,10 +150,12 @@ class Question:
         Page of the documentation that explains the method; empty if there is none.
     headline : str
         Variable of the answer, or error of several variables, that is quoted first.
+    columns : tuple of str
+        Variables of the answer that a CSV file has by default, with their errors; all if empty.
     positional : tuple of str
         Positional arguments of the call.
-    exclusive : tuple of tuple of str
-        Groups of keys that exclude one another, such as `times` and (`span`, `step`).
+    exclusive : tuple of tuple of tuple of str
+        Choices between groups of keys, such as `times` or (`span`, `step`).
     by_body : tuple of str
         Keys whose defaults depend on the numbers of a body; all members of an ensemble have those
         of the nominal body.
@@ -134,8 +166,9 @@ class Question:
     table: ClassVar[str]
     page: ClassVar[str] = ""
     headline: ClassVar[str] = ""
+    columns: ClassVar[tuple[str, ...]] = ()
     positional: ClassVar[tuple[str, ...]]
-    exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    exclusive: ClassVar[tuple[tuple[tuple[str, ...], ...], ...]] = ()
     by_body: ClassVar[tuple[str, ...]] = ()
     graph: ClassVar[Graph]
     key_table: ClassVar[dict[str, Key]]
@@ -200,10 +233,11 @@ class Question:
                 value = entry.default
             object.__setattr__(self, name, value)
         object.__setattr__(self, "title", self.title or self.word)
-        groups = [group for group in self.exclusive if self.given & set(group)]
-        if len(groups) > 1:
-            ways = ", or ".join(" and ".join(group) for group in self.exclusive)
-            raise self.error(groups[0][0], "...", f"give either {ways}")
+        for groups in self.exclusive:
+            used = [group for group in groups if self.given & set(group)]
+            if len(used) > 1:
+                ways = ", or ".join(" and ".join(group) for group in groups)
+                raise self.error(used[0][0], "...", f"give either {ways}")
         if self.uncertainty == "sample" and self.members is not None:
             problem = "an ensemble is a sample already; give either members or uncertainty"
             raise self.error("uncertainty", "sample", problem)
@@ -285,8 +319,10 @@ class Question:
         table: dict[str, Any] = {"compute": self.word}
         own: dict[str, Any] = {}
         keys = keys_of(type(self))
-        used = next((group for group in self.exclusive if self.given & set(group)), None)
-        without_effect = set[str]().union(*self.exclusive).difference(used) if used else set()
+        without_effect = set[str]()
+        for groups in self.exclusive:
+            if used := [group for group in groups if self.given & set(group)]:
+                without_effect |= set[str]().union(*groups).difference(*used)
         omitted = keys.keys() - self.given if given else without_effect
         for name, entry in keys.items():
             value = getattr(self, name)
@@ -344,7 +380,7 @@ dataclass(frozen=True, init=False, eq=False, repr=False)(Question)
 def keys_of(question: type[Question]) -> dict[str, Key]:
     """Return a dict of all inputs (`Key`) of a question class, by input name."""
     if "key_table" not in vars(question):
-        hints = get_type_hints(question, include_extras=True)
+        hints = typing.get_type_hints(question, include_extras=True)
         shared = [entry.name for entry in fields(Question) if entry.name != "title"]  # type: ignore[arg-type]
         entries = sorted(fields(question), key=lambda entry: entry.name in shared)  # type: ignore[arg-type]
         question.key_table = {
@@ -395,6 +431,170 @@ def _shortened(value: Any, arrays: list[str]) -> Any:
     return {name: _shortened(item, arrays) for name, item in value.items()}
 
 
+# --- parts ---------------------------------------------------------------------------------------
+
+P = ParamSpec("P")
+R = TypeVar("R", covariant=True)
+
+#: Returns why a part is left out, from keys of the question; None if the part runs.
+Reason = Callable[..., str | None]
+
+#: Name of the parameter of a part that computes one block of a long series.
+BLOCK = "block"
+#: Number of results of a part that are stored for later calls.
+STORED = 4
+
+
+class Block(NamedTuple):
+    """One block of a long series: the epochs with indices from `first` to `last` - 1."""
+
+    first: int
+    last: int
+
+
+class Part(Generic[P, R]):
+    """A typed function that computes one piece of an answer; it can be called as usual.
+
+    Attributes
+    ----------
+    name : str
+        Name of the function; other parts take the result as a parameter of this name.
+    does : str
+        Description of the part: the first line of the docstring.
+    needs, uses : tuple of str
+        Names of the required and of the optional parameters.
+    gives : mapping of str to Variable
+        The variables that the part adds to an answer or section; empty for an intermediate part.
+    fields : frozenset of str
+        Names of the declared variables and labels.
+    unless : tuple of callable
+        Each takes keys of the question by name and returns a reason for leaving the part out.
+    describe : callable or None
+        Takes keys of the question by name and returns a description of the part.
+    same_for : callable or None
+        Takes the inputs of the part and returns a value; a result is reused if the value is equal.
+    loads : tuple of str
+        Modules that the function, or what it calls, imports when it runs, if this takes long.
+    """
+
+    def __init__(
+        self,
+        function: Callable[P, R],
+        unless: Reason | tuple[Reason, ...] = (),
+        describe: Callable[..., str] | None = None,
+        same_for: Callable[..., Hashable] | None = None,
+        loads: tuple[str, ...] = (),
+    ) -> None:
+        self.function, self.loads = function, loads
+        self.unless = unless if isinstance(unless, tuple) else (unless,)
+        self.describe, self.same_for = describe, same_for
+        self._stored: OrderedDict[Hashable, R] = OrderedDict()
+        self._lock = Lock()
+        returned = _returned(function)
+        self.gives, self.fields = returned.schema, frozenset(returned.fields)
+        self.name = function.__name__
+        line = (function.__doc__ or "").strip().split("\n")[0].rstrip(".")
+        self.does = line[:1].lower() + line[1:] if line[1:2].islower() else line
+        update_wrapper(self, function)
+
+    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
+        """Call the wrapped function."""
+        return self.function(*args, **kwargs)
+
+    def stored_or_computed(self, inputs: Mapping[str, Any]) -> tuple[R, bool]:
+        """Return the result for given inputs, and whether an earlier result was reused."""
+        key = None if self.same_for is None else self.same_for(**inputs)
+        with self._lock:
+            if key is not None and key in self._stored:
+                return self._stored[key], True
+        result = self.function(**inputs)  # type: ignore[call-arg]
+        if key is not None:
+            with self._lock:
+                self._stored[key] = result
+                if len(self._stored) > STORED:
+                    self._stored.popitem(last=False)
+        return result, False
+
+    def __reduce__(self) -> str:
+        # A module holds the part under the name of its function, so pickle stores only the name.
+        return self.name
+
+    def __repr__(self) -> str:
+        return f"<part {self.title}: {self.does}>"
+
+    @property
+    def title(self) -> str:
+        """Name of this part (function) in the table of a plan."""
+        return self.name.replace("_", "-")
+
+    @cached_property
+    def needs(self) -> tuple[str, ...]:
+        """Names of the inputs that this part (function) requires: parameters without default."""
+        return _parameters(self.function, inspect.Parameter.empty)
+
+    @cached_property
+    def uses(self) -> tuple[str, ...]:
+        """Names of the optional inputs of this part (function): parameters with default None."""
+        return _parameters(self.function, None)
+
+    def reason(self, keys: dict[str, Any]) -> str | None:
+        """Return the reason (text) to omit this part for given inputs, else None."""
+        reasons = (condition(**_arguments(condition, keys)) for condition in self.unless)
+        return next((why for why in reasons if why is not None), None)
+
+    def description(self, keys: dict[str, Any]) -> str:
+        """Describe what this part does for the given inputs, for the table of a plan."""
+        describe = self.describe
+        return self.does if describe is None else describe(**_arguments(describe, keys))
+
+
+@overload
+def part(function: Callable[P, R], /) -> Part[P, R]: ...
+@overload
+def part(**options: Any) -> Callable[[Callable[P, R]], Part[P, R]]: ...
+def part(function: Callable[P, R] | None = None, /, **options: Any) -> Any:
+    """Make a `Part` from a typed function; a decorator.
+
+    Parameters
+    ----------
+    function : callable
+        Its parameters are names of keys of the question and of other parts.
+    unless : callable or tuple of callable
+        Functions of keys of the question that return a reason for leaving the part out, or None.
+    describe : callable, optional
+        Function of keys of the question that describes the part in a plan; the first line of the
+        docstring by default.
+    same_for : callable, optional
+        Function of the inputs of the part. The result is stored, and reused in later runs for which
+        the function returns an equal value; None means that the result is not stored.
+    loads : tuple of str
+        Modules that the function, or what it calls, imports when it runs, if this takes long. A run
+        imports them before its first part, so that the run time of the part is that of its work.
+    """
+    return partial(Part, **options) if function is None else Part(function, **options)
+
+
+def _arguments(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any]:
+    """Select, from the inputs of a question, those that a function takes as arguments."""
+    return {name: keys[name] for name in _parameters(function, inspect.Parameter.empty)}
+
+
+def _returned(function: Callable[..., Any]) -> type[Variables]:
+    """Class of variables that a function returns; the base class, which has none, by default."""
+    returned = function.__annotations__.get("return")
+    if isinstance(returned, str):
+        returned = function.__globals__.get(returned)
+    if isinstance(returned, type) and issubclass(returned, Variables):
+        return returned
+    return Variables
+
+
+@cache
+def _parameters(function: Callable[..., Any], default: object) -> tuple[str, ...]:
+    parameters = inspect.signature(function).parameters.values()
+    return tuple(entry.name for entry in parameters if entry.default is default)
+
+
 # --- what a question is made of ------------------------------------------------------------------
 
 
@@ -424,10 +624,11 @@ class Graph:
     widest: int = 1
 
     @cached_property
-    def labels(self) -> frozenset[str]:
+    def labels(self) -> set[str]:
         """Names of all variables of results, and of their dimensions."""
-        declared = [item for part in self.parts.values() for item in part.gives.items()]
-        return frozenset(name for variable, entry in declared for name in (variable, *entry.dims))
+        parts = self.parts.values()
+        dims = {name for part in parts for entry in part.gives.values() for name in entry.dims}
+        return dims.union(*(part.fields | part.gives.keys() for part in parts))
 
 
 Parts = Part[..., Any] | tuple[Part[..., Any], ...]

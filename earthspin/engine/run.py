@@ -1,6 +1,6 @@
 """Run a question: each part is computed when its result is first asked for.
 
-What is not asked for is not computed. The plan that people read is the same walk through the parts,
+Other parts are not computed. The plan that users read comes from the same walk through the parts,
 without the calls.
 """
 
@@ -18,16 +18,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 from earthspin._lazy import xr
 from earthspin._version import __version__, version
 from earthspin.card import card
-from earthspin.engine.part import Part
-from earthspin.engine.question import NEGLECTED, SCENE, Question, scene_text
+from earthspin.engine.question import ALL, NEGLECTED, SCENE, Part, Question, names_in, scene_text
 from earthspin.engine.variables import CONVENTIONS, Neglected, Variables, error_of
 from earthspin.errors import SceneError, UndefinedError, nearest
 
 if TYPE_CHECKING:
     import pandas as pd
 
-#: Word that requests all sections that apply.
-ALL = "all"
 #: Row of the run time for importing modules; the run times of parts exclude it.
 IMPORTS = "imports"
 #: Status of a part whose result of an earlier run was used.
@@ -236,26 +233,19 @@ class Run:
         of_sections = (part for name in names for part in graph.sections[name])
         ends = [*graph.answer, NEGLECTED, *of_sections]
         parts = tuple(graph.parts[name] for name in self.behind(ends) if name in graph.parts)
-        left_out = {
-            part.title: self.why_not(name) or NOT_REQUESTED
-            for name, part in graph.parts.items()
-            if part not in parts
-        }
+        others = {name: part.title for name, part in graph.parts.items() if part not in parts}
+        left_out = {title: self.why_not(n) or NOT_REQUESTED for n, title in others.items()}
         ran = dict(self._seconds), frozenset(self._reused)
         return Plan(self.question, parts, tuple(names), left_out, *ran)
 
     def _named(self, sections: str | Iterable[str]) -> list[str]:
         """Names of the requested sections that apply, without duplicates, in standard order."""
-        known = self.graph.sections
-        try:
-            wanted = [sections] if isinstance(sections, str) else [*sections]
-        except Exception:  # not iterable
-            raise SceneError("sections", sections, f"give names, or '{ALL}'") from None
+        known, wanted = self.graph.sections, names_in(sections, "sections")
         applicable = [name for name in known if not all(map(self.why_not, known[name]))]
-        if isinstance(sections, str) and sections == ALL:
+        if wanted == [ALL]:
             return applicable
         for name in wanted:
-            if not isinstance(name, str) or name not in known:  # type: ignore[redundant-expr]
+            if name not in known:
                 raise SceneError("sections", name, nearest(name, [*known, ALL]))
             if name not in applicable:
                 why = self.why_not(known[name][0])
@@ -310,7 +300,8 @@ class Run:
         ends = [*self.graph.answer, NEGLECTED]
         self._load_modules(ends)
         result, neglected = self.numbers(), self.neglected
-        result.attrs = _described(self.question) | self.provenance(ends)
+        result.attrs = _described(self.question, map(self.__getitem__, self.behind(ends)))
+        result.attrs |= self.provenance(ends)
         result.attrs |= {NEGLECTED: neglected.largest, SCENE: scene_text(self.question)}
         error = error_of(result, self.question.headline)
         if neglected.sizes and error in result:  # errors do not contain what the model leaves out
@@ -413,24 +404,22 @@ def _is_same(old: object, new: object) -> bool:
 # --- attributes ----------------------------------------------------------------------------------
 
 
-def _described(question: Question) -> dict[str, str]:
-    """Attributes of a result that follow from its question: title, references, bodies, versions."""
+def _described(question: Question, parts: Iterable[object]) -> dict[str, str]:
+    """Attributes of a result: title, references of inputs and of parts, bodies, versions."""
     references: list[str] = []
     bodies: dict[str, str] = {}
     for name, value in question.keys().items():
         items = value if isinstance(value, tuple) else (value,)
-        references += filter(None, (getattr(item, "reference", "") for item in items))
+        sources = (source for item in items for source in (item, getattr(item, "orbit", None)))
+        references += filter(None, (getattr(source, "reference", "") for source in sources))
         if items and all(hasattr(item, "changes") for item in items):
             bodies[name] = " ".join(body.name for body in items)
-            changes = [
-                body.changes if body is value else f"{body.name}: {body.changes}"
-                for body in items
-                if body.changes
-            ]
-            if changes:
-                bodies[f"{name}_changes"] = "; ".join(changes)
+            if changed := [body for body in items if body.changes]:
+                words = (b.changes if b is value else f"{b.name}: {b.changes}" for b in changed)
+                bodies[f"{name}_changes"] = "; ".join(words)
         elif items is value and items and all(isinstance(item, str) for item in items):
             bodies[name] = " ".join(items)
+    references += filter(None, (getattr(result, "reference", "") for result in parts))
     return {
         "Conventions": CONVENTIONS,
         "title": question.title,

@@ -9,12 +9,10 @@ dimensions, types, attributes and values. The checksums of a Zarr store are desc
 from __future__ import annotations
 
 import datetime as dt
-import errno
 import hashlib
 import math
 import os
 import re
-import shutil
 import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -94,8 +92,6 @@ def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
     _refuse_attributes(result, place)
     if place.suffix not in (".nc", ".zarr"):
         raise OutputError(place, "its name ends in neither .nc nor .zarr", "choose one of the two")
-    if place.suffix == ".zarr":
-        zarr_of()
     with replacing(place) as draft:
         (_write_zarr if place.suffix == ".zarr" else write_netcdf)(result, draft)
     return place
@@ -144,10 +140,8 @@ def _refuse_attributes(result: xr.Dataset | xr.DataTree, path: Path) -> None:
 def _is_storable(value: object) -> bool:
     if isinstance(value, str):
         return "\0" not in value  # netCDF ends text there
-    if (
-        not isinstance(value, (int, float, np.number, list, tuple))
-        and type(value) is not np.ndarray
-    ):
+    numeric = isinstance(value, (int, float, np.number, list, tuple))
+    if not numeric and type(value) is not np.ndarray:
         return False
     try:
         array = np.asarray(value)
@@ -171,10 +165,6 @@ def _raise_system_error(path: Path, size: int) -> None:
             os.fsync(file.fileno())
     except OSError as error:
         problem = f"{one_line(error)}; it takes about {in_bytes(size)}"
-        if error.errno == errno.ENOSPC:
-            written = path.stat().st_size if path.exists() else 0
-            room = shutil.disk_usage(path.parent).free + written
-            problem += f", and {in_bytes(room)} of the disk are free"
         raise OSError(error.errno, problem) from None
 
 
@@ -250,7 +240,7 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
     Raises
     ------
     OutputError
-        If the file is not a result, is truncated, or differs from what was written. A Zarr store
+        If the file is not a result, is truncated, or does not match its checksum. A Zarr store
         may raise it later, if a chunk is missing or the store was replaced.
     TypeError
         If `path` is not a path.

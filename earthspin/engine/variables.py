@@ -27,7 +27,7 @@ CONVENTIONS = "CF-1.11"
 #: Units that are SI themselves; "1" for pure numbers, "" for text and dates.
 _SI = (
     "", "1", "m", "s", "J", "rad", "N m", "kg m2", "kg m2 / s", "rad/s", "rad2 / s2", "1/s",
-    "m/s2", "J/kg",
+    "m/s2", "J/kg", "W m-2",
 )  # fmt: skip
 
 #: Factor from SI to each unit of results.
@@ -399,12 +399,9 @@ class Neglected:
     def cited(cls, sizes: Mapping[str, Constant], what: str) -> Self:
         """Make a `Neglected` from sizes given as constants, each with its own source."""
         (unit,) = {size.unit for size in sizes.values()}
-        return cls(
-            {name: size.value / from_si(unit) for name, size in sizes.items()},
-            unit,
-            what,
-            "; ".join(f"{name}: {size.source}" for name, size in sizes.items()),
-        )
+        si_values = {name: size.value / from_si(unit) for name, size in sizes.items()}
+        source = "; ".join(f"{name}: {size.source}" for name, size in sizes.items())
+        return cls(si_values, unit, what, source)
 
     def also(self, effect: str) -> Self:
         """Add a neglected effect of unknown size; an empty text adds nothing."""

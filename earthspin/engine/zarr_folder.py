@@ -148,9 +148,8 @@ def attributes(store: Path) -> dict[str, Any]:
     if (store / ".zmetadata").exists():
         return dict(json.loads((store / ".zmetadata").read_bytes())["metadata"].get(".zattrs", {}))
     store.stat()  # raises an error if there is no store
-    return (
-        dict(json.loads((store / ".zattrs").read_bytes())) if (store / ".zattrs").exists() else {}
-    )
+    own = store / ".zattrs"
+    return dict(json.loads(own.read_bytes())) if own.exists() else {}
 
 
 def check_nodes(store: Path) -> None:
@@ -169,7 +168,7 @@ def metadata_of(store: Path) -> dict[str, Any]:
     Raises
     ------
     OutputError
-        If they differ from what was written.
+        If they do not match the stored hash.
     """
     try:
         metadata = json.loads((store / ".zmetadata").read_bytes())["metadata"]

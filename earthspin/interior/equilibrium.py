@@ -14,15 +14,11 @@ from earthspin.interior.love import FOUR_PI_G, START, Profile, liquid, liquid_ce
 from earthspin.numerics.arrays import Array, Numeric
 from earthspin.numerics.polynomials import carry
 
+_CHANDRASEKHAR = "Chandrasekhar 1969, Ellipsoidal Figures of Equilibrium, sect. 32"
+_CHANDRASEKHAR_READ = f"{COMPUTED}: the maximum of the formula of the Maclaurin spheroid"
 #: Largest Omega2/(pi G rho) at which a homogeneous liquid body, a Maclaurin spheroid, has an
 #: equilibrium.
-FASTEST = Constant(
-    0.449331,
-    "",
-    None,
-    "Chandrasekhar 1969, Ellipsoidal Figures of Equilibrium, sect. 32",
-    f"{COMPUTED}: the maximum of the formula of the Maclaurin spheroid",
-)
+FASTEST = Constant(0.449331, "", None, _CHANDRASEKHAR, _CHANDRASEKHAR_READ)
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.polynomial.polynomial import polyval
 
 from earthspin.constants import PREM_READ, G, Tabulated
 from earthspin.numerics.arrays import Numeric
@@ -107,10 +108,8 @@ class LayeredBody:
 
 def _primitive(density: tuple[float, ...], power: int, x: float) -> float:
     """Integral of x^power rho(x) from 0 to x, for a polynomial density rho."""
-    total = 0.0
-    for n in reversed(range(len(density))):
-        total = total * x + density[n] / (n + power + 1)
-    return float(total * x ** (power + 1))
+    integral = [coefficient / (n + power + 1) for n, coefficient in enumerate(density)]
+    return float(polyval(x, integral) * x ** (power + 1))
 
 
 def tidal_inertia(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
@@ -169,15 +168,8 @@ def from_samples(
             return float(column[i] - slope * x[0]), float(slope)
 
         solid = s[i] > 0 or s[i + 1] > 0
-        layers.append(
-            Layer(
-                float(r[i + 1]),
-                line(rho),
-                line(p),
-                line(s) if solid else (),
-                float(q[i + 1]) if solid else np.inf,
-            )
-        )
+        vs, quality = (line(s), float(q[i + 1])) if solid else ((), np.inf)
+        layers.append(Layer(float(r[i + 1]), line(rho), line(p), vs, quality))
     return LayeredBody(name, tuple(layers), reference)
 
 

@@ -9,10 +9,12 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from numpy.polynomial import Chebyshev, Polynomial
+from numpy.polynomial.polynomial import polyval
 
 from earthspin.constants import G
 from earthspin.errors import UndefinedError
-from earthspin.interior.layers import Layer, LayeredBody
+from earthspin.interior.layers import LayeredBody
 from earthspin.numerics.arrays import Array
 from earthspin.numerics.polynomials import carry
 
@@ -47,20 +49,17 @@ class Profile:
         self.density_unit = body.mass / (4 / 3 * np.pi * body.radius**3)
         gravity = G.value * body.mass / body.radius**2
         self.modulus_unit = self.density_unit * gravity * body.radius
-        self._mass = [self._primitive(layer) for layer in body.layers]
+        densities = (np.array(layer.density) / self.density_unit for layer in body.layers)
+        self._mass = [FOUR_PI_G * Polynomial((0.0, 0.0, *rho)).integ() for rho in densities]
         self._below = np.zeros(len(self.tops))
         for i in range(1, len(self.tops)):
             edge = self.tops[i - 1]
             step = self._mass[i - 1](edge) - self._mass[i](edge)
             self._below[i] = self._below[i - 1] + step
 
-    def _primitive(self, layer: Layer) -> np.polynomial.Polynomial:
-        density = tuple(d / self.density_unit for d in layer.density)
-        return FOUR_PI_G * np.polynomial.Polynomial((0.0, 0.0, *density)).integ()
-
     def density(self, i: int, r: Any) -> Any:
         """Density of layer i at radius r, in normalised units."""
-        return _horner(self.layers[i].density, r) / self.density_unit
+        return polyval(r, self.layers[i].density) / self.density_unit
 
     def gravity(self, i: int, r: Any) -> Any:
         """Gravity at radius r in layer i, in normalised units with 4 pi G = 3."""
@@ -71,18 +70,11 @@ class Profile:
 
         There is one row for each value of `strain` and one column for each radius in `r`.
         """
-        layer, rho = self.layers[i], _horner(self.layers[i].density, r)
-        seismic = rho * _horner(layer.vs, r) ** 2 / self.modulus_unit
-        bulk = rho * _horner(layer.vp, r) ** 2 / self.modulus_unit - 4 / 3 * seismic
+        layer, rho = self.layers[i], polyval(r, self.layers[i].density)
+        seismic = rho * polyval(r, layer.vs) ** 2 / self.modulus_unit
+        bulk = rho * polyval(r, layer.vp) ** 2 / self.modulus_unit - 4 / 3 * seismic
         mu = seismic * (1 + strain / layer.shear_q)[:, None]
         return bulk - 2 / 3 * mu, mu
-
-
-def _horner(coefficients: tuple[float, ...], x: Any) -> Any:
-    total = 0.0 * x
-    for c in reversed(coefficients):
-        total = total * x + c
-    return total
 
 
 def solid(profile: Profile, i: int, strain: Array) -> Callable[[Array], Array]:
@@ -239,7 +231,7 @@ def yielding(body: LayeredBody, strain: Any = 0.0) -> Yielding:
         if 0 < radius < SMALLEST_CORE * body.radius:
             raise UndefinedError(
                 f"interior '{body.name}': {what} of {radius / 1000:.4g} km is less than a "
-                "hundredth of the radius, too small to be told from none; leave it out"
+                "hundredth of the radius, too small to have an effect; leave it out"
             )
     strain = np.asarray(strain)
     flat = np.atleast_1d(strain).ravel()
@@ -259,7 +251,7 @@ _STRAIN_NODES = 10
 
 
 @lru_cache(maxsize=8)
-def softening(layers: LayeredBody) -> tuple[np.polynomial.Chebyshev, ...]:
+def softening(layers: LayeredBody) -> tuple[Chebyshev, ...]:
     """Ratios of anelastic to elastic Love numbers as polynomials in the change of rigidity.
 
     The Love numbers are `k`, `core_k`, `k_pressure` and `core_k_pressure`.
@@ -271,16 +263,11 @@ def softening(layers: LayeredBody) -> tuple[np.polynomial.Chebyshev, ...]:
     low, high = _STRAIN_RANGE
     strain = (low + high) / 2 + (high - low) / 2 * grid
     love, reference = yielding(layers, strain), elastic(layers)
-    names = ("k", "core_k", "k_pressure", "core_k_pressure")
-    return tuple(
-        np.polynomial.Chebyshev.fit(
-            strain,
-            getattr(love, name) / float(getattr(reference, name)),
-            _STRAIN_NODES - 1,
-            domain=list(_STRAIN_RANGE),
-        )
-        for name in names
-    )
+    ratios = []
+    for name in ("k", "core_k", "k_pressure", "core_k_pressure"):
+        ratio = getattr(love, name) / float(getattr(reference, name))
+        ratios.append(Chebyshev.fit(strain, ratio, _STRAIN_NODES - 1, domain=list(_STRAIN_RANGE)))
+    return tuple(ratios)
 
 
 # --- from the centre to the surface -------------------------------------------------------------

@@ -6,16 +6,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from earthspin.constants import (
-    COMPUTED,
-    MARS_GM,
-    MARS_J2,
-    MARS_POLAR_MOMENT,
-    MARS_RADIUS,
-    UNVERIFIED,
-    Constant,
-    G,
-)
+from earthspin import constants as c
+from earthspin.constants import Constant, G
 from earthspin.interior.layers import PREM, LayeredBody
 from earthspin.interior.love import elastic
 from earthspin.interior.mars import CORE_RADIUS, MARS
@@ -25,26 +17,22 @@ from earthspin.interior.ocean_and_anelasticity import OCEAN_SOURCE, ocean_matrix
 # An interior is either a layered model, from which all numbers follow by integration, or a set of
 # published numbers. A body without an interior is rigid.
 
+_MHB = "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068"
+_MHB_2 = _MHB + ", table 2"
+_MHB_2000 = "from the period in the code MHB_2000"
 #: (C_f - A_f)/A_f inferred from the observed free core nutation: the core's own ellipticity plus
 #: the coupling at its boundary, which acts like an additional ellipticity. The equations of `modes`
 #: need 2.6672e-3 with the coupling to the inner core, and 2.6684e-3 without.
 CORE_ELLIPTICITY = Constant(
-    2.66792e-3,
-    "",
-    2e-6,
-    "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068, table 2 (Re K_CMB added)",
-    f"{COMPUTED} from the period in the code MHB_2000: 2.6672e-3",
+    2.66792e-3, "", 2e-6, f"{_MHB_2} (Re K_CMB added)", f"{c.COMPUTED} {_MHB_2000}: 2.6672e-3"
 )
 
-#: Exponent of the frequency dependence of the mantle's quality factor.
-ANELASTIC_EXPONENT = Constant(
-    0.09,
-    "",
-    0.04,
-    "Smith & Dahlen 1981, Geophys. J. R. astr. Soc. 64, 223: 0.04 to 0.19, chosen there such "
-    "that period and decay of the observed wobble are met",
-    UNVERIFIED,
+_SMITH_DAHLEN = (
+    "Smith & Dahlen 1981, Geophys. J. R. astr. Soc. 64, 223: 0.04 to 0.19, chosen there such that "
+    "period and decay of the observed wobble are met"
 )
+#: Exponent of the frequency dependence of the mantle's quality factor.
+ANELASTIC_EXPONENT = Constant(0.09, "", 0.04, _SMITH_DAHLEN, c.UNVERIFIED)
 #: Range of the exponent that published work allows (Smith & Dahlen 1981).
 EXPONENT_RANGE = (0.04, 0.19)
 
@@ -123,38 +111,29 @@ def with_layers(layers: LayeredBody, known: Interior | None = None) -> Interior:
     )
 
 
+_K21 = (
+    "IERS Conventions (2010), table 6.3: k21 = 0.29470, elastic, with rotation and ellipticity, "
+    "in the place of the sphere's 0.29826"
+)
+_K21_READ = f"{c.COMPUTED}; k21: codes of table 6.3 in public repositories"
+_WITH_INNER_CORE = (
+    "equations of Mathews, Buffett, Herring & Shapiro 1991, JGR 96, 8219, with an inner core, less "
+    "those with all of the core fluid; compliances of PREM"
+)
 #: Changes of the free wobble's period by effects that the ladder does not include, for PREM.
 _LEFT_OUT_OF_PREM = {
-    "rotation and ellipticity in the Love number": Constant(
-        -2.7,
-        "d",
-        None,
-        "IERS Conventions (2010), table 6.3: k21 = 0.29470, elastic, with rotation and "
-        "ellipticity, in the place of the sphere's 0.29826",
-        f"{COMPUTED}; k21: codes of table 6.3 in public repositories",
-    ),
-    "a solid inner core": Constant(
-        -0.03,
-        "d",
-        None,
-        "equations of Mathews, Buffett, Herring & Shapiro 1991, JGR 96, 8219, with an inner core, "
-        "less those with all of the core fluid; compliances of PREM",
-        COMPUTED,
-    ),
+    "rotation and ellipticity in the Love number": Constant(-2.7, "d", None, _K21, _K21_READ),
+    "a solid inner core": Constant(-0.03, "d", None, _WITH_INNER_CORE, c.COMPUTED),
 }
 
+_STAEHLER = "Staehler et al. 2021, Science 373, 443"
+_STAEHLER_READ = "abstract, doi.org/10.1126/science.abi7730: 5.7 to 6.3 g/cm3"
 #: Mean density of the core of Mars.
-MARS_CORE_DENSITY = Constant(
-    6000.0,
-    "kg m-3",
-    300.0,
-    "Staehler et al. 2021, Science 373, 443",
-    "abstract, doi.org/10.1126/science.abi7730: 5.7 to 6.3 g/cm3",
-)
+MARS_CORE_DENSITY = Constant(6000.0, "kg m-3", 300.0, _STAEHLER, _STAEHLER_READ)
+_MARS_EQUATORIAL = (c.MARS_POLAR_MOMENT.value - c.MARS_J2.value) * c.MARS_GM.value / G.value
+_MARS_EQUATORIAL *= c.MARS_RADIUS.value**2
 #: Moment of a homogeneous core, divided by A = (C/(M R2) - J2) M R2.
-_MARS_CORE = (8 * math.pi / 15 * MARS_CORE_DENSITY.value * CORE_RADIUS.value**5) / (
-    (MARS_POLAR_MOMENT.value - MARS_J2.value) * MARS_GM.value / G.value * MARS_RADIUS.value**2
-)
+_MARS_CORE = 8 * math.pi / 15 * MARS_CORE_DENSITY.value * CORE_RADIUS.value**5 / _MARS_EQUATORIAL
 #: Observed Love number of Mars. The paper has an uncertainty of 0.008; this one contains the two
 #: earlier results.
 MARS_K2 = Constant(
@@ -231,9 +210,8 @@ INTERIORS: dict[str, Interior] = {
 
 # --- published free core nutation and coupling ----------------------------------------------------
 
-_MHB = "Mathews, Herring & Buffett 2002, JGR 107(B4), 2068"
-_MHB_2 = _MHB + ", table 2"
 _LATER = "Koot et al. 2010, Geophys. J. Int. 182, 1279"
+_MHB_OR_LATER = f"{_MHB_2}; uncertainty: difference from {_LATER}"
 _LATER_READ = f"in the abstract of {_LATER} (insu.hal.science/insu-03605291)"
 
 #: The free core nutation, observed through its resonance in the nutations, and used in IAU 2000A.
@@ -248,14 +226,12 @@ CORE_NUTATION = Constant(
     "code MHB_2000 in public repositories; later results: table 1 of Sci. Rep. 10 (2020), "
     "s41598-020-66426-7",
 )
+_KRASNA = "Krasna, Boehm & Schuh 2013, A&A 555, A29: -431.18 +/- 0.10 sidereal days"
+_KRASNA_READ = "abstract of the paper, aanda.org/articles/aa/full_html/2013/07/aa21585-13"
 #: The same from very long baseline interferometry, 1984 to 2011, with the tides of the solid Earth;
 #: 1.00273790935 sidereal days are a mean solar day.
 OBSERVED_CORE_NUTATION = Constant(
-    -431.18 / 1.00273790935,
-    "d",
-    0.10 / 1.00273790935,
-    "Krasna, Boehm & Schuh 2013, A&A 555, A29: -431.18 +/- 0.10 sidereal days",
-    "abstract of the paper, aanda.org/articles/aa/full_html/2013/07/aa21585-13",
+    -431.18 / 1.00273790935, "d", 0.10 / 1.00273790935, _KRASNA, _KRASNA_READ
 )
 #: Coupling constants of the core's boundaries, magnetic according to that paper; all inferred from
 #: nutation. Of that to the mantle this is the out-of-phase part: the part in phase acts as an
@@ -266,11 +242,5 @@ K_CMB_OUT_OF_PHASE = Constant(
 #: In phase and out of phase. The uncertainty of the latter is the difference from the later value.
 K_ICB = (
     Constant(1.11e-3, "", 1.0e-4, _MHB_2, f"1.01e-3 +- 0.02e-3 {_LATER_READ}"),
-    Constant(
-        -7.8e-4,
-        "",
-        3.1e-4,
-        f"{_MHB_2}; uncertainty: difference from {_LATER}",
-        f"-1.09e-3 +- 0.03e-3 {_LATER_READ}",
-    ),
+    Constant(-7.8e-4, "", 3.1e-4, _MHB_OR_LATER, f"-1.09e-3 +- 0.03e-3 {_LATER_READ}"),
 )

@@ -69,14 +69,9 @@ POLE_TIDE = Tabulated(
     "codes of the equation in public repositories, Orekit among them",
 )
 
+_SEA_WATER_READ = "pyTMD 3.0.9, compute.py: ocean pole tide"
 #: Density of sea water, as the IERS Conventions (2010), sect. 6.5, use it.
-SEA_WATER = Constant(
-    1025.0,
-    "kg m-3",
-    None,
-    "IERS Conventions (2010), sect. 6.5",
-    "pyTMD 3.0.9, compute.py: ocean pole tide",
-)
+SEA_WATER = Constant(1025.0, "kg m-3", None, "IERS Conventions (2010), sect. 6.5", _SEA_WATER_READ)
 
 
 def ocean_matrix() -> tuple[tuple[float, float], tuple[float, float]]:

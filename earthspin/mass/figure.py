@@ -1,6 +1,6 @@
 """Figure, moments of inertia and distant gravity of oblate bodies.
 
-Holds the exact and first-order geometry and moments of homogeneous spheroids (I.9.35 to I.9.52),
+Holds the geometry and moments of homogeneous spheroids (I.9.35 to I.9.52),
 the relations between J2, H and e, and MacCullagh's potential and torque.
 """
 
@@ -22,9 +22,9 @@ from earthspin.numerics.arrays import FloatArray, Numeric
 #     e2 = (a2 - c2)/a2 = f (2 - f)
 #
 # The flattening f is an input, positive for an oblate body and negative for a prolate one, so that
-# a2 - c2 is never computed by subtraction. Both exact and first-order formulas are given. The
-# source writes epsilon for f, A for the equatorial radius and a for the mean radius; here `radius`
-# is always the equatorial radius and `mean_radius` the mean.
+# a2 - c2 is never computed by subtraction. The source writes epsilon for f, A for the equatorial
+# radius and a for the mean radius; here `radius` is always the equatorial radius and `mean_radius`
+# the mean.
 
 #: Most prolate figure tested: c = 10^6 a.
 LEAST_FLATTENING = -1e6
@@ -64,12 +64,8 @@ def check_flattening(flattening: ArrayLike) -> FloatArray:
     values = np.asarray(flattening, dtype=float)
     wrong = ~((values >= LEAST_FLATTENING) & (values < 1))
     if np.any(wrong):
-        raise BodyError(
-            "spheroid",
-            "flattening",
-            first_wrong(values, wrong),
-            "allowed: -1e6 (a needle) to below 1 (a disc), 0 for a sphere",
-        )
+        allowed = "allowed: -1e6 (a needle) to below 1 (a disc), 0 for a sphere"
+        raise BodyError("spheroid", "flattening", first_wrong(values, wrong), allowed)
     return values
 
 
@@ -100,18 +96,6 @@ def perimeter(radius: ArrayLike, flattening: ArrayLike, colatitude: ArrayLike) -
     axis_ratio = 1 - check_flattening(flattening)
     cosine, sine = np.cos(colatitude), np.sin(colatitude)
     return np.asarray(a * axis_ratio / np.hypot(axis_ratio * sine, cosine))
-
-
-def perimeter_first_order(
-    radius: ArrayLike, flattening: ArrayLike, colatitude: ArrayLike
-) -> FloatArray:
-    """Radius of a spheroid's surface at a given colatitude, to first order in f (I.9.39), m.
-
-    In terms of the mean radius, `mean_radius_first_order`, the distance is <r> [1 - (2/3) f P2(cos
-    theta)] to first order in f (I.9.43).
-    """
-    a = positive("spheroid", "radius", radius)
-    return np.asarray(a * (1 - check_flattening(flattening) * np.cos(colatitude) ** 2))
 
 
 def perimeter_about_mean(
@@ -148,22 +132,6 @@ def mean_radius(radius: ArrayLike, flattening: ArrayLike) -> FloatArray:
     return np.asarray(a * axis_ratio * elliprc(1.0, axis_ratio**2))
 
 
-def mean_radius_first_order(radius: ArrayLike, flattening: ArrayLike) -> FloatArray:
-    """Mean radius a (1 - f/3) of a spheroid, to first order in the flattening f (I.9.42), m."""
-    a = positive("spheroid", "radius", radius)
-    return np.asarray(a * (1 - check_flattening(flattening) / 3))
-
-
-def spheroid_mass(density: ArrayLike, radius: ArrayLike, flattening: ArrayLike) -> FloatArray:
-    """Mass of a homogeneous spheroid, (4 pi/3) rho a3 (1 - f), kg.
-
-    (I.9.48) omits the factor 1 - f.
-    """
-    rho = positive("spheroid", "density", density)
-    a = positive("spheroid", "radius", radius)
-    return np.asarray(4 * np.pi / 3 * rho * a**3 * (1 - check_flattening(flattening)))
-
-
 def spheroid_moments(mass: ArrayLike, radius: ArrayLike, flattening: ArrayLike) -> Moments:
     """Exact moments of inertia A, C and C - A of a homogeneous spheroid.
 
@@ -183,36 +151,6 @@ def spheroid_moments(mass: ArrayLike, radius: ArrayLike, flattening: ArrayLike) 
     axis_ratio = 1 - np.asarray(flattening, dtype=float)
     polar = 2 * fifth * np.ones_like(e2)
     return Moments(np.asarray(fifth * (1 + axis_ratio**2)), polar, np.asarray(fifth * e2))
-
-
-def moment_difference_first_order(
-    mass: ArrayLike, radius: ArrayLike, flattening: ArrayLike
-) -> FloatArray:
-    """C - A of a homogeneous spheroid to first order in f: (2/5) f M a2 (I.9.49), kg m2.
-
-    To this order the equatorial and the mean radius give the same result.
-    """
-    m, a = positive("spheroid", "mass", mass), positive("spheroid", "radius", radius)
-    return np.asarray(0.4 * check_flattening(flattening) * m * a**2)
-
-
-def moment_difference_from_density(
-    density: ArrayLike, mean_radius: ArrayLike, flattening: ArrayLike
-) -> FloatArray:
-    """C - A of a homogeneous spheroid to first order in f: (8 pi/15) f rho a5 (I.9.47), kg m2.
-
-    Parameters
-    ----------
-    density : array_like
-        kg m-3.
-    mean_radius : array_like
-        Mean radius, m; any other radius of the body differs in second order.
-    flattening : array_like
-        f.
-    """
-    rho = positive("spheroid", "density", density)
-    a = positive("spheroid", "mean radius", mean_radius)
-    return np.asarray(8 * np.pi / 15 * check_flattening(flattening) * rho * a**5)
 
 
 # --- J2, H and e ----------------------------------------------------------------------------------

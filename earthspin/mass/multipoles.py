@@ -7,12 +7,11 @@ zonal moments of bodies of revolution.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.integrate import quad_vec
 
 from earthspin.constants import G
 from earthspin.errors import AccuracyError, BodyError, UndefinedError
@@ -29,9 +28,6 @@ from earthspin.numerics.arrays import ComplexArray, FloatArray
 #
 # They are computed as P_nm/sqrt(K_nm), which does not overflow and is more accurate near z = 1 than
 # `lpmv` (for m = 1 at z = 0.999999, errors of 2e-14 and 1e-12).
-
-#: Maximum number of intervals in the quadrature of a projection.
-_INTERVALS = 500
 
 
 def factorial_ratio(n: int, m: int) -> float:
@@ -87,117 +83,13 @@ def orthonormal_functions(n_max: int, z: ArrayLike, m: int = 0) -> FloatArray:
     return functions
 
 
-def legendre_coefficients(
-    function: Callable[[float], float],
-    n_max: int,
-    m: int = 0,
-    breaks: Sequence[float] = (),
-    accuracy: float = 1e-12,
-) -> FloatArray:
-    """Coefficients of the expansion of a function in Legendre functions of order m (I.9.3, I.9.4).
-
-    Parameters
-    ----------
-    function : callable
-        g(z), real, z in [-1, 1].
-    n_max : int
-        Last degree.
-    m : int
-        Order, from 0 to n_max.
-    breaks : sequence of float
-        Points at which g or its slope is discontinuous.
-    accuracy : float
-        Largest half-width of the integrals, as a fraction of the largest coefficient (for functions
-        of unit norm).
-
-    Returns
-    -------
-    ndarray, shape (n_max + 1 - m,)
-        g_nm for n = m to n_max.
-
-    Raises
-    ------
-    AccuracyError
-        If the quadrature does not reach the accuracy.
-    """
-    roots = _roots_of_norms(n_max, m)
-    result, error = quad_vec(
-        lambda z: function(z) * orthonormal_functions(n_max, z, m),
-        -1.0,
-        1.0,
-        epsabs=0.0,
-        epsrel=accuracy,
-        norm="max",
-        points=breaks,
-        limit=_INTERVALS,
-    )
-    scale = float(np.max(np.abs(result)))
-    # The odd coefficients of an even function are nonzero at this level by rounding; this is no
-    # failure.
-    if not error <= max(10 * accuracy, 1e-14) * max(scale, np.finfo(float).tiny):
-        raise AccuracyError(
-            accuracy * scale,
-            error,
-            "(of a coefficient)",
-            "list the discontinuities of the function in breaks",
-        )
-    return np.asarray(result / roots)
-
-
-def legendre_sum(coefficients: ArrayLike, z: ArrayLike, m: int = 0) -> FloatArray:
-    """Sum over n of coefficients g_nm times Legendre functions P_nm(z) (I.9.3, I.9.4).
-
-    The degree n runs from m on.
-
-    Parameters
-    ----------
-    coefficients : array_like, shape (k,)
-        g_nm from n = m on.
-    z : array_like, shape (...)
-        In [-1, 1].
-    """
-    weights = np.atleast_1d(np.asarray(coefficients, dtype=float))
-    n_max = m + weights.size - 1
-    weights = weights * _roots_of_norms(n_max, m)
-    return np.asarray(np.tensordot(weights, orthonormal_functions(n_max, z, m), axes=1))
-
-
-def completeness_kernel(n_max: int, z: ArrayLike, other: ArrayLike, m: int = 0) -> FloatArray:
-    """Sum over n of P_nm(z) P_nm(z')/K_nm, which tends to delta(z - z') (I.9.3, I.9.4).
-
-    Parameters
-    ----------
-    n_max : int
-        Last degree.
-    z, other : array_like
-        Points in [-1, 1]; they broadcast.
-    m : int
-        Order.
-
-    Returns
-    -------
-    ndarray
-        Integrated with a polynomial of degree up to n_max, times (1 - z2)^(m/2), the kernel
-        reproduces that function.
-    """
-    x, x_other = np.broadcast_arrays(_argument(z), _argument(other))
-    products = orthonormal_functions(n_max, x, m) * orthonormal_functions(n_max, x_other, m)
-    return np.asarray(np.sum(products, axis=0))
-
-
-def _roots_of_norms(n_max: int, m: int) -> FloatArray:
-    """Square roots of K_nm, the integrals of P_nm squared, for n = m to n_max."""
-    _check_order(n_max, m)
-    return np.sqrt([legendre_norm(n, m) for n in range(m, n_max + 1)])
-
-
 def _argument(z: ArrayLike) -> FloatArray:
     """Return the argument z of Legendre functions as an array; refuse values outside [-1, 1]."""
     values = np.asarray(z, dtype=float)
     wrong = ~(np.abs(values) <= 1)
     if np.any(wrong):
         raise UndefinedError(
-            f"z = {float(values[wrong].flat[0])!r} is outside -1 to 1; give the cosine of an angle"
+            f"z = {first_wrong(values, wrong)!r} is outside -1 to 1; give the cosine of an angle"
         )
     return values
 
@@ -294,20 +186,16 @@ def inverse_distance_bound(position: ArrayLike, source: ArrayLike, n_max: int) -
 
 @dataclass(frozen=True)
 class Multipoles:
-    """Multipole moments of a body, from which its potential is computed.
+    """Multipole moments of a body, from which its potential outside the body is computed.
 
     Attributes
     ----------
-    side : str
-        ``"exterior"``: outside all mass; ``"interior"``: nearer to the origin than any mass.
     moments : ndarray of complex, shape (n_max + 1, n_max + 1)
-        By n and m >= 0, in kg: integral of dm (r'/radius)^n C*_nm outside, and of
-        dm (radius/r')^(n + 1) C*_nm inside.
+        Integral of dm (r'/radius)^n C*_nm by n and m >= 0, kg.
     radius : float
         Radius of convergence and unit of length of the moments, m.
     """
 
-    side: str
     moments: ComplexArray
     radius: float
 
@@ -325,9 +213,7 @@ class Multipoles:
         return np.real(self.moments[:, 0])
 
     def moment(self, n: int, m: int) -> complex:
-        """Multipole moment T_nm of degree n and order m (I.9.20), with Racah's harmonics.
-
-        The unit is kg m^n for exterior and kg m^(-n-1) for interior moments.
+        """Multipole moment T_nm of degree n and order m (I.9.20), with Racah's harmonics, kg m^n.
 
         Divide by sqrt(f(n, -m)) for the source's unnormalised harmonics, and multiply by
         sqrt((2n + 1)/(4 pi)) for Jackson's q_nm.
@@ -339,7 +225,7 @@ class Multipoles:
         value = complex(self.moments[n, abs(m)])
         if m < 0:
             value = (-1) ** m * value.conjugate()
-        return value * self.radius ** (n if self.side == "exterior" else -n - 1)
+        return value * self.radius**n
 
     def potential(self, position: ArrayLike) -> FloatArray:
         """Gravitational potential of the body by the multipole series (I.9.15, I.9.21), m2 s-2.
@@ -352,32 +238,23 @@ class Multipoles:
         Raises
         ------
         UndefinedError
-            If a position is on the side of the radius where the series diverges.
+            If a position is not outside the radius of convergence.
         """
-        scaled, ratio = self._converging(position)
-        if self.side == "exterior":
-            # Inversion turns r^n C_nm into r^(-n-1) C_nm, apart from the factor 1/r.
-            scaled = scaled * ratio[..., np.newaxis] ** 2
-        total = np.zeros(ratio.shape)
-        for n, m, harmonic in solid_harmonics(scaled, self.n_max):
-            total += _neumann(m) * np.real(harmonic * self.moments[n, m])
-        if self.side == "exterior":
-            total = total * ratio
-        return np.asarray(-G.value / self.radius * total)
-
-    def _converging(self, position: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Return position over reference radius, and convergence ratio; refuse divergence."""
         scaled = vectors("position", position) / self.radius
         r = np.sqrt(np.sum(scaled**2, axis=-1))
-        wrong = r <= 1 if self.side == "exterior" else r >= 1
-        if np.any(wrong):
-            relation = "beyond" if self.side == "exterior" else "below"
+        if np.any(r <= 1):
             raise UndefinedError(
-                f"the {self.side} series does not converge at r = "
-                f"{float(r[wrong].flat[0]) * self.radius:.6g} m; it holds {relation} "
+                f"the exterior series does not converge at r = "
+                f"{first_wrong(r, r <= 1) * self.radius:.6g} m; it holds beyond "
                 f"{self.radius:.6g} m; elsewhere sum over the masses directly"
             )
-        return scaled, 1 / r if self.side == "exterior" else r
+        ratio = 1 / r
+        # Inversion turns r^n C_nm into r^(-n-1) C_nm, apart from the factor 1/r.
+        inverted = scaled * ratio[..., np.newaxis] ** 2
+        total = np.zeros(ratio.shape)
+        for n, m, harmonic in solid_harmonics(inverted, self.n_max):
+            total += _neumann(m) * np.real(harmonic * self.moments[n, m])
+        return np.asarray(-G.value / self.radius * (total * ratio))
 
 
 def exterior_multipoles(
@@ -398,55 +275,19 @@ def exterior_multipoles(
         of the farthest mass. For point masses that represent cells, give that of the farthest
         corner.
     """
-    m, r, distance = _sources(masses, positions)
-    farthest = float(np.max(distance))
+    m, r = point_masses(masses, positions)
+    if r.ndim != 2:
+        raise UndefinedError(f"positions have the shape {r.shape}; give one body, (k, 3)")
+    farthest = float(np.max(np.sqrt(np.sum(r * r, axis=-1))))
     outer = farthest if radius is None else float(radius)
     if not outer >= farthest or outer == 0:
         raise UndefinedError(
             f"radius = {outer:g} m does not contain the mass at {farthest:g} m; give that or more"
         )
-    return Multipoles("exterior", _moments(m, r / outer, n_max), outer)
-
-
-def interior_multipoles(
-    masses: ArrayLike, positions: ArrayLike, n_max: int, radius: float | None = None
-) -> Multipoles:
-    """Compute multipole moments for the potential in a cavity of a body (below I.9.21).
-
-    Parameters
-    ----------
-    masses, positions, n_max
-        As for `exterior_multipoles`; no mass may be at the origin.
-    radius : float, optional
-        Radius of an empty sphere about the origin, m. Default: the distance of the nearest mass.
-    """
-    m, r, distance = _sources(masses, positions)
-    nearest = float(np.min(distance))
-    inner = nearest if radius is None else float(radius)
-    if not 0 < inner <= nearest:
-        raise UndefinedError(
-            f"radius = {inner:g} m is not an empty sphere: the nearest mass is at {nearest:g} m; "
-            f"give that or less, above zero"
-        )
-    ratio = inner / distance
-    inverted = r / inner * ratio[:, np.newaxis] ** 2
-    return Multipoles("interior", _moments(m * ratio, inverted, n_max), inner)
-
-
-def _moments(masses: FloatArray, scaled: FloatArray, n_max: int) -> ComplexArray:
-    """Multipole moments by degree and order: sums of mass times conjugate solid harmonic."""
     moments = np.zeros((degree("n_max", n_max) + 1, n_max + 1), dtype=complex)
-    for n, m, harmonic in solid_harmonics(scaled, n_max):
-        moments[n, m] = np.dot(masses, np.conj(harmonic))
-    return moments
-
-
-def _sources(masses: ArrayLike, positions: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Check one body of point masses; return masses, positions and distances from the origin."""
-    m, r = point_masses(masses, positions)
-    if r.ndim != 2:
-        raise UndefinedError(f"positions have the shape {r.shape}; give one body, (k, 3)")
-    return m, r, np.sqrt(np.sum(r * r, axis=-1))
+    for n, order, harmonic in solid_harmonics(r / outer, n_max):
+        moments[n, order] = np.dot(m, np.conj(harmonic))
+    return Multipoles(moments, outer)
 
 
 def _near_and_far(

@@ -111,33 +111,6 @@ def ellipse_positions(
     return np.stack([x, y, np.zeros(count)], axis=-1)
 
 
-def dumbbell_torque(
-    gm: ArrayLike, distance: ArrayLike, mass: ArrayLike, radius: ArrayLike, angle: ArrayLike
-) -> FloatArray:
-    """Torque of a distant mass on two masses m at +r and -r, to leading order (I.8.2), N m.
-
-    The torque is -6 GM m r2/b3 sin(angle) cos(angle). The torques on two dumbbells that are mirror
-    images in the line to the distant mass cancel if their radii are equal (I.8.3); otherwise their
-    sum is 6 GM m (r2^2 - r1^2)/b3 sin(angle) cos(angle) (I.8.5).
-
-    Parameters
-    ----------
-    gm : float
-        Gravitational parameter of the distant mass, m3 s-2.
-    distance : float
-        Distance b of the distant mass, m.
-    mass : float
-        Mass of each of the two, kg.
-    radius : float
-        Distance of each from the centre, m.
-    angle : float
-        From the line to the distant mass to the dumbbell, rad.
-    """
-    b, ratio = _far(distance, radius)
-    size = 6 * _pull(gm, mass) / b * ratio**2
-    return np.asarray(-size * np.sin(angle) * np.cos(angle))
-
-
 def ring_torque(
     gm: ArrayLike,
     distance: ArrayLike,
@@ -146,26 +119,36 @@ def ring_torque(
     count: int,
     angle: ArrayLike,
 ) -> FloatArray:
-    """Torque of a distant mass on N masses on a circle, to leading order, N m.
+    """Torque of a distant mass on N masses on a circle, to leading order (I.8.2, I.8.3), N m.
 
-    It is zero to the order of (I.8.3) if N > 2. The leading torque comes from the potential of
-    degree N, P_N(cos x) = 2 (2N)!/(2^N N!)^2 cos N x + ..., and is
+    The leading torque comes from the potential of degree N, P_N(cos x) = 2 (2N)!/(2^N N!)^2 cos N x
+    + ..., and is
 
         -2 N^2 (2N)!/(2^N N!)^2 GM m r^N/b^(N+1) sin(N angle)
 
-    which for N = 2 is the torque on a dumbbell.
+    For N = 2, a dumbbell, it is -6 GM m r2/b3 sin(angle) cos(angle). The torques on two dumbbells
+    that are mirror images in the line to the distant mass cancel if their radii are equal (I.8.3),
+    so that the torque on more than two masses is zero to this order; otherwise their sum is
+    6 GM m (r2^2 - r1^2)/b3 sin(angle) cos(angle) (I.8.5).
 
     Parameters
     ----------
-    gm, distance, mass, radius
-        As for `dumbbell_torque`.
+    gm : float
+        Gravitational parameter of the distant mass, m3 s-2.
+    distance : float
+        Distance b of the distant mass, m.
+    mass : float
+        Mass of each of the N, kg.
+    radius : float
+        Distance of each from the centre, m.
     count : int
         N, at least 2.
     angle : float
         From the line to the distant mass to any of the masses, rad.
     """
     _check_count(count, 2)
-    b, ratio = _far(distance, radius)
+    b = positive("point mass", "distance", distance)
+    ratio = positive("point masses", "radius", radius) / b
     coefficient = 2 * math.comb(2 * count, count) / 4**count
     size = coefficient * count**2 * _pull(gm, mass) / b * ratio**count
     return np.asarray(-size * np.sin(count * np.asarray(angle)))
@@ -188,7 +171,7 @@ def ellipse_torque(
     Parameters
     ----------
     gm, distance, mass
-        As for `dumbbell_torque`.
+        As for `ring_torque`.
     long_axis, short_axis : float
         Semi-axes p and q, m.
     count : int
@@ -210,12 +193,6 @@ def _pull(gm: ArrayLike, mass: ArrayLike) -> FloatArray:
     return np.asarray(mu * positive("point masses", "mass", mass))
 
 
-def _far(distance: ArrayLike, radius: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Check the distance b of the distant mass and the ring's radius a; return b and a/b."""
-    b = positive("point mass", "distance", distance)
-    return b, np.asarray(positive("point masses", "radius", radius) / b)
-
-
 def _inverse_cube_excess(s: FloatArray, d: FloatArray, apart: FloatArray) -> FloatArray:
     """Difference 1/|d - s|^3 - 1/|d|^3 of two vectors d and s, without cancellation for small s.
 
@@ -225,11 +202,8 @@ def _inverse_cube_excess(s: FloatArray, d: FloatArray, apart: FloatArray) -> Flo
     inverse = np.divide(1.0, square, out=np.zeros_like(square), where=square > 0)
     q = np.sum(s * (s - 2 * d), axis=-1) * inverse
     small = np.abs(q) < 0.5
-    excess = np.where(
-        small,
-        np.expm1(-1.5 * np.log1p(np.where(small, q, 0.0))),
-        (np.sqrt(square) / apart) ** 3 - 1,
-    )
+    excess = np.expm1(-1.5 * np.log1p(np.where(small, q, 0.0)))
+    excess = np.where(small, excess, (np.sqrt(square) / apart) ** 3 - 1)
     return np.asarray(excess * inverse**1.5)
 
 

@@ -15,15 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import roots_jacobi
 
 from earthspin.errors import BodyError, UndefinedError
-from earthspin.mass.tensor import (
-    PrincipalAxes,
-    grid_masses,
-    point_masses,
-    positive,
-    principal_axes,
-    tensor_of_second_moments,
-    vectors,
-)
+from earthspin.mass import tensor
 from earthspin.numerics.arrays import FloatArray
 
 # --- meshes ---------------------------------------------------------------------------------------
@@ -59,7 +51,7 @@ def closed_mesh(vertices: ArrayLike, faces: ArrayLike) -> tuple[FloatArray, NDAr
     UndefinedError
         If the vertices are not finite vectors.
     """
-    places, corners = vectors("vertices", vertices), np.asarray(faces)
+    places, corners = tensor.vectors("vertices", vertices), np.asarray(faces)
     if corners.ndim != 2 or corners.shape[-1] != 3 or corners.dtype.kind not in "iu":
         raise BodyError(
             _BODY, "faces", f"shape {corners.shape}", "give three whole numbers for each triangle"
@@ -182,7 +174,7 @@ class Shape:
 
     mass: float
     centre: FloatArray
-    principal: PrincipalAxes
+    principal: tensor.PrincipalAxes
     radius: float
     j2: float
     j3: float
@@ -220,7 +212,7 @@ class Shape:
         BodyError, UndefinedError
             If a mass is not positive, the shapes do not match, or all masses are at one point.
         """
-        m, r = point_masses(masses, positions)
+        m, r = tensor.point_masses(masses, positions)
         if r.ndim != 2:
             raise BodyError("point masses", "positions", f"shape {r.shape}", "give (k, 3)")
         return cls._of(lambda degree: [(m, r)], r, radius)
@@ -247,7 +239,7 @@ class Shape:
         radius : float, optional
             As for `of_masses`. Default: the distance of the farthest corner of a cell with mass.
         """
-        m, r = grid_masses(density, x, y, z, points=POINTS)
+        m, r = tensor.grid_masses(density, x, y, z, points=POINTS)
         edges = (np.asarray(edge, dtype=float) for edge in (x, y, z))
         full = np.argwhere(np.asarray(density) > 0)
         ends = np.stack(
@@ -295,10 +287,10 @@ class Shape:
                 yield scale * volumes, points + middle
 
         if mass is None:
-            scale = float(positive("mesh", "density", density or 0.0))
+            scale = float(tensor.positive("mesh", "density", density or 0.0))
         else:
             volume = sum(float(np.sum(volumes)) for volumes, _ in pieces(0))
-            scale = float(positive("mesh", "mass", mass)) / volume
+            scale = float(tensor.positive("mesh", "mass", mass)) / volume
         return cls._of(lambda degree: pieces(degree, scale), places, radius)
 
     @classmethod
@@ -322,9 +314,9 @@ class Shape:
         second = np.zeros((3, 3))
         for m, r in pieces(2):
             second += np.einsum("k,ki,kj->ij", m, r - centre, r - centre)
-        principal = principal_axes(tensor_of_second_moments(second))
+        principal = tensor.principal_axes(tensor.tensor_of_second_moments(second))
         farthest = float(np.max(np.linalg.norm(outline - centre, axis=1)))
-        a = farthest if radius is None else float(positive("shape", "radius", radius))
+        a = farthest if radius is None else float(tensor.positive("shape", "radius", radius))
         j3 = j4 = 0.0
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             for m, r in pieces(4):

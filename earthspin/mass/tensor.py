@@ -321,26 +321,15 @@ def check_inertia_tensor(tensor: ArrayLike) -> FloatArray:
     if values.shape[-2:] != (3, 3) or not np.all(np.isfinite(values)):
         raise BodyError(_BODY, "inertia tensor", values.tolist(), "give 3 x 3 finite numbers")
     scale = np.max(np.abs(values), axis=(-1, -2))
-    _refuse(
-        np.max(np.abs(values - np.swapaxes(values, -1, -2)), axis=(-1, -2)) > ROUNDING * scale,
-        "inertia tensor",
-        values,
-        "it must be symmetric",
-    )
+    skew = np.max(np.abs(values - np.swapaxes(values, -1, -2)), axis=(-1, -2))
+    _refuse(skew > ROUNDING * scale, "inertia tensor", values, "it must be symmetric")
     moments = np.linalg.eigvalsh(values)
     least, middle, greatest = np.moveaxis(moments, -1, 0)
-    _refuse(
-        (least < -ROUNDING * scale) | (middle <= ROUNDING * scale),
-        "principal moments",
-        moments,
-        "they must be above zero (one may be zero, for masses on a line)",
-    )
-    _refuse(
-        greatest - middle > least + ROUNDING * scale,
-        "principal moments",
-        moments,
-        "none may exceed the sum of the other two",
-    )
+    wrong = (least < -ROUNDING * scale) | (middle <= ROUNDING * scale)
+    allowed = "they must be above zero (one may be zero, for masses on a line)"
+    _refuse(wrong, "principal moments", moments, allowed)
+    wrong = greatest - middle > least + ROUNDING * scale
+    _refuse(wrong, "principal moments", moments, "none may exceed the sum of the other two")
     return values
 
 

@@ -115,12 +115,8 @@ def _neighbour_pair(state: FloatArray, rotation: FloatArray, momentum: FloatArra
     """
     size = np.sqrt(np.sum(state[:3] ** 2))
     quaternion = rotations.rotation_about(rotation, np.ones(1))
-    other = np.concatenate(
-        [
-            state[:3] + momentum * (size if size else 1.0),
-            rotations.times(quaternion, state[3:]),
-        ]
-    )
+    moved = state[:3] + momentum * (size if size else 1.0)
+    other = np.concatenate([moved, rotations.times(quaternion, state[3:])])
     return np.concatenate([state, other], axis=1)
 
 

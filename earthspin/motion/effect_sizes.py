@@ -104,11 +104,7 @@ def _semidiurnal(
 
 
 def attitude_displacements(
-    body: Rigid,
-    start: State,
-    duration: float,
-    forces: Forces,
-    further: Mapping[str, Forces],
+    body: Rigid, start: State, duration: float, forces: Forces, further: Mapping[str, Forces]
 ) -> dict[str, float]:
     """Largest changes of the attitude of a rigid body that further effects would cause.
 

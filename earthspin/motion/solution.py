@@ -413,10 +413,5 @@ def differences(body: Rigid, state: FloatArray, other: FloatArray) -> FloatArray
     """
     spin = body.first().spin(state) - body.first().spin(other)
     momentum = state[:3] - other[:3]
-    return np.stack(
-        [
-            rotations.angle_between(state[3:], other[3:]),
-            np.sqrt(np.sum(spin * spin, axis=0)),
-            np.sqrt(np.sum(momentum * momentum, axis=0)),
-        ]
-    )
+    angle = rotations.angle_between(state[3:], other[3:])
+    return np.stack([angle, np.linalg.norm(spin, axis=0), np.linalg.norm(momentum, axis=0)])

@@ -281,10 +281,8 @@ def _through(
 
 def lagrange(nodes: Array, at: Array) -> Array:
     """Values of the Lagrange polynomials of given nodes at given points, shape (nodes, points)."""
-    others = [np.delete(nodes, i) for i in range(nodes.size)]
-    return np.array(
-        [
-            np.prod((at[:, None] - rest) / (node - rest), axis=-1)
-            for node, rest in zip(nodes, others, strict=True)
-        ]
-    )
+    rows = []
+    for i, node in enumerate(nodes):
+        others = np.delete(nodes, i)
+        rows.append(np.prod((at[:, None] - others) / (node - others), axis=-1))
+    return np.array(rows)

@@ -185,8 +185,5 @@ def _shares(
     standard_error = np.sqrt(np.mean(influence**2, axis=0) / n)
     freedom = max(n - 1 - int(np.linalg.matrix_rank(covariance)), 1)
     of_square = members @ (np.diag(inverse) * np.sum(residual**2) / freedom / n) / scale
-    return (
-        explained * parts / scale,
-        NORMAL_95 * standard_error + NORMAL_95**2 * explained * of_square,
-        rest,
-    )
+    half_width = NORMAL_95 * standard_error + NORMAL_95**2 * explained * of_square
+    return explained * parts / scale, half_width, rest

@@ -7,21 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from earthspin.constants import (
-    ARCSEC,
-    ARCSEC_PER_YEAR,
-    DAY,
-    EPSILON_0,
-    FIRST_ORDER_RATE,
-    J2_AND_TILT_RATE,
-    JULIAN_YEAR,
-    NORMAL_95,
-    OMEGA_A_RATE,
-    PREM_MEAN_MOMENT,
-    PREM_RADIUS,
-    PUBLISHED_EFFECTS,
-    TIDES_IN_OBLIQUITY,
-)
+from earthspin import constants as c
+from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, NORMAL_95
 from earthspin.mass.figure import polar_moment_factor
 from earthspin.numerics.arrays import Numeric
 
@@ -39,7 +26,7 @@ def published_effects() -> dict[str, float]:
     dict of str to float
         By effect, for effects other than the torque of Sun and Moon on the mean equator.
     """
-    by_size = sorted(PUBLISHED_EFFECTS.items(), key=lambda item: -abs(item[1].value))
+    by_size = sorted(c.PUBLISHED_EFFECTS.items(), key=lambda item: -abs(item[1].value))
     return {effect: constant.value * ARCSEC_PER_YEAR for effect, constant in by_size}
 
 
@@ -78,12 +65,9 @@ def contributions(total: float, without: Mapping[str, float]) -> dict[str, float
 
 def published_contributions(effects: Sequence[str]) -> dict[str, float]:
     """Published contribution of each effect to the rate of psi_A, rad/s; 0 if none is published."""
-    published = published_effects() | {
-        FIRST_ORDER: (
-            FIRST_ORDER_RATE.value * math.cos(EPSILON_0.value * ARCSEC) + J2_AND_TILT_RATE.value
-        )
-        * ARCSEC_PER_YEAR
-    }
+    first_order = c.FIRST_ORDER_RATE.value * math.cos(c.EPSILON_0.value * ARCSEC)
+    first_order += c.J2_AND_TILT_RATE.value
+    published = published_effects() | {FIRST_ORDER: first_order * ARCSEC_PER_YEAR}
     return {effect: published.get(effect, 0.0) for effect in effects}
 
 
@@ -156,8 +140,8 @@ def budget_of(
         Relative standard uncertainty of H.
     """
     none = dict.fromkeys(off, 0.0)
-    omega_iau = OMEGA_A_RATE.value * ARCSEC_PER_YEAR
-    tides = TIDES_IN_OBLIQUITY.value * ARCSEC_PER_YEAR
+    omega_iau = c.OMEGA_A_RATE.value * ARCSEC_PER_YEAR
+    tides = c.TIDES_IN_OBLIQUITY.value * ARCSEC_PER_YEAR
     psi = contributions(ours.psi_rate, {e: path.psi_rate for e, path in without.items()}) | none
     omega = (
         contributions(ours.omega_rate, {e: path.omega_rate for e, path in without.items()}) | none
@@ -201,7 +185,7 @@ def prem_polar_moment(radius: Numeric, j2: Numeric) -> Numeric:
 
     Its mean moment I = (A + B + C)/3 and C - (A + B)/2 = J2 M a2 give C = I + (2/3) J2 M a2.
     """
-    return PREM_MEAN_MOMENT.value * (PREM_RADIUS.value / radius) ** 2 + 2 / 3 * j2
+    return c.PREM_MEAN_MOMENT.value * (c.PREM_RADIUS.value / radius) ** 2 + 2 / 3 * j2
 
 
 class Flattening(NamedTuple):
@@ -263,7 +247,7 @@ def compared_flattenings(
 
     prem = prem_polar_moment(radius, j2)
     # PREM states no errors: half a unit of its last printed digit is used
-    u_prem = PREM_MEAN_MOMENT.relative_uncertainty
+    u_prem = c.PREM_MEAN_MOMENT.relative_uncertainty
     return {
         "published": from_h(h, u_h * h),
         "from the IAU's rate": from_h(*inferred_h(budget, h)),

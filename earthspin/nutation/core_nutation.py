@@ -11,6 +11,7 @@ from earthspin.constants import DAYS_PER_YEAR, NORMAL_95
 from earthspin.errors import UndefinedError
 from earthspin.interior.named import OBSERVED_CORE_NUTATION
 from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.wobble.record import in_blocks
 
 # --- amplitude and phase of the free core nutation ------------------------------------------------
 # The offsets are one complex number, eta = dX + i dY. The free core nutation is a retrograde circle
@@ -118,19 +119,15 @@ def fit(
     from scipy.special import fdtri, stdtrit
 
     spacing = (time[-1] - time[0]) / (time.size - 1)
-    block = max(1, round(BLOCK / spacing))
-    count = time.size // block
-    means = eta[: count * block].reshape(count, block).mean(axis=1)
-    middles = time[: count * block].reshape(count, block).mean(axis=1)
-    length = block * spacing
-    size = round(window / length)
+    middles, means, length = in_blocks(time, eta, BLOCK)
+    count, size = means.size, round(window / length)
     if window < SHORTEST * abs(period) or size > count:
         raise UndefinedError(
             f"a window of {window:.0f} d is not possible; it lies between "
             f"{SHORTEST * abs(period):.0f} d, {SHORTEST:g} periods of the free core nutation, and "
             f"the series' {count * length:.0f} d"
         )
-    local = (np.arange(size) - (size - 1) / 2) * length
+    local = (np.arange(size, dtype=float) - (size - 1) / 2) * length
     # A mean over a block shortens a circle.
     shortened = np.sinc(length / period) / np.sinc(spacing / period)
     columns = np.column_stack([np.ones(size), local / window, circle(local, period) * shortened])
@@ -246,10 +243,7 @@ def predict(
     values = np.array([fits.ahead(h, mjd.size - 1)[0] for h in horizon])
     whole = np.ceil(horizon).astype(int)
     widths = {h: half_width(fits, eta, h) for h in np.unique(whole)}
-    return (
-        np.stack([values.real, values.imag], axis=1),
-        np.array([widths[h] for h in whole]),
-    )
+    return np.stack([values.real, values.imag], axis=1), np.array([widths[h] for h in whole])
 
 
 def fit_each_day(time: FloatArray, eta: ComplexArray, weight: FloatArray) -> Fits:

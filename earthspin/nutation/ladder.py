@@ -44,18 +44,16 @@ BESIDE = {
     "hydrostatic": "the inner-core rung with the H of hydrostatic equilibrium",
 }
 
+_GAMMA = (
+    "1 per cent of gamma in the term of 18.6 years; k21 of IERS Conventions (2010), table 6.5, at "
+    "O1 is 0.2975, that of this sphere 0.301"
+)
+_RESIDUAL = "out-of-phase residual of the 13.66-day term"
 #: Effects not included in the last rung, by their size in one term, mas.
 LEFT_OUT = {
-    "rotation and ellipticity in the compliances": Constant(
-        0.43, "mas", None,
-        "1 per cent of gamma in the term of 18.6 years; k21 of IERS Conventions (2010), table 6.5, "
-        "at O1 is 0.2975, that of this sphere 0.301",
-        COMPUTED,
-    ),
-    "currents of the ocean": Constant(
-        0.1, "mas", None, "out-of-phase residual of the 13.66-day term", COMPUTED
-    ),
-}  # fmt: skip
+    "rotation and ellipticity in the compliances": Constant(0.43, "mas", None, _GAMMA, COMPUTED),
+    "currents of the ocean": Constant(0.1, "mas", None, _RESIDUAL, COMPUTED),
+}
 
 
 @dataclass(frozen=True)

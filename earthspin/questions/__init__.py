@@ -13,6 +13,7 @@ MODULES = {
     "compare_iau": "earthspin.questions.iau",
     "nutation_ladder": "earthspin.questions.nutation",
     "long_term": "earthspin.questions.long_term",
+    "insolation": "earthspin.questions.insolation",
     "rotation": "earthspin.questions.rotation",
     "wobble_ladder": "earthspin.questions.wobble",
     "polar_motion": "earthspin.questions.polar_motion",

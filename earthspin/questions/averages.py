@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -13,7 +13,7 @@ from earthspin._version import version
 from earthspin.bodies import Body, Numeric
 from earthspin.bodies.checks import OF_AVERAGE, largest, refuse_fast_axis
 from earthspin.constants import DAY
-from earthspin.engine.part import part
+from earthspin.engine.question import part
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import Estimate, FloatArray
 from earthspin.questions.elements import ellipse_chains, exact_means, locked_error, no_exact_means
@@ -103,12 +103,8 @@ def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Bod
     _refuse_locked(sky, body, window.centre, axis_at_epoch)
     coordinates = sky.radec(body, days)
     strength = _varying_masses(body, perturbers)
-    torques = [
-        torque_from_declination(
-            p.gm_on(body) if strength is None else 1.0, 1.0, *coordinates[p.name]
-        )
-        for p in perturbers
-    ]
+    masses = {p.name: p.gm_on(body) if strength is None else 1.0 for p in perturbers}
+    torques = [torque_from_declination(gm, 1.0, *coordinates[n]) for n, gm in masses.items()]
     # In axes of the equator of date, the figure axis is z and the orbit normal moves.
     axis = np.array([0.0, 0.0, 1.0])
     normals = rotate(sky.equator(body, days), np.broadcast_to(normal, (days.size, 3)))
@@ -231,12 +227,11 @@ class MeanTorques:
     cases: Mapping[str, int] = field(default_factory=dict)
 
 
-@part(
-    unless=exact_means,
-    same_for=lambda torque_samples, perturbers: (
-        torque_samples if torque_samples.are_stored else None
-    ),
-)
+def _stored_samples(torque_samples: Samples, perturbers: tuple[Body, ...]) -> Hashable:
+    return torque_samples if torque_samples.are_stored else None
+
+
+@part(unless=exact_means, same_for=_stored_samples)
 def window_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> MeanTorques:
     """Mean torques, computed as weighted means of samples in a time window, with errors.
 
@@ -247,17 +242,15 @@ def window_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> MeanT
     swing = np.where([p.name in samples.unmeasured for p in perturbers], np.nan, samples.swing)
     strength = samples.strength
     many = None if strength is None else strength.values.reshape(len(perturbers), -1)
-    precessing, precessing_error = window_mean_and_error(
-        window, times, samples.precessing, swing, many
-    )
-    vector, vector_error = window_mean_and_error(window, times, samples.torque, swing, many)
+    precessing = window_mean_and_error(window, times, samples.precessing, swing, many)
+    vector = window_mean_and_error(window, times, samples.torque, swing, many)
     spacing = np.median(np.diff(times)) / DAY
     return MeanTorques(
         labels=_labels(perturbers),
-        precessing=precessing,
-        precessing_error=precessing_error,
-        torque=vector,
-        torque_error=vector_error,
+        precessing=precessing[0],
+        precessing_error=precessing[1],
+        torque=vector[0],
+        torque_error=vector[1],
         epoch=window.centre,
         obliquity=samples.obliquity,
         nearness=samples.nearness,

@@ -8,20 +8,17 @@ from typing import Annotated
 
 import numpy as np
 
-from earthspin.bodies import BODIES, MOON, SUN, Body, in_a_sentence
-from earthspin.bodies.checks import refuse_break_up, refuse_fast_axis
-from earthspin.bodies.orbit import Orbit
+from earthspin.bodies import BODIES, MOON, SUN, Body, Orbit, checks, in_a_sentence
 from earthspin.bodies.planets import LEFT_OUT_OF_STATES, PRECESSING_ORBITS
 from earthspin.constants import NORMAL_95
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, key
+from earthspin.engine.question import Question, key, part
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import SceneError, nearest
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.elements import refuse_overlap, size_and_motion
-from earthspin.torque.cassini import Precessing, is_locked, strengths
-from earthspin.torque.cassini import cassini_states as states_of
+from earthspin.torque import cassini
+from earthspin.torque.cassini import Precessing
 
 
 class CassiniStates(
@@ -29,20 +26,20 @@ class CassiniStates(
 ):
     """Cassini states of a body: spin axis, orbit normal and mean orbit normal in one plane.
 
-    The orbit's node turns evenly on its plane. The spin may be locked to the orbit, like that of
-    the Moon (one turn in each) and of Mercury (three in two), or free.
+    The node of the orbit moves at a constant rate. The spin may be free, or locked to the orbit, as
+    that of the Moon (one rotation per orbit) and of Mercury (three in two orbits).
 
     Returns
     -------
     Dataset
         Over `state` (1 to 4, or 2 and 3, after Peale 1969): `obliquity` to the body's own orbit,
-        `tilt`, the angle to the pole that the orbit's normal goes round (deg), each with its error,
-        and whether the state is `stable`.
+        `tilt`, the angle to the mean orbit normal (deg), each with its error, and whether the state
+        is `stable`.
 
     Raises
     ------
     EarthspinError
-        If the body has no figure, or the orbit's node does not turn.
+        If the figure of the body is not known, or the node of the orbit does not move.
 
     Examples
     --------
@@ -65,14 +62,10 @@ class CassiniStates(
         self.body.require(("j2", "dynamical_flattening", "spin_period"))
         if self.body.labelled:
             raise self.error("body", self.body.name, "give single numbers here, no labelled arrays")
-        refuse_break_up(self.body)
+        checks.refuse_break_up(self.body)
         if orbit_of(self.body, self.orbit) is None:
-            raise self.error(
-                "orbit",
-                None,
-                "give the elements of its orbit, like {period = '27.32 d', i = '5.1 deg', "
-                "node_period = '-6793 d'}",
-            )
+            example = "{period = '27.32 d', i = '5.1 deg', node_period = '-6793 d'}"
+            raise self.error("orbit", None, f"give the elements of its orbit, like {example}")
 
 
 @dataclass(frozen=True)
@@ -120,12 +113,13 @@ def locking(body: Body, own_orbit: Orbit) -> Locking:
     like = f", like about = '{known.about}'" if known is not None and known.about else ""
     advice = "" if own_orbit.about else f"; name what it orbits{like}"
     refuse_overlap(placed, BODIES[about], a, advice)
-    return Locking(motion, body.spin_rate / motion, is_locked(body.spin_rate, motion))
+    locked = cassini.is_locked(body.spin_rate, motion)
+    return Locking(motion, body.spin_rate / motion, locked)
 
 
 def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
     """Compute the torque strengths and the orbital precession rate that set the Cassini states."""
-    axial, locked = strengths(
+    axial, locked = cassini.strengths(
         locking.motion,
         body.spin_rate,
         body.number("j2"),
@@ -137,17 +131,17 @@ def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
     return Precessing(axial, locked if locking.locked else 0.0, orbit.i, node)
 
 
-class States(Variables, along=("state",), no_error="it is so or not"):
+class States(Variables, along=("state",), no_error="true or false"):
     """Obliquity, tilt to the mean orbit normal, and stability of each Cassini state of a body."""
 
     obliquity = measured(
         "deg",
-        "angle from the normal of the orbit to the axis",
+        "angle from the orbit normal to the spin axis",
         comment="half-widths from the uncertainty of the body's numbers",
     )
-    tilt = measured("deg", "angle from the pole of the orbit's plane to the axis")
-    towards_pole = number("1", "whether the axis leans from the normal towards that pole")
-    stable = number("1", "whether an axis beside it stays")
+    tilt = measured("deg", "angle from the mean orbit normal to the spin axis")
+    towards_pole = number("1", "whether the axis is tilted towards the mean orbit normal")
+    stable = number("1", "whether a slightly displaced axis stays near it")
     state = labels("number of the state after Peale (1969)", "1")
 
 
@@ -158,15 +152,14 @@ def states(body: Body, own_orbit: Orbit, locking: Locking) -> States:
     # a locked body turns with its orbit: there the torque of each orbit is the same at any rate
     own = 0.0 if locking.locked else 1.5 * abs(axis.axial)
     rate = max(own, abs(axis.node_rate))
-    refuse_fast_axis(rate / locking.motion, rate / abs(body.spin_rate))
-    solution = states_of(axis)
-    obliquity = np.abs(solution.obliquity)
+    checks.refuse_fast_axis(rate / locking.motion, rate / abs(body.spin_rate))
+    solution = cassini.cassini_states(axis)
     error = _error(body, own_orbit, locking, solution.obliquity)
     tilt = np.abs(solution.obliquity - own_orbit.i)
     reference = {"references": own_orbit.reference} if own_orbit.reference else {}
     locked = "locked" if locking.locked else "free"
     return States(
-        obliquity=(obliquity, error),
+        obliquity=(np.abs(solution.obliquity), error),
         tilt=(np.minimum(tilt, 2 * np.pi - tilt), error),
         towards_pole=solution.obliquity > 0,
         stable=solution.stable,
@@ -186,7 +179,7 @@ def _error(body: Body, orbit: Orbit, locking: Locking, obliquity: FloatArray) ->
         # `Body.replace` moves H with J2 unless H is given, too
         changed = {"dynamical_flattening": body.number("dynamical_flattening")}
         changed[name] = body.number(name) * (1 + NORMAL_95 * share)
-        neighbour = states_of(precessing(body.replace(**changed), orbit, locking))
+        neighbour = cassini.cassini_states(precessing(body.replace(**changed), orbit, locking))
         if neighbour.number.size == obliquity.size:
             squares += (neighbour.obliquity - obliquity) ** 2
     return np.radians(np.degrees(np.sqrt(squares)))  # the rounding that earlier results have
@@ -199,8 +192,8 @@ def neglected(body: Body, own_orbit: Orbit) -> Neglected:
     if sizes and body.is_as_named and own_orbit == PRECESSING_ORBITS.get(body.known_as):
         return Neglected.cited(sizes, "change of the obliquity in the upright state")
     return Neglected(
-        what="libration, pulls beside that of the primary, a core that does not follow, and terms "
-        f"that turn with the pericentre: not measured for {in_a_sentence(body.name)}"
+        what="libration, torques of other bodies, a decoupled core, and terms in the longitude of "
+        f"the pericentre: not measured for {in_a_sentence(body.name)}"
     )
 
 

@@ -6,10 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from earthspin.bodies import Body, in_a_sentence, label_of
-from earthspin.bodies.checks import extent, overlap
-from earthspin.bodies.moons import ORBITS as OF_MOONS
-from earthspin.bodies.orbit import Orbit
+from earthspin.bodies import Body, Orbit, checks, in_a_sentence, label_of, moons
 from earthspin.errors import SceneError, UndefinedError, nearest
 from earthspin.sky.elements import Ellipse, Plane
 from earthspin.torque.cassini import locked_turns
@@ -108,11 +105,8 @@ def _refuse_circles(centres: Mapping[str, str]) -> None:
         while current in centres:
             current = centres[current]
             if current in visited:
-                raise SceneError(
-                    f"{name}.orbit.about",
-                    centres[name],
-                    f"these bodies orbit one another: {', '.join(visited)}; remove one orbit",
-                )
+                problem = f"these bodies orbit one another: {', '.join(visited)}; remove one orbit"
+                raise SceneError(f"{name}.orbit.about", centres[name], problem)
             visited.append(current)
 
 
@@ -146,9 +140,8 @@ def refuse_overlap(member: Body, centre: Body, a: float, advice: str = "") -> No
     SceneError
         If they do.
     """
-    reach, names = extent(member) + extent(centre), (f"'{member.name}'", f"'{centre.name}'")
-    e = member.needed("orbit").e
-    if inside := overlap(a * (1 - e), reach, *names):
+    reach, e = checks.extent(member) + checks.extent(centre), member.needed("orbit").e
+    if inside := checks.overlap(a * (1 - e), reach, f"'{member.name}'", f"'{centre.name}'"):
         shown = f"a = {a:.6g} m, e = {e:g}"
         raise SceneError(f"{member.name}.orbit", shown, f"{inside}{advice}")
 
@@ -168,8 +161,8 @@ def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
     many = hasattr(gm, "dims")
     if many or not gm > 0:
         if a is None or period is None:
-            array = "the masses are an array: give both a and period"
-            problem = array if many else "both masses are zero; give both a and period"
+            masses = "the masses are an array" if many else "both masses are zero"
+            problem = f"{masses}; give both a and period"
             raise SceneError(f"{member.name}.orbit", str(orbit), problem)
     elif a is None:
         assert period is not None
@@ -178,12 +171,10 @@ def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
         by_law = 2 * math.pi * math.sqrt(a / float(gm)) * a
         period = by_law if period is None else period
         if abs(period / by_law - 1) > THIRD_LAW:
-            raise SceneError(
-                f"{member.name}.orbit",
-                f"a = {a:.6g} m, period = {period:.6g} s",
-                f"they contradict each other: with GM = {float(gm):.6g} m3 s-2 the period for this "
-                f"a is {by_law:.6g} s; give either a or period",
-            )
+            given = f"a = {a:.6g} m, period = {period:.6g} s"
+            law = f"with GM = {float(gm):.6g} m3 s-2 the period for this a is {by_law:.6g} s"
+            problem = f"they contradict each other: {law}; give either a or period"
+            raise SceneError(f"{member.name}.orbit", given, problem)
     return a, 2 * math.pi / period
 
 
@@ -214,16 +205,15 @@ def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     UndefinedError
         If the body is a moon locked to its orbit that has neither an orbit nor a position.
     """
-    moon = OF_MOONS.get(body.known_as)
+    moon = moons.ORBITS.get(body.known_as)
     if moon is not None and body.orbit is body.position is None and not body.labelled:
         turns = locked_turns(float(body.spin_rate), 2 * math.pi / body.number("orbital_period"))
         if turns is not None:
             raise locked_error(body, moon.about, turns)
     by_name = ellipse_chains(body, perturbers)
     single = all(chain.start is body and len(chain.ellipses) == 1 for chain in by_name.values())
-    if len(by_name) < len(perturbers) or not single:
-        return None
-    return "orbits by their elements have exact means"
+    exact = single and len(by_name) >= len(perturbers)
+    return "orbits by their elements have exact means" if exact else None
 
 
 def no_exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:

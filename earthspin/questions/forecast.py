@@ -15,8 +15,7 @@ from earthspin.bodies.orbit import Epoch
 from earthspin.constants import DAY, MAS, NORMAL_95
 from earthspin.dates import SPACING, date_text, datetime64
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, key
+from earthspin.engine.question import Question, key, part
 from earthspin.engine.run import Run
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number, words
 from earthspin.errors import SceneError, SeriesError, Where

@@ -10,8 +10,7 @@ import numpy as np
 
 from earthspin._lazy import xr
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, setting
+from earthspin.engine.question import Question, part, setting
 from earthspin.engine.variables import Neglected, labels, number
 from earthspin.errors import Where
 from earthspin.numerics.arrays import FloatArray
@@ -97,8 +96,7 @@ class FreeRotor(
     Raises
     ------
     EarthspinError
-        For moments that no body has, a start without angular momentum, or numbers that are
-        not finite.
+        If the moments are impossible, the angular momentum is zero, or a number is not finite.
 
     Examples
     --------
@@ -110,7 +108,7 @@ class FreeRotor(
 
     page, headline = "rotors", "attitude"
 
-    exclusive = (("times",), ("duration", "points"))
+    exclusive = ((("times",), ("duration", "points")),)
 
     moments: Moments = setting(
         doc="principal moments about the x, y, z axes of the body, in any order of size"
@@ -195,7 +193,7 @@ class Poinsot(
     herpolhode = number(
         "rad/s", "path of the angular velocity in the invariable plane", along=("time", "in_plane")
     )
-    herpolhode_radius = number("rad/s", "radii between which the herpolhode runs", along=("bound",))
+    herpolhode_radius = number("rad/s", "radii of the bounds of the herpolhode", along=("bound",))
     growth_rate = number("1/s", "growth rate of a small tilt away from each axis; 0 if stable")
     #: Only where the polhode has a period: not on the separatrix, nor where omega stands still.
     herpolhode_advance = number(

@@ -12,7 +12,7 @@ from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95
 from earthspin.dates import Epochs, datetime64
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
+from earthspin.engine.question import part
 from earthspin.engine.variables import (
     Neglected,
     Variables,
@@ -29,6 +29,7 @@ from earthspin.nutation import analysis
 from earthspin.nutation import budget as flat
 from earthspin.nutation.budget import Budget, budget_of
 from earthspin.progress import progress
+from earthspin.questions.axis_motion import PULLS, Pulls
 from earthspin.questions.observed_pole import ObservedSizes, ObservedSky, observed_sky
 from earthspin.questions.path import (
     INTERIOR,
@@ -49,7 +50,6 @@ from earthspin.questions.path import (
     same_paths,
     steady_figure,
 )
-from earthspin.questions.pulls import PULLS, Pulls
 from earthspin.questions.reasons import neglected_rates
 from earthspin.questions.times import Dated
 from earthspin.sky import iau
@@ -70,9 +70,10 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     Dataset
         Over `effect`: `psi_rate`, `psi_rate_published`, `omega_rate` (arcsec/yr, at J2000.0), and
         `closure` (arcsec/yr), after the published non-linear term. `earthspin.run_tree(answer)`
-        adds sections: `residuals` (computed pole minus that of the IAU over `time`), the
-        largest nutations, the free core nutation, the angles of precession, and H and C as
-        implied by the rate of the IAU.
+        adds sections: `residuals` (over `time`: `dX`, `dY`, the computed pole minus that of the
+        IAU, mas), the largest nutations, the free core nutation, the angles of precession, and H
+        and C as implied by the rate of the IAU. ``earthspin.compare_iau().earthspin.plot()[0]``
+        draws `dX` and `dY`.
 
     Examples
     --------
@@ -81,10 +82,10 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     >>> print((budget.closure * 1e5).round(1).values, "mas per century")
     -3.5 mas per century
     >>> residuals = earthspin.run_tree(budget, sections=["residuals"])["residuals"]
-    >>> print(residuals.deps.attrs["long_name"])
-    computed pole minus the IAU's in obliquity, straight line removed
-    >>> print(residuals.deps_unfitted.attrs["long_name"])
-    computed pole minus the IAU's in obliquity, nothing removed
+    >>> print(residuals.dX.attrs["long_name"])
+    computed X of the celestial pole minus that of IAU 2006/2000A
+    >>> print(residuals.dX.attrs["units"], residuals.dX.size, residuals.dX_error.size)
+    mas 2923 2923
     """
 
     page, headline = "pole", "closure"
@@ -92,10 +93,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     def check(self) -> None:
         """Refuse bodies whose position errors are unknown, as the comparison needs them."""
         super().check()
-        problem = (
-            "how far off its positions are was never measured, and the comparison with the IAU "
-            "gives errors; use pole() for them"
-        )
+        problem = "the error of its positions is not known, and errors are needed; use pole()"
         for member in (self.body, *self.perturbers):
             placed = member.position is None or is_measured(member.position)
             if not placed or member.orbit is not None:
@@ -127,7 +125,7 @@ def rates_by_effect(
     return budget_of(done.ours, done.theirs, without, off, iau.precession_rates(0.0).psi_a, u_h)
 
 
-_PUBLISHED = "the table that it stands in gives none"
+_PUBLISHED = "the published table gives no errors"
 _ADOPTED = "a model that was adopted, exact by definition"
 
 
@@ -136,7 +134,7 @@ class EffectRates(Variables, no_error="a measure of error itself"):
 
     psi_rate = measured(
         "arcsec/yr",
-        "contribution to the rate of psi_A at J2000.0, by switching off",
+        "contribution to the rate of psi_A at J2000.0: the rate minus that without the effect",
         along=("effect",),
     )
     psi_rate_published = number(
@@ -160,14 +158,14 @@ class EffectRates(Variables, no_error="a measure of error itself"):
     )
     omega_closure_with_tides = number(
         "arcsec/yr",
-        "the same with the published effect of tides in obliquity",
+        "omega_closure with the published effect of tides in obliquity",
         error="omega_rate_total_error",
     )
     closure_over_flattening = number(
-        "1", "closure over what one standard deviation of H makes of the rate"
+        "1", "closure divided by the change of the rate for one standard deviation of H"
     )
     closure_over_uncertainty = number(
-        "1", "closure over one standard deviation of H and the error of the analysis together"
+        "1", "closure divided by the combined uncertainty from H and from the analysis"
     )
     psi_rate_analysis_error = number(
         "arcsec/yr", "error of the analysis, found from the rate of the IAU's own pole"
@@ -221,9 +219,11 @@ class Differences:
     days : ndarray, shape (t,)
     models : tuple of str
     plain, fitted : ndarray, shape (t, model, 2)
-        As they are, and after a constant and a rate.
+        Without a fit, and after a constant and a rate are removed.
     chosen : int
-        The model that the effects which are switched on stand for.
+        Index of the model with the effects that are switched on.
+    offsets : ndarray, shape (t, 2)
+        X and Y of that model minus those of the IAU, without a fit.
     error : float
         95 % half-width of either angle after the fit: the integration, and H in the nutation.
     unfitted_error : ndarray, shape (t,)
@@ -235,6 +235,7 @@ class Differences:
     plain: FloatArray
     fitted: FloatArray
     chosen: int
+    offsets: FloatArray
     error: float
     unfitted_error: FloatArray
 
@@ -250,7 +251,7 @@ def differences(
 ) -> Differences:
     """Compute time series of computed pole minus IAU pole, for different sets of effects."""
     done = pole_analysis
-    days, ends, iau_eta = iau_nutation(pulls, epochs)
+    days, ends, iau_pole, iau_eta = iau_nutation(pulls, epochs)
     body = pulls.body
 
     def axes_of(on: list[str], start: FloatArray) -> dict[str, FloatArray]:
@@ -259,18 +260,20 @@ def differences(
     def eta_of(pole: FloatArray) -> ComplexArray:
         return analysis.complex_nutation(iau.nutation_of(pole, days))
 
-    # Each model as `pole` returns it, start included.
+    # Each model as `pole` returns it, start included, but without the semidiurnal motion, which
+    # the celestial pole excludes by definition.
     models = {
-        "first-order": eta_of(axes_of([], pulls.start)["angular_momentum"]),
-        "rigid": eta_of(axes_of(rigid(effects), pulls.start)["figure"]),
+        "first-order": axes_of([], pulls.start)["angular_momentum"],
+        "rigid": axes_of(rigid(effects), pulls.start)["figure"],
     }
     from_mean_pole = axes_of(rigid(effects), done.start)
     for name, shift in (("nonrigid", nonrigid_shift), ("predicted", predicted_shift)):
         if shift is not None:
             shifted = dict(from_mean_pole)
             shift.apply(shifted, days)
-            models[name] = eta_of(shifted["figure"])
-    left = np.stack([model - iau_eta for model in models.values()], axis=1)
+            models[name] = shifted["figure"]
+    chosen = 2 if NONRIGID.name in effects else 1
+    left = np.stack([eta_of(pole) - iau_eta for pole in models.values()], axis=1)
     plain = np.stack([left.real, left.imag], axis=-1)
     centuries = days / DAYS_PER_CENTURY
     error = residual_error(done, body, iau_eta, days)
@@ -281,7 +284,8 @@ def differences(
         models=tuple(models),
         plain=plain,
         fitted=analysis.without_line(centuries, plain.reshape(days.size, -1)).reshape(plain.shape),
-        chosen=2 if NONRIGID.name in effects else 1,
+        chosen=chosen,
+        offsets=([*models.values()][chosen] - iau_pole)[:, :2],
         error=error,
         unfitted_error=np.hypot(error, precession),
     )
@@ -297,33 +301,24 @@ _UNFITTED_HALF_WIDTH = "95 % half-width of a residual without a fit, from H and 
 class Residuals(Dated, error="residual_error"):
     """Time series of computed pole minus IAU pole, with and without a fitted trend removed."""
 
+    dX = measured("mas", "computed X of the celestial pole minus that of IAU 2006/2000A")
+    dY = measured("mas", "computed Y of the celestial pole minus that of IAU 2006/2000A")
     dpsi_sineps = number("mas", _LONGITUDE)
     deps = number("mas", _OBLIQUITY)
     residual_error = number("mas", _HALF_WIDTH, along=())
-    dpsi_sineps_unfitted = number(
-        "mas",
-        "computed pole minus the IAU's in longitude times sin(eps), nothing removed",
-        error="unfitted_error",
-    )
-    deps_unfitted = number(
-        "mas", "computed pole minus the IAU's in obliquity, nothing removed", error="unfitted_error"
-    )
-    unfitted_error = number("mas", _UNFITTED_HALF_WIDTH)
 
 
 @part
 def residuals(differences: Differences) -> Residuals:
     """Return the time series of computed pole minus IAU pole, for the requested effects."""
-    fitted = differences.fitted[:, differences.chosen]
-    plain = differences.plain[:, differences.chosen]
+    fitted, offsets = differences.fitted[:, differences.chosen], differences.offsets
     return Residuals(
         time=datetime64(differences.days),
+        dX=(offsets[:, 0], differences.unfitted_error),
+        dY=(offsets[:, 1], differences.unfitted_error),
         dpsi_sineps=fitted[:, 0],
         deps=fitted[:, 1],
         residual_error=differences.error,
-        dpsi_sineps_unfitted=plain[:, 0],
-        deps_unfitted=plain[:, 1],
-        unfitted_error=differences.unfitted_error,
     )
 
 
@@ -331,14 +326,14 @@ class ResidualSizes(Variables, along=("model", "direction"), error="residual_siz
     """Root mean square and maximum of computed minus IAU pole, for different sets of effects."""
 
     residual_rms = number(
-        "mas", "root mean square after removal of a constant and a rate", short="rms"
+        "mas", "rms of the residuals after removal of a constant and a rate", short="rms"
     )
     residual_maximum = number(
-        "mas", "largest after removal of a constant and a rate", short="largest"
+        "mas", "largest residual after removal of a constant and a rate", short="largest"
     )
     residual_rms_unfitted = number(
         "mas",
-        "root mean square of the poles as `pole` returns them, without a fit",
+        "rms of the residuals of the poles as `pole` returns them, without a fit",
         short="rms without a fit",
     )
     residual_size_error = number("mas", _HALF_WIDTH, along=())
@@ -381,7 +376,7 @@ class Nutation(Variables, along=("term",)):
     rigid = amplitude("mas", "computed rigid amplitude", error="amplitude_error")
     iau = amplitude("mas", MERGED, error="amplitude_error")
     amplitude_error = number(
-        "mas", "95 % half-width of an amplitude, without the neighbour's share"
+        "mas", "95 % half-width of an amplitude, without the share of the neighbour"
     )
     neighbour = words(NEIGHBOUR)
     neighbour_in_phase = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
@@ -422,7 +417,7 @@ def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation
     )
 
 
-_ABSORBING = "the response that absorbs what it can"
+_ABSORBING = "the fit to IAU 2000A with its additive terms"
 
 
 class Core(Variables, no_error="part of a fit; its residuals measure it"):
@@ -439,15 +434,15 @@ class Core(Variables, no_error="part of a fit; its residuals measure it"):
     strength_imaginary = number("1", "fitted strength, imaginary part", along=("mode",))
     core_nutation_period_absorbing = number(
         "d",
-        f"the same by {_ABSORBING}",
-        no_error="short of core_nutation_period by what the response absorbs",
+        f"period of the free core nutation from {_ABSORBING}",
+        no_error="its difference from core_nutation_period shows the effect of these terms",
     )
     response_rms = number("uas", f"root mean square of the residuals of {_ABSORBING}")
     response_maximum = number("uas", f"largest residual of {_ABSORBING}")
     apart_rms = number(
         "uas",
-        "root mean square of the residuals of the response that may not absorb additive terms, "
-        "these taken away, the prograde year left out",
+        "root mean square of the residuals of the fit to IAU 2000A without its additive terms; "
+        "the prograde annual term is excluded",
     )
     added_period = number(
         "d",
@@ -456,15 +451,15 @@ class Core(Variables, no_error="part of a fit; its residuals measure it"):
         no_error=_ARGUMENTS,
     )
     added = amplitude(
-        "uas", "IAU 2000A less that response", along=("added_to",), error="added_error"
+        "uas", "IAU 2000A minus the fitted response", along=("added_to",), error="added_error"
     )
     added_error = number(
         "uas",
-        "95 % half-width of what is added, from the period of the core nutation",
+        "95 % half-width of an additive term, from the period of the core nutation",
         along=("added_to",),
     )
     added_published = amplitude(
-        "uas", "what its authors add to a response", along=("added_to",), no_error=_PUBLISHED
+        "uas", "published additive term of IAU 2000A", along=("added_to",), no_error=_PUBLISHED
     )
     mode = labels(default=["constant", "chandler", "core", "inner-core"])
     added_to = labels()

@@ -8,12 +8,10 @@ from typing import Annotated
 
 from earthspin.bodies import BODIES, Body, all_of, in_a_sentence
 from earthspin.bodies.kinds import Layers
-from earthspin.engine.part import part
-from earthspin.engine.question import Question
+from earthspin.engine.question import Question, part
 from earthspin.errors import nearest
 from earthspin.interior import named
 from earthspin.interior.layers import LayeredBody
-from earthspin.interior.named import Interior
 from earthspin.interior.ocean_and_anelasticity import FES2004_SOURCE
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import ladder
@@ -30,7 +28,7 @@ FROM_LAYERS = "they follow from the layers, whose errors are not known"
 LayeredInterior = Annotated[LayeredBody, Layers()]
 
 
-def interior_of(body: Body) -> Interior | None:
+def interior_of(body: Body) -> named.Interior | None:
     """Interior model of a body, from its layers or its name; None if the body is rigid.
 
     If an unmodified body has custom layers, the other known numbers of its interior still apply.
@@ -49,10 +47,8 @@ def of_another_body(layers: LayeredBody, body: Body) -> str | None:
     """
     flattening = 0.0 if body.flattening is None else body.flattening
     mean_radius = body.needed("radius") * (1 - flattening / 3)
-    for what, own, model in (
-        ("mass", body.mass, layers.mass),
-        ("radius", mean_radius, layers.radius),
-    ):
+    numbers = ("mass", body.mass, layers.mass), ("radius", mean_radius, layers.radius)
+    for what, own, model in numbers:
         if not all_of(abs(own / model - 1) < FIT):
             return f"interior '{layers.name}' has another {what}, {model:.4g} in SI units"
     return None
@@ -112,14 +108,8 @@ def layers(interior: LayeredBody | None, body: Body) -> LayeredBody:
 #: The rung that is used if a question needs a single predicted response.
 CHOSEN = "core-ellipticity"
 #: Sources of the numbers that a prediction uses besides the layers.
-SOURCES = "; ".join(
-    (
-        named.CORE_NUTATION.source,
-        named.K_CMB_OUT_OF_PHASE.source,
-        FES2004_SOURCE,
-        named.ANELASTIC_EXPONENT.source,
-    )
-)
+_SOURCES = (named.CORE_NUTATION.source, named.K_CMB_OUT_OF_PHASE.source, FES2004_SOURCE)
+SOURCES = "; ".join([*_SOURCES, named.ANELASTIC_EXPONENT.source])
 
 
 @dataclass(frozen=True)
@@ -154,7 +144,7 @@ class Prediction:
         return self.rungs[name].transfer(sigma, self.setting.e)
 
 
-def layered(body: Body) -> Interior | None:
+def layered(body: Body) -> named.Interior | None:
     """Return the interior of a body whose layers include an inner core; else None."""
     interior = interior_of(body)
     if interior is None or interior.layers is None or not interior.layers.inner_core_radius:

@@ -13,13 +13,12 @@ from earthspin.bodies import MOON, SUN, Body, in_a_sentence, label_of
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.dates import YearList, YearSpan, YearStep, grid
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import key
+from earthspin.engine.question import key, part
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, of_perturber
-from earthspin.questions.pulls import start_error
+from earthspin.questions.axis_motion import start_error
 from earthspin.questions.reasons import no_iau_model, north_note, not_sun_and_moon
 from earthspin.questions.satellites import mean_pole_error
 from earthspin.questions.sky import PerturbedBody, Sky, Stretch, places, sky
@@ -150,8 +149,9 @@ class LongTerm(
     """
 
     page, headline = "long_term", "obliquity"
+    columns = ("obliquity", "eccentricity", "longitude_of_perihelion", "climatic_precession")
 
-    exclusive = (("times",), ("span", "step"))
+    exclusive = ((("times",), ("span", "step")),)
     many_pulls = True
 
     span: YearSpan = key(
@@ -542,14 +542,17 @@ def neglected() -> Neglected:
     )
 
 
-long_term = public_call(
-    LongTerm,
-    answer=series,
-    sections=(budget, matrices, neglected),
-    parts=(places, sky, stretch, wanted, *MEANS, orbit_table, numbers, strength, solved, readings),
-    together=(
+#: Parts that every question on the long-term motion shares, and how their members are computed.
+SHARED: dict[str, Any] = {
+    "parts": (
+        *(places, sky, stretch, wanted, *MEANS),
+        *(orbit_table, numbers, strength, solved, readings),
+    ),
+    "together": (
         *("body", "perturbers", "tides", "ellipticity", "j2_rate"),
         *("obliquity_shift", "longitude_shift"),
     ),
-    widest=64,
-)
+    "widest": 64,
+}
+
+long_term = public_call(LongTerm, answer=series, sections=(budget, matrices, neglected), **SHARED)

@@ -10,8 +10,7 @@ from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, key
+from earthspin.engine.question import Question, key, part
 from earthspin.engine.variables import Neglected, Variables, labels, number
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import Yielding, elastic, yielding
@@ -33,7 +32,7 @@ class LoveNumbers(
     -------
     Dataset
         Along `love` (k2, h2, l2 of a tide, k2_load, h2_load, l2_load): `love_number`, and
-        `love_number_imaginary`, negative where the body lags. `earthspin.run_tree` adds the
+        `love_number_imaginary`, negative if the deformation lags. `earthspin.run_tree` adds the
         sections `by_period`; `compliances`, in the notation of Mathews et al. (1991): kappa to nu,
         e, e_f and e_s of hydrostatic equilibrium, the coupling numbers a1 to a3, and A_f/A and
         A_s/A as `fluid` and `inner`, without those of regions that the body does not have; and
@@ -76,9 +75,7 @@ class LoveNumbers(
 
 
 #: Where `Yielding` keeps each number.
-_FIELDS = {
-    "k2": "k", "h2": "h", "l2": "l", "k2_load": "k_load", "h2_load": "h_load", "l2_load": "l_load",
-}  # fmt: skip
+_FIELDS = {f"{name}2{load}": f"{name}{load}" for load in ("", "_load") for name in "khl"}
 
 
 def _numbers(response: Yielding) -> ComplexArray:
@@ -92,7 +89,7 @@ class Love(Variables, along=("love",), no_error=FROM_LAYERS):
     love_number = number("1", "Love number of degree two", short="real part")
     love_number_imaginary = number(
         "1",
-        "imaginary part of the Love number, negative where the body lags",
+        "imaginary part of the Love number, negative if the deformation lags",
         short="imaginary part",
     )
     love = labels(default=list(_FIELDS))
@@ -120,9 +117,9 @@ class ByPeriod(Variables, along=("love", "love_period"), no_error=FROM_LAYERS):
 
     elastic_love_number = number("1", "Love number of the elastic body", along=("love",))
     love_number_by_period = number("1", "Love number")
-    love_number_by_period_imaginary = number("1", "imaginary part, negative where the body lags")
+    love_number_by_period_imaginary = number("1", "imaginary part, negative for a lag")
     love = labels(default=list(_FIELDS))
-    love_period = labels("period of what deforms the body", "d", default=PERIODS / DAY)
+    love_period = labels("period of the deformation", "d", default=PERIODS / DAY)
 
 
 @part
@@ -149,7 +146,7 @@ class Compliances(Variables, along=("number",), no_error=FROM_LAYERS):
 
     number_value = number(
         "1",
-        "number of the body, in units of its moments",
+        "dimensionless compliance, ellipticity or other parameter of the body",
         short="value",
         comment="compliances are products of inertia over the moment of a region (whole: kappa, "
         "xi, zeta; fluid core: gamma, beta, delta; inner core: theta, chi, nu), for a wobble of "
@@ -173,8 +170,8 @@ class Modes(Variables, along=("free_mode",), no_error=FROM_LAYERS):
 
     compliance_mode_period = number(
         "d",
-        "period of a free mode of the elastic body: of a nutation in space, negative if "
-        "retrograde; else in the body",
+        "period of a free mode of the elastic body: of a nutation in space (negative if "
+        "retrograde), of a wobble in the body",
         short="period",
     )
     free_mode = labels()

@@ -11,8 +11,7 @@ from earthspin.bodies import Body
 from earthspin.constants import DAYS_PER_CENTURY
 from earthspin.dates import Epochs
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import setting
+from earthspin.engine.question import part, setting
 from earthspin.engine.variables import (
     Neglected,
     Variables,
@@ -29,23 +28,9 @@ from earthspin.nutation import ladder
 from earthspin.nutation.analysis import complex_nutation, phases, responses, without_line
 from earthspin.nutation.ladder import Spread, spread_of
 from earthspin.progress import progress
+from earthspin.questions import path
+from earthspin.questions.axis_motion import PULLS, Pulls
 from earthspin.questions.interiors import SOURCES, Prediction, no_layers, predict
-from earthspin.questions.path import (
-    MERGED,
-    NEIGHBOUR,
-    NEIGHBOUR_SHARE,
-    SERIES,
-    Comparison,
-    PoleComparison,
-    iau_nutation,
-    iau_pole,
-    largest_terms,
-    path_over,
-    pole_analysis,
-    residual_error,
-    steady_figure,
-)
-from earthspin.questions.pulls import PULLS, Pulls
 from earthspin.sky import iau
 from earthspin.units import Number
 
@@ -56,7 +41,7 @@ DAYS_OF_ERRORS = 2000
 
 
 class NutationLadder(
-    Comparison,
+    path.Comparison,
     word="nutation",
     call="nutation_ladder",
     table="nutation",
@@ -64,17 +49,17 @@ class NutationLadder(
 ):
     """Nutation from a ladder of increasingly detailed models of the Earth's interior.
 
-    A ladder of models, each of which adds one thing to the model before, from a rigid Earth to
-    the layers of the `interior` of the body. The dynamical flattening H is the observed one
-    throughout; nothing is fitted to nutation, save where a rung says so.
+    Each model (rung) adds one effect to the model before, from a rigid Earth to the layers of the
+    `interior` of the body. All models use the observed dynamical flattening H. Only rungs that say
+    so contain numbers fitted to nutation.
 
     Returns
     -------
     Dataset
-        Along `rung`: `rms_dpsi_sineps` and `rms_deps` (mas), what is left against IAU 2000A after
-        a constant and a rate, and `adds`, what the rung adds. `earthspin.run_tree` adds the
-        sections: two models outside the ladder, the main circular terms, the free modes, and the
-        transfer function.
+        Along `rung`: `rms_dpsi_sineps` and `rms_deps` (mas), the residuals from IAU 2000A after
+        removal of a constant and a rate, and `adds`, what the rung adds. `earthspin.run_tree` adds
+        the sections: two models outside the ladder, the main circular terms, the free modes, and
+        the transfer function.
 
     Raises
     ------
@@ -93,7 +78,7 @@ class NutationLadder(
 
     coupling: Literal["none", "inferred"] = setting(
         "none",
-        doc="coupling at the boundaries of the core in a last rung; its numbers are inferred "
+        doc="coupling at the boundaries of the core, as one more model; its numbers are inferred "
         "from nutation",
     )
     anelastic_exponent: Annotated[float, Number("", "0.09", low=0.0, high=0.2)] = setting(
@@ -106,10 +91,8 @@ class NutationLadder(
         if self.body.labelled:
             raise self.error("body", self.body.name, "give single numbers here, no labelled arrays")
         if self.uncertainty == "sample":
-            problem = (
-                "the errors of the ladder are from a sample of its inputs already; leave it out"
-            )
-            raise self.error("uncertainty", "sample", problem)
+            text = "the errors of the ladder are from a sample of its inputs already; leave it out"
+            raise self.error("uncertainty", "sample", text)
         if why := no_layers(self.body):
             raise self.error("body", self.body.name, f"{why}; leave it out")
 
@@ -128,7 +111,7 @@ def interior_spread(models: Prediction) -> Spread:
 
 @part
 def left(
-    pole_analysis: PoleComparison,
+    pole_analysis: path.PoleComparison,
     models: Prediction,
     interior_spread: Spread,
     pulls: Pulls,
@@ -141,17 +124,17 @@ def left(
     half-width of either from the inputs of the interior, H and integration, rad.
     """
     done = pole_analysis
-    days, ends, theirs = iau_nutation(pulls, epochs)
-    path = path_over(pulls, effects, done.start, ends)
-    own = complex_nutation(iau.nutation_of(steady_figure(path, days), days))
-    circles = done.our_circles
-    factors = {name: models.transfer(name, circles.frequency) - 1 for name in models.rungs}
+    days, ends, _, theirs = path.iau_nutation(pulls, epochs)
+    figure = path.steady_figure(path.path_over(pulls, effects, done.start, ends), days)
+    own = complex_nutation(iau.nutation_of(figure, days))
+    circles, frequency = done.our_circles, done.our_circles.frequency
+    factors = {name: models.transfer(name, frequency) - 1 for name in models.rungs}
 
     def shifts(at: FloatArray) -> FloatArray:
         added = np.array([*responses(circles, iau.delaunay_arguments(at), factors).values()])
         return np.stack([added.real, added.imag], axis=-1).swapaxes(0, 1)
 
-    error = residual_error(done, pulls.body, theirs, days)
+    error = path.residual_error(done, pulls.body, theirs, days)
     sampled = slice(None, None, max(1, days.size // DAYS_OF_ERRORS))
     phases = circles.multiples @ iau.delaunay_arguments(days[sampled])
     terms = (circles.amplitude[:, np.newaxis] * np.exp(1j * phases)).T
@@ -164,13 +147,8 @@ def left(
             plain = np.stack([eta.real, eta.imag], axis=1)
             residual = without_line(days / DAYS_PER_CENTURY, plain)
             rms = np.sqrt(np.mean(residual**2, axis=0))
-            of_interior = interior_spread.rms_half_width(
-                name,
-                circles.frequency,
-                waves,
-                products,
-                residual[sampled, 0] + 1j * residual[sampled, 1],
-            )
+            eta = residual[sampled, 0] + 1j * residual[sampled, 1]
+            of_interior = interior_spread.rms_half_width(name, frequency, waves, products, eta)
             residuals[name] = np.array([*rms, math.hypot(error, of_interior)])
             advance(1)
     return residuals
@@ -182,7 +160,7 @@ _OBLIQUITY = "obliquity, straight line removed"
 _RMS_ERROR = (
     "95 % half-width of a root mean square, from the inputs of the interior, H and integration"
 )
-_ADDS = "what the model adds, or what it is"
+_ADDS = "what the model adds to the one before, or its description"
 
 
 class RungSizes(Variables, along=("rung",), error="rms_error"):
@@ -193,8 +171,8 @@ class RungSizes(Variables, along=("rung",), error="rms_error"):
         f"{_RMS} {_LONGITUDE}",
         references=SOURCES,
         short="dpsi sin(eps)",
-        comment="H is the observed one throughout; the rungs up to 'anelastic' take no other "
-        "number from the motion of the pole",
+        comment="all models use the observed H; those up to 'anelastic' use no other number from "
+        "the motion of the pole",
     )
     rms_deps = number("mas", f"{_RMS} {_OBLIQUITY}", short="deps")
     rms_error = number("mas", _RMS_ERROR)
@@ -227,8 +205,8 @@ class ModelSizes(Variables, along=("model",), error="model_rms_error"):
     model_adds = words(
         _ADDS,
         short="what it adds",
-        comment="a core in a rigid mantle has a far shorter nutation of its own; the H of "
-        "hydrostatic equilibrium is one per cent too small",
+        comment="the free core nutation of a core in a rigid mantle has a far shorter period; H "
+        "in hydrostatic equilibrium is one per cent too small",
     )
     model = labels()
 
@@ -265,34 +243,35 @@ class Terms(Variables, along=("term",)):
         "predicted amplitude",
         along=("rung", "term"),
         error="predicted_error",
-        comment="the half-widths do not hold the sizes of what a rung leaves out",
+        comment="the half-widths exclude the effects that a model neglects",
     )
     predicted_error = number(
         "mas",
-        "95 % half-width of a predicted amplitude, from the numbers of the inside",
+        "95 % half-width of a predicted amplitude, from the parameters of the interior",
         along=("rung", "term"),
     )
-    iau = amplitude("mas", MERGED, error="amplitude_error")
+    iau = amplitude("mas", path.MERGED, error="amplitude_error")
     amplitude_error = number(
         "mas", "95 % half-width of an amplitude from its analysis, without the neighbour's share"
     )
-    neighbour = words(NEIGHBOUR)
-    neighbour_in_phase = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
-    neighbour_out_of_phase = number("mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES)
+    neighbour = words(path.NEIGHBOUR)
+    neighbour_in_phase = number("mas", f"{path.NEIGHBOUR_SHARE}, in phase", no_error=path.SERIES)
+    neighbour_out_of_phase = number(
+        "mas", f"{path.NEIGHBOUR_SHARE}, out of phase", no_error=path.SERIES
+    )
     rung = labels()
     term = labels()
 
 
 @part
-def terms(pole_analysis: PoleComparison, models: Prediction, interior_spread: Spread) -> Terms:
+def terms(pole_analysis: path.PoleComparison, models: Prediction, interior_spread: Spread) -> Terms:
     """Compute the largest circular nutation terms of each model, in phase and out of phase."""
-    order, columns = largest_terms(pole_analysis, LARGEST)
+    order, columns = path.largest_terms(pole_analysis, LARGEST)
     circles, names = pole_analysis.our_circles, models.ladder
     frequency, own = circles.frequency[order], circles.amplitude[order]
     predicted = np.array([models.transfer(name, frequency) * own for name in names])
-    spread = np.array(
-        [interior_spread.transfer_half_width(name, frequency) * np.abs(own) for name in names]
-    )
+    spread = np.array([interior_spread.transfer_half_width(name, frequency) for name in names])
+    spread = spread * np.abs(own)
     return Terms(
         **columns,
         predicted=phases(predicted),
@@ -304,20 +283,19 @@ def terms(pole_analysis: PoleComparison, models: Prediction, interior_spread: Sp
 class Modes(Variables, along=("mode",)):
     """Periods and quality factors of the free modes (wobbles and nutations) of each model."""
 
-    mode_rung = words("rung that has the mode", short="rung")
+    mode_rung = words("model (rung) that has the mode", short="rung")
     mode_name = words("name of the mode", short="mode")
     mode_period = measured(
         "d",
-        "period: of a nutation in space, negative if retrograde; else in the body",
+        "period, of a nutation in space (negative if retrograde), of a wobble in the body",
         short="period",
-        comment="a rung that lacks a part lacks its mode; half-widths from the Love numbers, the "
-        "core and the inner core, the ocean, the loss in the mantle, and numbers inferred from "
-        "nutation",
+        comment="modes of a region exist only in models with this region; half-widths from the "
+        "Love numbers, cores, ocean, anelasticity and numbers inferred from nutation",
     )
     mode_quality = number(
         "1",
-        "quality factor of the mode; infinite where nothing is lost",
-        no_error="it follows from published quality factors, which have none",
+        "quality factor of the mode; infinite without dissipation",
+        no_error="it follows from published quality factors, which have no errors",
         short="Q",
     )
     mode = labels()
@@ -353,8 +331,8 @@ class Transfer(
 ):
     """Transfer function from rigid to non-rigid nutation, for each model of the ladder."""
 
-    transfer_real = number("1", "nutation over that of a rigid body, real part")
-    transfer_imaginary = number("1", "nutation over that of a rigid body, imaginary part")
+    transfer_real = number("1", "ratio of nutation to that of a rigid body, real part")
+    transfer_imaginary = number("1", "ratio of nutation to that of a rigid body, imaginary part")
     rung = labels()
     frequency = labels(
         "frequency in space, cycles per rotation of the body", "1", default=_IN_SPACE
@@ -364,10 +342,8 @@ class Transfer(
 @part
 def transfer(models: Prediction) -> Transfer:
     """Compute the transfer function of each model, at frequencies that include its resonances."""
-    names = models.ladder
-    response = np.array(
-        [models.rungs[name].transfer(_IN_SPACE - 1, models.setting.e) for name in names]
-    )
+    names, e = models.ladder, models.setting.e
+    response = np.array([models.rungs[name].transfer(_IN_SPACE - 1, e) for name in names])
     return Transfer(transfer_real=response.real, transfer_imaginary=response.imag, rung=names)
 
 
@@ -381,5 +357,5 @@ nutation_ladder = public_call(
     NutationLadder,
     answer=rung_sizes,
     sections=(beside, terms, modes, transfer, neglected),
-    parts=(*PULLS, iau_pole, pole_analysis, models, interior_spread, left),
+    parts=(*PULLS, path.iau_pole, path.pole_analysis, models, interior_spread, left),
 )

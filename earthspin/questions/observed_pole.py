@@ -14,15 +14,13 @@ from earthspin._lazy import xr
 from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, J2000_JD, MAS
 from earthspin.dates import Epochs, Span, days
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, setting
+from earthspin.engine.question import Question, key, part, setting
 from earthspin.engine.variables import Variables, labels, number, si
 from earthspin.errors import SceneError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import core_nutation
 from earthspin.nutation.analysis import without_line
-from earthspin.questions.reasons import no_iau_model
-from earthspin.questions.times import days_of
+from earthspin.questions import reasons, times
 from earthspin.sky.columns import is_table
 from earthspin.sky.eop import CARRIED, PoleSeries, read_pole_offsets
 from earthspin.units import FileName
@@ -69,7 +67,8 @@ class Daily(Variables, along=("time",)):
 
 def not_observed(body: Body) -> str | None:
     """Return the reason (text) to omit polar motion if no observed pole is known, else None."""
-    return f"no polar motion of {in_a_sentence(body.name)} is known" if no_iau_model(body) else None
+    unknown = f"no polar motion of {in_a_sentence(body.name)} is known"
+    return unknown if reasons.no_iau_model(body) else None
 
 
 def within(series: PoleSeries, span: Span | None) -> PoleSeries:
@@ -96,20 +95,14 @@ def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     """
     time, x, y = labelled_series(pole, ("x", "y"), ("arcsec", "mas"))
     for name, values in (("x", x), ("y", y)):
-        largest = float(abs(values).max())
-        if largest > 2 * ARCSEC:
-            raise SceneError(
-                f"largest {name}",
-                f"{largest / ARCSEC:.3g} arcsec",
-                "polar motion is below 1 arcsec; check the unit",
-            )
+        largest = float(abs(values).max()) / ARCSEC
+        if largest > 2:
+            problem = "polar motion is below 1 arcsec; check the unit"
+            raise SceneError(f"largest {name}", f"{largest:.3g} arcsec", problem)
     p = pole_of(x, y) / MAS
-    if 0 < np.max(abs(p)) < SMALLEST:
-        raise SceneError(
-            "largest distance of the pole",
-            f"{np.max(abs(p)):.3g} mas",
-            f"polar motion is larger than {SMALLEST:g} mas; check the unit",
-        )
+    if 0 < (largest := float(np.max(abs(p)))) < SMALLEST:
+        problem = f"polar motion is larger than {SMALLEST:g} mas; check the unit"
+        raise SceneError("largest distance of the pole", f"{largest:.3g} mas", problem)
     return time, p
 
 
@@ -142,12 +135,9 @@ def labelled_series(
     time = days(series.time, Where("time"))
     backward = np.diff(time) <= 0
     if np.any(backward):
-        raise SceneError(
-            "time",
-            str(series.time.values[1:][backward][0]),
-            "times are not ascending; sort them with ds.sortby('time') and remove "
-            "duplicates with ds.drop_duplicates('time')",
-        )
+        problem = "times are not ascending; sort them with ds.sortby('time')"
+        problem += " and remove duplicates with ds.drop_duplicates('time')"
+        raise SceneError("time", str(series.time.values[1:][backward][0]), problem)
     first, second = (si(series[name]).values for name in names)
     return time, first, second
 
@@ -240,23 +230,20 @@ def observed_sky(epochs: Epochs) -> ObservedSky:
     """Interpolate the observed celestial pole offsets and their free core nutation to the dates."""
     table = observed_series()
     time = table.mjd - MJD
-    days = days_of(epochs)
+    days = times.days_of(epochs)
     rows = (days >= FIRST_DAY) & (days <= time[-1])
     days = days[rows]
+    offsets = np.stack([np.interp(days, time, axis) for axis in (table.x, table.y)], axis=1)
     core = core_nutation.fit(time, table.offsets).at(days)
-    return ObservedSky(
-        rows,
-        days,
-        np.stack([np.interp(days, time, axis) for axis in (table.x, table.y)], axis=1),
-        np.stack([core.real, core.imag], axis=1),
-        table.provenance,
-    )
+    circles = np.stack([core.real, core.imag], axis=1)
+    return ObservedSky(rows, days, offsets, circles, table.provenance)
 
 
 _RMS = "root mean square of the model minus the observed celestial pole"
 _LINE = "a constant and a rate removed"
 _CORE = "the free core nutation, fitted to the observed offsets, removed"
 _AS_RETURNED = "nothing removed"
+_OF_FIT = "observed_size_error applies after removal of a constant and a rate"
 
 
 class ObservedSizes(Variables, along=("model", "direction"), error="observed_size_error"):
@@ -265,10 +252,10 @@ class ObservedSizes(Variables, along=("model", "direction"), error="observed_siz
     observed_rms = number("mas", f"{_RMS}, {_LINE}", short="rms")
     observed_rms_without_core = number("mas", f"{_RMS}, {_LINE}, {_CORE}", short="rms without FCN")
     observed_rms_unfitted = number(
-        "mas", f"{_RMS}, {_AS_RETURNED}", short="rms as returned", no_error=_AS_RETURNED
+        "mas", f"{_RMS}, {_AS_RETURNED}", short="rms as returned", no_error=_OF_FIT
     )
     observed_rms_without_core_unfitted = number(
-        "mas", f"{_RMS}, {_CORE}", short="rms as returned, without FCN", no_error=_AS_RETURNED
+        "mas", f"{_RMS}, {_CORE}", short="rms as returned, without FCN", no_error=_OF_FIT
     )
     observed_size_error = number(
         "mas",

@@ -14,8 +14,7 @@ from earthspin.bodies import Body
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
 from earthspin.dates import Epochs, Span, Step
-from earthspin.engine.part import part
-from earthspin.engine.question import key
+from earthspin.engine.question import key, part
 from earthspin.errors import UndefinedError
 from earthspin.motion import axes
 from earthspin.motion.axes import AxisPath
@@ -26,11 +25,10 @@ from earthspin.nutation import analysis
 from earthspin.nutation.analysis import Circles, PoleAnalysis, Secular
 from earthspin.nutation.budget import published_effects
 from earthspin.progress import progress
+from earthspin.questions import satellites, times
+from earthspin.questions.axis_motion import AxisMotion, Pulls, forces_of
 from earthspin.questions.interiors import CHOSEN, Prediction, no_layers, prediction
-from earthspin.questions.pulls import AxisMotion, Pulls, forces_of
 from earthspin.questions.reasons import no_iau_model
-from earthspin.questions.satellites import drifts, obliquity_of, swings
-from earthspin.questions.times import days_of
 from earthspin.sky import iau
 from earthspin.sky.kernel import DRIFT_FROM, growth
 
@@ -46,7 +44,7 @@ HALF_SPAN = 27200.0  # d
 SHORTEST_SPAN = 45 * JULIAN_YEAR / DAY  # d
 SAMPLING = 4.0  # d
 #: Descriptions of amplitudes of terms that this span does not separate, in results.
-MERGED = "amplitude of IAU 2000A, together with that of the neighbour, which is no published term"
+MERGED = "amplitude of IAU 2000A, with the share of the neighbour (no published value)"
 NEIGHBOUR = "term that 150 years cannot separate from this one; empty if there is none"
 NEIGHBOUR_SHARE = "share of the neighbour in the amplitude of IAU 2000A"
 SERIES = "coefficients of the adopted series"
@@ -107,10 +105,9 @@ def direction_errors(
     speed = fastest_sweep(body.number("dynamical_flattening"), float(body.spin_rate), nearest)
     of_sky = axes.error_of_sky(path, figure, drift, speed, DRIFT_FROM)
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    method = np.nan if pulls.sky.unmeasured else path.error
     causes = {
-        "direction_error_method": np.full(
-            days.size, np.nan if pulls.sky.unmeasured else path.error
-        ),
+        "direction_error_method": np.full(days.size, method),
         "direction_error_input": axes.error_of_input(path, figure, u_h),
         "direction_error_kernel": max(map(growth, epochs.span())) * of_sky,
     }
@@ -120,7 +117,7 @@ def direction_errors(
 
 
 def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
-    """Largest displacement of the axis by the nodes of satellites, and by C if that is open, rad.
+    """Largest displacement of the axis by the nodes of satellites and by published effects, rad.
 
     Parameters
     ----------
@@ -129,11 +126,11 @@ def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
         Times from the start, s.
     """
     body = pulls.body
-    obliquity = obliquity_of(body) if body.satellites else None
+    obliquity = satellites.obliquity_of(body) if body.satellites else None
     if obliquity is None:
         return np.zeros(since.size)
-    nutations = swings(body, pulls.mean_pull(), obliquity)
-    total = np.sum([*drifts(nutations, since).values(), np.zeros(since.size)], axis=0)
+    nutations = satellites.swings(body, pulls.mean_pull(), obliquity)
+    total = np.sum([*satellites.drifts(nutations, since).values(), np.zeros(since.size)], axis=0)
     published = LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
     for rate in published.values():
         total += abs(rate.value) * ARCSEC_PER_YEAR * math.sin(obliquity) * np.abs(since)
@@ -221,8 +218,10 @@ def path_over(
     return axes.axis_path(forces, start, pulls.epoch, span, limits=pulls.limits)
 
 
-def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, ComplexArray]:
-    """Nutation of IAU 2000A at the days of a series.
+def iau_nutation(
+    pulls: Pulls, epochs: Epochs
+) -> tuple[FloatArray, FloatArray, FloatArray, ComplexArray]:
+    """Pole and nutation of IAU 2006/2000A at the days of a series.
 
     Returns
     -------
@@ -230,6 +229,8 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
         Days from J2000.0.
     ends : ndarray, shape (2,)
         First and last day of an interval that includes the series and J2000.0.
+    pole : ndarray, shape (t, 3)
+        Unit vectors in the GCRS.
     eta : ndarray, shape (t,), complex
         Nutation dpsi sin(eps0) + i deps, rad.
 
@@ -238,12 +239,12 @@ def iau_nutation(pulls: Pulls, epochs: Epochs) -> tuple[FloatArray, FloatArray, 
     EarthspinError
         If the series does not fit into memory, or lies outside the source of positions.
     """
-    days = days_of(epochs)
+    days = times.days_of(epochs)
     first, last = epochs.span()
     ends = np.array([min(first, 0.0), max(last, 0.0)])
     pulls.sky.check_times(ends, pulls.targets)
-    angles = iau.at_days(lambda at: iau.nutation_of(iau.true_pole(at), at), days)
-    return days, ends, analysis.complex_nutation(angles)
+    pole = iau.at_days(iau.true_pole, days)
+    return days, ends, pole, analysis.complex_nutation(iau.nutation_of(pole, days))
 
 
 def residual_error(
@@ -314,11 +315,10 @@ def iau_pole(pulls: Pulls) -> IAUPole:
     """Analyse pole and nutation of the IAU over 150 years, as far as positions are known."""
     days, covered = analysed_days((pulls.limits[0] / DAY, pulls.limits[1] / DAY))
     if covered < SHORTEST_SPAN:
-        raise UndefinedError(
-            f"the positions cover {covered * DAY / JULIAN_YEAR:.1f} years near J2000.0, and the "
-            f"analysis of nutation needs {SHORTEST_SPAN * DAY / JULIAN_YEAR:.0f}; give a longer "
-            "ephemeris, or remove the effect nonrigid"
-        )
+        years, needed = (days * DAY / JULIAN_YEAR for days in (covered, SHORTEST_SPAN))
+        problem = f"the positions cover {years:.1f} years near J2000.0"
+        problem += f", and the analysis of nutation needs {needed:.0f}"
+        raise UndefinedError(f"{problem}; give a longer ephemeris, or remove the effect nonrigid")
     arguments = iau.delaunay_arguments(days)
     analyse = PoleAnalysis(days, arguments, iau.delaunay_rates(), iau.fixed_ecliptic())
     pole, original = iau.pole_and_nutation(days)
@@ -368,17 +368,15 @@ def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp
     Returns
     -------
     order : ndarray, shape (count,)
-        Their places among the circles.
+        Indices of these terms among the circles.
     columns : dict of str
         Variables of a table of terms: periods, amplitudes of IAU 2000A with their half-widths, and
         the neighbours that this span does not separate from them.
     """
     ours = analysed.our_circles
     order = np.argsort(-np.abs(ours.amplitude))[:count]
-    at_epoch = iau.delaunay_arguments(np.zeros(1))[:, 0]
-    names, amplitude = analysis.neighbours_of(
-        ours.multiples, ours.frequency, iau.delaunay_rates(), at_epoch
-    )
+    sky = iau.delaunay_rates(), iau.delaunay_arguments(np.zeros(1))[:, 0]
+    names, amplitude = analysis.neighbours_of(ours.multiples, ours.frequency, *sky)
     neighbour_in, neighbour_out = analysis.phases(amplitude[order])
     return order, {
         "period": 2 * np.pi / ours.frequency[order],
@@ -404,14 +402,8 @@ def _response_between(
     """Fit the transfer function that relates rigid to non-rigid amplitudes of nutation terms."""
     from earthspin.nutation.response import fit_response
 
-    used = _circles_for_fit(circles)
-    return fit_response(
-        circles.frequency[used],
-        rigid[used],
-        other[used],
-        body.number("dynamical_flattening"),
-        float(body.spin_rate),
-    )
+    used, h, spin = _circles_for_fit(circles), body.number("dynamical_flattening"), body.spin_rate
+    return fit_response(circles.frequency[used], rigid[used], other[used], h, float(spin))
 
 
 def _circles_for_fit(circles: Circles) -> NDArray[np.bool_]:
@@ -534,14 +526,9 @@ def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[
     pair = np.stack([difference.real, difference.imag], axis=1)
     closure = float(np.linalg.norm(np.polynomial.polynomial.polyfit(since, pair, 1)[1]))
     remainder = np.abs(difference) ** 2 - (closure * since) ** 2
-    return Shift(
-        analysed.start,
-        analysed.epoch,
-        circles,
-        rate=published[NONRIGID.name] * sine,
-        closure=closure,
-        residual=math.sqrt(max(0.0, float(np.quantile(remainder, 0.95)))),
-    )
+    residual = math.sqrt(max(0.0, float(np.quantile(remainder, 0.95))))
+    rate = published[NONRIGID.name] * sine
+    return Shift(analysed.start, analysed.epoch, circles, rate, closure, residual)
 
 
 @part

@@ -13,8 +13,7 @@ from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_YEAR, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import setting
+from earthspin.engine.question import part, setting
 from earthspin.engine.run import in_range
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
@@ -33,8 +32,7 @@ from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
 from earthspin.sky.eop import PoleSeries, read_polar_motion
 from earthspin.units import Days, FileName, Number, Numbers, Several, Text, Word, kind_of
 from earthspin.wobble import excitation as ex
-from earthspin.wobble.record import WobbleFit, envelope
-from earthspin.wobble.record import spectrum as amplitude_spectrum
+from earthspin.wobble import record
 
 #: How the free wobble is found.
 Method = Literal["burg", "likelihood"]
@@ -52,9 +50,9 @@ class PolarMotion(OfTable, word="polar-motion", call="polar_motion", table="pola
     Returns
     -------
     Dataset
-        Over `time`: `x`, `y` (arcsec) with their 95 % half-widths. `earthspin.run_tree` gives what
-        `fit_chandler` finds in it as the section `chandler`, over `middle`, the middles of sliding
-        windows, and its amplitudes over `frequency` as the section `spectrum`.
+        Over `time`: `x`, `y` (arcsec) with their 95 % half-widths. `earthspin.run_tree` adds the
+        sections `chandler`, the result of `fit_chandler` over `middle`, the middles of sliding
+        windows, and `spectrum`, the amplitudes over `frequency`.
 
     Raises
     ------
@@ -121,7 +119,7 @@ class FreeWobble(
         cell_methods="middle: mean (one beat of the wobbles)",
         comment="mean over one beat of the free and the annual wobble",
     )
-    chandler_phase = number("deg", "phase of the free wobble against a steady one of its period")
+    chandler_phase = number("deg", "phase of the free wobble relative to a sinusoid of its period")
     annual_amplitude = number(
         "mas", "amplitude of the annual wobble, prograde", error="chandler_amplitude_error"
     )
@@ -155,10 +153,10 @@ def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> Fr
 
 
 def _free_wobble(
-    time: FloatArray, p: ComplexArray, fit: WobbleFit, window: float | None
+    time: FloatArray, p: ComplexArray, fit: record.WobbleFit, window: float | None
 ) -> FreeWobble:
     """Return the fitted period and quality factor, and wobble amplitudes in sliding windows."""
-    wobbles = envelope(time, p, fit.period, window)
+    wobbles = record.envelope(time, p, fit.period, window)
     low, high = fit.quality_bounds
     return FreeWobble(
         chandler_period=(fit.period * DAY, fit.period_error * DAY),
@@ -190,7 +188,7 @@ class Spectrum(
 @part
 def spectrum(observed_pole: xr.Dataset) -> Spectrum:
     """Compute the amplitude spectrum of the observed pole, at frequencies up to `FASTEST`."""
-    frequency, size = amplitude_spectrum(*complex_pole(observed_pole))
+    frequency, size = record.spectrum(*complex_pole(observed_pole))
     slow = abs(frequency) <= FASTEST
     return Spectrum(spectral_amplitude=size[slow] * MAS, frequency=frequency[slow])
 
@@ -237,9 +235,9 @@ def fit_chandler(
         Length of the sliding windows (a number is in days); one beat of annual and free wobble by
         default.
     excitation : Dataset, optional
-        `chi1`, `chi2` (mas) over `time`, means over the steps of the pole. What it drives is then
-        taken away, with the same period and quality factor, and the likelihood is that of the rest;
-        over the span that both cover.
+        `chi1`, `chi2` (mas) over `time`, means over the steps of the pole. The motion that it
+        drives, for the same period and quality factor, is subtracted before the likelihood is
+        computed. Only the common span is used.
 
     Returns
     -------
@@ -251,8 +249,8 @@ def fit_chandler(
     Raises
     ------
     EarthspinError
-        If the series is uneven, has no numbers, or is too short (it says how long is needed), or if
-        there is no wobble in it.
+        If the series is uneven, has no numbers, or is too short (the message names the needed
+        length), or contains no wobble.
 
     Examples
     --------
@@ -292,12 +290,10 @@ def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArr
     if count < 2:
         raise SceneError("excitation", "its dates", "it has no span in common with the pole")
     if np.max(abs(ends[first : first + count] - time[start : start + count])) > SAME_DAY:
-        raise SceneError(
-            "excitation",
-            f"means about day {middles[0]:.3f}, each {middles[1] - middles[0]:.3g} d",
-            f"give means over the steps of the pole, each {step:.3g} d: those between its days; "
-            "read_excitation(..., daily=True) makes them from 0h to 0h",
-        )
+        given = f"means about day {middles[0]:.3f}, each {middles[1] - middles[0]:.3g} d"
+        means = f"means over the steps of the pole, each {step:.3g} d: those between its days"
+        remedy = "read_excitation(..., daily=True) makes them from 0h to 0h"
+        raise SceneError("excitation", given, f"give {means}; {remedy}")
     both = slice(start, start + count)
     return time[both], p[both], driving[first : first + count - 1]
 
@@ -308,7 +304,7 @@ def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     return time, ex.excitation_of(chi1, chi2) / MAS
 
 
-class Excitation(Daily, no_error="the table from which it is read gives none"):
+class Excitation(Daily, no_error="the table gives no errors"):
     """Excitation of polar motion."""
 
     chi1 = number("mas", "excitation, towards the prime meridian")
@@ -331,8 +327,9 @@ def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100
     ds : Dataset
         `x` and `y` over `time`, evenly spaced.
     period : duration
-        Of the free wobble; a number is in days.
+        Period of the free wobble; plain numbers are in days.
     quality_factor : float
+        Quality factor of the free wobble.
 
     Returns
     -------
@@ -357,20 +354,17 @@ def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100
     step = _even_step(time)
     chi = ex.excitation(p, step, ex.chandler_frequency(days, q))
     start_x, start_y = ex.coordinates_of(p[0])
-    result = Excitation(
-        time=datetime64(ex.middles_of_steps(time)), chi1=chi.real * MAS, chi2=chi.imag * MAS
-    )
+    middles = datetime64(ex.middles_of_steps(time))
+    result = Excitation(time=middles, chi1=chi.real * MAS, chi2=chi.imag * MAS)
+    start = "start of the pole in mas and in days from J2000.0"
     return result.dataset().assign_attrs(
-        {
-            "chandler_period": days,
-            "chandler_quality_factor": q,
-            "start_x": float(start_x),
-            "start_y": float(start_y),
-            "start_day": float(time[0]),
-            "step": step,
-            "comment": "means over the step (d) around each time; start of the pole in mas and in "
-            "days from J2000.0",
-        }
+        chandler_period=days,
+        chandler_quality_factor=q,
+        start_x=float(start_x),
+        start_y=float(start_y),
+        start_day=float(time[0]),
+        step=step,
+        comment=f"means over the step (d) around each time; {start}",
     )
 
 
@@ -393,12 +387,13 @@ def polar_motion_from(
     chi : Dataset
         `chi1`, `chi2` (mas) over `time`, means over even steps.
     period, quality_factor : duration, float, optional
-        Of the free wobble (a number is in days); those that `excitation` noted by default.
+        Of the free wobble (plain numbers in days); by default those stored by `excitation`.
     start : pair of angles, optional
-        x and y at the start (a number is in mas); by default as `excitation` noted them, or zero.
+        x and y at the start (plain numbers in mas); by default those stored by `excitation`, or
+        zero.
     fitted_to : Dataset, optional
-        `x` and `y` as observed; the start is then the one that comes nearest to them beside drift
-        and seasonal terms, over the span that both cover.
+        Observed `x` and `y`; the start is then fitted to them together with drift and seasonal
+        terms, over the common span.
 
     Returns
     -------
@@ -432,7 +427,7 @@ def polar_motion_from(
     ends = ex.ends_of_steps(time, step)
     if fitted_to is not None:
         if start is not None:
-            raise SceneError("start", start, "it is fitted to the pole; leave it or fitted_to out")
+            raise SceneError("start", start, "fitted_to determines it; remove one of them")
         ends, observed, driving = _together(fitted_to, chi)
         begin = ex.fitted_start(ends, observed, driving, s)
     else:
@@ -469,15 +464,15 @@ def read_excitation(
     Parameters
     ----------
     path : str, Path or sequence of them
-        Files, or folders of them: yearly files of a component are joined, epochs that stand twice
-        count once.
+        Files, or folders of them: yearly files of a component are joined, and repeated epochs count
+        once.
     components : sequence of str, optional
-        Of ``"AAM"``, ``"OAM"``, ``"HAM"``, ``"SLAM"``, as they stand in the names of files; the sum
-        of all by default.
+        Of ``"AAM"``, ``"OAM"``, ``"HAM"``, ``"SLAM"``, as in the names of files; the sum of all by
+        default.
     terms : sequence of str
         ``"mass"``, ``"motion"``, or both.
     daily : bool
-        Whether to average to days, from 0h to 0h, as `excitation` of a daily pole is.
+        Average over days from 0h to 0h, as in the `excitation` of daily polar motion.
 
     Returns
     -------
@@ -520,6 +515,6 @@ def _even_step(time: FloatArray) -> float:
     """Time step of an evenly spaced series, d."""
     steps = np.diff(time)
     if steps.size == 0 or np.any(abs(steps - steps[0]) > SAME_DAY):
-        problem = "fill the gaps first: the exact pair needs even ones"
+        problem = "fill the gaps first; an even step is needed"
         raise SceneError("time", "uneven steps", problem)
     return float((time[-1] - time[0]) / steps.size)

@@ -11,41 +11,16 @@ from earthspin.bodies import BODIES, PLANETS, Body, in_a_sentence
 from earthspin.constants import DAY
 from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import Block, part
-from earthspin.engine.question import key
+from earthspin.engine.question import Block, key, part
 from earthspin.engine.variables import Neglected, labels, number
 from earthspin.motion.axes import AXES, AxisPath
 from earthspin.motion.effect_sizes import axis_displacements
 from earthspin.motion.effects import LARGEST_CORE_NUTATION, NONRIGID, RESPONSE
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation.analysis import followed, on_fixed_ecliptic
-from earthspin.questions.interiors import SOURCES, no_layers
-from earthspin.questions.path import (
-    INTERIOR,
-    SHORTEST_SPAN,
-    Shift,
-    analysed_days,
-    axis_path,
-    continuous_longitude,
-    direction_errors,
-    drift_of_nodes,
-)
-from earthspin.questions.pulls import (
-    EFFECTS_DOC,
-    PULLS,
-    AxisMotion,
-    Effects,
-    Pulls,
-    drift_by_planets,
-    each_added,
-    idle_note,
-    own_kernel,
-    start_error,
-    start_note,
-    switched_off,
-)
-from earthspin.questions.reasons import no_iau_model, north_note, not_the_iaus_earth
-from earthspin.questions.satellites import no_satellites
+from earthspin.questions import axis_motion, interiors, path, reasons, satellites
+from earthspin.questions.axis_motion import PULLS, AxisMotion, Pulls
+from earthspin.questions.path import Shift
 from earthspin.questions.sky import Sky
 from earthspin.questions.times import SPAN_DOC, Dated, days_of
 
@@ -56,11 +31,11 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
     The path starts at J2000.0 from the pole of the body; for the Earth, from the true pole of IAU
     2006/2000A. By default every effect that is known for the body acts, for the unchanged Earth
     under Sun and Moon also `nonrigid`, the response of its interior; ``effects="rigid"`` leaves
-    this out. The response is `fitted` to IAU 2000A, with what that adds to a response, or
-    `predicted` from the layers. The effect `geodesic` needs the Sun among the perturbers and turns
-    a sphere, too. With `nonrigid` the rigid axes start where their mean
-    pole meets that of the IAU, and all axes receive the published contribution of the non-rigid
-    Earth to the rate of precession.
+    this out. The response is `fitted` to IAU 2000A, including its additive terms, or `predicted`
+    from the layers. The effect `geodesic` needs the Sun among the perturbers and also moves the
+    axis of a sphere. With `nonrigid` the initial axes are such that their mean pole agrees with
+    that of the IAU, and all axes receive the published contribution of the non-rigid Earth to the
+    rate of precession.
 
     Returns
     -------
@@ -88,7 +63,7 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
 
     span: Span = key(("1980-01-01T12:00:00", "2020-01-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("5 d", doc="interval between dates")
-    effects: Effects = key("known", doc=EFFECTS_DOC)
+    effects: axis_motion.Effects = key("known", doc=axis_motion.EFFECTS_DOC)
     response: Literal["fitted", "predicted"] = key(
         "fitted",
         doc="source of the response of the interior for the effect nonrigid: fitted to IAU "
@@ -100,24 +75,24 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
         super().check()
         if NONRIGID.name not in self.effects:
             return
-        if no_iau_model(self.body):
+        if reasons.no_iau_model(self.body):
             name = in_a_sentence(self.body.name)
             problem = f"no response of the inside of {name} is known; leave it out"
             raise self.error("effects", NONRIGID.name, problem)
-        if self.response == "predicted" and (why := no_layers(self.body)):
+        if self.response == "predicted" and (why := interiors.no_layers(self.body)):
             raise self.error("response", self.response, f"{why}; take 'fitted'")
 
     def known_effects(self) -> tuple[str, ...]:
         """Add the response of the interior for the unchanged Earth under Sun and Moon."""
         known = super().known_effects()
         usual = all(p.is_as_named and p.orbit is p.position is None for p in self.perturbers)
-        if not usual or not_the_iaus_earth(self.body, self.perturbers):
+        if not usual or reasons.not_the_iaus_earth(self.body, self.perturbers):
             return known
-        kernel = own_kernel(self.ephemeris)
+        kernel = axis_motion.own_kernel(self.ephemeris)
         members = (self.body, *self.perturbers, *(BODIES[name] for name in PLANETS))
         if kernel is not None and kernel.holds(member.naif for member in members):
             codes = [kernel.code(member.naif, member.name) for member in members]
-            if analysed_days(kernel.coverage(codes))[1] < SHORTEST_SPAN:
+            if path.analysed_days(kernel.coverage(codes))[1] < path.SHORTEST_SPAN:
                 return known
         return (*known, NONRIGID.name)
 
@@ -194,7 +169,7 @@ def axes(
     now = days_of(epochs, block, "pole.zarr")
     directions = axis_path.at(now * DAY)
     figure = directions["figure"]
-    errors = direction_errors(axis_path, figure, now, epochs, pulls, interior_shift)
+    errors = path.direction_errors(axis_path, figure, now, epochs, pulls, interior_shift)
     if interior_shift is not None:
         interior_shift.apply(directions, now)
     vectors = np.stack([directions[axis] for axis in AXES], axis=1)
@@ -211,8 +186,8 @@ def axes(
         direction_error={
             "method": f"Gauss windows of {window:g} d with {axis_path.windows.order} nodes",
             "evaluations": axis_path.evaluations,
-            **start_note(pulls.body),
-            **idle_note(pulls.body, effects),
+            **axis_motion.start_note(pulls.body),
+            **axis_motion.idle_note(pulls.body, effects),
         },
     )
 
@@ -239,7 +214,7 @@ def response_error(
     half_width = interior_shift.half_width(days_of(epochs, block, "pole.zarr"))
     share = ResponseError(time=axes.time, direction_error_response=half_width)
     if response == "predicted":
-        share.with_attributes(direction_error_response={"references": SOURCES})
+        share.with_attributes(direction_error_response={"references": interiors.SOURCES})
     return share
 
 
@@ -253,13 +228,14 @@ class SatelliteError(Dated):
     )
 
 
-@part(unless=no_satellites)
+@part(unless=satellites.no_satellites)
 def satellite_error(
     axes: xr.Dataset, pulls: Pulls, epochs: Epochs, block: Block | None = None
 ) -> SatelliteError:
     """Compute the error of the axis directions that is due to the nodes of satellites."""
     since = days_of(epochs, block, "pole.zarr") * DAY - pulls.epoch
-    return SatelliteError(time=axes.time, direction_error_satellites=drift_of_nodes(pulls, since))
+    drift = path.drift_of_nodes(pulls, since)
+    return SatelliteError(time=axes.time, direction_error_satellites=drift)
 
 
 def no_longitude(body: Body) -> str | None:
@@ -276,7 +252,7 @@ class Angles(Dated, along=("time", "axis"), error="direction_error"):
     """Longitude psi and inclination eps of the axes, relative to the body's orbit at J2000.0."""
 
     psi = number("arcsec", "precession and nutation in longitude along the orbit of J2000.0")
-    eps = number("arcsec", "angle of the axis from the normal of that orbit")
+    eps = number("arcsec", "angle of the axis from the normal of the orbit of J2000.0")
     axis = labels()
 
 
@@ -284,7 +260,7 @@ class Angles(Dated, along=("time", "axis"), error="direction_error"):
 def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> tuple[FloatArray, FloatArray]:
     """Continuous longitude psi of the angular momentum: starts of the windows, s, and psi, rad."""
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
-    return continuous_longitude(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
+    return path.continuous_longitude(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
 
 
 @part(unless=no_longitude)
@@ -302,7 +278,7 @@ def pole_angles(
     near = np.interp(days_of(epochs, block, "pole.zarr") * DAY, *turns)
     psi = followed(angles[..., 0], near[:, np.newaxis])
     return Angles(time=axes.time, axis=axes.axis, psi=psi, eps=angles[..., 1]).with_attributes(
-        eps=north_note(body)
+        eps=reasons.north_note(body)
     )
 
 
@@ -316,20 +292,20 @@ def neglected(
     axis_path: AxisPath,
     epochs: Epochs,
 ) -> Neglected:
-    """Sizes of what is not modelled, such as the effects that are switched off.
+    """Sizes of effects that are not modelled, such as those that are switched off.
 
     They are the largest changes of the figure axis from J2000.0 to the first and the last date.
     """
-    off = switched_off(body, perturbers, effects)
-    forces, further = each_added(sky, body, perturbers, effects, off)
+    off = axis_motion.switched_off(body, perturbers, effects)
+    forces, further = axis_motion.each_added(sky, body, perturbers, effects, off)
     moved = axis_displacements(axis_path, pulls.epoch, forces, further)
     if {*off} - {*further}:
         reach = max(abs(day * DAY - pulls.epoch) for day in epochs.span())
-        moved |= drift_by_planets(body, reach)
+        moved |= axis_motion.drift_by_planets(body, reach)
     sizes = {name: size for name, size in moved.items() if size}
     unknown = [name for name in off if name not in moved]
     sources = ["effects that are off: to first order, along the computed path"] if off else []
-    if no_iau_model(body) or not body.is_as_named:
+    if reasons.no_iau_model(body) or not body.is_as_named:
         unknown.append(f"response of the interior of {in_a_sentence(body.name)}")
     elif NONRIGID.name in effects:
         sizes |= {"free core nutation": LARGEST_CORE_NUTATION}
@@ -338,24 +314,19 @@ def neglected(
         sizes |= {NONRIGID.name: max(map(RESPONSE.at, epochs.span()))}
         sources.append("nonrigid: measured on DE421 from 1950 to 2050")
     if not body.needed("pole").of_the_iau:
-        half = start_error(body)
+        half = axis_motion.start_error(body)
         if half is None:
             unknown.append("uncertainty of the pole at the start")
         else:
             sizes |= {"start": half}
             sources.append("start: 95 % half-width of the pole at J2000.0")
-    return Neglected(
-        sizes,
-        "mas",
-        "largest change of direction that the model leaves out",
-        "; ".join(sources),
-        unknown=", ".join(unknown),
-    )
+    what = "largest change of direction that the model leaves out"
+    return Neglected(sizes, "mas", what, "; ".join(sources), unknown=", ".join(unknown))
 
 
 pole = public_call(
     Pole,
     answer=(axes, response_error, satellite_error, pole_angles),
     sections=(neglected,),
-    parts=(*PULLS, axis_path, turns, *INTERIOR, as_fitted, as_predicted, interior_shift),
+    parts=(*PULLS, path.axis_path, turns, *path.INTERIOR, as_fitted, as_predicted, interior_shift),
 )

@@ -9,8 +9,7 @@ import numpy as np
 from earthspin.constants import DAY, DAYS_PER_YEAR, NORMAL_95
 from earthspin.dates import Span, datetime64
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import setting
+from earthspin.engine.question import part, setting
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import UndefinedError
 from earthspin.interior.named import OBSERVED_CORE_NUTATION
@@ -27,8 +26,8 @@ FIRST_MJD = 45700.0
 class PoleOffsets(OfTable, word="pole-offsets", call="pole_offsets", table="pole_offsets"):
     """Observed celestial pole offsets, and the free core nutation in them.
 
-    The offsets dX, dY are what very long baseline interferometry adds to the X, Y of IAU
-    2006/2000A. Predicted rows, and rows before there were observations, are left out.
+    The offsets dX, dY are X, Y observed by very long baseline interferometry minus those of IAU
+    2006/2000A. Predicted rows, and rows before the first observation, are left out.
 
     Returns
     -------
@@ -88,7 +87,7 @@ def observed_offsets(offset_table: PoleSeries) -> ObservedOffsets:
 class CoreNutation(
     Variables,
     along=("middle",),
-    no_error="a test, in which noise alone passes in 1 % of the windows",
+    no_error="a test that noise alone passes in 1 % of the windows",
 ):
     """Amplitude and phase of the free core nutation in sliding windows."""
 
@@ -98,20 +97,20 @@ class CoreNutation(
         cell_methods="middle: mean (one window)",
         short="amplitude",
         comment="a constant, a line and a retrograde circle of the published period are fitted in "
-        "each window; half-widths from the noise at the same frequency in the other sense",
+        "each window; half-widths from the noise at the opposite frequency",
     )
     core_nutation_phase = measured(
-        "deg", "phase of the free core nutation against a steady circle of its published period"
+        "deg", "phase of the free core nutation relative to a circle of its published period"
     )
     detection_limit = number("uas", "amplitude that noise alone exceeds in 1 % of the windows")
     detected = number("1", "1 where the amplitude is above the detection limit, else 0")
-    window_length = number("d", "length of a window", along=(), no_error="it is chosen")
+    window_length = number("d", "length of a window", along=(), no_error="an input")
     middle = labels("middle of a window")
 
 
 def shorter_than_a_window(span: Span | None, window: float | None) -> str | None:
     """Return the reason (text) to omit core nutation if the span is below one window, else None."""
-    if span is None or _length(span) >= (core.WINDOW if window is None else window):
+    if _length(span) >= (core.WINDOW if window is None else window):
         return None
     return "the span is shorter than a window, which is three years if not given"
 
@@ -119,16 +118,13 @@ def shorter_than_a_window(span: Span | None, window: float | None) -> str | None
 def too_short_for_a_period(span: Span | None) -> str | None:
     """Return the reason (text) to omit core nutation period if the span is too short, else None."""
     needed = 2 * shortest_span()
-    if span is None or _length(span) >= needed:
-        return None
-    years = needed / DAYS_PER_YEAR
-    return f"the span is shorter than {years:.0f} years, which the fit of a period needs"
+    years = f"{needed / DAYS_PER_YEAR:.0f} years, which the fit of a period needs"
+    return f"the span is shorter than {years}" if _length(span) < needed else None
 
 
-def _length(span: Span) -> float:
+def _length(span: Span | None) -> float:
     """Length of a time span, d."""
-    first, last = span.days
-    return last - first
+    return math.inf if span is None else span.days[1] - span.days[0]
 
 
 @part(unless=shorter_than_a_window)
@@ -180,12 +176,10 @@ def period(offset_table: PoleSeries) -> CorePeriod:
         problem = f"the method of the free wobble finds no free core nutation: {error}"
         raise UndefinedError(problem) from None
     published = OBSERVED_CORE_NUTATION
+    half_width = NORMAL_95 * (published.uncertainty or 0.0) * DAY
     return CorePeriod(
         core_nutation_period=(-mode.period * DAY, mode.period_error * DAY),
-        core_nutation_period_published=(
-            published.value * DAY,
-            NORMAL_95 * (published.uncertainty or 0.0) * DAY,
-        ),
+        core_nutation_period_published=(published.value * DAY, half_width),
     )
 
 

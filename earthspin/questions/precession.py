@@ -12,17 +12,13 @@ from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.dates import Span, datetime64
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import key
+from earthspin.engine.question import key, part
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number, words
 from earthspin.mass import figure
 from earthspin.numerics.arrays import FloatArray
-from earthspin.nutation import budget as calendar
-from earthspin.nutation.budget import closure, prem_polar_moment, published_effects
-from earthspin.questions import reasons
+from earthspin.nutation import budget
+from earthspin.questions import reasons, satellites
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, Samples
-from earthspin.questions.reasons import north_note, observed_wobble
-from earthspin.questions.satellites import describe_pole, swings
 from earthspin.questions.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
 from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
 from earthspin.sky import iau
@@ -105,29 +101,27 @@ class Rates(Variables, along=("perturber",)):
 @part
 def precession_rates(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> Rates:
     """Compute precession rate, precession period and mean torque of each perturber, with errors."""
-    rate = mean_rates.rate
+    rate, means = mean_rates.rate, mean_torques
+    plane = f"orbit whose normal has {body.orbit_pole} (ICRF)"
+    if body.needed("pole").of_the_iau:
+        plane = "ecliptic of J2000.0"
     return Rates(
         precession_rate=rate,
         precession_period=(rates.period(rate.value), rates.period_error(rate.value, rate.error)),
         rate_ratio=mean_rates.ratio,
         mean_torque=mean_rates.torque,
-        obliquity=mean_torques.obliquity,
-        reference_epoch=datetime64(np.array(mean_torques.epoch / DAY)),
-        perturber=mean_torques.labels,
+        obliquity=means.obliquity,
+        reference_epoch=datetime64(np.array(means.epoch / DAY)),
+        perturber=means.labels,
     ).with_attributes(
-        no_error=mean_torques.no_error,
-        obliquity=north_note(body, mean_torques.obliquity),
+        no_error=means.no_error,
+        obliquity=reasons.north_note(body, means.obliquity),
         precession_rate={
-            "window": mean_torques.over,
-            "pole": describe_pole(body),
-            "plane": "ecliptic of J2000.0"
-            if body.needed("pole").of_the_iau
-            else f"orbit whose normal has {body.orbit_pole} (ICRF)",
+            "window": means.over,
+            "pole": satellites.describe_pole(body),
+            "plane": plane,
         },
-        precession_rate_error={
-            "method": mean_torques.method,
-            "evaluations": mean_torques.evaluations,
-        },
+        precession_rate_error={"method": means.method, "evaluations": means.evaluations},
     )
 
 
@@ -153,12 +147,9 @@ def convergence(torque_samples: Samples, mean_rates: MeanRates, body: Body) -> C
     total = torque_samples.precessing.sum(axis=1)
     curves = convergence_curve(window, torque_samples.times, total, cycles)
     precessing = xr.DataArray(np.stack(list(curves.values())), dims=("window", "window_cycles"))
+    h = body.needed("dynamical_flattening") * mean_rates.carried.rate
     return Convergence(
-        rate_by_window=rates.precession_rate(
-            precessing,
-            body.needed("dynamical_flattening") * mean_rates.carried.rate,
-            body.spin_rate,
-        ),
+        rate_by_window=rates.precession_rate(precessing, h, body.spin_rate),
         window_length=cycles * window.cycle,
         window=list(curves),
         window_cycles=cycles,
@@ -200,15 +191,12 @@ def figure_models(mean_torques: MeanTorques, mean_rates: MeanRates, body: Body) 
     models = (by_maccullagh, figure.h_homogeneous(j2), measured_h)
     h = xr.concat(map(xr.DataArray, models), dim=xr.Variable("earth_model", list(MODELS)))
     precessing, radius = mean_torques.precessing[-1], body.needed("radius")
-    difference = figure.moment_difference(j2, body.mass, radius)
+    difference, e = figure.moment_difference(j2, body.mass, radius), figure.ellipticity_from_h(h)
+    rate = rates.precession_rate(precessing, h * mean_rates.carried.rate, body.spin_rate)
     return FigureModels(
         h_by_model=h,
-        period_by_model=rates.period(
-            rates.precession_rate(precessing, h * mean_rates.carried.rate, body.spin_rate)
-        ),
-        wobble_by_model=free_wobble_period(
-            figure.ellipticity_from_h(h), body.needed("spin_period")
-        ),
+        period_by_model=rates.period(rate),
+        wobble_by_model=free_wobble_period(e, body.needed("spin_period")),
         moment_difference=difference,
         polar_moment_factor=figure.polar_moment_factor(j2, measured_h),
         j2_from_moment_difference=figure.j2_from_moment_difference(difference, body.mass, radius),
@@ -275,29 +263,24 @@ def seasons(
     """
     rate, error = mean_rates.total()
     another = reasons.not_the_iaus_earth(body, perturbers)
-    published = 0.0 if another else sum(published_effects().values())
+    published = 0.0 if another else sum(budget.published_effects().values())
+    effects = "torques of Sun and Moon, and the published effects that their mean leaves out"
+    if another:
+        effects = f"torques of Sun and Moon alone; no published effects apply: {another}"
     chi_rate = iau.precession_rates(mean_torques.epoch / DAY).chi_a
-    general = calendar.general_precession(rate + published, chi_rate, mean_torques.obliquity)
-    year = calendar.tropical_year(general, body.needed("orbital_period"))
+    general = budget.general_precession(rate + published, chi_rate, mean_torques.obliquity)
+    year = budget.tropical_year(general, body.needed("orbital_period"))
     period = rates.period(general), rates.period_error(general, error)
+    gregorian_drift = budget.time_per_day_of_drift(year, budget.GREGORIAN_YEAR)
     return Seasons(
         general_precession=(general, error),
         general_precession_period=period,
-        time_per_degree=calendar.time_per_degree(general),
+        time_per_degree=budget.time_per_degree(general),
         tropical_year=year,
-        time_per_day_of_drift=calendar.time_per_day_of_drift(year),
-        time_per_dropped_leap_day=calendar.DROPPED_LEAP_DAY * JULIAN_YEAR,
-        time_per_day_of_gregorian_drift=calendar.time_per_day_of_drift(
-            year, calendar.GREGORIAN_YEAR
-        ),
-    ).with_attributes(
-        no_error=mean_torques.no_error,
-        general_precession={
-            "effects": f"torques of Sun and Moon alone; no published effects apply: {another}"
-            if another
-            else "torques of Sun and Moon, and the published effects that their mean leaves out"
-        },
-    )
+        time_per_day_of_drift=budget.time_per_day_of_drift(year),
+        time_per_dropped_leap_day=budget.DROPPED_LEAP_DAY * JULIAN_YEAR,
+        time_per_day_of_gregorian_drift=gregorian_drift,
+    ).with_attributes(no_error=mean_torques.no_error, general_precession={"effects": effects})
 
 
 class BesideIAU(Variables):
@@ -325,9 +308,9 @@ def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> Be
     """
     rate, error = mean_rates.total()
     iau_rate = iau.precession_rates(mean_torques.epoch / DAY).psi_a
-    unexplained = closure(rate, iau_rate)
+    unexplained = budget.closure(rate, iau_rate)
     h, j2, radius = (body.needed(name) for name in ("dynamical_flattening", "j2", "radius"))
-    h_of_prem = j2 / prem_polar_moment(radius, j2)
+    h_of_prem = j2 / budget.prem_polar_moment(radius, j2)
     return BesideIAU(
         iau_rate=iau_rate,
         difference_from_iau=(rate - iau_rate, error),
@@ -373,20 +356,17 @@ def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -
     """Published contributions to the precession rate of effects that are not modelled."""
     unknown = reasons.not_the_iaus_earth(body, perturbers)
     published = LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
-    nutations = swings(body, mean_rates.pull, mean_rates.means.obliquity)
+    nutations = satellites.swings(body, mean_rates.pull, mean_rates.means.obliquity)
     nodes = {f"{name}, period {swing.years}": swing.rate for name, swing in nutations.items()}
     if published:
         what = "contribution to the rate that the model leaves out; others were not measured"
         cited = Neglected.cited(published, what)
         return replace(cited, sizes={**cited.sizes, **nodes}, periodic=tuple(nodes))
     if unknown:
-        return Neglected(
-            {"turning of the axis within an orbit": mean_rates.second_order, **nodes},
-            "arcsec/yr",
-            "bound on the contribution to the rate that the model leaves out",
-            unknown=f"all other effects, because {unknown}",
-            periodic=tuple(nodes),
-        )
+        sizes = {"turning of the axis within an orbit": mean_rates.second_order, **nodes}
+        what = "bound on the contribution to the rate that the model leaves out"
+        others = f"all other effects, because {unknown}"
+        return Neglected(sizes, "arcsec/yr", what, unknown=others, periodic=tuple(nodes))
     return reasons.neglected_rates()
 
 
@@ -396,7 +376,7 @@ precession = public_call(
     sections=(
         convergence,
         figure_models,
-        (free_wobble, observed_wobble),
+        (free_wobble, reasons.observed_wobble),
         seasons,
         iau_2006,
         standstills,

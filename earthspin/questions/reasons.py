@@ -9,7 +9,7 @@ import numpy as np
 
 from earthspin.bodies import Body, in_a_sentence, label_of, proper
 from earthspin.constants import DAY, NORMAL_95, PUBLISHED_EFFECTS
-from earthspin.engine.part import part
+from earthspin.engine.question import part
 from earthspin.engine.variables import Neglected, Variables, measured
 from earthspin.nutation.budget import published_effects
 
@@ -28,12 +28,8 @@ def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
     These need a body with an IAU precession model and only the Sun and the Moon as perturbers.
     """
-    if reason := no_iau_model(body):
-        return reason
-    missing = [name for name in ("sun", "moon") if label_of(name, perturbers) is None]
-    if missing:
-        return f"the {missing[0]} is not among the perturbers"
-    return "the comparison is for Sun and Moon only" if len(perturbers) > 2 else None
+    more = "the comparison is for Sun and Moon only" if len(perturbers) > 2 else None
+    return _lacking(body, perturbers, "sun", "moon") or more
 
 
 def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
@@ -50,10 +46,14 @@ def not_the_iaus_earth(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
     """Return the reason (text) to omit lunar results if the Moon is no perturber, else None."""
-    if reason := no_iau_model(body):
-        return reason
-    missing = label_of("moon", perturbers) is None
-    return "the moon is not among the perturbers" if missing else None
+    return _lacking(body, perturbers, "moon")
+
+
+def _lacking(body: Body, perturbers: tuple[Body, ...], *names: str) -> str | None:
+    """Return the first of these reasons: no model of the IAU, or a perturber that is missing."""
+    missing = (name for name in names if label_of(name, perturbers) is None)
+    reasons = (f"the {name} is not among the perturbers" for name in missing)
+    return no_iau_model(body) or next(reasons, None)
 
 
 def many_pulls(perturbers: tuple[Body, ...]) -> str | None:

@@ -7,15 +7,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from earthspin.bodies import Body
-from earthspin.bodies.checks import refuse_break_up
-from earthspin.bodies.planets import BEYOND_RIGID, pulled_by
+from earthspin.bodies import Body, checks, planets
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import Block, part
-from earthspin.engine.question import key
-from earthspin.engine.variables import Neglected, labels, number, words
+from earthspin.engine.question import Block, key, part
+from earthspin.engine.variables import Neglected, Variable, labels, number, words
 from earthspin.errors import SceneError
 from earthspin.mass.figure import polar_moment
 from earthspin.motion import solution
@@ -27,20 +24,8 @@ from earthspin.motion.march import FINEST, Masses
 from earthspin.motion.solution import COARSEST, KINDS, Motion, RotationSeries, State
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress
-from earthspin.questions.pulls import (
-    PULLS,
-    AxisMotion,
-    CustomTorque,
-    Pulls,
-    drift_by_planets,
-    each_added,
-    figure_of,
-    forces_of,
-    idle_note,
-    start_note,
-    switched_off,
-    switched_on,
-)
+from earthspin.questions import axis_motion
+from earthspin.questions.axis_motion import AxisMotion, CustomTorque, Pulls, forces_of
 from earthspin.questions.satellites import largest_drifts, no_satellites, obliquity_of, swings
 from earthspin.questions.sky import Sky
 from earthspin.questions.times import SPAN_DOC, Dated, days_of
@@ -60,10 +45,10 @@ SECONDS_PER_TURN, MOST_TURNS = 4e-3, 1e6
 class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start", "stop", "step")):
     """Attitude and spin of a rigid body, without averaging (source text, I.2, I.4, I.9.34).
 
-    Any three moments, any spin, a locked or a tumbling one among them. The motion begins at the
-    first date, with the body's own pole, meridian and spin, or as `start_attitude` and
-    `start_omega` say. The effects `second-order` and `triaxiality` cannot be switched off here, and
-    `nonrigid` not on.
+    The body may have any three moments and any spin, and may be locked or tumble. The motion begins
+    at the first date, with the pole, meridian and spin of the body, or with `start_attitude` and
+    `start_omega`. The effects `second-order` and `triaxiality` are always included; `nonrigid` is
+    not available.
 
     Returns
     -------
@@ -71,7 +56,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
         Over `time`: `attitude` (unit quaternion along `quaternion`, body to ICRF), `omega` (rad/s)
         along the principal axes and `angular_momentum` (kg m2/s) along the ICRF, each along
         `component`, with their errors, the largest up to that time. `earthspin.run_tree` adds
-        `divergence`, how fast neighbouring rotations part.
+        `divergence`, the growth of the distance between neighbouring rotations.
 
     Examples
     --------
@@ -116,11 +101,11 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
         if self.start_omega is None:
             super().check_spin()
         elif self.start_omega.any():
-            refuse_break_up(_spinning(self.body.replace(spin_period=None), self.start_omega))
+            checks.refuse_break_up(_spinning(self.body.replace(spin_period=None), self.start_omega))
 
     @property
     def unused(self) -> str:
-        """Satellites that are left out; of those of a body in an orbit, nodes have a size."""
+        """Satellites that are left out; empty if the size of their effect is listed."""
         known = self.perturbers and obliquity_of(self.body) is not None
         return "" if known else super().unused
 
@@ -130,9 +115,8 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
         if NONRIGID.name in self.effects:
             raise self.error("effects", NONRIGID.name, "the body is rigid here; leave it out")
         if self.body.number("dynamical_flattening") == 0:
-            raise self.error(
-                "body", self.body.name, "C does not follow from H = 0; give it some flattening"
-            )
+            problem = "C does not follow from H = 0; give it some flattening"
+            raise self.error("body", self.body.name, problem)
         start = self.start_attitude
         if start is not None and abs(_length(start) - 1) > _LENGTH:
             raise self.error("start_attitude", start.tolist(), "a unit quaternion has length 1")
@@ -216,9 +200,9 @@ class Rotor:
     Attributes
     ----------
     body : Rigid
-        In further lanes its neighbours.
+        The body; further lanes are copies of it with one changed input each.
     changed : tuple of str
-        What each of these has changed.
+        Changed input of each copy.
     masses : Masses
     start : State
     begin, end : float
@@ -256,13 +240,9 @@ class Rotor:
         """
         turns, days = self.turns(end - begin), (end - begin) / DAY
         if turns > MOST_TURNS:
-            raise SceneError(
-                "span",
-                f"{days:.6g} d",
-                f"the body turns {turns:.3g} times, which takes about "
-                f"{turns * SECONDS_PER_TURN / 3600:.2g} h to follow; give at most "
-                f"{days * MOST_TURNS / turns:.3g} d",
-            )
+            hours, most = turns * SECONDS_PER_TURN / 3600, days * MOST_TURNS / turns
+            problem = f"the body turns {turns:.3g} times, which takes about {hours:.2g} h to follow"
+            raise SceneError("span", f"{days:.6g} d", f"{problem}; give at most {most:.3g} d")
 
     def since(self, days: float | FloatArray) -> FloatArray:
         """Convert days from J2000.0 to s after the initial date, rounded to the microsecond."""
@@ -287,10 +267,10 @@ def rotor(
     epoch = begin * DAY
     body = _spinning(body, start_omega)
     spin_rate = float(body.spin_rate)
-    figure = figure_of(body, spin_rate)
+    figure = axis_motion.figure_of(body, spin_rate)
     if pulling is None:
         alone = Forces(figure=figure, gm={}, positions=lambda times: {})
-        pulling = Pulling(switched_on(alone, body, _acting(effects)))
+        pulling = Pulling(axis_motion.switched_on(alone, body, _acting(effects)))
     moment = polar_moment(body.number("j2"), figure.h, float(body.mass), body.number("radius"))
     u = body.relative_uncertainty
     doubts = {
@@ -302,22 +282,14 @@ def rotor(
     rigid, changed = solution.rigid_bodies(
         pulling.forces, spin_rate, doubts, epoch, None if torque is None else torque.over(moment)
     )
-    attitude = (
-        solution.upright(body.needed("pole").true(begin), figure.meridian + spin_rate * epoch)
-        if start_attitude is None
-        else start_attitude
-    )
+    attitude = start_attitude
+    if attitude is None:
+        turned = figure.meridian + spin_rate * epoch
+        attitude = solution.upright(body.needed("pole").true(begin), turned)
     omega = np.array([0.0, 0.0, spin_rate]) if start_omega is None else start_omega
-    return Rotor(
-        rigid,
-        changed,
-        solution.masses(pulling.forces, epoch),
-        solution.start_of(rigid, attitude, omega),
-        begin,
-        end,
-        moment,
-        pulling,
-    )
+    start = solution.start_of(rigid, attitude, omega)
+    masses = solution.masses(pulling.forces, epoch)
+    return Rotor(rigid, changed, masses, start, begin, end, moment, pulling)
 
 
 @part
@@ -328,20 +300,17 @@ def motion(rotor: Rotor, tolerance: float) -> Motion:
 
 #: Shares of the errors.
 _CAUSES = {
-    "method": "the two ways of following it",
-    "input": "given numbers",
+    "method": "the integration (difference of two solutions)",
+    "input": "the uncertainties of the inputs",
     "kernel": "the positions of the bodies",
 }
 
 
-def _error(units: str, quantity: str) -> Any:
-    """Declare the output variable for the error (95 % half-width) of a quantity over time."""
-    return number(units, f"95 % half-width of {quantity}, largest so far", along=("time",))
-
-
-def _share(units: str, name: str, cause: str) -> Any:
-    """Declare the output variable for the error of a quantity over time due to one cause."""
-    return number(units, f"share of {name}_error from {_CAUSES[cause]}", along=("time",))
+def _errors(units: str, name: str, quantity: str) -> Any:
+    """Declare ``<name>_error`` and its shares, ``<name>_error_<cause>``, each largest so far."""
+    endings = {f"_{cause}": f"share of {name}_error from {w}" for cause, w in _CAUSES.items()}
+    endings = {"": f"95 % half-width of {quantity}, largest so far", **endings}
+    return Variable(units, endings=endings, along=("time",))
 
 
 class Attitudes(Dated, along=("time", "component")):
@@ -354,25 +323,18 @@ class Attitudes(Dated, along=("time", "component")):
         error="attitude_error",
         short="quaternion, body to ICRF",
     )
-    attitude_error = _error("deg", "the angle of the attitude")
-    attitude_error_method = _share("deg", "attitude", "method")
-    attitude_error_input = _share("deg", "attitude", "input")
-    attitude_error_kernel = _share("deg", "attitude", "kernel")
+    attitude_error = _errors("deg", "attitude", "the angle of the attitude")
     omega = number(
         "rad/s",
         "angular velocity along the principal axes",
         frame="principal axes of the body, C last",
         short="spin in the body",
     )
-    omega_error = _error("rad/s", "the angular velocity")
-    omega_error_method = _share("rad/s", "omega", "method")
-    omega_error_input = _share("rad/s", "omega", "input")
-    omega_error_kernel = _share("rad/s", "omega", "kernel")
+    omega_error = _errors("rad/s", "omega", "the angular velocity")
     angular_momentum = number("kg m2 / s", "angular momentum along the ICRF", frame="ICRF")
-    angular_momentum_error = _error("kg m2 / s", "the angular momentum, C as given")
-    angular_momentum_error_method = _share("kg m2 / s", "angular_momentum", "method")
-    angular_momentum_error_input = _share("kg m2 / s", "angular_momentum", "input")
-    angular_momentum_error_kernel = _share("kg m2 / s", "angular_momentum", "kernel")
+    angular_momentum_error = _errors(
+        "kg m2 / s", "angular_momentum", "the angular momentum, C as given"
+    )
     component = labels(default=["x", "y", "z"])
     quaternion = labels(default=["w", "x", "y", "z"])
 
@@ -413,9 +375,8 @@ def turning(
     size = rotor.polar_moment * abs(rotor.body.unit)
     shares = solution.shares_of(series, rotor.changed, rotor.pulling.doubt)
     errors = {
-        f"{name}_error{share and f'_{share}'}": factor * error[kind][back]
+        f"{name}_error": [factor * shares[cause][kind][back] for cause in ("", *_CAUSES)]
         for kind, (name, factor) in enumerate(zip(KINDS, (1.0, 1.0, size), strict=True))
-        for share, error in shares.items()
     }
     comment = {"comment": f"error of the rigid model; not included: {neglected.largest}"}
     return Attitudes(
@@ -431,8 +392,8 @@ def turning(
             "method": f"Gauss windows of {motion.order} nodes, in two forms",
             # the number that a whole series takes is not known from one block of it
             **({"evaluations": motion.evaluations} if block is None else {}),
-            **({} if start_attitude is not None else start_note(body)),
-            **idle_note(body, effects),
+            **({} if start_attitude is not None else axis_motion.start_note(body)),
+            **axis_motion.idle_note(body, effects),
         },
         omega_error=comment,
         angular_momentum_error=comment,
@@ -444,19 +405,19 @@ class Growth(Dated):
 
     growth = number(
         "1",
-        "natural logarithm of how far neighbouring rotations have parted",
+        "natural logarithm of the growth of the distance between two neighbouring rotations",
         no_error="its scatter is growth_rate_error",
     )
-    growth_rate = number("1/s", "mean rate of growth; Lyapunov's exponent if chaotic", along=())
+    growth_rate = number("1/s", "mean growth rate; Lyapunov exponent if chaotic", along=())
     growth_rate_error = number(
         "1/s",
         "95 % half-width of the rate, from its scatter between stretches of the span",
         along=(),
     )
-    course = words("chaotic, if neighbours part faster than by powers of time; regular", along=())
+    course = words("chaotic if growth is faster than a power of time, else regular", along=())
     #: Only where the motion is chaotic.
     lyapunov_time = number(
-        "d", "time in which neighbours part e times as far", along=(), default=None
+        "d", "time in which the distance grows by the factor e", along=(), default=None
     )
     lyapunov_time_error = number("d", "95 % half-width of that time", along=(), default=None)
 
@@ -464,7 +425,7 @@ class Growth(Dated):
 def one_date(span: Span, times: TimeList | None) -> str | None:
     """Return the reason (text) to omit divergence if only one date is requested, else None."""
     first, last = span.days if times is None else times.span()
-    return None if last > first else "neighbours part in time, and one date is asked for"
+    return None if last > first else "the divergence needs more than one date"
 
 
 @part(unless=one_date, loads=("earthspin.motion.divergence",))
@@ -498,7 +459,7 @@ def divergence(parting: Divergence, rotor: Rotor, epochs: Epochs) -> Growth:
 
 #: Effects that no rigid body of three moments has.
 _BEYOND = (
-    "deformation and flow of the inside, harmonics of the figure beyond the moments, J3 and J4"
+    "deformation and flow of the interior, harmonics of the figure beyond the moments, J3 and J4"
 )
 
 
@@ -508,12 +469,12 @@ def effect_changes(
 ) -> dict[str, float]:
     """Largest changes of the attitude by each effect that is switched off, rad."""
     on = _acting(effects)
-    off = switched_off(body, perturbers, on)
+    off = axis_motion.switched_off(body, perturbers, on)
     if not off:
         return {}
     spinning = body.replace(spin_period=2 * np.pi / rotor.body.unit)
-    forces, further = each_added(sky, spinning, perturbers, on, off)
-    unplaced = drift_by_planets(spinning, rotor.duration) if {*off} - {*further} else {}
+    forces, further = axis_motion.each_added(sky, spinning, perturbers, on, off)
+    unplaced = axis_motion.drift_by_planets(spinning, rotor.duration) if {*off} - {*further} else {}
     return unplaced | attitude_displacements(
         rotor.body, rotor.start, rotor.duration, forces, further
     )
@@ -545,32 +506,27 @@ def neglected(
     """
     changes = effect_changes or {}
     sizes = {name: change for name, change in changes.items() if change}
-    off = switched_off(body, perturbers, _acting(effects))
+    off = axis_motion.switched_off(body, perturbers, _acting(effects))
     unknown = [name for name in off if name not in changes]
     sources = ["effects that are off: to first order, about a steady rotation"] if sizes else []
     if node_drifts:
         sizes |= node_drifts
         sources.append("nodes: circles of the pole by the torques of the satellites on the bulge")
-    known = BEYOND_RIGID.get(body.known_as) if body.is_as_named else None
-    usual = {perturber.name for perturber in pulled_by(body)}
+    known = planets.BEYOND_RIGID.get(body.known_as) if body.is_as_named else None
+    usual = {perturber.name for perturber in planets.pulled_by(body)}
     if known is None or not usual <= {perturber.known_as for perturber in perturbers}:
         unknown.insert(0, _BEYOND)
     else:
         begin, end = epochs.span()
         sizes |= known.after(end - begin)
         sources.append(known.source)
-    return Neglected(
-        sizes,
-        "arcsec",
-        "largest change of the attitude that the model leaves out",
-        "; ".join(sources),
-        unknown=", ".join(unknown),
-    )
+    what = "largest change of the attitude that the model leaves out"
+    return Neglected(sizes, "arcsec", what, "; ".join(sources), unknown=", ".join(unknown))
 
 
 rotation = public_call(
     Rotation,
     answer=turning,
     sections=(divergence, neglected),
-    parts=(*PULLS, pulling, rotor, motion, parting, effect_changes, node_drifts),
+    parts=(*axis_motion.PULLS, pulling, rotor, motion, parting, effect_changes, node_drifts),
 )

@@ -60,9 +60,8 @@ def without_swings(body: Body) -> Body:
     """Replace the pole of a body with satellites by its mean over the nodes of the satellites."""
     if not body.satellites:
         return body
-    return body.replace(
-        pole=body.needed("pole").without_nutation(), pole_uncertainty=body.pole_uncertainty
-    )
+    pole = body.needed("pole").without_nutation()
+    return body.replace(pole=pole, pole_uncertainty=body.pole_uncertainty)
 
 
 def mean_pole_error(body: Body, half: float | None, pull: Numeric) -> float | None:
@@ -115,9 +114,8 @@ def carried(body: Body, pull: Numeric, obliquity: float) -> Carried:
         return Carried()
     _refuse_sphere(body)
     names = ("gm", "radius", "j2", "dynamical_flattening", "spin_rate")
-    numbers = xr.broadcast(
-        *(xr.DataArray(getattr(body, name)) for name in names), xr.DataArray(pull)
-    )
+    given = [*(getattr(body, name) for name in names), pull]
+    numbers = xr.broadcast(*map(xr.DataArray, given))
     template = numbers[0]
     columns = [array.values.reshape(-1, 1) for array in numbers]
     planet = _planet(columns, obliquity)
@@ -203,18 +201,15 @@ def largest_torques_of_satellites(body: Body, pull: float) -> dict[str, float]:
     numbers = [body.gm, body.number("radius"), body.number("j2"), 1.0, 1.0, pull]
     planet = _planet([np.full((1, 1), float(number)) for number in numbers], obliquity)
     tilts = laplace_tilts(planet, _satellites(body))[0]
-    return {
-        f"pull of {moon.name}": 1.5
-        * moon.gm
-        / moon.a**3
-        * abs(moment)
-        * math.sin(min(2 * (abs(tilt) + min(moon.i, math.pi - moon.i)), math.pi / 2))
-        for moon, tilt in zip(body.satellites, tilts, strict=True)
-    }
+    torques = {}
+    for moon, tilt in zip(body.satellites, tilts, strict=True):
+        turn = min(2 * (abs(tilt) + min(moon.i, math.pi - moon.i)), math.pi / 2)
+        torques[f"pull of {moon.name}"] = 1.5 * moon.gm / moon.a**3 * abs(moment) * math.sin(turn)
+    return torques
 
 
 def largest_drifts(nutations: Mapping[str, Swing], span: float) -> dict[str, float]:
-    """Largest displacements of the pole by the nodes of satellites within a span of s, rad."""
+    """Largest displacements of the pole by the nodes of satellites within a time span (s), rad."""
     return {
         name: 2 * swing.angle * math.sin(min(swing.node_rate * span, math.pi) / 2)
         for name, swing in nutations.items()

@@ -11,14 +11,10 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 
 from earthspin._version import version
-from earthspin.bodies import EARTH, MOON, SUN, Body, all_of
-from earthspin.bodies.checks import extent, overlap, refuse_break_up
-from earthspin.bodies.moons import ORBITS as OF_MOONS
-from earthspin.bodies.planets import on_its_orbit, pulled_by
+from earthspin.bodies import EARTH, MOON, SUN, Body, all_of, checks, moons, planets
 from earthspin.constants import DAY
 from earthspin.dates import Span
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, key
+from earthspin.engine.question import Question, key, part
 from earthspin.errors import KernelError, SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.elements import EllipseChain, all_by_elements, ellipse_chains
@@ -45,11 +41,8 @@ class KernelName(FileName):
         if hasattr(value, "spk") and hasattr(value, "path"):
             value = value.path
         if sources.is_vector_function(value):
-            raise where.error(
-                value,
-                "it is the position of one body; give it to a perturber, like "
-                "SUN.replace(position=...), and give a kernel here",
-            )
+            remedy = "give it to a perturber, like SUN.replace(position=...), and a kernel here"
+            raise where.error(value, f"it is the position of one body; {remedy}")
         return super().read(value, where)
 
     def is_path(self, value: object) -> bool:
@@ -81,13 +74,7 @@ class PerturbedBody(Question):
     source: SourceName = key("jplephem", doc=SOURCE_DOC)
 
     #: Fields of the body that the question needs, besides its mass.
-    needs: ClassVar[tuple[str, ...]] = (
-        "radius",
-        "j2",
-        "dynamical_flattening",
-        "spin_period",
-        "pole",
-    )
+    needs: ClassVar[tuple[str, ...]] = "radius", "j2", "dynamical_flattening", "spin_period", "pole"
     #: Whether a body may have no perturbers.
     may_be_alone: ClassVar[bool] = False
     #: Whether masses of perturbers may be labelled arrays.
@@ -96,8 +83,8 @@ class PerturbedBody(Question):
     def check(self) -> None:
         """Set default perturbers, and refuse a body or perturbers without required properties."""
         if "perturbers" not in self.given:
-            object.__setattr__(self, "perturbers", pulled_by(self.body))
-            object.__setattr__(self, "body", on_its_orbit(self.body))
+            object.__setattr__(self, "perturbers", planets.pulled_by(self.body))
+            object.__setattr__(self, "body", planets.on_its_orbit(self.body))
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of the body must not be zero")
         self.body.require(self.needed())
@@ -107,11 +94,9 @@ class PerturbedBody(Question):
             raise self.error("perturbers", names, "give at least one, like ['sun', 'moon']")
         for p in self.perturbers:
             if p.labelled_field is not None and not (self.many_pulls and p.labelled_field == "gm"):
-                raise self.error(
-                    f"perturbers.{p.name}.{p.labelled_field}",
-                    "an array",
-                    "a perturber takes single numbers; run the question for each value",
-                )
+                key_of_array = f"perturbers.{p.name}.{p.labelled_field}"
+                problem = "a perturber takes single numbers; run the question for each value"
+                raise self.error(key_of_array, "an array", problem)
             if names.count(p.name) > 1:
                 raise self.error("perturbers", names, f"'{p.name}' is named twice")
         if "total" in names:
@@ -131,7 +116,7 @@ class PerturbedBody(Question):
     def check_spin(self) -> None:
         """Refuse a spin so fast that the body would break up, if the question needs the spin."""
         if "spin_period" in self.needed():
-            refuse_break_up(self.body)
+            checks.refuse_break_up(self.body)
 
 
 @dataclass(frozen=True)
@@ -183,22 +168,17 @@ class Sky:
     @cached_property
     def provenance(self) -> dict[str, str]:
         """Name of the ephemeris and versions of the libraries that read it, by attribute name."""
-        own = {
-            name: words(place)
-            for name, place in self.targets.items()
-            if not isinstance(place, int) and self.source.name != BY_ELEMENTS
-        }
         attributes = self.source.provenance | {"pyerfa_version": version("pyerfa")}
-        if own:
-            attributes["own_positions"] = "; ".join(f"{name}: {text}" for name, text in own.items())
+        own = {name: p for name, p in self.targets.items() if not isinstance(p, int)}
+        if own and self.source.name != BY_ELEMENTS:
+            placed = (f"{name}: {words(place)}" for name, place in own.items())
+            attributes["own_positions"] = "; ".join(placed)
         return attributes
 
     def error(self, target: Place, days: Iterable[float] = (0.0,)) -> tuple[float, float]:
         """Largest error of a body's position over given days: angle (rad) and distance (m)."""
-        angles, distances = zip(
-            *(self.source.error(target, self.centre, day) for day in days), strict=True
-        )
-        return max(angles), max(distances)
+        errors = [self.source.error(target, self.centre, day) for day in days]
+        return max(angle for angle, _ in errors), max(distance for _, distance in errors)
 
     def drift(self, name: str, distance: float) -> float:
         """Relative error of the spin axis motion due to the position error of one perturber."""
@@ -212,12 +192,9 @@ class Sky:
     @property
     def no_error(self) -> str:
         """Return the reason (text) why some errors are NaN; an empty text if none is NaN."""
-        if not self.unmeasured:
-            return ""
-        return (
-            f"NaN for {', '.join(self.unmeasured)} and dependent numbers: the errors of these "
-            "positions were not measured"
-        )
+        numbers = f"{', '.join(self.unmeasured)} and dependent numbers"
+        words = f"NaN for {numbers}: the errors of these positions were not measured"
+        return words if self.unmeasured else ""
 
     def place(self, body: Body) -> Place:
         """NAIF code or trajectory by which the position of an additional body can be found."""
@@ -330,7 +307,7 @@ class Sky:
     def _refuse_inside(self, name: str, squares: FloatArray) -> None:
         nearest = float(np.sqrt(np.min(squares, initial=np.inf)))
         # Planets from the effect of that name have no reach, since they are far away.
-        if inside := overlap(nearest, self.reach.get(name, 0.0), f"'{name}'", "the body"):
+        if inside := checks.overlap(nearest, self.reach.get(name, 0.0), f"'{name}'", "the body"):
             raise UndefinedError(f"{inside}; the formula of the torque is valid only outside")
 
 
@@ -352,7 +329,7 @@ def _place(source: Source, name: str, chain: EllipseChain) -> Place:
     except KernelError as error:
         codes = ", ".join(map(str, start.naif)) or "no code"
         problem = f"it has no position of '{start.name}' (NAIF {codes})"
-        moon, orbit = OF_MOONS.get(start.known_as), {"a": "2.5 au", "about": SUN.name}
+        moon, orbit = moons.ORBITS.get(start.known_as), {"a": "2.5 au", "about": SUN.name}
         if moon is not None and moon.period is not None:
             orbit = {"period": f"{moon.period / DAY:.8g} d", "about": moon.about}
         remedy = f"give an orbit or a position, like .replace(orbit={orbit}), or another kernel"
@@ -369,30 +346,20 @@ def places(body: Body, perturbers: tuple[Body, ...]) -> Places:
         if targets[p.name].ellipses and start.position is not None:
             problem = f"'{start.name}' has no NAIF code, but a position"
             raise SceneError(f"{p.name}.orbit", str(p.orbit), problem)
-    return Places(
-        body,
-        targets,
-        {p.name: extent(body) + extent(p) for p in perturbers},
-        all_by_elements(body, perturbers),
-        alone | ellipse_chains(body, perturbers, starts_at_body=False),
-    )
+    reach = {p.name: checks.extent(body) + checks.extent(p) for p in perturbers}
+    own = alone | ellipse_chains(body, perturbers, starts_at_body=False)
+    return Places(body, targets, reach, all_by_elements(body, perturbers), own)
 
 
 def from_where(source: SourceName, ephemeris: str, body: Body, perturbers: tuple[Body, ...]) -> str:
     """Describe in words where the positions of the body and its perturbers come from."""
     if all_by_elements(body, perturbers):
         return "positions from orbital elements; no kernel is opened"
+    bodies = (body, *perturbers)
     phrases = [f"positions {sources.describe_source(source, ephemeris)}"]
-    phrases += [
-        f"{member.name} by the elements of its orbit"
-        for member in (body, *perturbers)
-        if member.orbit is not None
-    ]
-    phrases += [
-        f"{member.name} by {sources.describe_position(member.position)}"
-        for member in (body, *perturbers)
-        if member.position is not None
-    ]
+    phrases += [f"{b.name} by the elements of its orbit" for b in bodies if b.orbit is not None]
+    placed = {b.name: b.position for b in bodies if b.position is not None}
+    phrases += [f"{name} by {sources.describe_position(p)}" for name, p in placed.items()]
     return "; ".join(phrases)
 
 

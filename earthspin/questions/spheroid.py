@@ -8,8 +8,7 @@ import numpy as np
 
 from earthspin.bodies import EARTH, Body, all_of, proper
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, setting
+from earthspin.engine.question import Question, key, part, setting
 from earthspin.engine.variables import Neglected, Variables, labels, number
 from earthspin.mass.figure import eccentricity_squared
 from earthspin.numerics.arrays import FloatArray
@@ -33,7 +32,7 @@ class Spheroid(
     Raises
     ------
     EarthspinError
-        For a body without a figure, or positions that are not finite.
+        If the body has no figure, or a position is not finite.
 
     Examples
     --------
@@ -45,7 +44,7 @@ class Spheroid(
 
     page, headline = "rotors", "potential"
 
-    body: Body = key(EARTH, doc="body whose mass and figure the spheroid has")
+    body: Body = key(EARTH, doc="body that gives mass and figure of the spheroid")
     position: Annotated[FloatArray, Numbers("m", "7000 km", (None, 3))] = setting(
         doc="coordinates from the centre, z along the axis"
     )
@@ -91,10 +90,9 @@ def field(body: Body, position: FloatArray, point_mass: float) -> Field:
     """Compute potential, attraction and torque of a homogeneous spheroid at given points."""
     from earthspin.mass import spheroid
 
-    numbers = SideBySide.of(
-        gm=body.gm, radius=body.radius, flattening=body.flattening, mass=point_mass
-    )
-    gm, radius, flattening, mass = numbers.columns("gm", "radius", "flattening", "mass")
+    given = {name: getattr(body, name) for name in ("gm", "radius", "flattening")}
+    numbers = SideBySide.of(**given, mass=point_mass)
+    gm, radius, flattening, mass = numbers.columns(*given, "mass")
     figure = gm, radius, flattening
     error = spheroid.error_bound(flattening, position / radius[..., np.newaxis])
     return Field(
@@ -110,21 +108,15 @@ def field(body: Body, position: FloatArray, point_mass: float) -> Field:
 def neglected(body: Body, position: FloatArray) -> Neglected:
     """Effect of the assumption of uniform density; real bodies have a smaller J2."""
     if body.labelled or body.j2 is None:
-        return Neglected(
-            what=f"a density that grows inwards: this {proper(body.name)} has no single J2 "
-            "to compare with"
-        )
+        lacking = f"this {proper(body.name)} has no single J2 to compare with"
+        return Neglected(what=f"a density that grows inwards: {lacking}")
     # inside the body the field of its J2 is another
     nearest = max(float(np.min(np.linalg.norm(position, axis=-1))), body.number("radius"))
     # (C - A)/(M a2) of an even density is a fifth of e2
     excess = float(eccentricity_squared(body.number("flattening"))) / 5 - body.number("j2")
     size = body.number("gm") / nearest * (body.number("radius") / nearest) ** 2 * abs(excess)
-    return Neglected(
-        {"density that grows inwards": size},
-        "J/kg",
-        "largest change of the potential by the body's own J2, at the nearest point",
-        body.reference,
-    )
+    what = "largest change of the potential by the body's own J2, at the nearest point"
+    return Neglected({"density that grows inwards": size}, "J/kg", what, body.reference)
 
 
 spheroid_field = public_call(

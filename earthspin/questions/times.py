@@ -13,8 +13,7 @@ from earthspin._lazy import xr
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
 from earthspin.dates import Epochs, Span, Step, TimeGrid, TimeList
-from earthspin.engine.part import Block, part
-from earthspin.engine.question import key
+from earthspin.engine.question import Block, key, part
 from earthspin.engine.variables import Variables, labels
 from earthspin.errors import SceneError, in_bytes
 from earthspin.numerics.arrays import FloatArray
@@ -32,7 +31,7 @@ SPAN_DOC = "first and last date, TDB; the last is included if the step meets it"
 class Series(PerturbedBody):
     """Base class of questions whose results are time series at given dates."""
 
-    exclusive = (("times",), ("span", "step"))
+    exclusive = ((("times",), ("span", "step")),)
 
     span: Span = key(doc=SPAN_DOC)
     step: Step = key(doc="time between two dates")
@@ -96,12 +95,9 @@ def days_of(
         if store:
             remedy = f"write them by region with write_series(scene, '{store}') or run --out"
         times = f"{epochs.size} times" + (f" of {count} members" if count > 1 else "")
-        raise SceneError(
-            "step",
-            None if isinstance(epochs, TimeList) else f"{epochs.step * 1e-6:g} s",
-            f"{times} take {in_bytes(size * BYTES_PER_TIME)} and do not fit into memory "
-            f"(up to {LONGEST_IN_MEMORY}); {remedy}",
-        )
+        step = None if isinstance(epochs, TimeList) else f"{epochs.step * 1e-6:g} s"
+        problem = f"{times} take {in_bytes(size * BYTES_PER_TIME)} and do not fit into memory"
+        raise SceneError("step", step, f"{problem} (up to {LONGEST_IN_MEMORY}); {remedy}")
     return epochs.days()
 
 

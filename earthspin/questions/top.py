@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, setting
+from earthspin.engine.question import Question, part, setting
 from earthspin.engine.variables import Neglected, Variables, labels, number, words
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.times import FromStart, Seconds, SideBySide, instants
@@ -45,7 +44,7 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
     Raises
     ------
     EarthspinError
-        For a top that cannot be, or a start out of range.
+        If the moments are impossible, or an initial value is out of range.
 
     Examples
     --------
@@ -64,7 +63,7 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
 
     page, headline = "rotors", "theta"
 
-    exclusive = (("times",), ("duration", "points"))
+    exclusive = ((("times",), ("duration", "points")),)
 
     times: Seconds | None = setting(None, doc="times from the start")
     duration: Duration = setting("20 s", doc="last time, if times are not given")

@@ -11,13 +11,11 @@ from earthspin._lazy import xr
 from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import Block, part
-from earthspin.engine.question import key
+from earthspin.engine.question import Block, key, part
 from earthspin.engine.variables import Neglected, labels, measured, number
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import FloatArray
-from earthspin.questions.reasons import no_iau_model
-from earthspin.questions.satellites import largest_torques_of_satellites
+from earthspin.questions import reasons, satellites
 from earthspin.questions.sky import Sky, places, sky
 from earthspin.questions.times import SPAN_DOC, Dated, Series, days_of, epochs
 from earthspin.sky.iau import NUTATION_NODE_STEP, Nutation
@@ -57,7 +55,7 @@ class Torque(Series, word="torque", call="torque_series", positional=("start", "
     def check(self) -> None:
         """Refuse the true equator of date for a body that has no nutation model."""
         super().check()
-        if self.equator == "true" and no_iau_model(self.body):
+        if self.equator == "true" and reasons.no_iau_model(self.body):
             why = f"there is no nutation model for {in_a_sentence(self.body.name)}; use 'mean'"
             raise self.error("equator", "true", why)
 
@@ -96,9 +94,9 @@ class Torques(Dated, along=("time", "perturber")):
     )
     torque_magnitude = measured("N m", "magnitude of the torque")
     direction_error = number(
-        "arcsec", "bound on right ascension and declination", along=("perturber",)
+        "arcsec", "bound on the error of right ascension and declination", along=("perturber",)
     )
-    distance_error = number("m", "bound on the distance from the kernel", along=("perturber",))
+    distance_error = number("m", "bound on the error of the distance", along=("perturber",))
     perturber = labels()
     component = labels(default=["x", "y", "z"])
 
@@ -129,18 +127,11 @@ def torques(
     bulge = moment_difference(body.needed("j2"), body.mass, body.needed("radius"))
     u_bulge = body.relative_uncertainty_of_bulge()
     per_bulge = [torque_from_declination(p.gm_on(body), 1.0, *seen[p.name]) for p in perturbers]
-    error = [
-        torque_error(
-            p.gm_on(body),
-            1.0,
-            declination=seen[p.name][1],
-            distance=seen[p.name][2],
-            angle_error=kernel_error[p.name][0],
-            distance_error=kernel_error[p.name][1],
-            u_product=math.hypot(u_bulge, p.relative_uncertainty.get("gm", 0.0)),
-        )
-        for p in perturbers
-    ]
+    error = []
+    for p in perturbers:
+        place = (*seen[p.name][1:], *kernel_error[p.name])
+        u_product = math.hypot(u_bulge, p.relative_uncertainty.get("gm", 0.0))
+        error.append(torque_error(p.gm_on(body), 1.0, *place, u_product))
     magnitudes = [np.linalg.norm(t, axis=-1) for t in per_bulge]
     return Torques(
         time=datetime64(now),
@@ -205,7 +196,8 @@ def neglected(
     sizes = largest_torque_on_figure(
         pulls, float(body.mass), float(body.needed("radius")), figure, float(body.triaxiality)
     )
-    sizes |= largest_torques_of_satellites(body, sum(gm / r**3 for gm, r in pulls))
+    pull = sum(gm / r**3 for gm, r in pulls)
+    sizes |= satellites.largest_torques_of_satellites(body, pull)
     return Neglected(sizes, "N m", "largest torque that the model leaves out", body.reference)
 
 

@@ -16,8 +16,7 @@ from earthspin.bodies import EARTH, Body, Numeric, all_of
 from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY
 from earthspin.engine.answers import public_call
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, key, setting
+from earthspin.engine.question import Question, key, part, setting
 from earthspin.engine.variables import Neglected, Variables, measured, number, words
 from earthspin.interior.named import ANELASTIC_EXPONENT, EXPONENT_RANGE, Interior
 from earthspin.questions import interiors
@@ -29,20 +28,15 @@ from earthspin.wobble import ladder, propagation
 _FIGURE = ("dynamical_flattening", "j2", "triaxiality")
 _SPIN = ("gm", "radius", "spin_period")
 #: Keys that describe the interior, and the inputs of the ladder that they set.
-_INTERIOR = {
-    "k2": "k2",
-    "core_fraction": "core_fraction",
-    "core_ellipticity": "core_ellipticity",
-    "ocean_love_number": "ocean",
-    "anelastic_exponent": "anelastic_exponent",
-}
+_KEYS = ("k2", "core_fraction", "core_ellipticity", "ocean_love_number", "anelastic_exponent")
+_INTERIOR = {name: name for name in _KEYS} | {"ocean_love_number": "ocean"}
 
 
 class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
     """Period of the free wobble, by models from rigid to deformable (source text, I.6).
 
-    A ladder of models: each rung adds one effect to the rung before. The `interior` of the body
-    determines the last rung.
+    Each model (rung) adds one effect to the model before. The `interior` of the body determines the
+    last model.
 
     Returns
     -------
@@ -50,7 +44,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
         Along `rung` (flattening, rigid, triaxial, elastic, fluid-core, ocean, anelastic):
         `period_solar` (d of 86400 s) with its 95 % half-width, `period_sidereal`, `factor`,
         `quality_factor`. `earthspin.run_tree` adds the sections: the observed period, the
-        sensitivity of the last rung, the free core nutation, and the Love numbers.
+        sensitivity of the last model, the free core nutation, and the Love numbers.
 
     Examples
     --------
@@ -180,11 +174,10 @@ def inside(
     """Collect the inputs of the non-rigid wobble models: figure, interior and ocean of the body."""
     interior = interiors.interior_of(body)
     assert interior is not None
-    names = (*_FIGURE, *_SPIN)
     chosen = (k2, core_fraction, core_ellipticity, ocean_love_number, anelastic_exponent)
-    own = dict(zip(_INTERIOR.values(), chosen, strict=True))
-    own = {name: value for name, value in own.items() if value is not None}
-    given = {name: body.needed(name) for name in names} | own
+    pairs = zip(_INTERIOR.values(), chosen, strict=True)
+    own = {name: value for name, value in pairs if value is not None}
+    given = {name: body.needed(name) for name in (*_FIGURE, *_SPIN)} | own
     numbers = xr.broadcast(*map(xr.DataArray, given.values()))
     values = {name: number.values for name, number in zip(given, numbers, strict=True)}
     spin = ladder.Spin(*(values.pop(name) for name in _SPIN))
@@ -211,7 +204,7 @@ class Rungs(
         "period of the free wobble in turns of the body, its sidereal days",
         short="sidereal days",
     )
-    factor = number("1", "ratio of the period to that of the rung before")
+    factor = number("1", "ratio of the period to that of the model before")
     quality_factor = number(
         "1",
         "quality factor of the free wobble",
@@ -231,16 +224,12 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
     left_out = dict.fromkeys(ladder.RUNGS[3:], why_rigid(body) or "")
     spread = _rigid_spread(body, turns)
     if inside is not None:
-        climbed = ladder.climb(inside.inputs, *inside.setting)
+        inputs, uncertainty, setting = inside.inputs, inside.uncertainty, inside.setting
+        climbed = ladder.climb(inputs, *setting)
         left_out = climbed.left_out
-        sampled = propagation.sampled_half_widths(
-            inside.inputs, inside.uncertainty, *inside.setting
-        )
-        for lower, upper in (
-            (turns, climbed.turns),
-            (quality, climbed.quality_factor),
-            (spread, sampled),
-        ):
+        sampled = propagation.sampled_half_widths(inputs, uncertainty, *setting)
+        pairs = ((turns, climbed.turns), (quality, climbed.quality_factor), (spread, sampled))
+        for lower, upper in pairs:
             lower |= {name: inside.label(value) for name, value in upper.items()}
     sidereal, day = _stacked(turns, "rung"), abs(body.needed("spin_period"))
     period = sidereal * day
@@ -268,15 +257,10 @@ def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric
     """95 % half-widths of the rigid wobble periods, from the errors of flattening and of H."""
     spread: dict[str, Numeric] = {}
     for name, value in turns.items():
-        from_flattening = name == "flattening"
-        field = "flattening" if from_flattening else "dynamical_flattening"
-        uncertainty = body.relative_uncertainty.get(field, 0.0)
-        h = 0.0 if from_flattening else body.needed(field)
-        spread[name] = (
-            free_wobble_error(value, h, uncertainty)
-            if uncertainty
-            else xr.zeros_like(xr.DataArray(value))  # labels and all
-        )
+        field = "flattening" if name == "flattening" else "dynamical_flattening"
+        h = 0.0 if name == "flattening" else body.needed(field)
+        u = body.relative_uncertainty.get(field, 0.0)
+        spread[name] = free_wobble_error(value, h, u) if u else xr.zeros_like(xr.DataArray(value))
     return spread
 
 
@@ -293,17 +277,17 @@ def _stacked(values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
 # --- sections --------------------------------------------------------------------------------
 
 
-class Sensitivity(Variables, along=("input",), no_error="a share of an error, or an input of it"):
+class Sensitivity(Variables, along=("input",), no_error="a part of an error, or an input of it"):
     """Derivative of the wobble period with respect to each input, and error of that input.
 
     The period is that of the most detailed model; errors are 95 % half-widths.
     """
 
-    days_per_unit = number("d", "change of the last rung per unit of the input")
+    days_per_unit = number("d", "change of the period of the last model per unit of the input")
     input_value = number("1", "value of the input")
     input_half_width = number("1", "95 % half-width of the input")
     days_from_input = number(
-        "d", "95 % half-width of the last rung from the uncertainty of the input"
+        "d", "95 % half-width of the period of the last model from the uncertainty of the input"
     )
 
 
@@ -336,24 +320,20 @@ class CoreNutation(
 @part
 def core_nutation(inside: Inside, body: Body) -> CoreNutation:
     """Compute the period of the free core nutation, for different shapes of the core."""
-    shapes = {"hydrostatic": inside.inputs}
-    uncertainties = {"hydrostatic": inside.uncertainty}
+    shapes = {"hydrostatic": (inside.inputs, inside.uncertainty)}
     attributes = {}
     observed = inside.interior.observed_core_ellipticity
     # observed in the body itself, not in one that has been changed
     if observed is not None and body.observed_wobble is not None:
-        shapes["observed"] = replace(inside.inputs, core_ellipticity=observed.value)
         own = {"core_ellipticity": observed.relative_uncertainty}
-        uncertainties["observed"] = {**inside.uncertainty, **own}
+        inputs = replace(inside.inputs, core_ellipticity=observed.value)
+        shapes["observed"] = (inputs, {**inside.uncertainty, **own})
         attributes["references"] = observed.source
-    turns = {
-        name: ladder.climb(inputs, *inside.setting).core_turns["fluid-core"]
-        for name, inputs in shapes.items()
-    }
-    half_widths = {
-        name: propagation.core_nutation_half_width(inputs, uncertainties[name], *inside.setting)
-        for name, inputs in shapes.items()
-    }
+    turns: dict[str, Numeric] = {}
+    half_widths: dict[str, Numeric] = {}
+    for name, (inputs, spread) in shapes.items():
+        turns[name] = ladder.climb(inputs, *inside.setting).core_turns["fluid-core"]
+        half_widths[name] = propagation.core_nutation_half_width(inputs, spread, *inside.setting)
     nutation = inside.stack(turns, "core_shape") * body.needed("spin_period")
     error = inside.stack(half_widths, "core_shape") * abs(body.needed("spin_period"))
     return CoreNutation(
@@ -369,13 +349,10 @@ def neglected(body: Body, inside: Inside | None = None) -> Neglected:
         return Neglected(what=f"all deformation: {why_rigid(body)}")
     left_out = inside.interior.neglected
     if not left_out or not body.is_as_named:
-        return Neglected(
-            what="an inner core, and rotation and ellipticity in the Love number: their sizes "
-            f"were not found for this {body.name}"
-        )
-    return Neglected.cited(
-        left_out, "change of the last rung; winds and currents drive the wobble, and not its period"
-    )
+        effects = "an inner core, and rotation and ellipticity in the Love number"
+        return Neglected(what=f"{effects}: their sizes were not found for this {body.name}")
+    what = "change of the last period; winds and currents drive the wobble, and not its period"
+    return Neglected.cited(left_out, what)
 
 
 wobble_ladder = public_call(

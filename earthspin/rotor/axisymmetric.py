@@ -54,19 +54,11 @@ class SymmetricRotor:
     def __post_init__(self) -> None:
         i1, difference = self.equatorial, self.difference
         _require(np.greater(i1, 0), "equatorial", i1, "a principal moment must be positive")
-        _require(
-            np.greater(difference, -np.asarray(i1)) & np.less_equal(difference, i1),
-            "difference",
-            difference,
-            "I3 - I1 must be above -I1, and at most I1",
-        )
+        possible = np.greater(difference, -np.asarray(i1)) & np.less_equal(difference, i1)
+        _require(possible, "difference", difference, "I3 - I1 must be above -I1, and at most I1")
         _require(np.greater(self.speed, 0), "speed", self.speed, "give |omega| above 0, in rad/s")
-        _require(
-            np.greater_equal(self.alpha, 0) & np.less_equal(self.alpha, np.pi),
-            "alpha",
-            self.alpha,
-            "the half-angle of the cone must be 0 to pi rad",
-        )
+        possible = np.greater_equal(self.alpha, 0) & np.less_equal(self.alpha, np.pi)
+        _require(possible, "alpha", self.alpha, "the half-angle of the cone must be 0 to pi rad")
 
     @property
     def polar(self) -> Numeric:
@@ -227,15 +219,9 @@ class SymmetricRotor:
         phi, theta, psi = np.moveaxis(self.euler_angles(times), -1, 0)
         upright, tilted = np.cos(theta / 2), np.sin(theta / 2)
         total, rest = (phi + psi) / 2, (phi - psi) / 2
-        return np.stack(
-            [
-                upright * np.cos(total),
-                tilted * np.cos(rest),
-                tilted * np.sin(rest),
-                upright * np.sin(total),
-            ],
-            axis=-1,
-        )
+        w, z = upright * np.cos(total), upright * np.sin(total)
+        x, y = tilted * np.cos(rest), tilted * np.sin(rest)
+        return np.stack([w, x, y, z], axis=-1)
 
     def _in_node_plane(self, length: Numeric, angle: Numeric, times: Numeric) -> FloatArray:
         """Vector at an angle from the angular momentum towards the figure axis, inertial axes."""

@@ -210,7 +210,7 @@ def euler_rates(moments: Moments, omega: Any, torque: Any = 0.0) -> FloatArray:
     Parameters
     ----------
     moments : sequence of three numbers, mapping or PrincipalMoments
-        As for `principal_moments`, kg m2.
+        Moments of inertia, see `principal_moments`, kg m2.
     omega : array_like, shape (..., 3)
         rad/s.
     torque : array_like, shape (..., 3)
@@ -230,17 +230,6 @@ def twice_energy(moments: Moments, omega: Any) -> FloatArray:
         As for `euler_rates`.
     """
     return np.asarray(np.sum(principal_moments(moments).values * np.square(omega), axis=-1))
-
-
-def angular_momentum_squared(moments: Moments, omega: Any) -> FloatArray:
-    """Squared angular momentum L2 = sum of (I w)^2, kg2 m4/s2, invariant without torque.
-
-    Parameters
-    ----------
-    moments, omega
-        As for `euler_rates`.
-    """
-    return np.asarray(np.sum((principal_moments(moments).values * omega) ** 2, axis=-1))
 
 
 def axis_stability(moments: Moments, speed: Any) -> AxisStability:

@@ -21,15 +21,9 @@ from earthspin.errors import UndefinedError
 from earthspin.numerics import quaternion
 from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.numerics.double_double import TWO_PI
+from earthspin.rotor import triaxial
 from earthspin.rotor.euler import Moments, finite, principal_moments
-from earthspin.rotor.triaxial import (
-    JacobiMotion,
-    Phase,
-    jacobi_motion,
-    momentum_frame,
-    phase_at,
-    to_body,
-)
+from earthspin.rotor.triaxial import JacobiMotion, Phase, jacobi_motion
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,7 +54,7 @@ def inertia_ellipsoid(moments: Moments, omega: Any) -> FloatArray:
     Parameters
     ----------
     moments : sequence of three numbers, mapping or PrincipalMoments
-        As for `principal_moments`, kg m2.
+        Moments of inertia, see `principal_moments`, kg m2.
     omega : array_like, shape (..., 3)
         Angular velocity along the principal axes at any time, rad/s.
 
@@ -83,7 +77,7 @@ def rescaled_inertia_ellipsoid(moments: Moments) -> FloatArray:
     Parameters
     ----------
     moments : sequence of three numbers, mapping or PrincipalMoments
-        As for `principal_moments`, kg m2.
+        Moments of inertia, see `principal_moments`, kg m2.
 
     Returns
     -------
@@ -132,7 +126,7 @@ def polhode(moments: Moments, omega: Any, n: int = 361) -> Polhode:
     cosine = np.where(point[..., np.newaxis], 0.0, cosine)
     third = np.hypot(cosine, motion.complementary_modulus[..., np.newaxis] * sine)
     curve = np.stack([cosine, sine, third], axis=-1)
-    path = to_body(motion, curve * motion.amplitudes[..., np.newaxis, :])
+    path = triaxial.to_body(motion, curve * motion.amplitudes[..., np.newaxis, :])
     path[..., -1, :] = np.where(is_open[..., np.newaxis], path[..., -1, :], path[..., 0, :])
     return Polhode(path, ~is_open, motion.period)
 
@@ -155,8 +149,8 @@ def herpolhode(moments: Moments, omega: Any, times: Any) -> FloatArray:
         rad/s, seen from the tip of the angular momentum; the point at t = 0 is on the first axis.
     """
     motion = jacobi_motion(moments, omega)
-    phase = phase_at(motion, np.concatenate([[0.0], finite(times, "times", "s")]))
-    across = quaternion.rotate(momentum_frame(motion, phase), _across(motion, phase))
+    phase = triaxial.phase_at(motion, np.concatenate([[0.0], finite(times, "times", "s")]))
+    across = quaternion.rotate(triaxial.momentum_frame(motion, phase), _across(motion, phase))
     # Rotated by a quarter turn; moving the first point to the first axis removes the rotation.
     x, y = across[..., 0], across[..., 1]
     size = np.hypot(x[..., :1], y[..., :1])

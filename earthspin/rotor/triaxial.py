@@ -34,18 +34,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from earthspin.errors import BodyError, UndefinedError
-from earthspin.numerics import quaternion
+from earthspin.numerics import elliptic, quaternion
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.double_double import TWO_PI, DoubleDouble, stack, where
-from earthspin.numerics.elliptic import (
-    Jacobi,
-    LandenDescent,
-    first_kind,
-    jacobi,
-    landen_descent,
-    third_kind_mean,
-    third_kind_periodic,
-)
 from earthspin.rotor.euler import Moments, PrincipalMoments, finite, principal_moments
 
 # --- constants of the motion ----------------------------------------------------------------------
@@ -128,7 +119,7 @@ class JacobiMotion:
     start: FloatArray
     start_angle: FloatArray
     complementary_modulus: FloatArray
-    descent: LandenDescent
+    descent: elliptic.LandenDescent
     precession: Precession
 
     @property
@@ -171,7 +162,7 @@ def jacobi_motion(moments: Moments, omega: Any) -> JacobiMotion:
     Parameters
     ----------
     moments : sequence of three numbers, mapping or PrincipalMoments
-        As for `principal_moments`, kg m2; of shape (..., 3) for many bodies.
+        Moments of inertia, see `principal_moments`, kg m2; of shape (..., 3) for many bodies.
     omega : array_like, shape (..., 3)
         Angular velocity at t = 0 along the principal axes, rad/s. Bodies and starts
         broadcast against each other.
@@ -205,7 +196,7 @@ def _constants(
     circular = (d1.hi == 0) | (start.span.hi == 0)
     k2_complementary = where(circular, 1.0, start.side / where(circular, 1.0, r * d1))
     k_complementary = k2_complementary.sqrt()
-    descent = landen_descent(k_complementary)
+    descent = elliptic.landen_descent(k_complementary)
 
     sense = np.sign(start.span.hi)
     towards = np.where(sense < 0, -1.0, 1.0)  # sign of sn for positive lambda
@@ -226,7 +217,7 @@ def _constants(
         twice_energy=start.twice_energy.hi * size * speed**2,
         sense=sense,
         rate=rate.scaled(speed),
-        start=first_kind(sine, cosine, np.asarray(k2_complementary.hi)),
+        start=elliptic.first_kind(sine, cosine, np.asarray(k2_complementary.hi)),
         start_angle=np.arctan2(sine, cosine),
         complementary_modulus=np.asarray(k_complementary.hi),
         descent=descent,
@@ -235,7 +226,7 @@ def _constants(
 
 
 def _precession(
-    start: _Start, k_complementary: DoubleDouble, descent: LandenDescent, speed: FloatArray
+    start: _Start, k_complementary: DoubleDouble, descent: elliptic.LandenDescent, speed: FloatArray
 ) -> Precession:
     """Compute mean rate and periodic part of the rotation about the angular momentum.
 
@@ -253,7 +244,7 @@ def _precession(
     b = (start.d1 * i3).sqrt() / g
     k1 = (1.0 - k_complementary) / (1.0 + k_complementary)
     n = k1 * (1.0 - b) / (1.0 + b)
-    mean = third_kind_mean(n, descent)
+    mean = elliptic.third_kind_mean(n, descent)
     mean_inverse = (1.0 + b.scaled(2.0) * k1 / (1.0 + b) * mean) / (1.0 + b)
     rate = g / i3 + d3 * start.span / (i3 * g) * mean_inverse
     # dt = du/lambda, and b/lambda = I3 sqrt(I1 I2/r)/(G |I3 - I1|).
@@ -422,7 +413,7 @@ def free_rotation(moments: Moments, omega: Any, times: Any) -> FreeRotation:
     Parameters
     ----------
     moments : sequence of three numbers, mapping or PrincipalMoments
-        As for `principal_moments`, kg m2; of shape (..., 3) for many bodies.
+        Moments of inertia, see `principal_moments`, kg m2; of shape (..., 3) for many bodies.
     omega : array_like, shape (..., 3)
         Angular velocity at t = 0 along the principal axes, rad/s. Bodies and starts
         broadcast against each other.
@@ -480,8 +471,8 @@ class Phase:
     times: FloatArray
     u: FloatArray
     turned: FloatArray
-    upper: Jacobi
-    lower: Jacobi
+    upper: elliptic.Jacobi
+    lower: elliptic.Jacobi
 
     def along(self, amplitudes: FloatArray) -> FloatArray:
         """Multiply the elliptic functions cn, sn, dn by three amplitudes, shape (..., n, 3)."""
@@ -507,7 +498,7 @@ def phase_at(motion: JacobiMotion, times: FloatArray) -> Phase:
     )
     rest = run - half_period * halves
     u = rest.hi + start
-    return Phase(times, u, 1.0 - 2.0 * np.mod(halves, 2.0), *jacobi(u, motion.descent))
+    return Phase(times, u, 1.0 - 2.0 * np.mod(halves, 2.0), *elliptic.jacobi(u, motion.descent))
 
 
 def to_body(motion: JacobiMotion, vectors: FloatArray) -> FloatArray:
@@ -552,7 +543,7 @@ def _half_psi(motion: JacobiMotion, phase: Phase) -> FloatArray:
     precession = motion.precession
     run = precession.rate.scaled(0.5)[..., np.newaxis] * phase.times
     rest = run - TWO_PI * np.rint(run.hi / TWO_PI.hi)
-    periodic = precession.swing[..., np.newaxis] * third_kind_periodic(
+    periodic = precession.swing[..., np.newaxis] * elliptic.third_kind_periodic(
         phase.u, phase.lower, precession.n, precession.mean, motion.descent
     )
     return np.asarray(rest.hi + (periodic - periodic[..., :1]) / 2)

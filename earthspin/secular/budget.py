@@ -17,14 +17,7 @@ import numpy as np
 
 from earthspin.constants import JULIAN_YEAR, NORMAL_95
 from earthspin.numerics.arrays import FloatArray, Numeric
-from earthspin.secular.orbit import (
-    ModifiedOrbit,
-    Orbit,
-    Shape,
-    Strength,
-    Tides,
-    reference_axes,
-)
+from earthspin.secular.orbit import ModifiedOrbit, Orbit, Shape, Strength, Tides, reference_axes
 from earthspin.secular.trajectory import Trajectory, solve
 from earthspin.torque.gravity import cross, dot
 
@@ -164,7 +157,7 @@ class Solved:
     setting : Setting
     uncertainty : Uncertainty
     others : tuple of (str, Trajectory, Setting)
-        By cause: the trajectory with that cause changed, and its setting.
+        Trajectory with one cause changed, and its setting, by cause.
     """
 
     path: Trajectory

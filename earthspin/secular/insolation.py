@@ -16,13 +16,17 @@ Berger.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.kepler import mean_anomaly, true_anomaly
+from earthspin.secular.budget import Quantiles, draws
 
+#: Half-width of the longitude of perihelion, rad, above which its contribution is sampled.
+SAMPLED_FROM = 0.1
 #: Gauss-Legendre nodes over a window of days; if a polar night begins inside the window, the kink
 #: of the integrand causes an error of about 1e-5.
 NODES = 48
@@ -113,3 +117,70 @@ def over_days(
         at = true_longitude(season, middle + np.pi * days * node)
         total = total + weight * daily(season, latitude, at)
     return np.asarray(total)
+
+
+def with_error(
+    season: Season,
+    half_widths: Season,
+    latitude: FloatArray,
+    longitude: FloatArray,
+    is_true: bool = True,
+    days: float | None = None,
+) -> tuple[FloatArray, FloatArray]:
+    """Mean insolation and its 95 % half-width, as fractions of the solar constant.
+
+    Parameters
+    ----------
+    season : Season
+    half_widths : Season
+        95 % half-widths of obliquity, eccentricity and perihelion, treated as independent.
+    latitude, longitude : ndarray
+        rad.
+    is_true : bool
+        Whether the longitudes of the Sun are true longitudes; mean longitudes if False.
+    days : float, optional
+        Length of a window as a fraction of the year; by default the mean over one day.
+    """
+    if is_true and days is None:
+        # Obliquity changes only the daylight, eccentricity and perihelion only the distance.
+        def strength(season: Season) -> FloatArray:
+            return inverse_square(season, longitude)
+
+        def light(season: Season) -> FloatArray:
+            return daylight(season.obliquity, latitude, longitude)
+
+        by_tilt = _squared_changes(light, season, half_widths, "obliquity")
+        by_orbit = _squared_changes(strength, season, half_widths, "eccentricity", "perihelion")
+        nearness, height = strength(season), light(season)
+        total = nearness**2 * by_tilt + height**2 * by_orbit
+        return nearness * height / np.pi, np.sqrt(total / np.pi**2)
+
+    def mean(season: Season) -> FloatArray:
+        true = longitude if is_true else true_longitude(season, longitude)
+        if days is None:
+            return daily(season, latitude, true)
+        return over_days(season, latitude, true, days)
+
+    return mean(season), np.sqrt(_squared_changes(mean, season, half_widths, *Season._fields))
+
+
+def _squared_changes(
+    function: Callable[[Season], FloatArray], season: Season, half_widths: Season, *names: str
+) -> FloatArray:
+    """Sum of the squared changes of a function due to the half-widths of some elements."""
+
+    def moved(name: str, by: float) -> FloatArray:
+        value = getattr(season, name) + by * getattr(half_widths, name)
+        return function(season._replace(**{name: value}))
+
+    total: FloatArray = np.zeros(1)
+    for name in names:
+        share = (moved(name, 1) - moved(name, -1)) / 2
+        half = getattr(half_widths, name)
+        if name == "perihelion" and np.any(half > SAMPLED_FROM):
+            value, quantiles = function(season), Quantiles()
+            for (by,) in draws(1):
+                quantiles.add({name: moved(name, float(by)) - value})
+            share = np.where(half <= SAMPLED_FROM, share, quantiles.at_probability()[name])
+        total = total + share**2
+    return total

@@ -186,7 +186,7 @@ class Readings:
     ----------
     mine : Read
     moved : tuple of (str, Read)
-        By cause; a cause with independent directions occurs more than once.
+        Changed solutions by cause; a cause with independent directions occurs more than once.
     weight : ndarray, shape (..., n)
         Weight of the sampled half-widths, from 0 to 1.
     sampled : dict of str to ndarray, shape (..., n)

@@ -123,6 +123,41 @@ def numbers(file: Path, line: int, words: list[str]) -> list[float]:
         raise SeriesError(file, str(error), "a number is expected", line) from None
 
 
+def table_of(file: Path) -> tuple[str, list[list[float]], list[int]]:
+    """Read a text table of numbers, which spaces, commas or semicolons separate.
+
+    Returns
+    -------
+    header : str
+        Last line of text above the rows; empty if there is none.
+    rows : list of list of float
+    lines : list of int
+        Line of each row in the file.
+
+    Raises
+    ------
+    SeriesError
+        If there are no rows, a row has another number of columns, or text stands between the rows.
+    """
+    header, rows, lines = "", list[list[float]](), list[int]()
+    text = lines_of(file)
+    refuse_text_between(file, text)
+    for number, line in enumerate(text, start=1):
+        words = [FORTRAN.sub("e", word) for word in re.split(r"[\s,;]+", line.strip(" \t,;"))]
+        if not is_number(words[0]):
+            if not rows and words != [""]:
+                header = line.strip(" \t,;")
+            continue
+        if rows and len(words) != len(rows[0]):
+            problem = f"{len(words)} columns after {len(rows[0])}"
+            raise SeriesError(file, problem, "is it cut off?", number)
+        rows.append(numbers(file, number, words))
+        lines.append(number)
+    if not rows:
+        raise SeriesError(file, "it holds no rows of numbers")
+    return header, rows, lines
+
+
 def check_calendar(file: Path, line: int, calendar: list[float], mjd: float) -> None:
     """Refuse a modified Julian date that differs from the calendar date in its row.
 

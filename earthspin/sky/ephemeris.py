@@ -21,17 +21,11 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from earthspin import errors
 from earthspin._version import version
 from earthspin.constants import J2000_JD, MAS
 from earthspin.dates import date_text
-from earthspin.errors import (
-    CoverageError,
-    KernelError,
-    MissingExtraError,
-    SceneError,
-    nearest,
-    no_plain_file,
-)
+from earthspin.errors import CoverageError, KernelError, MissingExtraError, SceneError, nearest
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky import kernel
 from earthspin.sky.kernel import AGAIN, drift_is_measured
@@ -374,7 +368,7 @@ def _open_spk(path: Path) -> Any:
     if not there:
         problem = "there is no such file"
         raise KernelError(path, problem, f"use one of {', '.join(NAMED_KERNELS)} or a path")
-    if problem := no_plain_file(path):
+    if problem := errors.no_plain_file(path):
         raise KernelError(path, problem)
     size = path.stat().st_size
     if size == 0:

@@ -112,7 +112,7 @@ def pole_and_nutation(days: FloatArray) -> tuple[FloatArray, FloatArray]:
     Returns
     -------
     pole : ndarray, shape (n, 3)
-        As `true_pole` gives it, to the bit.
+        Unit vectors, bit-identical to those of `true_pole`.
     nutation : ndarray, shape (n, 2)
         Nutation in longitude and obliquity (`erfa.nut00a`), rad.
     """

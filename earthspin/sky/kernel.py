@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import cached_property
+from itertools import chain, combinations
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -413,55 +414,35 @@ DRIFT_FROM = 4 * JULIAN_YEAR
 #: Pairs for which `DRIFT` was measured, by their codes.
 DRIFT_MEASURED = ((10, 399), (301, 399), (4, 10))
 
-#: Differences of direction (mas) and distance (m) by two NAIF codes, the smaller first; a planet's
-#: barycentre represents the planet.
-DIFFERENCES: dict[tuple[int, int], tuple[float, float]] = {
-    (1, 2): (15, 1300),
-    (1, 4): (17, 5000),
-    (1, 5): (21, 3000),
-    (1, 6): (1.5, 2800),
-    (1, 7): (320, 980000),
-    (1, 8): (210, 2.2e06),
-    (1, 10): (12, 290),
-    (1, 301): (7.3, 1400),
-    (1, 399): (7.3, 1400),
-    (2, 4): (19, 6500),
-    (2, 5): (22, 2700),
-    (2, 6): (1.2, 2300),
-    (2, 7): (320, 1.1e06),
-    (2, 8): (210, 2.3e06),
-    (2, 10): (2.4, 12),
-    (2, 301): (2.2, 190),
-    (2, 399): (2.2, 180),
-    (4, 5): (27, 7500),
-    (4, 6): (2.1, 9300),
-    (4, 7): (340, 1.2e06),
-    (4, 8): (210, 2.4e06),
-    (4, 10): (9.5, 990),
-    (4, 301): (30, 7400),
-    (4, 399): (30, 7400),
-    (5, 6): (21, 7200),
-    (5, 7): (430, 1.7e06),
-    (5, 8): (200, 2.8e06),
-    (5, 10): (19, 770),
-    (5, 301): (23, 2900),
-    (5, 399): (23, 2900),
-    (6, 7): (500, 2.3e06),
-    (6, 8): (230, 2.6e06),
-    (6, 10): (1.1, 1300),
-    (6, 301): (1.2, 2600),
-    (6, 399): (1.2, 2600),
-    (7, 8): (110, 5.7e06),
-    (7, 10): (310, 930000),
-    (7, 301): (330, 1.1e06),
-    (7, 399): (322, 1.1e06),
-    (8, 10): (200, 2.2e06),
-    (8, 301): (210, 2.3e06),
-    (8, 399): (207, 2.3e06),
-    (10, 301): (2.1, 34),
-    (10, 399): (2.1, 23),
-    (301, 399): (7.2, 1.1),
-}
+#: NAIF codes of the measured pairs; a planet's barycentre represents the planet.
+_CODES = (1, 2, 4, 5, 6, 7, 8, 10, 301, 399)
+#: Differences of direction, mas: one row for each code, with a column for each later code.
+_DIRECTIONS = (
+    (15, 17, 21, 1.5, 320, 210, 12, 7.3, 7.3),
+    (19, 22, 1.2, 320, 210, 2.4, 2.2, 2.2),
+    (27, 2.1, 340, 210, 9.5, 30, 30),
+    (21, 430, 200, 19, 23, 23),
+    (500, 230, 1.1, 1.2, 1.2),
+    (110, 310, 330, 322),
+    (200, 210, 207),
+    (2.1, 2.1),
+    (7.2,),
+)
+#: Differences of distance, m, in the same order.
+_DISTANCES = (
+    (1300, 5000, 3000, 2800, 980000, 2.2e06, 290, 1400, 1400),
+    (6500, 2700, 2300, 1.1e06, 2.3e06, 12, 190, 180),
+    (7500, 9300, 1.2e06, 2.4e06, 990, 7400, 7400),
+    (7200, 1.7e06, 2.8e06, 770, 2900, 2900),
+    (2.3e06, 2.6e06, 1300, 2600, 2600),
+    (5.7e06, 930000, 1.1e06, 1.1e06),
+    (2.2e06, 2.3e06, 2.3e06),
+    (34, 23),
+    (1.1,),
+)
+_SIZES = list(zip(chain(*_DIRECTIONS), chain(*_DISTANCES), strict=True))
+#: Differences of direction (mas) and distance (m) by two NAIF codes, the smaller first.
+DIFFERENCES = dict(zip(combinations(_CODES, 2), _SIZES, strict=True))
 
 
 def largest_difference(centre: int, target: int) -> tuple[float, float]:

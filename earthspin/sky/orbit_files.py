@@ -29,14 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR
 from earthspin.errors import SeriesError, Where, nearest, no_plain_file
 from earthspin.numerics.arrays import FloatArray
-from earthspin.sky.columns import (
-    FORTRAN,
-    checksum,
-    is_number,
-    lines_of,
-    numbers,
-    refuse_text_between,
-)
+from earthspin.sky.columns import checksum, table_of
 from earthspin.sky.orbit_table import OrbitTable, fitted, load, shipped
 from earthspin.sky.poles import direction
 from earthspin.units import real_numbers
@@ -266,26 +259,9 @@ class _Rows:
 
         The last header line has the names of the columns, if any.
         """
-        names: list[str] = []
-        rows: list[list[float]] = []
-        lines: list[int] = []
-        text = lines_of(file)
-        refuse_text_between(file, text)
-        for number, line in enumerate(text, start=1):
-            words = re.split(r"[\s,;]+", line.strip(" \t,;"))
-            plain = [FORTRAN.sub("e", word) for word in words]
-            if not is_number(plain[0]):
-                if not rows and words != [""]:
-                    names = [word for word in words if word.strip("#%!")]
-                continue
-            if rows and len(plain) != len(rows[0]):
-                problem = f"{len(plain)} columns after {len(rows[0])}"
-                raise SeriesError(file, problem, "is it cut off?", number)
-            rows.append(numbers(file, number, plain))
-            lines.append(number)
-        if not rows:
-            raise SeriesError(file, "it holds no rows of numbers")
+        header, rows, lines = table_of(file)
         values = np.array(rows)
+        names = [word for word in re.split(r"[\s,;]+", header) if word.strip("#%!")]
         names = [re.sub(r"^[#%!]+|[(\[].*$", "", name) for name in names]
         if len(names) != values.shape[1] or not any(n in NAMES["t"] for n in names):
             names = list(NAMELESS.get(values.shape[1], ()))

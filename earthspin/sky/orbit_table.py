@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import CoverageError, OutputError, one_line
 from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.polynomials import rule
 from earthspin.rounded import plain
 from earthspin.sky.columns import checksum
 
@@ -132,6 +133,11 @@ class OrbitTable:
     def provenance(self) -> dict[str, str]:
         """SHA-256 hash of the file of the table, for the attributes of a result."""
         return {"orbit_sha256": self.sha256} if self.sha256 else {}
+
+    @property
+    def reference(self) -> str:
+        """Origin of the orbit, for the references of a result."""
+        return f"orbit of {self.name}: {self.source}"
 
     @property
     def coverage(self) -> tuple[float, float]:
@@ -264,10 +270,7 @@ def fitted(
     edges = np.clip(edges, times[0], times[-1])
     edges = np.unique(np.append(edges, times[-1]))
     samples = np.concatenate([normal @ axes[:2].T, eccentricity @ axes[:2].T], axis=1)
-    nodes, weights = legendre.leggauss(TERMS)
-    project = legendre.legvander(nodes, TERMS - 1) * weights[:, np.newaxis]
-    project *= np.arange(TERMS) + 0.5
-    spline = None
+    gauss, spline = rule(TERMS), None
     coefficients = np.empty((4, len(edges) - 1, TERMS))
     for window, (start, end) in enumerate(pairwise(edges)):
         inside = slice(*np.searchsorted(times, [start, end + 1.0]))  # the sample at the end, too
@@ -278,7 +281,7 @@ def fitted(
             series[-2:] += _to_meet(legendre.legval(x[[0, -1]], series).T, samples[inside][[0, -1]])
         else:
             spline = spline or make_interp_spline(times, samples, k=5)
-            series = project.T @ spline(middle + half * nodes)
+            series = gauss.project.T @ spline(middle + half * gauss.nodes)
         coefficients[:, window] = series.T
     table = OrbitTable(name, edges, coefficients, axes, source, np.zeros((2, len(edges) - 1)))
     return replace(table, errors=_left_out(table, times, normal, eccentricity))

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, Protocol, Self
 import numpy as np
 
 from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, EPSILON_0
-from earthspin.errors import UndefinedError, Where, nearest
+from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky import iau
 from earthspin.units import quantity
@@ -26,13 +26,9 @@ from earthspin.units import quantity
 
 def direction(right_ascension: float, declination: float) -> FloatArray:
     """Unit vector from right ascension and declination in radians, shape (3,)."""
-    return np.array(
-        [
-            math.cos(declination) * math.cos(right_ascension),
-            math.cos(declination) * math.sin(right_ascension),
-            math.sin(declination),
-        ]
-    )
+    level = math.cos(declination)
+    x, y = level * math.cos(right_ascension), level * math.sin(right_ascension)
+    return np.array([x, y, math.sin(declination)])
 
 
 def fixed_equator(axis: FloatArray, normal: FloatArray) -> FloatArray:
@@ -348,7 +344,7 @@ class MovingPole:
     Attributes
     ----------
     right_ascension, declination : float
-        At J2000.0 without periodic terms, ICRF, rad.
+        Direction at J2000.0 without periodic terms, ICRF, rad.
     right_ascension_rate, declination_rate : float
         rad/s.
     right_ascension_swings, declination_swings : tuple of Swing
@@ -477,10 +473,7 @@ class MovingPole:
         SceneError, UnitsError
             If a key is unknown or missing, or a value is not an angle or rate.
         """
-        names = (*_NAMES, *_RATES, *_SWINGS)
-        for name in table:
-            if name not in names:
-                raise where.at(name).error(table[name], nearest(name, names))
+        where.refuse_unknown(table, (*_NAMES, *_RATES, *_SWINGS))
         fields: dict[str, Any] = {}
         for name in _NAMES:
             if name not in table:

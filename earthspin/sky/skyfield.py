@@ -31,7 +31,7 @@ from skyfield.vectorlib import ReversedVector, VectorFunction, VectorSum
 
 from earthspin._version import version
 from earthspin.constants import J2000_JD
-from earthspin.errors import EarthspinError, KernelError, UndefinedError, Where, nearest
+from earthspin.errors import EarthspinError, KernelError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.protocol import Place, Trajectory, checked, words
@@ -164,14 +164,8 @@ def write_segments(function: VectorFunction) -> list[dict[str, Any]] | None:
         if not _segments(inner):
             return None
         path = os.path.abspath(inner.ephemeris.path)
-        tables.append(
-            {
-                "kernel": path,
-                "centre": int(term.center),
-                "target": int(term.target),
-                "sha256": Ephemeris(path).sha256,
-            }
-        )
+        segment = {"centre": int(term.center), "target": int(term.target)}
+        tables.append({"kernel": path} | segment | {"sha256": Ephemeris(path).sha256})
     return tables
 
 
@@ -197,9 +191,7 @@ _NAMES = ("kernel", "centre", "target", "sha256")
 
 
 def _read_segment(table: Mapping[str, Any], where: Where) -> VectorFunction:
-    for name in table:
-        if name not in _NAMES:
-            raise where.at(name).error(table[name], nearest(name, _NAMES))
+    where.refuse_unknown(table, _NAMES)
     codes = table.get("centre"), table.get("target")
     if not isinstance(table.get("kernel"), str) or not all(type(code) is int for code in codes):
         problem = "name a segment like {kernel = 'de421', centre = 0, target = 5}"

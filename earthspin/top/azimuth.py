@@ -251,24 +251,10 @@ def _integrals(nutation: Nutation, upper: BoolArray) -> tuple[_Integral, _Integr
     They start from a turning point; the arctangents are left out.
     """
     start, gaps, stiffness = nutation.start, nutation.gaps, 4 * nutation.rate**2
-    sigma = _integral(
-        nutation,
-        start.b_plus_a,
-        gaps.lower_pole,
-        nutation.height,
-        upper,
-        _has_lower_arc(nutation),
-        1 + start.beta * gaps.lower_pole / stiffness,
-    )
-    delta = _integral(
-        nutation,
-        -start.b_minus_a,
-        -nutation.depth,
-        -gaps.upper_pole,
-        upper,
-        _has_upper_arc(nutation),
-        gaps.outer / stiffness,
-    )
+    ends, shape = (gaps.lower_pole, nutation.height), 1 + start.beta * gaps.lower_pole / stiffness
+    sigma = _integral(nutation, start.b_plus_a, ends, upper, _has_lower_arc(nutation), shape)
+    ends, shape = (-nutation.depth, -gaps.upper_pole), gaps.outer / stiffness
+    delta = _integral(nutation, -start.b_minus_a, ends, upper, _has_upper_arc(nutation), shape)
     # (a + b)/(1 + u) - a = (b - a u)/(1 + u); the rate a/2 is treated separately.
     climb = np.where(upper, gaps.upper, -gaps.lower)
     near = np.where(upper, nutation.height, gaps.lower_pole)
@@ -281,8 +267,7 @@ def _integrals(nutation: Nutation, upper: BoolArray) -> tuple[_Integral, _Integr
 def _integral(
     nutation: Nutation,
     total: FloatArray,
-    lower_end: FloatArray,
-    upper_end: FloatArray,
+    ends: tuple[FloatArray, FloatArray],
     upper: BoolArray,
     arc: BoolArray,
     regular_shape: FloatArray,
@@ -293,18 +278,14 @@ def _integral(
 
     The ends are the distances of the turning points from the pole.
     """
-    pace = total / (2 * nutation.rate)
+    (lower_end, upper_end), pace = ends, total / (2 * nutation.rate)
     near = np.where(arc, 1.0, np.where(upper, upper_end, lower_end))
     far = np.where(upper, lower_end, upper_end)
     squeeze = np.where(upper, nutation.complement, 1.0)
     swing = np.where(upper, nutation.swing, -nutation.swing)
-    return _Integral(
-        np.where(arc, 0.0, pace / near),
-        pace
-        / 3
-        * np.where(arc, nutation.start.beta / (4 * nutation.rate**2), squeeze * swing / near**2),
-        np.where(arc, regular_shape, squeeze * far / near),
-    )
+    third = np.where(arc, nutation.start.beta / (4 * nutation.rate**2), squeeze * swing / near**2)
+    shape = np.where(arc, regular_shape, squeeze * far / near)
+    return _Integral(np.where(arc, 0.0, pace / near), pace / 3 * third, shape)
 
 
 def _partial_integrals(nutation: Nutation, place: Place) -> Turned:
@@ -329,14 +310,10 @@ def _complete_integrals(nutation: Nutation) -> Turned:
     returns = nutation.complement > 0
     complement = np.where(returns, nutation.complement, 1.0)
     quarter_period = ellipkm1(complement)
-    sigma, delta = (
-        np.where(
-            returns,
-            x.first_kind * quarter_period
-            + 3 * x.third_kind * complete_third_kind(complement, shape),
-            0.0,
-        )
-        for x in _integrals(nutation, np.asarray(False))
-        for shape in (np.where(x.shape > 0, x.shape, 1.0),)  # 0 without motion
-    )
+    angles = []
+    for x in _integrals(nutation, np.asarray(False)):
+        shape = np.where(x.shape > 0, x.shape, 1.0)  # 0 without motion
+        third = 3 * x.third_kind * complete_third_kind(complement, shape)
+        angles.append(np.where(returns, x.first_kind * quarter_period + third, 0.0))
+    sigma, delta = angles
     return Turned(sigma + delta, sigma - delta)

@@ -255,14 +255,9 @@ def cubic_roots(top: HeavyTop) -> FloatArray:
     gaps = cubic_gaps(start)
     weight = start.beta > 0
     beyond = np.where(weight, gaps.outer / np.where(weight, start.beta, 1.0), np.inf)
-    roots = np.stack(
-        [
-            _cosine(start.below + gaps.lower, gaps.lower_pole),
-            _cosine(gaps.upper_pole, start.above + gaps.upper),
-            1 + beyond,
-        ],
-        axis=-1,
-    )
+    lower = _cosine(start.below + gaps.lower, gaps.lower_pole)
+    upper = _cosine(gaps.upper_pole, start.above + gaps.upper)
+    roots = np.stack([lower, upper, 1 + beyond], axis=-1)
     return np.where(start.turned[..., np.newaxis], -roots[..., ::-1], roots)
 
 

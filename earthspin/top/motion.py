@@ -154,12 +154,8 @@ def _phi_and_psi(
     first_quarters, first_rest = turned_at(
         nutation, place_at(nutation, np.zeros((1,) * times.ndim))
     )
-    phi, psi = (
-        Angle(later - earlier, angle - initial)
-        for later, earlier, angle, initial in zip(
-            quarters, first_quarters, rest, first_rest, strict=True
-        )
-    )
+    phi = Angle(quarters.phi - first_quarters.phi, rest.phi - first_rest.phi)
+    psi = Angle(quarters.psi - first_quarters.psi, rest.psi - first_rest.psi)
     # From the opposite end of the axis, the rotation has the opposite sense.
     sense = np.where(nutation.start.turned, -1.0, 1.0)
     shared = shared_rate(nutation) * nutation.start.rate_unit * times

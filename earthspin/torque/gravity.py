@@ -301,7 +301,7 @@ def largest_torque_on_figure(
     Parameters
     ----------
     pulls : sequence of (gm, distance)
-        Of each perturber, m3 s-2 and smallest distance, m.
+        GM of each perturber, m3 s-2, and its smallest distance, m.
     mass, radius : float
         Mass and equatorial radius of the body, kg and m.
     zonal : mapping of int to float

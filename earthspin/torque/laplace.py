@@ -69,7 +69,7 @@ class Satellites:
 
 @dataclass(frozen=True)
 class Planet:
-    """Planets that differ in their numbers, of which each attribute has the shape (m, 1).
+    """One or more planets with different numbers; each attribute has the shape (m, 1).
 
     Attributes
     ----------
@@ -122,7 +122,7 @@ def shares(planet: Planet, satellites: Satellites) -> tuple[FloatArray, FloatArr
     Returns
     -------
     q, l : ndarray, shape (m, n)
-        Of each satellite.
+        One value for each planet and satellite.
     """
     obliquity = planet.obliquity
     if abs(np.sin(2 * obliquity)) < _LEAST_SINE:

@@ -130,18 +130,3 @@ def half_width(value: Numeric, *relative_uncertainties: Numeric) -> Numeric:
     """95 % half-width of a product, from relative standard uncertainties of its factors."""
     variance = sum(u * u for u in relative_uncertainties)
     return NORMAL_95 * np.abs(value) * np.sqrt(variance)
-
-
-def circular_orbit_torque(gm: float, distance: float, obliquity: float) -> float:
-    """Mean precessing torque of a mass on a circular orbit in the reference plane, s-2.
-
-    Parameters
-    ----------
-    gm : float
-        m3 s-2.
-    distance : float
-        Radius of the orbit, m.
-    obliquity : float
-        rad.
-    """
-    return 1.5 * gm / distance**3 * math.cos(obliquity)

@@ -15,6 +15,7 @@ import xarray as xr
 from earthspin.engine.accessor import is_ensemble
 from earthspin.engine.run import NOT_REQUESTED, REUSED
 from earthspin.errors import SceneError
+from earthspin.progress import progress
 from earthspin.scenes import plan, run_tree
 from earthspin.views import (
     ensemble,
@@ -64,7 +65,7 @@ def tables_for(tree: Result) -> list[Table]:
     Parameters
     ----------
     tree : Dataset or DataTree
-        As `run` or `run_tree` give it; sections that it does not hold are not shown.
+        Result of `run` or `run_tree`; only sections that it contains are shown.
 
     Returns
     -------
@@ -113,6 +114,7 @@ def _views(tree: Result) -> Views:
     return ensemble.VIEWS if is_ensemble(tree) else VIEWS.get(tree.attrs["compute"], Views())
 
 
+@progress("figures")
 def figures_of(answer: xr.Dataset) -> list[Figure]:
     """Draw the figures of a result, as the views of its question define them.
 
@@ -215,7 +217,7 @@ def page_of(
     lead : str, optional
         A sentence at the head; that of the first question by default.
     drawings : sequence of Drawing, optional
-        Those of the answers by default.
+        Figures of the page; those of the results by default.
     links : sequence of (str, str)
         Words and addresses of other pages, relative to this one.
 
@@ -282,7 +284,7 @@ def _footer(answer: xr.Dataset) -> str:
     if "ephemeris" in attrs:
         words += f" Kernel {attrs['ephemeris']}, SHA-256 {attrs['ephemeris_sha256']}."
     if attrs["references"]:
-        words += f" Sources of the bodies' numbers: {attrs['references']}."
+        words += f" Sources of the numbers: {attrs['references']}."
     return words
 
 

@@ -66,11 +66,8 @@ _NO_STYLE = ("backend", "interactive", "toolbar", "webagg", "tk.", "macosx", "sa
 def style() -> Iterator[None]:
     """Use the plot style of this package in a `with` block or a decorated function."""
     matplotlib = _matplotlib()
-    own = {
-        name: value
-        for name, value in matplotlib.rcParamsDefault.items()
-        if not name.startswith(_NO_STYLE)
-    }
+    defaults = matplotlib.rcParamsDefault.items()
+    own = {name: value for name, value in defaults if not name.startswith(_NO_STYLE)}
     with matplotlib.rc_context(own | STYLE):
         yield
 
@@ -169,7 +166,7 @@ class PageFigure:
     applies : callable, optional
         Condition that the answer must meet.
     square : bool
-        As of `Drawing`.
+        See `Drawing`.
     phone : float
         Height of the same drawn anew for a phone, inches; 0 if it is only made narrower.
     """
@@ -270,8 +267,7 @@ def literal(words: object) -> str:
 
     A dollar sign would begin a formula, and a legend leaves out what begins with an underscore.
     """
-    text = str(words)
-    text = f"{text[:_LONGEST]}\u2026" if len(text) > _LONGEST else text
+    text = str(words) if len(str(words)) <= _LONGEST else f"{str(words)[:_LONGEST]}\u2026"
     return re.sub("^_", "\u200b_", text).replace("$", r"\$")
 
 
@@ -298,7 +294,8 @@ def axes(ax: Axes | None, width: float = 8.0, height: float = 3.8) -> Axes:
         return empty(width, height).add_subplot()
 
 
-_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+#: Superscript characters, which stay powers if a text is copied.
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def power_of_ten(value: float, _: object = None) -> str:
@@ -306,7 +303,7 @@ def power_of_ten(value: float, _: object = None) -> str:
     power = round(np.log10(value)) if value > 0 else 0
     if not np.isclose(value, 10.0**power, rtol=1e-9, atol=0):
         return f"{value:g}"  # under the pointer
-    return "10" + str(power).translate(_SUPERSCRIPTS)
+    return "10" + str(power).translate(RAISED)
 
 
 def few_dates(ax: Axes) -> None:
@@ -315,8 +312,7 @@ def few_dates(ax: Axes) -> None:
 
     dates = AutoDateLocator(minticks=3, maxticks=7)  # type: ignore[no-untyped-call]
     ax.xaxis.set_major_locator(dates)
-    words = ConciseDateFormatter(dates)  # type: ignore[no-untyped-call]
-    ax.xaxis.set_major_formatter(words)
+    ax.xaxis.set_major_formatter(ConciseDateFormatter(dates))  # type: ignore[no-untyped-call]
 
 
 def legend_above(ax: Axes) -> None:

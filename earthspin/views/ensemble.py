@@ -73,7 +73,7 @@ def _spread(answer: xr.Dataset) -> xr.Dataset:
 
 
 def _percentages(answer: xr.Dataset) -> xr.Dataset:
-    """Share of each input in the variance of the main quantities, and what inputs leave, in %."""
+    """Share of each input in the variance of the main quantities, and the unexplained part, %."""
     result, shares = answer.earthspin.sensitivity(), xr.Dataset()
     labels = ("input", [*map(str, result["input"].values), "rest"], result["input"].attrs)
     result = result.drop_vars("input")  # xarray 2025.6 cannot concatenate labels that are words
@@ -86,8 +86,8 @@ def _percentages(answer: xr.Dataset) -> xr.Dataset:
         share = xr.concat([share.where(seen, 0.0), rest], "input")
         share.attrs = {
             "units": "%",
-            "long_name": f"share of the variance of {name.replace('_', ' ')}, by straight lines in "
-            "all inputs together; the last row is what the lines leave",
+            "long_name": f"share of the variance of {name.replace('_', ' ')}, from a linear fit "
+            "in all inputs; the last row is the unexplained part",
             "ancillary_variables": f"{name}_error",
         }
         half = xr.concat([error.where(seen, 0.0), xr.zeros_like(rest)], "input")
@@ -261,10 +261,10 @@ def _chief(answer: xr.Dataset, name: str = "") -> Number:
     """
     chiefs = (name,) if name else _chiefs(answer)[:1]
     numbers = [number for number in _numbers(answer) if number.name in chiefs]
-    if not numbers:
-        words = f"'{name}' does not differ among the members" if name else _alike(answer)
-        raise SceneError("ensemble", answer.attrs["title"], words)
-    return numbers[-1]
+    if numbers:
+        return numbers[-1]
+    words = f"'{name}' does not differ among the members" if name else _alike(answer)
+    raise SceneError("ensemble", answer.attrs["title"], words)
 
 
 def _digits(value: float, other: float) -> str:

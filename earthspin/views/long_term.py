@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from itertools import product
+
 import numpy as np
 import xarray as xr
 
@@ -35,9 +38,9 @@ def plot_climate(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``long-term``.
+        Answer to the question ``long-term``.
     ax : Axes, optional
-        For the obliquity alone.
+        Axes to draw only the obliquity on.
     """
     answer = in_order(answer_of(result))
     panels = (
@@ -55,9 +58,9 @@ def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``long-term``.
+        Answer to the question ``long-term``.
     ax : Axes, optional
-        For that of all together alone.
+        Axes to draw only the period of all perturbers together on.
     """
     answer = in_order(answer_of(result))
     period, error = answer.precession_period / 1000, answer.precession_period_error / 1000
@@ -87,6 +90,65 @@ def _plot_curves(
     return rows[0]
 
 
+#: Labels of the axes along which an insolation may be drawn, and words for one of their values.
+_AXES = {
+    "latitude": ("latitude (deg)", "latitude {:g}°"),
+    "longitude": ("true longitude of the Sun (deg)", "Sun at {:g}°"),
+    "day": ("day of the year", "day {:g}"),
+    "epoch": ("time from J2000.0 (1000 years)", "{:g} kyr"),
+}
+
+
+def plot_insolation(result: Result, *, ax: Axes | None = None) -> Axes:
+    """Draw the insolation over time with its error, or a map of it instead of many lines.
+
+    For a single epoch, the horizontal axis is the longest of the other dimensions.
+
+    Parameters
+    ----------
+    result : Dataset or DataTree
+        Of the question ``insolation``. Of a third dimension of a map, the first label is drawn.
+    ax : Axes, optional
+    """
+    answer, ax = in_order(answer_of(result)), axes(ax, 8.0, 3.8)
+    size = answer.sizes
+    dims = [str(name) for name in sorted(size, key=lambda name: -size[name]) if size[name] > 1]
+    across = "epoch" if size["epoch"] > 1 or not dims else dims[0]
+    others = [name for name in dims if name != across]
+    answer = answer.assign_coords(epoch=answer.epoch / 1000).sortby(dims)
+    answer = answer.squeeze([name for name in size if name not in {*dims, across}])
+    constant = [name for name in _AXES if name in answer.coords and name != across]
+
+    def place(line: xr.Dataset) -> str:
+        words = (_AXES[name][1].format(line[name].item()) for name in constant)
+        return ", ".join(words).replace("-", "−")
+
+    ax.set_xlabel(_AXES[across][0])
+    if math.prod(size[name] for name in others) > len(drawing.CYCLE):
+        constant.remove(others[0])
+        data = answer.isel(dict.fromkeys(others[1:], 0)).transpose(others[0], across)
+        x, y = data[across].values, data[others[0]].values
+        image = ax.contourf(x, y, data.insolation.values, levels=13)
+        ax.set(ylabel=_AXES[others[0]][0], title=place(data))
+        ax.figure.colorbar(image, ax=ax, label="insolation (W/m²)")
+        return ax
+    lines = (
+        answer.isel(dict(zip(others, index, strict=True)))
+        for index in product(*(range(size[name]) for name in others))
+    )
+    for colour, line in zip(drawing.CYCLE, lines, strict=False):
+        x, value, error = line[across].values, line.insolation.values, line.insolation_error.values
+        marker = "o" if x.size == 1 else None
+        drawing.band(ax, x, value, error, colour, lw=1.0, marker=marker, label=place(line))
+    ax.margins(x=0)
+    ax.set_ylabel("insolation (W/m²)")
+    if others:
+        drawing.legend_above(ax)
+    else:
+        ax.set_title(place(answer))
+    return ax
+
+
 #: How far the path of the pole is drawn, yr: half a turn either way. Epochs further apart than
 #: `WIDEST` are not joined: a cubic through them would leave the path by more than the line is wide.
 PATH, WIDEST = 13_000.0, 2_500.0
@@ -108,8 +170,8 @@ def plot_pole(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``long-term``; of its span what lies within 13,000 years is drawn. Epochs
-        of every thousand years are joined by a cubic.
+        Answer to the question ``long-term``; only the part within 13,000 years of J2000.0 is drawn.
+        Epochs of every thousand years are joined by a cubic.
     ax : Axes, optional
     """
     from scipy.interpolate import CubicSpline
@@ -148,7 +210,7 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``long-term``; the section ``budget`` is run if it is not there.
+        Answer to the question ``long-term``; the section ``budget`` is computed if it is missing.
     ax : Axes, optional
     """
     shares: xr.Dataset = needed(result, "budget")
@@ -175,7 +237,7 @@ FIGURES = [
         "The pole among the stars",
         "Path of the celestial pole among the stars, seen from inside, within 13,000 years of "
         "the present. It does not close: the plane of the orbit moves, too. The cross is the "
-        "pole of the ecliptic of J2000.0; stars stand where they stood then.",
+        "pole of the ecliptic of J2000.0; the stars are at their positions of J2000.0.",
         plot_pole,
         applies=lambda tree: path_is_there(in_order(answer_of(tree)).epoch.values),
         square=True,
@@ -186,19 +248,26 @@ FIGURES = [
     ),
     PageFigure(
         "Period of precession",
-        "Time of one full turn at the rate of each epoch, and by each alone of those that "
-        "pull. Bands are 95 % half-widths.",
+        "Period of precession at the rate of each epoch, in total and for each perturber alone. "
+        "Bands are 95 % half-widths.",
         plot_periods,
     ),
     PageFigure(
         "How well the perihelion is known",
-        "What each cause adds to the 95 % half-width of the longitude of perihelion: the "
-        "largest up to that distance from J2000.0, past or future. Far out, what is not "
-        "known of tides and figure counts for more than any method.",
+        "Contribution of each cause to the 95 % half-width of the longitude of perihelion: the "
+        "largest up to that distance from J2000.0, past or future. Far from the present, the "
+        "uncertainty of tides and figure exceeds that of the method.",
         plot_budget,
         section="budget",
     ),
 ]
 
 
-VIEWS = {"long-term": Views(FIGURES)}
+INSOLATION = PageFigure(
+    "Insolation",
+    "Sunlight at the top of the atmosphere, averaged over a day or the given window. The true "
+    "longitude of the Sun is 90° at the June solstice. Bands are 95 % half-widths.",
+    plot_insolation,
+)
+
+VIEWS = {"long-term": Views(FIGURES), "insolation": Views([INSOLATION])}

@@ -28,7 +28,7 @@ def plot_amplitude_and_phase(tree: Result) -> Figure:
     Parameters
     ----------
     tree : Dataset or DataTree
-        As of `plot_amplitude`.
+        See `plot_amplitude`.
     """
     figure, (upper, lower) = drawing.stacked(2, 5.2, width=7.5, height_ratios=[3, 2])
     plot_amplitude(tree, ax=upper)
@@ -39,13 +39,11 @@ def plot_amplitude_and_phase(tree: Result) -> Figure:
 
 def _caption_of_amplitude(tree: Result) -> str:
     first, last = needed(tree, "chandler").middle.values[[0, -1]]
-    words = (
+    near_2018 = " The free wobble almost vanished near 2018 and returned with a different phase."
+    return (
         "Amplitude and phase of the free wobble, fitted in sliding windows of one beat of the free "
-        "and the annual wobble."
+        f"and the annual wobble.{near_2018 if first < np.datetime64('2018-01-01') < last else ''}"
     )
-    if first < np.datetime64("2018-01-01") < last:
-        words += " The free wobble almost vanished near 2018 and returned with a different phase."
-    return words
 
 
 def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None = None) -> Axes:
@@ -59,7 +57,7 @@ def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None =
     result : Dataset or DataTree
         `x`, `y` over `time`; `polar_radius` for metres.
     years : float, optional
-        How many years to draw, up to the last date; all with None. For other years, select them:
+        Number of years to draw, up to the last date; None draws all. For other years, select them:
         ``result.sel(time=slice("1990", "1996"))``.
     ax : Axes, optional
     """
@@ -94,7 +92,8 @@ def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``polar-motion``, which is run again without its section ``spectrum``.
+        Answer to the question ``polar-motion``; computed again if the section ``spectrum`` is
+        missing.
     ax : Axes, optional
     """
     ax = axes(ax, 7.5, 3.8)
@@ -120,15 +119,15 @@ def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``polar-motion``, which is run again without its section ``chandler``, or
-        of `fit_chandler`.
+        Answer to the question ``polar-motion``, computed again if the section ``chandler`` is
+        missing, or a result of `fit_chandler`.
     ax : Axes, optional
     """
     ax = axes(ax, 7.5, 3.4)
     fit, time = _plot_free_wobble(ax, result, drawing.BLUE, "free")
     ax.plot(time, fit.annual_amplitude, color=drawing.GREEN, lw=1, label="annual")
     ax.axhline(200, color=drawing.GREY, lw=0.8, ls="--")
-    note(ax, '0.2", the text', (time[0], 200), (2, 3), color=drawing.GREY)
+    note(ax, '0.2", source text', (time[0], 200), (2, 3), color=drawing.GREY)
     ax.set(ylim=(0, 235), xlabel="time (UTC)", ylabel="amplitude (mas)")
     if metres := _metres(answer_of(result)):
         ax.secondary_yaxis("right", functions=_scaling(metres)).set_ylabel("amplitude (m)")
@@ -142,8 +141,8 @@ def plot_modelled(observed: xr.Dataset, modelled: xr.Dataset, *, ax: Axes | None
     Parameters
     ----------
     observed, modelled : Dataset
-        As `fit_chandler` gives them, of an observed pole and of one of `polar_motion_from`; the
-        attribute ``source`` of the second says what drove it.
+        Results of `fit_chandler`: for an observed pole, and for a pole from `polar_motion_from`,
+        whose attribute ``source`` names its excitation.
     ax : Axes, optional
     """
     ax = axes(ax, 7.5, 3.4)
@@ -158,12 +157,12 @@ def plot_modelled(observed: xr.Dataset, modelled: xr.Dataset, *, ax: Axes | None
 def plot_phase(result: Result, *, ax: Axes | None = None) -> Axes:
     """Draw the phase of the free wobble relative to a sinusoid of the fitted period, over time.
 
-    Where the amplitude is below twice its error the phase is drawn faintly.
+    The phase is drawn faintly if the amplitude is below twice its error.
 
     Parameters
     ----------
     result : Dataset or DataTree
-        As of `plot_amplitude`.
+        See `plot_amplitude`.
     ax : Axes, optional
     """
     ax = axes(ax, 7.5, 2.6)
@@ -257,7 +256,7 @@ def plot_core_nutation(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``pole-offsets``, which is run again without its section
+        Answer to the question ``pole-offsets``, which is run again without its section
         ``core_nutation``.
     ax : Axes, optional
     """
@@ -326,13 +325,6 @@ SKILL_SETS = {
 }
 
 
-def _days(answer: xr.Dataset) -> FloatArray:
-    """Times of a forecast, in days after the last observation that the forecast uses."""
-    origin = np.datetime64(answer.x.attrs["origin"])
-    days: FloatArray = (answer.time.values - origin) / np.timedelta64(1, "D")
-    return days
-
-
 def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
     """Draw the forecast coordinates x and y of the pole over time, with 95 % bands.
 
@@ -341,7 +333,7 @@ def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``forecast``.
+        Answer to the question ``forecast``.
     figure : Figure, optional
         Drawn on one of its own by default.
     """
@@ -351,9 +343,8 @@ def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
         value, error = answer[name].values * 1e3, answer[f"{name}_error"].values * 1e3
         drawing.band(ax, answer.time.values, value, error, colour, label=f"{name}, 95 %")
         if bulletin is not None:
-            predicted = bulletin[f"bulletin_a_{name}"] * 1e3
-            words = "Bulletin A"
-            ax.plot(bulletin.time, predicted, color=drawing.RED, lw=1, ls="--", label=words)
+            how: dict[str, Any] = {"color": drawing.RED, "lw": 1, "ls": "--", "label": "Bulletin A"}
+            ax.plot(bulletin.time, bulletin[f"bulletin_a_{name}"] * 1e3, **how)
         ax.set_ylabel(f"{name} (mas)")
         ax.legend(loc="best")
     panels[-1].set_xlabel("time (UTC)")
@@ -366,7 +357,7 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``forecast``.
+        Answer to the question ``forecast``.
     ax : Axes, optional
     """
     from matplotlib.patches import Ellipse
@@ -377,8 +368,9 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.plot(y, x, color=drawing.BLUE, lw=1.4)
     ax.plot(y[0], x[0], "o", color=drawing.BLUE, ms=4)
     note(ax, date(answer.time[0]), (y[0], x[0]), (-5, 4), color=drawing.BLUE, ha="right")
+    days = (answer.time.values - np.datetime64(answer.x.attrs["origin"])) / np.timedelta64(1, "D")
     for day in ELLIPSES:
-        near = np.flatnonzero(abs(_days(answer) - day) < 0.5)
+        near = np.flatnonzero(abs(days - day) < 0.5)
         if near.size == 0:
             continue
         row = answer.isel(time=int(near[0]))
@@ -405,7 +397,7 @@ def plot_skill(result: Result, *, figure: Figure | None = None) -> Figure:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``forecast``.
+        Answer to the question ``forecast``.
     figure : Figure, optional
     """
     data = needed(result, "skill").mean("coordinate")
@@ -438,14 +430,14 @@ FORECAST_FIGURES = [
     ),
     PageFigure(
         "Path of the pole",
-        "Forecast path of the pole over the ground; ellipses hold it in 95 % of cases.",
+        "Forecast path of the pole over the ground; ellipses contain it in 95 % of cases.",
         plot_path,
     ),
     PageFigure(
         "Error and coverage by horizon",
-        "Mean absolute error of one coordinate and share of 95 % intervals that hold the observed "
-        "pole, in hindcasts with C04 and on releases of finals2000A; dashed, the other forecast "
-        "from the same origins.",
+        "Mean absolute error of one coordinate and share of 95 % intervals that contain the "
+        "observed pole, in hindcasts with C04 and on releases of finals2000A; dashed, the other "
+        "forecast from the same origins.",
         plot_skill,
         section="skill",
     ),

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
-from contextlib import ExitStack
+from collections.abc import Sequence
 from functools import cache
 from html import escape
-from pathlib import Path
+from importlib import resources
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from earthspin.engine import drafts
-from earthspin.views.drawing import Drawing
+from earthspin.views.drawing import RAISED, Drawing
 from earthspin.views.solids import Solid
 from earthspin.views.tables import Table
 
@@ -37,7 +35,7 @@ def page(
         If the first is square, it stands beside the title.
     solids : sequence of Solid
     last : sequence of Table
-        At the end, folded away.
+        Tables at the end, collapsed.
     **words
         `lead` and `note`, a sentence at the head, and what holds for all that follows; `links`,
         pairs of words and addresses of other pages, relative to this one; and `footer`.
@@ -68,15 +66,6 @@ def rendered(template: str, **content: object) -> str:
     return environment().get_template(template).render(sheet=source("page.css"), **content)
 
 
-def write_texts(texts: Mapping[Path, str]) -> list[Path]:
-    """Write several text files; if an error occurs, write none of them."""
-    with ExitStack() as together:
-        for path, text in texts.items():
-            draft = together.enter_context(drafts.replacing(path))
-            draft.write_text(text, encoding="utf-8")
-    return [*texts]
-
-
 @cache
 def environment() -> Environment:
     """Jinja environment that loads the page templates and defines their text filters."""
@@ -93,9 +82,7 @@ def environment() -> Environment:
 
 def source(name: str) -> str:
     """Text of a file in the folder of the templates, such as a style sheet or a script."""
-    loader = environment().loader
-    assert loader is not None
-    return loader.get_source(environment(), name)[0]
+    return resources.files("earthspin.views").joinpath("templates", name).read_text("utf-8")
 
 
 # --- typesetting ---------------------------------------------------------------------------------
@@ -105,8 +92,6 @@ def source(name: str) -> str:
 _POWER = re.compile(r"(?<![\w.])([+-]?\d+(?:\.\d+)?(?:\(\d+(?:\.\d+)?\))?)e([+-]?)0*(\d+)(?!\w)")
 #: A minus before a number, but neither a hyphen nor a part of a date.
 _MINUS = re.compile(r"(?<![\w.)\u00b7-])-(?=\d)")
-#: Superscript characters, which stay powers if a table is copied as text.
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _DIFFERENCE = re.compile(r"\bC( ?)-( ?)A\b")
 #: A unit or a letter squared or cubed: kg m2, M a2, t3.
 _SQUARE = re.compile(r"(?<=kg m)2\b|(?<=M a)2\b|(?<=^t)[23]$")
@@ -132,15 +117,15 @@ def typeset(words: str) -> Markup:
     text = _POWER.sub(_power, text)
     text = _MINUS.sub("\u2212", text)
     text = _DIFFERENCE.sub("C\\1\u2212\\2A", text)
-    text = _SQUARE.sub(lambda match: match[0].translate(_RAISED), text)
+    text = _SQUARE.sub(lambda match: match[0].translate(RAISED), text)
     text = _SUBSCRIPT.sub(lambda match: f"{_GREEK[match[1]]}<sub>A</sub>", text)
     text = re.sub(r"\buas\b", "\u00b5as", text)
     return Markup(text)  # escaped above  # nosec B704
 
 
 def _power(match: re.Match[str]) -> str:
-    exponent = f"{match[2].strip('+')}{match[3]}".translate(_RAISED)
-    return f"{match[1]} \u00d7 10{exponent}"
+    exponent = f"{match[2].strip('+')}{match[3]}".translate(RAISED)
+    return f"{match[1]}\u00a0\u00d7\u00a010{exponent}"
 
 
 #: Greys and colours of figures, as the page's style sheet turns them for light and dark.
@@ -156,9 +141,10 @@ def figure_on_page(svg: str, name: str, words: str, width: str) -> Markup:
     ----------
     svg : str
     name : str
-        Of the figure on its page; its parts are named after it, so that no two are alike.
+        Name of the figure on its page; the parts of the figure are named after it, so that all
+        names differ.
     words : str
-        What it shows, for those who do not see it.
+        Description of the figure for screen readers.
     width : str
         ``"narrow"`` if it is shown on a phone alone, ``"usual"`` if elsewhere alone.
 
@@ -170,13 +156,8 @@ def figure_on_page(svg: str, name: str, words: str, width: str) -> Markup:
     if not svg:
         return Markup()
     svg = re.sub("<[^>]*>", lambda tag: _on_page(tag[0], name), svg)
-    svg = re.sub(
-        r"<svg ",
-        lambda _: f'<svg class="{width}" role="img" aria-label="{escape(words)}" ',
-        svg,
-        count=1,
-    )
-    return Markup(svg)  # from matplotlib  # nosec B704
+    head = f'<svg class="{width}" role="img" aria-label="{escape(words)}" '
+    return Markup(svg.replace("<svg ", head, 1))  # from matplotlib  # nosec B704
 
 
 def _on_page(tag: str, name: str) -> str:
@@ -191,11 +172,8 @@ def _on_page(tag: str, name: str) -> str:
 
 def _mixture(match: re.Match[str]) -> str:
     share = round(100 * (1 - int(match[1], 16) / 255))
-    if share == 100:
-        return "var(--ink)"
-    return (
-        "var(--paper)" if share == 0 else f"color-mix(in srgb, var(--ink) {share}%, var(--paper))"
-    )
+    mixture = f"color-mix(in srgb, var(--ink) {share}%, var(--paper))"
+    return {0: "var(--paper)", 100: "var(--ink)"}.get(share, mixture)
 
 
 def anchor(title: str) -> str:

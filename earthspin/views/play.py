@@ -23,7 +23,7 @@ from earthspin.errors import SceneError
 from earthspin.interior.love import elastic, softening
 from earthspin.interior.named import INTERIORS
 from earthspin.scenes import run, run_tree
-from earthspin.views.page import rendered, source, write_texts
+from earthspin.views.page import rendered, source
 from earthspin.wobble.ladder import Spin, inputs_of, love_radius
 
 #: One turn of the Earth, s.
@@ -39,17 +39,12 @@ def _sky() -> dict[str, object]:
     flattening, spin = EARTH.number("dynamical_flattening"), 2 * math.pi / EARTH_TURNS
     obliquity = math.radians(float(answer.obliquity))
 
-    def ellipse(body: Body, eccentricity: float, inclination: float) -> dict[str, object]:
+    def ellipse(body: Body, e: float, i: float) -> dict[str, object]:
         rate = float(answer.precession_rate.sel(perturber=body.name)) * ARCSEC_PER_YEAR
         # the closed form of the page, solved for the distance
-        tilt = math.cos(obliquity) * (1 - 1.5 * math.sin(inclination) ** 2)
-        pull = 1.5 * flattening / spin * body.number("gm") / (1 - eccentricity**2) ** 1.5
-        return {
-            "gm": body.number("gm"),
-            "distance": (pull * tilt / rate) ** (1 / 3),
-            "eccentricity": eccentricity,
-            "inclination": inclination,
-        }
+        tilt, gm = math.cos(obliquity) * (1 - 1.5 * math.sin(i) ** 2), body.number("gm")
+        distance = (1.5 * flattening / spin * gm / (1 - e**2) ** 1.5 * tilt / rate) ** (1 / 3)
+        return {"gm": gm, "distance": distance, "eccentricity": e, "inclination": i}
 
     return {
         "flattening": flattening,
@@ -133,7 +128,7 @@ def write_page(name: str, file: str | Path) -> Path:
     Parameters
     ----------
     name : str
-        As of `play_page`.
+        See `play_page`.
     file : str or Path
 
     Returns
@@ -147,8 +142,7 @@ def write_page(name: str, file: str | Path) -> Path:
     OutputError
         If the file cannot be written.
     """
-    path = Path(file)
-    text = play_page(name)
-    drafts.check_writable(path.parent)
-    write_texts({path: text})
+    path, text = Path(file), play_page(name)
+    with drafts.replacing(path) as draft:
+        draft.write_text(text, encoding="utf-8")
     return path

@@ -20,7 +20,7 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``pole``; some years of it, with psi and eps.
+        Answer to the question ``pole`` over some years, with psi and eps.
     axis : str
         Which of the three.
     ax : Axes, optional
@@ -42,12 +42,9 @@ def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = No
     ax.autoscale_view()
     words = "time from the start (years)"
     ax.figure.colorbar(path, ax=ax, location="bottom", shrink=0.8, aspect=40, label=words)
-    ax.set(
-        aspect="equal",
-        xlabel="psi sin(eps), straight line removed (arcsec)",
-        ylabel="eps, straight line removed (arcsec)",
-        title=f"{axis.replace('_', ' ')} axis",
-    )
+    ax.set(aspect="equal", title=f"{axis.replace('_', ' ')} axis")
+    ax.set_xlabel("psi sin(eps), straight line removed (arcsec)")
+    ax.set_ylabel("eps, straight line removed (arcsec)")
     return ax
 
 
@@ -159,7 +156,7 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``iau``.
+        Answer to the question ``iau``.
     ax : Axes, optional
     """
     ax = axes(ax, 7.2, 3.4)
@@ -187,26 +184,24 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_pole_residuals(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the computed pole minus the IAU pole over time, in longitude and in obliquity.
+    """Draw the computed pole minus the IAU pole over time, with nothing removed: dX and dY.
 
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``iau``; without its section ``residuals`` it is run again.
+        Answer to the question ``iau``; computed again if the section ``residuals`` is missing.
     ax : Axes, optional
     """
     series = needed(result, "residuals")
     ax = axes(ax, 7.5, 3)
     sizes = []
-    for name, label, colour in (
-        ("dpsi_sineps", "dpsi sin(eps)", drawing.BLUE),
-        ("deps", "deps", drawing.RED),
-    ):
-        ax.plot(series.time, series[name], color=colour, lw=0.6, label=label)
+    for name, colour in (("dX", drawing.BLUE), ("dY", drawing.RED)):
+        error = series[f"{name}_error"]
+        drawing.band(ax, series.time, series[name], error, colour, lw=0.6, label=name)
         sizes.append(f"{float(np.sqrt(np.mean(series[name] ** 2))):.2f}")
     title = f"computed pole minus IAU 2006/2000A; rms {' and '.join(sizes)} mas"
     ax.set_title(title, loc="left", fontsize=9)
-    ax.set(xlabel="time (TDB); constant and rate removed", ylabel="residual (mas)")
+    ax.set(xlabel="time (TDB)", ylabel="dX, dY (mas)")
     ax.legend(loc="best", ncols=2)
     return ax
 
@@ -217,7 +212,8 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``iau``; without its sections ``nutation`` and ``core`` it is run again.
+        Answer to the question ``iau``; computed again if its section ``nutation`` or ``core`` is
+        missing.
     ax : Axes, optional
     """
     terms, period = needed(result, "nutation"), float(needed(result, "core").core_nutation_period)
@@ -243,18 +239,19 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
 
 IAU_FIGURES = [
     PageFigure(
+        "Residuals in time",
+        "X and Y of the computed pole minus those of the IAU; nothing is fitted or removed. Bands: "
+        "95 % half-widths.",
+        plot_pole_residuals,
+        section="residuals",
+    ),
+    PageFigure(
         "The budget",
         "Contribution of each effect to the rate of psi_A, measured by switching the effect off, "
         "and the published contribution; the axis is logarithmic to both sides of zero. To see: "
-        "where the dots of a pair lie at one place, what is computed agrees with what is "
-        "published. Dashed: the closure, what remains of the sum.",
+        "the two dots of a pair coincide if the computed and the published contribution agree. "
+        "Dashed: the closure, the unexplained rest.",
         plot_budget,
-    ),
-    PageFigure(
-        "Residuals in time",
-        "The computed pole minus the IAU's; a fitted constant and rate are removed.",
-        plot_pole_residuals,
-        section="residuals",
     ),
     PageFigure(
         "Response of the deformable body",
@@ -282,7 +279,7 @@ def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``nutation``.
+        Answer to the question ``nutation``.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
@@ -310,8 +307,8 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``nutation``; without its sections ``transfer`` and ``terms`` it is run
-        again.
+        Answer to the question ``nutation``; computed again if its section ``transfer`` or ``terms``
+        is missing.
     ax : Axes, optional
     """
     data, main = needed(result, "transfer"), needed(result, "terms")
@@ -333,11 +330,8 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     inside = np.abs(at) < SHOWN
     ax.plot(at[inside], ratio[inside], "o", color=drawing.ORANGE, ms=5, label="IAU 2000A / rigid")
     note(ax, "free core nutation", (DAYS_PER_YEAR / CORE_NUTATION.value, 0.9), (-8, 0), ha="right")
-    ax.set(
-        ylim=(0.85, 1.45),
-        xlabel="frequency in space, negative if retrograde (cycles per year)",
-        ylabel="amplitude over that of a rigid body",
-    )
+    ax.set(ylim=(0.85, 1.45), ylabel="amplitude over that of a rigid body")
+    ax.set_xlabel("frequency in space, negative if retrograde (cycles per year)")
     ax.legend(loc="upper right")
     return ax
 
@@ -345,13 +339,13 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
 NUTATION_FIGURES = [
     PageFigure(
         "From a rigid body to half a milliarcsecond",
-        "What is left of each model against IAU 2000A. To see: which steps down are large.",
+        "Residuals of each model from IAU 2000A. To see: which effects reduce them most.",
         plot_nutation_ladder,
     ),
     PageFigure(
         "Through the resonance",
-        "Nutation of the body over that of a rigid one. Dots: the terms of IAU 2000A over the "
-        "rigid ones. The resonance is the free core nutation.",
+        "Ratio of nutation to that of a rigid body. Dots: terms of IAU 2000A divided by rigid "
+        "terms. The resonance is the free core nutation.",
         plot_transfer,
         section="transfer",
         uses=["terms"],

@@ -54,25 +54,14 @@ def periods(tree: Result) -> Table:
     answer, known, seasons = answer_of(tree), needed(tree, "iau_2006"), needed(tree, "seasons")
     total, iau = answer.isel(perturber=-1), FULL_TURN / float(known.iau_rate)
     period, error = _with_known_effects(known)
+    general = measured(seasons, "general_precession_period"), f"{FULL_TURN / P_A_RATE.value:.3f}"
+    known_effects = tables.with_error(period, error), f"{iau:.3f}"
+    alone, textbooks = measured(total, "precession_period"), "25800 in textbooks"
+    fixed = "equator on a fixed ecliptic, all known effects"
     rows = [
-        (
-            "general precession, moving ecliptic",
-            measured(seasons, "general_precession_period"),
-            f"{FULL_TURN / P_A_RATE.value:.3f}",
-            "the equinox, the seasons; 25800 in textbooks",
-        ),
-        (
-            "equator on a fixed ecliptic, all known effects",
-            tables.with_error(period, error),
-            f"{iau:.3f}",
-            "the motion of the celestial pole",
-        ),
-        (
-            "the same, torques of Sun and Moon alone",
-            measured(total, "precession_period"),
-            "",
-            "the theory of rigid bodies",
-        ),
+        ("general precession, moving ecliptic", *general, f"the equinox, the seasons; {textbooks}"),
+        (fixed, *known_effects, "the motion of the celestial pole"),
+        ("the same, torques of Sun and Moon alone", alone, "", "the theory of rigid bodies"),
     ]
     return Table(
         "Which period to quote",
@@ -101,10 +90,8 @@ def rates(tree: Result) -> Table:
     if answer.sizes["perturber"] == 2:  # the total of one perturber says nothing more
         answer = answer.isel(perturber=[0])
     first, last = answer.perturber.values[[0, -1]]
-    method, given = (
-        tables.two_digits(answer[f"precession_rate_error_{share}"][-1])
-        for share in ("method", "input")
-    )
+    errors = answer.precession_rate_error_method[-1], answer.precession_rate_error_input[-1]
+    method, given = map(tables.two_digits, errors)
 
     neglected = answer.attrs["neglected"]
     largest = None if "unknown size" in neglected else largest_of(neglected)
@@ -141,15 +128,11 @@ def sky_and_calendar(tree: Result) -> Table:
         Column("time_per_dropped_leap_day", ".2f", "years per dropped leap day, Gregorian"),
         Column("time_per_day_of_gregorian_drift", ",.0f", "years per day of Gregorian drift"),
     )
-    others = (
-        f"{P_A_RATE.value:.5f} (IAU 2006)",
-        "25800 (source text, I.8)",
-        "72 (source text, I.8)",
-        f"{TROPICAL_YEAR.value / DAY:.6f} (Simon et al. 1994)",
-        "129.4 (source text, I.8)",
-        "400/3 (source text, I.8)",
-        "",
-    )
+    numbers = ("25800", "72", "129.4", "400/3")
+    period, degree, drift, leap_day = (f"{n} (source text, I.8)" for n in numbers)
+    rate = f"{P_A_RATE.value:.5f} (IAU 2006)"
+    year = f"{TROPICAL_YEAR.value / DAY:.6f} (Simon et al. 1994)"
+    others = (rate, period, degree, year, drift, leap_day, "")
     return Table(
         "Equinox and calendar",
         ("quantity", "computed", "for comparison"),
@@ -215,10 +198,7 @@ def iau(tree: Result) -> Table:
         ("computed", measured(answer.isel(perturber=-1), "precession_rate")),
         ("IAU 2006, psi_A", f"{float(known.iau_rate):.8f}"),
         ("difference", measured(known, "difference_from_iau")),
-        *(
-            (f"  left out: {effect}", f"{float(row.neglected_effect):+.6f}")
-            for effect, row in effects
-        ),
+        *((f"  left out: {name}", f"{float(e.neglected_effect):+.6f}") for name, e in effects),
         ("difference after the effects left out", measured(known, "closure")),
     ]
     return Table(
@@ -227,7 +207,7 @@ def iau(tree: Result) -> Table:
         rows,
         "The sizes of the effects left out are published: Capitaine, Wallace & Chapront 2003, "
         "table 3. H itself comes from observed precession, so the comparison tests consistency, "
-        "not the theory. Errors hold the uncertainty of the input numbers only. The "
+        "not the theory. Errors include the uncertainty of the inputs only. The "
         f"difference that remains is {_millionths(known)} millionths of the rate.",
     )
 
@@ -283,9 +263,10 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``precession``; without the section ``convergence`` it is run again.
+        Answer to the question ``precession``; computed again if the section
+        ``convergence`` is missing.
     year : Dataset or DataTree
-        Of the question ``torque``.
+        Answer to the question ``torque``.
     figure : Figure, optional
         A figure of its own by default.
     """
@@ -301,9 +282,8 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
     lower.axhline(rate, color="0.3", lw=0.8, ls="--")
     words = f"{rate:.3f}\u2033/yr: once round in {float(total.precession_period):.0f} years"
     note(lower, words, (float(curve.window_length[-1]), rate), (0, -30), ha="right", color="0.2")
-    lower.set(
-        xlabel="length of the averaging window (yr)", ylabel="averaged rate\n(arcsec per year)"
-    )
+    lower.set_xlabel("length of the averaging window (yr)")
+    lower.set_ylabel("averaged rate\n(arcsec per year)")
     drawing.legend_above(lower)
     return figure
 
@@ -314,7 +294,8 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``precession``; without the section ``convergence`` it is run again.
+        Answer to the question ``precession``; computed again if the section
+        ``convergence`` is missing.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
@@ -370,7 +351,7 @@ def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``precession``.
+        Answer to the question ``precession``.
     ax : Axes, optional
     """
     total = answer_of(result).isel(perturber=-1)

@@ -92,7 +92,7 @@ def _first_case(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
     if question is None:
         return data
     declared = {n: v for part in question.graph.parts.values() for n, v in part.gives.items()}
-    known = {"effect", "part", *(dim for variable in declared.values() for dim in variable.dims)}
+    known = {"effect", "part", *question.graph.labels}
     first = data.isel({dim: 0 for dim in data.dims if dim not in known}).copy()
     for name in first.variables.keys() & declared.keys():
         first[name].attrs |= {"short": declared[str(name)].short}
@@ -102,14 +102,9 @@ def _first_case(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
 # --- line that closes the output -----------------------------------------------------------------
 
 
-#: Words for the shares of an error, by the endings of their names.
-SHARES = {
-    "method": "method",
-    "input": "inputs",
-    "kernel": "positions",
-    "response": "response",
-    "satellites": "satellites",
-}
+#: Endings of the names of shares of an error, and words for those that are called otherwise.
+SHARES = ("method", "input", "kernel", "response", "satellites")
+WORDS = {"input": "inputs", "kernel": "positions"}
 
 
 def closing_line(result: Result, seconds: float | None = None) -> str:
@@ -158,9 +153,9 @@ def _error(answer: xr.Dataset) -> str:
     place = {dim: int(index) for dim, index in zip(error.dims, largest, strict=True)}
     size, unit = float(error[place]), error.attrs["units"]
     shares = [
-        f"{words} {plain(float(answer[f'{error_name}_{ending}'][place]))}"
-        for ending, words in SHARES.items()
-        if f"{error_name}_{ending}" in answer
+        f"{WORDS.get(share, share)} {plain(float(answer[f'{error_name}_{share}'][place]))}"
+        for share in SHARES
+        if f"{error_name}_{share}" in answer
     ]
     relative = unit == "1" != value.attrs["units"]
     text = f"{label}: {'largest ' if place else ''}{'relative ' if relative else ''}95 % error "

@@ -18,7 +18,7 @@ from earthspin.scenes import load_scene, run, run_tree
 from earthspin.views import precession, rotors, torque
 from earthspin.views.answers import drawings_for, page_of, solids_for
 from earthspin.views.drawing import Drawing
-from earthspin.views.page import page, write_texts
+from earthspin.views.page import page
 from earthspin.views.reading import answer_of, body_of, needed, section
 from earthspin.views.solids import Solid
 from earthspin.views.tables import beside_observed, measured
@@ -52,7 +52,7 @@ def write_report(
     Returns
     -------
     tree : DataTree
-        Of the scene ``precession``.
+        Answer to the scene ``precession``.
     written : list of Path
 
     Raises
@@ -63,7 +63,7 @@ def write_report(
     place = drafts.check_writable(folder)
     with progress("report", 4) as advance:
         tree = run_tree(load_scene("precession", {"ephemeris": ephemeris}))
-        data = _write_data(place, {"precession.nc": tree})
+        data = _write({place / "precession.nc": tree})
         advance(1)
         drawings = []
         if figures:
@@ -75,7 +75,7 @@ def write_report(
         if figures:
             pages[place / "rotors.html"] = gallery_page()
         advance(1)
-    return tree, [*write_texts(pages), *data]
+    return tree, [*_write(pages), *data]
 
 
 def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]:
@@ -91,12 +91,8 @@ def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]
 
     year, cycle = series(HALF_A_YEAR, "6 h"), series(HALF_A_NODE_CYCLE, "1 d")
     advance(1)
-    drawings = [
-        precession.chain(tree, year),
-        torque.through(
-            cycle, "Declination and torque through a cycle of the Moon's node", smooth_days=MONTH
-        ),
-    ]
+    title = "Declination and torque through a cycle of the Moon's node"
+    drawings = [precession.chain(tree, year), torque.through(cycle, title, smooth_days=MONTH)]
     advance(1)
     return drawings
 
@@ -154,26 +150,21 @@ def write_wobble_report(
         ladder = run_tree("wobble")
         advance(1)
         pole = run_tree("polar-motion")
-        data = _write_data(place, {"wobble.nc": ladder, "polar-motion.nc": pole})
+        data = _write({place / "wobble.nc": ladder, place / "polar-motion.nc": pole})
         advance(1)
-        text = page_of(
-            ladder,
-            pole,
-            title="The free wobble, explained and observed",
-            lead=_explained_and_observed(ladder, pole),
-            drawings=None if figures else (),
-        )
+        title = "The free wobble, explained and observed"
+        lead, drawings = _explained_and_observed(ladder, pole), None if figures else ()
+        text = page_of(ladder, pole, title=title, lead=lead, drawings=drawings)
         advance(1)
-    return [ladder, pole], [*write_texts({place / "wobble.html": text}), *data]
+    return [ladder, pole], [*_write({place / "wobble.html": text}), *data]
 
 
 def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
     """Sentence that compares the computed and the observed period of the free wobble."""
     answer = answer_of(ladder)
     rigid, top = measured(answer.sel(rung="rigid"), "period_solar", "days"), answer.isel(rung=-1)
-    last = beside_observed(
-        top.period_solar, top.period_solar_error, section(ladder, "neglected"), "days"
-    )
+    period, error = top.period_solar, top.period_solar_error
+    last = beside_observed(period, error, section(ladder, "neglected"), "days")
     *others, other = (ADDED[rung] for rung in answer.rung.values if rung in ADDED)
     return (
         f"If {body_of(answer)} were rigid, its free wobble would have a period of {rigid}; with "
@@ -182,9 +173,13 @@ def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
     )
 
 
-def _write_data(place: Path, data: Mapping[str, xr.DataTree]) -> list[Path]:
-    """Write several results to NetCDF files; if an error occurs, write none of them."""
+def _write(files: Mapping[Path, str | xr.DataTree]) -> list[Path]:
+    """Write pages and data; return their paths. If one cannot be written, none is."""
     with ExitStack() as together:
-        for name, tree in data.items():
-            store.write_netcdf(tree, together.enter_context(drafts.replacing(place / name)))
-    return [place / name for name in data]
+        for path, content in files.items():
+            draft = together.enter_context(drafts.replacing(path))
+            if isinstance(content, str):
+                draft.write_text(content, encoding="utf-8")
+            else:
+                store.write_netcdf(content, draft)
+    return [*files]

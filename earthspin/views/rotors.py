@@ -34,7 +34,7 @@ def plot_components(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``free-rotor``.
+        Answer to the question ``free-rotor``.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
@@ -52,7 +52,7 @@ def plot_herpolhode(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``free-rotor``; without the section ``poinsot`` it is run again.
+        Answer to the question ``free-rotor``; computed again if the section ``poinsot`` is missing.
     ax : Axes, optional
     """
     poinsot = needed(result, "poinsot")
@@ -176,14 +176,11 @@ def rolling_cones(rotor: SymmetricRotor, title: str, points: int = 241) -> Solid
     omega = rotor.omega_inertial(times)
     speed = float(np.linalg.norm(omega[0]))
     axis = rotor.figure_axis(times)
-    inside = float(rotor.theta) < float(rotor.alpha)
-    roll = "with its inner side on" if inside else "on the outside of"
-    between = (
-        "The body is oblate: the angular momentum lies between the axis and the angular velocity."
-        if inside
-        else "The body is prolate: the angular velocity lies between the angular momentum and the "
-        "axis."
-    )
+    momentum, velocity = "the angular momentum", "the angular velocity"
+    shape, roll, middle, other = "prolate", "on the outside of", velocity, momentum
+    if float(rotor.theta) < float(rotor.alpha):
+        shape, roll, middle, other = "oblate", "with its inner side on", momentum, velocity
+    between = f"The body is {shape}: {middle} lies between {other} and the axis."
     return Solid(
         title=title,
         caption="The body cone (red) is fixed in the body, about its axis; the space cone (blue) "
@@ -196,7 +193,8 @@ def rolling_cones(rotor: SymmetricRotor, title: str, points: int = 241) -> Solid
             solids.moving_arrow(1.15 * speed * axis, RED, "axis"),
             solids.arrow(np.array([0.0, 0.0, 1.2 * speed]), BLACK, "L"),
         ],
-        radius=float(1.3 * speed),
+        radius=float(0.75 * speed),
+        height=float(0.6 * speed),
         times=times,
         attitude=rotor.attitude(times),
     )
@@ -232,7 +230,7 @@ def plot_effective_potential(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``top``; without the sections ``potential`` and ``turning`` it is run
+        Answer to the question ``top``; without the sections ``potential`` and ``turning`` it is run
         again.
     ax : Axes, optional
         Drawn on a figure of its own by default.
@@ -270,9 +268,8 @@ def path_of_top(tree: Result) -> solids.Solid:
     """
     answer = answer_of(tree)
     theta, phi = answer.theta.values, answer.phi.values
-    tip = np.stack(
-        [np.sin(theta) * np.sin(phi), -np.sin(theta) * np.cos(phi), np.cos(theta)], axis=-1
-    )
+    across, height = np.sin(theta), np.cos(theta)
+    tip = np.stack([across * np.sin(phi), -across * np.cos(phi), height], axis=-1)
     bounds = needed(tree, "turning").turning_angle.values
     return solids.Solid(
         title=f"{answer.attrs['title']}: {answer.pattern.item()}",
@@ -287,9 +284,6 @@ def path_of_top(tree: Result) -> solids.Solid:
         times=answer.time.values,
         attitude=answer.attitude.values,
     )
-
-
-TOP_SOLIDS = [("turning", path_of_top)]
 
 
 # --- rotation under torques ----------------------------------------------------------------------
@@ -318,7 +312,7 @@ def plot_spin(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``rotation``.
+        Answer to the question ``rotation``.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
@@ -334,7 +328,7 @@ def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``rotation``.
+        Answer to the question ``rotation``.
     ax : Axes, optional
     """
     ax = axes(ax, 8, 3.4)
@@ -354,7 +348,8 @@ def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``rotation``; without the section ``divergence`` it is run again.
+        Answer to the question ``rotation``; computed again if the section
+        ``divergence`` is missing.
     ax : Axes, optional
     """
     ax = axes(ax, 8, 3.4)
@@ -376,13 +371,13 @@ ROTATION_FIGURES = [
     ),
     PageFigure(
         "How well the attitude is known",
-        "What the attitude may be off by at each time: what two ways of following it differ by, "
-        "and what the uncertainty of given numbers and positions does.",
+        "Error of the attitude over time: from the integration (the difference of two solutions), "
+        "and from the uncertainties of the inputs and of the positions.",
         plot_attitude_error,
     ),
     PageFigure(
-        "How neighbours part",
-        "Logarithm of the distance of a neighbour; a straight line is chaos.",
+        "Divergence of neighbouring rotations",
+        "Logarithm of the distance of neighbouring rotations; a straight line means chaos.",
         plot_growth,
         section="divergence",
     ),
@@ -422,11 +417,8 @@ def _largest(vectors: FloatArray) -> float:
     return float(np.max(np.linalg.norm(vectors, axis=1))) or 1.0
 
 
-ROTATION_SOLIDS = [("", turning_body)]
-
-
 VIEWS = {
     "free-rotor": Views(ROTOR_FIGURES, ROTOR_SOLIDS),
-    "top": Views(TOP_FIGURES, TOP_SOLIDS),
-    "rotation": Views(ROTATION_FIGURES, ROTATION_SOLIDS),
+    "top": Views(TOP_FIGURES, [("turning", path_of_top)]),
+    "rotation": Views(ROTATION_FIGURES, [("", turning_body)]),
 }

@@ -30,16 +30,18 @@ class Solid:
     ----------
     title, caption : str
     items : sequence of dict
-        As `mesh`, `line`, `arrow` and `moving_arrow` make them.
+        Parts made by `mesh`, `line`, `arrow` and `moving_arrow`.
     radius : float
         Half the extent that is shown at first.
     times : sequence of float
-        In `unit`; one entry for a still picture.
+        Times in `unit`; one entry for a still picture.
     attitude : sequence of quaternions
-        w, x, y, z, body to space, one a time or one for all times; carries what has the frame
-        "body".
+        w, x, y, z, from body to space, one for each time or one for all; it rotates items with the
+        frame "body".
     turn, tilt : float
         The first view: azimuth and elevation, rad.
+    height : float
+        Height of the middle of the picture along the third axis.
     """
 
     title: str
@@ -51,6 +53,7 @@ class Solid:
     attitude: ArrayLike = ((1.0, 0.0, 0.0, 0.0),)
     turn: float = 0.6
     tilt: float = 0.35
+    height: float = 0.0
 
     def json(self) -> str:
         """Convert the picture to JSON for the page's script, with arrays rounded to five digits.
@@ -71,10 +74,8 @@ def _rounded(points: FloatArray) -> list[Any]:
     digits = np.clip(4 - np.floor(np.log10(size)), -22, 22)
     # a whole number divided by an exact power of ten is the float nearest to its decimal digits
     scale = 10.0 ** np.abs(digits)
-    rounded = np.where(
-        digits >= 0, np.rint(points * scale) / scale, np.rint(points / scale) * scale
-    )
-    numbers: list[Any] = rounded.tolist()
+    small, large = np.rint(points * scale) / scale, np.rint(points / scale) * scale
+    numbers: list[Any] = np.where(digits >= 0, small, large).tolist()
     return numbers
 
 
@@ -114,9 +115,8 @@ def _arrow(name: str, points: FloatArray, colour: str, label: str) -> Item:
 
 def ellipsoid(semi_axes: Sequence[float], rows: int = 17, columns: int = 33) -> FloatArray:
     """Points on an ellipsoid along its principal axes, shape (rows, columns, 3)."""
-    polar, azimuth = np.meshgrid(
-        np.linspace(0, np.pi, rows), np.linspace(0, 2 * np.pi, columns), indexing="ij"
-    )
+    angles = np.linspace(0, np.pi, rows), np.linspace(0, 2 * np.pi, columns)
+    polar, azimuth = np.meshgrid(*angles, indexing="ij")
     unit = [np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)]
     return np.stack([a * u for a, u in zip(semi_axes, unit, strict=True)], axis=-1)
 

@@ -22,15 +22,14 @@ LARGE = 1e9
 SHORT = 32
 #: Characters between two columns on the terminal.
 SPACE = 3
-#: What the brackets mean, for whoever meets them first.
+#: Explanation of errors in brackets, printed below tables.
 BRACKETS = (
     "Every error is the half-width of a 95 % interval; digits in brackets give it in units of the "
     "last digits."
 )
 
-#: Said of a half-width that holds the uncertainty of the input numbers, and nothing that the model
-#: leaves out.
-NUMBERS_ONLY = "numbers only"
+#: Note beside a half-width that includes the uncertainty of the inputs, but no neglected effects.
+NUMBERS_ONLY = "error from inputs only"
 
 
 @dataclass(frozen=True)
@@ -207,29 +206,30 @@ def beside_observed(
     Parameters
     ----------
     value, error : float
-        The half-width holds the input numbers only.
+        The half-width is due to the uncertainty of the inputs only.
     left_out : Dataset or None
         The section `neglected` in the same unit: its sizes, which are systematic, are added to the
-        half-width. Where no size is known, or not all are, the value is followed by "numbers only".
+        half-width. If any size is unknown, `NUMBERS_ONLY` follows the value.
     unit : str
         Written after the numbers.
     """
-    if left_out is not None and left_out.sizes["effect"] and not some_unknown(left_out):
-        return with_error(value, float(error) + systematic_size(left_out), unit)
+    left = math.nan if left_out is None else systematic_size(left_out)
+    if math.isfinite(left):
+        return with_error(value, float(error) + left, unit)
     plain = with_error(value, error, unit)
     return f"{plain}, {NUMBERS_ONLY}" if float(error) > 0 else plain
 
 
 def systematic_size(left_out: xr.Dataset) -> float:
-    """Sum of the sizes in a section `neglected`, without effects that vanish in the mean."""
+    """Sum of the sizes of neglected effects; NaN if there are none, or one of unknown size.
+
+    Periodic effects vanish in the mean and are excluded.
+    """
     sizes = left_out.neglected_effect
+    if not sizes.size or sizes.attrs.get("of_unknown_size"):
+        return math.nan
     periodic = sizes.attrs.get("zero_in_the_mean", "").split("; ")
     return float(abs(sizes[~np.isin(sizes["effect"].values, periodic)]).sum())
-
-
-def some_unknown(left_out: xr.Dataset) -> bool:
-    """Return True if a result's section `neglected` names effects of unknown size."""
-    return bool(left_out.neglected_effect.attrs.get("of_unknown_size"))
 
 
 def measured(data: xr.Dataset, name: str, unit: str = "") -> str:
@@ -275,18 +275,13 @@ class _DataColumn:
     values : DataArray
         Along the dimension of the rows, or a single number.
     errors : DataArray or None
-        In the unit of the values.
+        Half-widths in the unit of the values.
     """
 
     name: str
     head: str
     values: xr.DataArray
     errors: xr.DataArray | None = None
-
-    @property
-    def is_text(self) -> bool:
-        """Return True if the column holds words."""
-        return self.values.dtype.kind in "UO"
 
     def cells(self, rows: Any = ()) -> list[str]:
         """Text of the values in the given rows."""
@@ -296,11 +291,8 @@ class _DataColumn:
             return [date(value, "D" if whole_days else "s") for value in values]
         if self.errors is None:
             return [_text(value) for value in values.tolist()]
-        errors = np.atleast_1d(self.errors.values[rows])
-        return [
-            with_error(value, error) if np.isfinite(value) else _text(value)
-            for value, error in zip(values.tolist(), errors.tolist(), strict=True)
-        ]
+        pairs = zip(values.tolist(), np.atleast_1d(self.errors.values[rows]).tolist(), strict=True)
+        return [with_error(v, e) if np.isfinite(v) else _text(v) for v, e in pairs]
 
 
 def tables(tree: Result, without: Iterable[str] = ()) -> list[Table]:
@@ -312,7 +304,7 @@ def tables(tree: Result, without: Iterable[str] = ()) -> list[Table]:
     Parameters
     ----------
     tree : Dataset or DataTree
-        As `run` or `run_tree` give it.
+        Result of `run` or `run_tree`.
     without : iterable of str
         Sections that are not shown; the answer itself is the empty text.
     """
@@ -343,7 +335,8 @@ def tables_of(data: xr.Dataset, title: str) -> Iterator[Table]:
     single = columns.pop("", [])
     if single or wide:
         rows = [(column.head, *column.cells()) for column in single]
-        rows += [(column.head, _shape(column.values)) for column in wide]
+        shapes = [" x ".join(map(str, column.values.shape)) for column in wide]
+        rows += [(c.head, f"{shape} values") for c, shape in zip(wide, shapes, strict=True)]
         note = _notes(data, [*single, *wide], said)
         yield Table(title, ("quantity", "value"), rows, note)
     for dim, along in columns.items():
@@ -363,7 +356,7 @@ def numbered(tables: Iterable[Table]) -> list[Table]:
 
 
 def _names(data: xr.Dataset) -> list[str]:
-    """Names of the variables that tables show: all but half-widths, and shares of these."""
+    """Names of the variables that tables show: all except half-widths and their contributions."""
     names = [str(name) for name in data.data_vars]
     beside = {_half_width(data, name) for name in names}
     return [name for name in names if name not in beside and "_error_" not in name]
@@ -423,7 +416,7 @@ def _tables_along(
             tuple(column.head for column in group),
             [*zip(*(texts[column] for column in group), strict=True)],
             "\n".join(filter(None, (part, _notes(data, group, said)))),
-            words=[k for k, column in enumerate(group) if column is labels or column.is_text],
+            words=[0, *(k for k, column in enumerate(group) if column.values.dtype.kind in "UO")],
         )
 
 
@@ -465,11 +458,6 @@ def _notes(data: xr.Dataset, columns: Iterable[_DataColumn], said: set[str]) -> 
             said |= {name, error}
     lines += [f"Left out: {effect}." for effect in left_out if effect]
     return "\n".join(lines)
-
-
-def _shape(values: xr.DataArray) -> str:
-    """Describe the size of an array that no table shows, such as "361 x 3 values"."""
-    return f"{' x '.join(map(str, values.shape))} values"
 
 
 def _text(value: Any) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from rich import box
 from rich.console import Console
@@ -35,19 +35,14 @@ class Terminal(Console):
         self.print(_plain(table.title), style="bold")
         shown = RichTable(box=box.SIMPLE_HEAD)
         columns = [[row[number] for row in table.rows] for number in range(len(table.headers))]
-        natural = sum(
-            SPACE + max(map(len, [header, *cells]))
-            for header, cells in zip(table.headers, columns, strict=True)
-        )
-        for number, (header, cells) in enumerate(zip(table.headers, columns, strict=True)):
+        pairs = list(zip(table.headers, columns, strict=True))
+        natural = sum(SPACE + max(map(len, [header, *cells])) for header, cells in pairs)
+        for number, (header, cells) in enumerate(pairs):
             # of a table that is too wide, headers and long text are wrapped, and no numbers
             least = least_width(header, cells) if natural > self.width else None
             flexible = any(len(cell) > SHORT for cell in cells)
-            shown.add_column(
-                _plain(header),
-                justify="left" if number in table.words else "right",
-                width=None if flexible else least,
-            )
+            side: Literal["left", "right"] = "left" if number in table.words else "right"
+            shown.add_column(_plain(header), justify=side, width=None if flexible else least)
         for row in table.rows:
             shown.add_row(*(_plain(short_exponents(cell)) for cell in row))
         self.print(shown)

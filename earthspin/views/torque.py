@@ -61,19 +61,17 @@ def plot_declination(
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``torque``.
+        Answer to the question ``torque``.
     smooth_days : float, optional
-        What swings more often than is seen is drawn as a band, between the extremes within this
-        time.
+        Fast oscillations are drawn as a band between their extremes within this time.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
     answer = answer_of(result)
     ax = axes(ax)
     for number, (label, row) in enumerate(along(answer, "perturber")):
-        _line_or_band(
-            ax, row.declination, drawing.literal(label), number, _colour(label, number), smooth_days
-        )
+        words, colour = drawing.literal(label), _colour(label, number)
+        _line_or_band(ax, row.declination, words, number, colour, smooth_days)
     ax.set_ylabel("declination (deg)")
     drawing.legend_above(ax)
     return ax
@@ -87,7 +85,7 @@ def plot_torque(
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``torque``, evenly spaced.
+        Answer to the question ``torque``, evenly spaced.
     smooth_days : float, optional
         Width of a running mean, drawn as a second line; what swings more often than is seen is
         drawn as a band, between the extremes within this time.
@@ -143,12 +141,9 @@ TORQUE_FIGURES = [PageFigure("Declination and torque", _caption_of_torque, _plot
 
 
 def _caption_of_states(tree: Result) -> str:
-    words = (
-        "Spin axes in the states, in the plane of the orbit's normal (dashed) and of the pole that "
-        "it goes round (dotted)."
-    )
+    words = "Spin axes, in the plane of the orbit normal (dashed) and its mean (dotted)."
     if not bool(answer_of(tree).stable.all()):
-        words += " An axis beside a blue one stays there; beside the red one it leaves."
+        words += " An axis near a blue state stays near it; near the red one it does not."
     return words
 
 
@@ -158,7 +153,7 @@ def plot_states(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``cassini-states``.
+        Answer to the question ``cassini-states``.
     ax : Axes, optional
     """
     answer = answer_of(result)

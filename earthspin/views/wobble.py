@@ -41,9 +41,8 @@ def ladder(tree: Result) -> Table:
         source = observed.observed_period.attrs.get("references", "")
         notes.append(
             f"Source of the observed period: {source}. "
-            "The errors hold the uncertainty of the input numbers; that of the last rung, which "
-            "stands beside the observed period, holds the sizes of what it leaves out, too, where "
-            "they are known."
+            "The errors include the uncertainty of the inputs; that of the last rung, compared "
+            "with the observed period, also includes the known sizes of neglected effects."
         )
     columns = (
         Column("period_solar", period, "days of 86400 s"),
@@ -57,8 +56,8 @@ def ladder(tree: Result) -> Table:
 def _caption_of_ladder(tree: Result) -> str:
     band = "; the band is the observed period" if section(tree, "observed") is not None else ""
     words = (
-        "Period of the free wobble by a series of models, with 95 % errors from sampled inputs "
-        f"({tables.NUMBERS_ONLY}){band}."
+        "Period of the free wobble from models of increasing detail, with 95 % errors from sampled "
+        f"inputs only{band}."
     )
     return " ".join([words, *changes_of(answer_of(tree), "body")])
 
@@ -69,7 +68,7 @@ def plot_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``wobble``.
+        Answer to the question ``wobble``.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
@@ -105,10 +104,8 @@ LADDER_FIGURES = [
 
 
 #: How a number is written in a figure.
-SYMBOLS = {
-    "k2": "$k_2$", "h2": "$h_2$", "l2": "$l_2$",
-    "k2_load": "$k'_2$", "h2_load": "$h'_2$", "l2_load": "$l'_2$",
-}  # fmt: skip
+SYMBOLS = {f"{name}2": f"${name}_2$" for name in "khl"}
+SYMBOLS |= {f"{name}2_load": f"${name}'_2$" for name in "khl"}
 #: Left out of the figure: small as it is, its changes would hide all others.
 SMALL = "l2_load"
 #: Vertical lines, by their periods in days.
@@ -122,7 +119,7 @@ def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``love-numbers``.
+        Answer to the question ``love-numbers``.
     figure : Figure, optional
         Drawn on one of its own by default.
     """
@@ -137,7 +134,7 @@ def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
         line, colour = "--" if name.endswith("load") else "-", CYCLE[number % 3]
         above.plot(days, 100 * (abs(ratio) - 1), line, color=colour, label=SYMBOLS[name])
         below.plot(days, -np.degrees(np.angle(ratio)), line, color=colour)
-    above.set(xscale="log", ylabel="over the elastic one (%)")
+    above.set(xscale="log", ylabel="excess over the\nelastic value (%)")
     below.set(ylabel="lag (deg)", xlabel="period (d)")
     where = {"xycoords": ("data", "axes fraction"), "ha": "right", "color": GREY}
     for words, at in MARKS.items():
@@ -150,10 +147,9 @@ def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
 
 LOVE_FIGURES = [
     PageFigure(
-        "Softer and later with the period",
-        "Love numbers of tide and load, by the period of what deforms the body: how much larger "
-        "they are than those of the elastic body, at 1 s, and by which angle they lag. The small "
-        "tangential one of a load is left out.",
+        "Love numbers by period",
+        "Excess of the Love numbers of tide and load over those of the elastic body (at 1 s), "
+        "and their phase lag, by period. The small tangential load Love number is left out.",
         plot_by_period,
         section="by_period",
     )

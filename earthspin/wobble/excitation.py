@@ -79,7 +79,7 @@ def excitation(p: ComplexArray, step: float, s: complex) -> ComplexArray:
     step : float
         D, in the unit of time of `s`.
     s : complex
-        As `chandler_frequency` gives it.
+        Result of `chandler_frequency`.
 
     Returns
     -------
@@ -111,7 +111,7 @@ def polar_motion_from(
     chi : complex array, shape (n,)
         Means over consecutive steps.
     step, s
-        As of `excitation`.
+        See `excitation`.
     start : complex
         Polar motion at the start of the first step.
 
@@ -155,7 +155,7 @@ def fitted_start(time: FloatArray, p: ComplexArray, chi: ComplexArray, s: comple
     chi : complex array, shape (n - 1,)
         Means over the steps, in the unit of p.
     s : complex
-        As `chandler_frequency` gives it.
+        Result of `chandler_frequency`.
     """
     step = float((time[-1] - time[0]) / (time.size - 1))
     left = p - polar_motion_from(chi, step, s)

@@ -48,7 +48,7 @@ ORDER, FITTED_OVER, EXTRAPOLATED = 20, 730, 40
 
 @dataclass(frozen=True)
 class Autoregression:
-    """Autoregression of complex innovations, with residuals that are unequal in both coordinates.
+    """Autoregression of complex innovations; residuals differ in size between both coordinates.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class Autoregression:
     residual : complex
         Last e, mas.
     covariance : array, shape (2, 2)
-        Of the real and imaginary part of e, mas squared.
+        Covariance of the real and imaginary part of e, mas squared.
     """
 
     coefficients: ComplexArray
@@ -76,19 +76,20 @@ class Autoregression:
         return cls(filter_[1:], complex(residuals[-1]), covariance)
 
     def extended(self, series: ComplexArray, days: int) -> ComplexArray:
-        """Extend a series of innovations by some days, with e = 0."""
+        """Predict the innovations of the next days, with all future residuals e set to zero."""
         values = list(series[-ORDER:])
         for _ in range(days):
             values.append(-np.dot(self.coefficients, values[: -ORDER - 1 : -1]))
         return np.array(values[ORDER:], dtype=complex)
 
     def without_error(self, variance: float) -> tuple[complex, FloatArray]:
-        """Most probable last e, if the last observation has an error, and its covariance.
+        """Most probable last residual e given an error of the last observation, and its covariance.
 
         Parameters
         ----------
         variance : float
-            Of the error in each coordinate, beyond that of other observations, mas squared.
+            Variance of the error in each coordinate, beyond that of other observations, mas
+            squared.
         """
         share = self.covariance @ np.linalg.inv(self.covariance + variance * np.eye(2))
         real, imaginary = share @ [self.residual.real, self.residual.imag]
@@ -104,7 +105,7 @@ def forecast_covariance(
     ----------
     kalman : Filter
     autoregression : Autoregression
-        Of its innovations.
+        Autoregression of the innovations.
     last : array, shape (2, 2)
         Covariance of the last e; zero if the last observation is as good as the others.
     days : int
@@ -162,12 +163,7 @@ SHORTEST_EXCITATION = 3653
 #: What is observed: free wobble, circles and level.
 _OBSERVED = np.array([[1, 0, 0, 0, 1, 1, 1, 1, 1, 0]], dtype=complex)
 #: Which states belong to which component.
-COMPONENTS = {
-    "Chandler": [0],
-    "annual": [4, 5],
-    "semiannual": [6, 7],
-    "slow pole": [8],
-}
+COMPONENTS = {"Chandler": [0], "annual": [4, 5], "semiannual": [6, 7], "slow pole": [8]}
 
 
 @dataclass(frozen=True)
@@ -267,7 +263,7 @@ class Forecast:
     pole : complex array, shape (n,)
         x - i y, mas.
     covariance : array, shape (n, 2, 2)
-        Of x and y, mas squared, error of observation included.
+        Covariance of x and y, mas squared, with the error of observation.
     model_covariance : array, shape (n, 2, 2)
         The same by the Kalman filter alone.
     components : mapping of str to complex array, shape (n,)
@@ -303,10 +299,10 @@ def forecast(
     p : complex array, shape (n,)
         x - i y, mas, daily.
     days : int
-        How many days ahead.
+        Number of days ahead.
     fast : FastExcitation
     used : int
-        How many days of the record are used, the last ones.
+        Number of days that are used, from the end of the record.
     newest : bool
         Whether the last day is the newest observed row of finals2000A, which is biased.
 
@@ -383,7 +379,7 @@ def fit(p: ComplexArray, used: int = RECORD) -> FastExcitation:
     Parameters
     ----------
     p : complex array, shape (n,)
-        As of `forecast`.
+        See `forecast`.
     used : int
         Number of days at the end of the record that are used.
     """
@@ -422,9 +418,9 @@ def forecast_with_excitation(
         chi1 + i chi2, mas: means from each day of the record to the next, and as many beyond the
         record as are known; m is at least n.
     days : int
-        How many days ahead.
+        Number of days ahead.
     newest : bool
-        As of `forecast`.
+        See `forecast`.
 
     Raises
     ------

@@ -129,9 +129,9 @@ class Core:
     ellipticity : float
         (C_f - A_f)/A_f.
     gamma, beta : float or complex
-        How the core yields to the wobble of the mantle and to its own, over A_f.
+        Deformation of the core by the wobble of the mantle and by its own wobble, over A_f.
     xi : float or complex
-        How the body yields to the wobble of the core, over A.
+        Deformation of the body by the wobble of the core, over A.
     """
 
     fraction: Numeric
@@ -263,7 +263,7 @@ class Inputs:
     ocean : float
         Love number that the ocean adds, the mean over the meridians.
     anelastic_exponent : float
-        Of the period, in the mantle's loss.
+        Exponent of the period in the dissipation of the mantle.
     """
 
     dynamical_flattening: Numeric
@@ -287,7 +287,7 @@ class Spin:
     radius : float
         Equatorial radius, m.
     period : float
-        Of one turn, s.
+        Period of one rotation, s.
     """
 
     gm: Numeric
@@ -404,8 +404,7 @@ def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -
     spin : Spin
     interior : Interior
     ocean : str
-        As of `inputs_of`; the shape of the real ocean's response is kept and its size set
-        by `inputs.ocean`.
+        See `inputs_of`; the response of the real ocean is scaled to `inputs.ocean`.
 
     Returns
     -------

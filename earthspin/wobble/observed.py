@@ -24,19 +24,9 @@ from scipy.special import fdtri
 from earthspin.constants import NORMAL_95
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import ComplexArray, FloatArray
+from earthspin.wobble import record
 from earthspin.wobble.excitation import polar_motion_from
-from earthspin.wobble.record import (
-    BAND,
-    NEAR,
-    YEAR,
-    WobbleFit,
-    block_means,
-    check,
-    in_blocks,
-    known_terms,
-    turning,
-    without_known_terms,
-)
+from earthspin.wobble.record import BAND, NEAR, YEAR, WobbleFit, in_blocks, known_terms
 from earthspin.wobble.state_space import DrivenOscillator, burg
 
 # --- is there a wobble: Fisher's ratio of powers --------------------------------------------------
@@ -68,7 +58,7 @@ def need_wobble(time: FloatArray, p: ComplexArray) -> None:
         If nothing is left beside drift and seasons, or what is left has no peak.
     """
     t, means, _ = in_blocks(time, p, BLOCK)
-    rest = without_known_terms(t, means)
+    rest = record.without_known_terms(t, means)
     if np.max(abs(rest)) <= ROUNDING * np.max(abs(p)):
         raise UndefinedError("no free wobble: the pole stands still but for drift and seasons")
     spectrum = Periodogram.of(t, rest)
@@ -150,7 +140,7 @@ def fit_burg(time: FloatArray, p: ComplexArray) -> WobbleFit:
     """
     span = time[-1] - time[0]
     time, p, step = in_blocks(time, p, BLOCK)
-    poles = np.roots(burg(without_known_terms(time, p), ORDER))
+    poles = np.roots(burg(record.without_known_terms(time, p), ORDER))
     s = np.log(poles) / (1j * step)
     inside = s[(s.real > 2 * np.pi / BAND[1]) & (s.real < 2 * np.pi / BAND[0])]
     if inside.size == 0:
@@ -232,7 +222,9 @@ class Likelihood:
         """Block means of series after removal of the rotation at the expected wobble frequency."""
         t, means, step = in_blocks(time, columns, SAMPLE)
         return np.asarray(
-            block_means(means * turning(t, -NEAR)[:, None], max(1, round(LIKELIHOOD_BLOCK / step)))
+            record.block_means(
+                means * record.turning(t, -NEAR)[:, None], max(1, round(LIKELIHOOD_BLOCK / step))
+            )
         )
 
     def data(self, s: complex) -> ComplexArray:
@@ -271,12 +263,12 @@ class Likelihood:
 class LikelihoodWithExcitation(Likelihood):
     """Likelihood of a driven wobble after the effect of a known excitation is subtracted.
 
-    Where the pole stood at the start is a column more, exp(i s t).
+    The initial position of the pole is one more column, exp(i s t).
 
     Parameters
     ----------
     time, p
-        As of `Likelihood`.
+        See `Likelihood`.
     chi : complex array, shape (n - 1,)
         Mean excitation of each step, in the unit of p.
     """
@@ -350,7 +342,7 @@ def lowest(
     ----------
     likelihood : Likelihood
     start : array, shape (6,)
-        Where the search starts.
+        Initial values of the search.
     fixed : int, optional
         Number of a parameter that stays as it is.
     """
@@ -480,7 +472,7 @@ def fit(time: FloatArray, p: ComplexArray, method: str = "burg") -> WobbleFit:
     """
     if method not in METHODS:
         raise UndefinedError(f"method {method!r} is unknown; allowed: {', '.join(METHODS)}")
-    check(time, p)
+    record.check(time, p)
     time, p = np.asarray(time, dtype=float), np.asarray(p, dtype=complex)
     need_wobble(time, p)
     return METHODS[method](time, p)
@@ -503,6 +495,6 @@ def fit_with_excitation(time: FloatArray, p: ComplexArray, chi: ComplexArray) ->
     UndefinedError
         If the span is too short, or there is no wobble in the pole.
     """
-    check(time, p)
+    record.check(time, p)
     need_wobble(time, p)
     return largest(LikelihoodWithExcitation(time, p, chi), "likelihood with excitation", WIDENING)

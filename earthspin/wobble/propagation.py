@@ -167,12 +167,9 @@ def half_widths(
         Whether the ladder reaches the rung where the exponent matters.
     """
     low, high = EXPONENT_RANGE
-    widths = {
-        item.name: 1.96
-        * uncertainty.get(item.name, 0.0)
-        * abs(np.asarray(getattr(inputs, item.name)))
-        for item in fields(Inputs)
-    }
+    widths = {}
+    for name in (item.name for item in fields(Inputs)):
+        widths[name] = 1.96 * uncertainty.get(name, 0.0) * abs(np.asarray(getattr(inputs, name)))
     return widths | ({"anelastic_exponent": np.asarray((high - low) / 2)} if anelastic else {})
 
 

@@ -188,7 +188,7 @@ def envelope(
         d, evenly spaced.
     p : complex array
     period : float
-        Of the free wobble, d.
+        Period of the free wobble, d.
     window : float, optional
         Length, d; one beat of the two wobbles by default, the shortest that parts them.
     step : float
@@ -225,14 +225,9 @@ def envelope(
     residuals = series - np.einsum("wk,sk->ws", sizes, columns)
     to_time_zero = np.exp(-2j * np.pi * middle[:, None] / np.array(terms[:3]))
     turned = sizes[:, 2:5] * to_time_zero
-    return Envelope(
-        middle,
-        turned[:, 0],
-        turned[:, 1],
-        turned[:, 2],
-        sizes[:, 0],
-        _amplitude_error(residuals, spacing, 2 * np.pi / period),
-    )
+    chandler, annual, retrograde = turned.T
+    error = _amplitude_error(residuals, spacing, 2 * np.pi / period)
+    return Envelope(middle, chandler, annual, retrograde, sizes[:, 0], error)
 
 
 def _amplitude_error(residuals: ComplexArray, spacing: float, rate: float) -> FloatArray:
@@ -262,14 +257,14 @@ def spectrum(time: FloatArray, p: ComplexArray) -> tuple[FloatArray, FloatArray]
     time : array
         d, evenly spaced.
     p : complex array
-        In any unit; a cubic drift is removed and a Hann window applied.
+        Polar motion in any unit; a cubic drift is removed and a Hann window is applied.
 
     Returns
     -------
     frequency : array
         Cycles per unit of time, ascending; negative is retrograde.
     amplitude : array
-        Of a sinusoid that stands alone, in the unit of p.
+        Amplitude of a single sinusoid, in the unit of p.
     """
     step = (time[-1] - time[0]) / (time.size - 1)
     drift = drift_terms(time)

@@ -109,7 +109,7 @@ class Filter:
     innovation : array, shape (n, k, k)
         Covariances of the innovations.
     covariance : array, shape (m, m)
-        Of the state after the last observation.
+        Covariance of the state after the last observation.
     """
 
     model: StateSpace
@@ -138,7 +138,7 @@ class Filter:
         Parameters
         ----------
         data : array, shape (n, k)
-            As many observations as there are gains.
+            Observations, one for each gain.
 
         Returns
         -------
@@ -170,7 +170,7 @@ def burg(x: ComplexArray, order: int) -> ComplexArray:
     Parameters
     ----------
     x : complex array
-        Of mean zero.
+        Series with mean zero.
     order : int
     """
     forward, backward = x[1:], x[:-1]
@@ -244,14 +244,14 @@ class DrivenOscillator:
         Parameters
         ----------
         length : float
-            Of a block, d.
+            Length of a block, d.
         reference : float
             rad/d.
 
         Returns
         -------
         factors : complex array, shape (2,)
-            By which the modes change from one block to the next.
+            Factors by which the modes change from one block to the next.
         lags : complex array, shape (3,)
             Covariance at lags of none, one and two blocks.
         """

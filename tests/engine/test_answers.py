@@ -1,6 +1,7 @@
 """Answers: they hold the answer alone, and are the same every time."""
 
 import re
+from collections.abc import Callable
 from datetime import UTC, datetime
 
 import numpy as np
@@ -9,6 +10,7 @@ import xarray as xr
 
 import earthspin
 from earthspin import EARTH, Scene, load_scene
+from earthspin.bodies.planets import MEAN_SUN
 from earthspin.scenes import shipped_scenes
 from tests import shipped
 
@@ -59,6 +61,19 @@ def test_ten_years_of_torque_are_a_row_for_each_number() -> None:
     for axis in "xyz":
         assert float(some[f"torque_{axis}"].iloc[0]) == float(at.torque.sel(component=axis))
     assert float(some.distance_error.iloc[0]) == float(at.distance_error)
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: earthspin.run("long-term"), "orbit of earth: REBOUND"),
+        (lambda: earthspin.run("cassini-states"), "Chapront-Touze & Chapront 1988"),
+        (lambda: earthspin.precession(perturbers=[MEAN_SUN]), "Simon et al. 1994"),
+    ],
+    ids=["table", "own elements", "perturber"],
+)
+def test_references_name_the_origin_of_an_orbit(call: Callable[[], xr.Dataset], words: str) -> None:
+    assert words in call().attrs["references"]
 
 
 def test_a_frame_has_a_row_for_each_label(answer: xr.Dataset) -> None:

@@ -34,6 +34,7 @@ ASKED: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "torque": (DAYS, RADIUS),
     "pole": ({"span": ["2000-01-01", "2000-01-11"], "step": "5 d"}, H),
     "long-term": ({"span": ["-20 kyr", "0 kyr"], "step": "10 kyr"}, H),
+    "insolation": ({"span": ["-20 kyr", "0 kyr"], "step": "10 kyr", "latitude": ["65N", "0N"]}, H),
     "cassini-states": ({}, {"body.j2": {"normal": [2.033e-4, 1e-8]}}),
     "love-numbers": ({}, EXPONENT),
     "rotation": (DAYS, {"body.triaxiality": {"normal": [EARTH.triaxiality, 1e-9]}}),

@@ -2,8 +2,7 @@
 
 import pytest
 
-from earthspin.engine.part import part
-from earthspin.engine.question import Question, define_parts, key
+from earthspin.engine.question import Question, define_parts, key, part
 from earthspin.engine.variables import Neglected
 
 

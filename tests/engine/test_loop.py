@@ -193,7 +193,7 @@ def test_a_folder_of_others_is_left_alone(tmp_path: Path) -> None:
     folder = tmp_path / "r.zarr.partial"
     folder.mkdir()
     (folder / "letter.txt").write_text("not of this program")
-    with pytest.raises(OutputError, match=r"asked\.json is not what was written"):
+    with pytest.raises(OutputError, match=r"asked\.json"):
         blocks.write(Squares(), tmp_path / "r.zarr")
     assert (folder / "letter.txt").read_text() == "not of this program"
 

@@ -9,8 +9,7 @@ import pytest
 
 import earthspin
 from earthspin import Scene, SceneError, load_scene
-from earthspin.engine.part import BLOCK, Part
-from earthspin.engine.question import Question, keys_of
+from earthspin.engine.question import BLOCK, Part, Question, keys_of
 from earthspin.engine.run import Run
 from earthspin.scenes import QUESTIONS, shipped_scenes
 

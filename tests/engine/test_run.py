@@ -14,9 +14,10 @@ import earthspin
 from earthspin import Scene, SceneError, load_scene, scenes
 from earthspin.engine.run import Run
 from earthspin.questions import averages, path
-from earthspin.scenes import run, run_blocks, run_tree
+from earthspin.scenes import run, run_tree
 from earthspin.sky import ephemeris
 from earthspin.sky.poles import FixedPole
+from tests.blocks import run_blocks
 
 
 class MyPole:

@@ -9,12 +9,11 @@ from numpy.typing import ArrayLike
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.members import MEMBER
 from earthspin.engine.question import Question
-from earthspin.many import ensemble
 from earthspin.questions.free_rotor import free_rotor
 from earthspin.questions.precession import precession
 from earthspin.questions.spheroid import spheroid_field
 from earthspin.questions.top import heavy_top
-from earthspin.scenes import QUESTIONS
+from earthspin.scenes import QUESTIONS, ensemble
 from tests.extreme import Distances, holds, refused
 from tests.reference.sky import BODY, H
 

@@ -12,7 +12,7 @@ from tests.processes import printed
 _GROWTH = """
 import sys
 import earthspin
-from earthspin.scenes import run_blocks
+from tests.blocks import run_blocks
 
 scene = earthspin.load_scene("torque")
 

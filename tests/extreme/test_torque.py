@@ -19,7 +19,6 @@ from earthspin.torque.gravity import (
     torque_from_position,
     zonal_law,
 )
-from earthspin.torque.rates import circular_orbit_torque
 from tests.extreme import Distances, holds, refused, relative_error
 from tests.reference.sky import BODY, J2, H
 
@@ -69,7 +68,7 @@ def test_nearly_upright() -> Distances:
     for angle in (1e-6, np.pi - 1e-6):
         axis = np.array([0.0, -math.sin(angle), math.cos(angle)])
         precessing = precessing_torque(torque_from_position(SUN.gm, 1.0, orbit, axis), axis, NORTH)
-        closed = circular_orbit_torque(SUN.gm, 1.5e11, angle)
+        closed = 1.5 * SUN.gm / 1.5e11**3 * math.cos(angle)
         yield np.mean(precessing) / closed - 1
 
 
@@ -187,6 +186,6 @@ def test_next_to_a_parabola() -> Distances:
     (ra,), (dec,), _ = spherical(ecliptic_pole()[np.newaxis])
     body = BODY.replace(pole=(ra, dec - obliquity), orbit_pole=(ra, dec))
     result = precession(body=body, perturbers=[SUN.replace(orbit={"a": a, "e": e})])
-    torque = circular_orbit_torque(float(SUN.gm), a, obliquity) * ((1 - e) * (1 + e)) ** -1.5
+    torque = 1.5 * float(SUN.gm) / a**3 * math.cos(obliquity) * ((1 - e) * (1 + e)) ** -1.5
     spin = float(body.needed("dynamical_flattening") / body.spin_rate)
     yield float(result.precession_rate[0]) * ARCSEC_PER_YEAR / (spin * torque) - 1

@@ -23,6 +23,7 @@ from earthspin import (
     UndefinedError,
 )
 from earthspin.errors import in_bytes
+from tests.blocks import run_blocks
 
 ROOT = Path(__file__).parents[2]
 
@@ -53,7 +54,7 @@ def test_blocks_of_many_members_are_shorter(tmp_path: Path) -> None:
     scene = earthspin.Scene(
         compute="torque", span=("2000-01-01", "2000-01-03"), step="1 h", body=members(20_000)
     )
-    lengths = [block.sizes["time"] for block in earthspin.scenes.run_blocks(scene)]
+    lengths = [block.sizes["time"] for block in run_blocks(scene)]
     assert lengths == [6] * 8 + [1]
 
 

@@ -122,7 +122,7 @@ def test_a_number_that_another_program_changed_is_noticed(tmp_path: Path) -> Non
     with netCDF4.Dataset(path, "a") as raw:
         raw["torque"][0] *= 2
     for read in (store.open, earthspin.verify):
-        with pytest.raises(OutputError, match="are not what was written"):
+        with pytest.raises(OutputError, match="checksum"):
             read(path)
 
 
@@ -206,12 +206,12 @@ def test_a_damaged_chunk_is_found_by_reading(tmp_path: Path) -> None:
     path = store.write(small_series(), tmp_path / "r.zarr")
     chunk = path / "torque" / "0.0.0"
     with flipped(chunk, 4 * chunk.stat().st_size):
-        with pytest.raises(OutputError, match="its numbers or words are not what was written"):
+        with pytest.raises(OutputError, match="its numbers or words"):
             store.open(path).load()
         with pytest.raises(RuntimeError, match="Zstd decompression error"):
             xr.open_zarr(path).load()
     chunk.write_bytes(chunk.read_bytes()[:-7])
-    with pytest.raises(OutputError, match="its numbers or words are not what was written"):
+    with pytest.raises(OutputError, match="its numbers or words"):
         store.open(path).load()
 
 
@@ -220,7 +220,7 @@ def test_a_whole_chunk_in_the_place_of_another_does_not_pass_verify(tmp_path: Pa
     rate = path / "precession_rate" / "0"
     written = rate.read_bytes()
     shutil.copy(path / "precession_period" / "0", rate)
-    with pytest.raises(OutputError, match="its numbers or words are not what was written"):
+    with pytest.raises(OutputError, match="its numbers or words"):
         earthspin.verify(path)
     rate.write_bytes(written)
     earthspin.verify(path)
@@ -285,7 +285,7 @@ def test_an_attribute_that_was_changed_is_noticed(tmp_path: Path, kind: str) -> 
 
         zarr.open_group(path, mode="r+")["torque"].attrs["units"] = "kg"
     for read in (store.open, earthspin.verify):
-        with pytest.raises(OutputError, match=r"attributes are not .*xarray.open_dataset"):
+        with pytest.raises(OutputError, match=r"attributes .*xarray.open_dataset"):
             read(path)
 
 

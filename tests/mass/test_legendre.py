@@ -1,13 +1,14 @@
-"""Legendre projection and completeness (I.9.3, I.9.4)."""
+"""Legendre functions and completeness (I.9.3, I.9.4)."""
 
 import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import ArrayLike
 from scipy.special import lpmv
 
-from earthspin.errors import AccuracyError, UndefinedError
+from earthspin.errors import UndefinedError
 from earthspin.mass import multipoles
 from tests.mass.closeness import close
 from tests.refusals import refused
@@ -37,53 +38,13 @@ def test_the_factor_f_and_its_inverse() -> None:
         assert close(multipoles.factorial_ratio(n, m), float(exact), rel=2e-15)
 
 
-@pytest.mark.parametrize("m", [0, 1, 3])
-def test_a_polynomial_comes_back(m: int) -> None:
-    """Coefficients in, coefficients out (measured: 6e-15, and 1.8e-14 of nothing)."""
-    given_back = np.arange(1.0, 9.0)
-    found = multipoles.legendre_coefficients(
-        lambda z: float(multipoles.legendre_sum(given_back, z, m)), m + 9, m
+def _kernel(n_max: int, z: ArrayLike, other: np.ndarray, m: int = 0) -> np.ndarray:
+    """Sum over n of P_nm(z) P_nm(z')/K_nm, which tends to delta(z - z')."""
+    one, two = (
+        multipoles.orthonormal_functions(n_max, np.broadcast_to(x, other.shape), m)
+        for x in (z, other)
     )
-    assert close(found[:8], given_back, rel=5e-14)
-    assert np.all(np.abs(found[8:]) < 1e-13)
-
-
-def test_coefficients_against_fifty_digits() -> None:
-    """exp(z): g_n = (2n + 1) i_n(1), modified spherical Bessel (measured: 5e-15)."""
-    found = multipoles.legendre_coefficients(np.exp, 12)
-    with mp.workdps(50):
-        for n, value in enumerate(found):
-            exact = (2 * n + 1) * mp.sqrt(mp.pi / 2) * mp.besseli(n + mp.mpf(1) / 2, 1)
-            assert abs(mp.mpf(float(value)) - exact) < 3e-14
-
-
-def test_a_step_needs_its_break_named() -> None:
-    """The step at 0 has g_n = (P_(n-1)(0) - P_(n+1)(0))/2."""
-    found = multipoles.legendre_coefficients(lambda z: float(z > 0), 9, breaks=[0.0])
-    at_zero = lpmv(0, np.arange(11), 0.0)
-    expected = np.array([0.5, *((at_zero[n - 1] - at_zero[n + 1]) / 2 for n in range(1, 10))])
-    assert close(found, expected, abs=4e-15)
-
-
-def test_a_function_that_cannot_be_integrated_says_so() -> None:
-    with pytest.raises(AccuracyError, match="list the discontinuities"):
-        multipoles.legendre_coefficients(lambda z: float(np.sign(np.sin(1 / (z + 1e-9)))), 3)
-
-
-def test_partial_sums_converge() -> None:
-    """|z| by Legendre: the mean-square error falls with the degree, and equals Parseval's."""
-    coefficients = multipoles.legendre_coefficients(abs, 41, breaks=[0.0])
-    errors = []
-    for n_max in (5, 11, 21, 41):
-        kept = coefficients[: n_max + 1]
-        norms = np.array([multipoles.legendre_norm(n) for n in range(n_max + 1)])
-        errors.append(2 / 3 - float(np.sum(kept**2 * norms)))
-    node, weight = np.polynomial.legendre.leggauss(48)
-    left_out = (node + 1) / 2 - multipoles.legendre_sum(coefficients, (node + 1) / 2)
-    assert close(errors[-1], np.sum(weight * left_out**2), rel=2e-10)
-    # The terms left out fall as n^-4, from 22 and from 42 on.
-    assert np.all(np.diff(errors) < 0)
-    assert close(errors[2] / errors[3], (41.5 / 21.5) ** 3, rel=0.01)
+    return np.asarray(np.sum(one * two, axis=0))
 
 
 @given(st.integers(0, 3), st.integers(0, 6), st.floats(-0.99, 0.99))
@@ -93,8 +54,7 @@ def test_the_kernel_gives_a_function_back(m: int, extra: int, z: float) -> None:
     Measured: 1.2e-14.
     """
     n = m + extra
-    kernel = multipoles.completeness_kernel(m + 6, z, NODE, m)
-    back = np.sum(WEIGHT * kernel * lpmv(m, n, NODE))
+    back = np.sum(WEIGHT * _kernel(m + 6, z, NODE, m) * lpmv(m, n, NODE))
     scale = np.sqrt(multipoles.legendre_norm(n, m))
     assert close(back, float(lpmv(m, n, z)), abs=1e-13 * scale)
 
@@ -105,9 +65,12 @@ def test_the_kernel_gathers_at_its_point() -> None:
     other = 0.3
     p = lpmv(0, np.array([n, n + 1])[:, None], np.append(z, other))
     closed = (n + 1) / 2 * (p[1, :3] * p[0, 3] - p[0, :3] * p[1, 3]) / (z - other)
-    assert close(multipoles.completeness_kernel(n, z, other), closed, abs=1.5e-14)
-    peak = multipoles.completeness_kernel(n, other, other)
-    assert close(peak, (n + 1) / (np.pi * np.sqrt(1 - other**2)), rel=0.05)
+    assert close(_kernel(n, z, np.full(3, other)), closed, abs=1.5e-14)
+    assert close(
+        _kernel(n, np.array(other), np.array(other)),
+        (n + 1) / (np.pi * np.sqrt(1 - other**2)),
+        rel=0.05,
+    )
 
 
 def _fifty_digits(n: int, m: int, z: float) -> mp.mpf:
@@ -141,9 +104,9 @@ def test_functions_against_fifty_digits() -> None:
 test_what_has_no_value = refused(
     (lambda: multipoles.legendre_norm(2, 3), "order m = 3 exceeds the degree n = 2"),
     (lambda: multipoles.legendre_norm(-1), "degree n = -1"),
-    (lambda: multipoles.legendre_sum([1.0, 2.0], 1.5), r"z = 1\.5 is outside -1 to 1"),
-    (lambda: multipoles.legendre_sum([1.0], np.nan), "z = nan"),
+    (lambda: multipoles.orthonormal_functions(1, 1.5), r"z = 1\.5 is outside -1 to 1"),
+    (lambda: multipoles.orthonormal_functions(0, np.nan), "z = nan"),
     (lambda: multipoles.factorial_ratio(150, 150), "exceeds 1e308"),
-    (lambda: multipoles.completeness_kernel(2.5, 0.1, 0.2), r"degree n = 2\.5"),
+    (lambda: multipoles.orthonormal_functions(2.5, 0.1), r"degree n = 2\.5"),
     kind=UndefinedError,
 )

@@ -59,7 +59,7 @@ def test_a_dumbbell_turns_towards_the_mass(angle: float) -> None:
     """(I.8.2), up to (5/2) (r/b)^2 (measured: 3e-9 at b = 3e4 r)."""
     positions = rings.ring_positions(2, 2.0, angle)
     exact = rings.torque_on_masses(5.0, [6e4, 0.0, 0.0], 3.0 * np.ones(2), positions)
-    closed = rings.dumbbell_torque(5.0, 6e4, 3.0, 2.0, angle)
+    closed = rings.ring_torque(5.0, 6e4, 3.0, 2.0, 2, angle)
     scale = 6 * 5.0 * 3.0 * 4.0 / 6e4**3
     assert close(closed, -scale * np.sin(angle) * np.cos(angle), abs=1e-15 * scale)
     assert close(exact[2], float(closed), abs=1e-8 * scale)
@@ -70,9 +70,8 @@ def test_a_dumbbell_turns_towards_the_mass(angle: float) -> None:
 def test_two_dumbbells(angle: float, first: int, second: int) -> None:
     """(I.8.3) and (I.8.5): mirrored in the line to the mass they cancel if alike."""
     one, other = first / 10, second / 10
-    both = rings.dumbbell_torque(2.0, 1e3, 3.0, one, angle) + rings.dumbbell_torque(
-        2.0, 1e3, 3.0, other, -angle
-    )
+    both = rings.ring_torque(2.0, 1e3, 3.0, one, 2, angle)
+    both = both + rings.ring_torque(2.0, 1e3, 3.0, other, 2, -angle)
     expected = 6 * 2.0 * 3.0 / 1e9 * (other**2 - one**2) * np.sin(angle) * np.cos(angle)
     assert close(both, expected, abs=1e-15 * 36e-9 * (one**2 + other**2))
     if first == second:
@@ -107,7 +106,7 @@ def test_four_masses_leave_a_higher_torque_and_the_full_circle_none() -> None:
     place = np.array([100.0, 0.0, 0.0])
     exact = rings.torque_on_masses(1.0, place, np.ones(4), ring)[2]
     assert close(exact, -35 / 4 * 1e-10 * np.sin(1.2), rel=2e-4)
-    assert abs(exact) < 1e-3 * abs(rings.dumbbell_torque(1.0, 100.0, 1.0, 1.0, 0.3))
+    assert abs(exact) < 1e-3 * abs(rings.ring_torque(1.0, 100.0, 1.0, 1.0, 2, 0.3))
     many = rings.torque_on_masses(1.0, place, 1.0, rings.ring_positions(720, 1.0, 0.3))
     # Measured: 1.2e-16 of the terms.
     assert np.max(np.abs(many)) < 1e-15 * 720 * 3e-6
@@ -162,7 +161,7 @@ test_wrong_input = refused(
         UndefinedError,
         "count = 2 masses are too few; give 3",
     ),
-    (lambda: rings.dumbbell_torque(1.0, 9.0, -1.0, 1.0, 0.0), BodyError, r"mass = -1\.0"),
+    (lambda: rings.ring_torque(1.0, 9.0, -1.0, 1.0, 2, 0.0), BodyError, r"mass = -1\.0"),
     (lambda: rings.ring_positions(3, 0.0), BodyError, r"semi-axis = 0\.0"),
     (
         lambda: rings.torque_on_masses(1.0, [1.0, 0, 0], 1.0, [[1.0, 0, 0], [-1.0, 0, 0]]),

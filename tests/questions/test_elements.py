@@ -12,7 +12,6 @@ import earthspin
 from earthspin import EARTH, MOON, SUN, Body, BodyError, Orbit, Scene, SceneError, UndefinedError
 from earthspin.bodies.planets import MEAN_MOON, MEAN_SUN
 from earthspin.constants import ARCSEC_PER_YEAR, DAY
-from earthspin.torque.rates import circular_orbit_torque
 from tests.refusals import refused
 
 BOTH = [MEAN_SUN, MEAN_MOON]
@@ -109,7 +108,7 @@ def test_a_made_up_world() -> None:
     found = earthspin.precession(body=PLANET, perturbers=[STAR])
     assert float(found.obliquity) == pytest.approx(30, rel=1e-14, abs=0)
     a = math.cbrt((1.2e20 + 4e15) * (40 * DAY / (2 * math.pi)) ** 2)
-    torque = circular_orbit_torque(1.2e20, a, math.radians(30)) * (1 - 0.04) ** -1.5
+    torque = 1.5 * 1.2e20 / a**3 * math.cos(math.radians(30)) * (1 - 0.04) ** -1.5
     rate = 3e-3 * 20 * 3600 / (2 * math.pi) * torque / ARCSEC_PER_YEAR
     assert float(found.precession_rate[0]) == pytest.approx(rate, rel=1e-13, abs=0)
     # the star on its apparent orbit is the same
@@ -198,7 +197,7 @@ def test_orbits_that_do_not_fit_together() -> None:
         earthspin.precession(body=many, perturbers=[STAR])
     with pytest.raises(SceneError, match="list the planets as perturbers"):
         earthspin.pole("2000-01-01", "2000-02-01", "1 d", perturbers=BOTH, effects=["planets"])
-    with pytest.raises(SceneError, match="never measured"):
+    with pytest.raises(SceneError, match="error of its positions"):
         earthspin.compare_iau(perturbers=BOTH)
 
 

@@ -1,4 +1,4 @@
-"""Daily insolation from an answer: labels, conventions, errors, and refusals."""
+"""Daily insolation, as a question and from an answer: labels, conventions, errors, refusals."""
 
 from typing import Any
 
@@ -8,10 +8,12 @@ import xarray as xr
 from astropy import units as u
 
 import earthspin
-from earthspin import EarthspinError, daily_insolation
+from earthspin import EARTH, EarthspinError, daily_insolation, insolation
 from tests import shipped
 
 KYR = 1000.0
+FEW = {"times": ["-125 kyr", "0 kyr"]}
+PLACES = {"latitude": ["65N", "0N", "40S"], "solar_constant": "1365 W/m2"}
 
 
 @pytest.fixture(scope="module")
@@ -144,7 +146,9 @@ def test_mars_gets_less_by_the_square_of_its_distance() -> None:
     ("arguments", "words"),
     [
         (("91 deg", "0 deg"), "latitude = '91 deg': give at most 90 degrees"),
-        ((65.0, "0 deg"), "at most 90 degrees"),
+        ((65.0, "0 deg"), "write '65 deg'"),
+        (("65 deg", 90.0), "write '90 deg'"),
+        (("65E", "0 deg"), "latitude"),
         (("65 deg", "400 deg"), "at most 360 degrees"),
         (("65 km", "0 deg"), "not a value in units of rad"),
         (([[1, 2]] * u.deg, "0 deg"), "one list"),
@@ -198,3 +202,97 @@ def test_one_epoch_is_that_of_the_whole(past: xr.Dataset, half: float, keys: Any
     whole = daily_insolation(lost, "65 deg", "90 deg", **keys).isel(epoch=1)
     one = daily_insolation(lost.isel(epoch=1), "65 deg", "90 deg", **keys)
     xr.testing.assert_identical(one, whole)
+
+
+# --- the question --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("keys", "arguments", "named"),
+    [
+        ({}, ("65 deg", "90 deg"), {}),
+        (PLACES, (["65 deg", "0 deg", "-40 deg"], "90 deg"), {"solar_constant": 1365}),
+        (
+            {"latitude": "10 deg", "longitude": ["0 deg", "50 deg"], "window": "30 d"},
+            ("10 deg", ["0 deg", "50 deg"]),
+            {"days": "30 d"},
+        ),
+        ({"day": 172}, ("65 deg", 2 * np.pi * (172 - 80) / 365.2422, False), {}),
+    ],
+    ids=["defaults", "latitudes", "window", "day"],
+)
+def test_the_question_is_daily_insolation(keys: Any, arguments: Any, named: Any) -> None:
+    """Bit for bit, and so is the answer to its scene."""
+    found = insolation(**FEW, **keys)
+    other = daily_insolation(earthspin.long_term(**FEW), *arguments, **named)
+    assert np.array_equal(found.insolation, other)
+    assert np.array_equal(found.insolation_error, other.daily_insolation_error)
+    xr.testing.assert_identical(earthspin.run(found), found)
+
+
+def test_calendar_days_of_climlab() -> None:
+    """Of climlab 0.9.2 with our elements of today, in a calendar with the equinox on day 80."""
+    found = insolation(times=["0 kyr"], day=[15, 80, 172, 200, 300], **PLACES).insolation
+    assert found.dims == ("epoch", "latitude", "day")
+    of_climlab = [
+        [11.473170, 185.103498, 479.350129, 440.275894, 66.250529],
+        [418.611153, 437.992140, 386.020606, 392.882125, 429.227705],
+        [502.059489, 335.521430, 146.532388, 164.745212, 431.285670],
+    ]
+    assert np.allclose(found[0], of_climlab, rtol=0, atol=1e-4)  # its series; 2e-5 measured
+
+
+@pytest.mark.parametrize(
+    ("latitude", "degrees"),
+    [
+        ("65N", 65.0),
+        ("65 N", 65.0),
+        ("23.5S", -23.5),
+        ("65\N{DEGREE SIGN}N", 65.0),
+        (65 * u.deg, 65.0),
+        (np.radians(65), 65.0),
+        (["65N", "23.5S"], [65.0, -23.5]),
+        (xr.DataArray([65.0, 10.0], dims="y", attrs={"units": "degrees_north"}), [65.0, 10.0]),
+    ],
+    ids=str,
+)
+def test_latitudes_as_people_write_them(past: xr.Dataset, latitude: Any, degrees: Any) -> None:
+    found = insolation(**FEW, latitude=latitude)
+    assert found.latitude.values.tolist() == degrees
+    same = daily_insolation(past, latitude, "90 deg")[[-1]]
+    assert np.array_equal(same, daily_insolation(past, np.radians(degrees), "90 deg")[[-1]])
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"latitude": 65}, "write '65 deg'"),
+        ({"latitude": "95N"}, "latitude.*at most 90"),
+        ({"longitude": 90}, "write '90 deg'"),
+        ({"longitude": "90 deg", "day": 172}, "either longitude, or day"),
+        ({"day": 400}, "day = 400.*367"),
+        ({"day": 100, "body": "mars"}, "Earth's calendar"),
+        ({"window": "2 yr"}, "at most a year"),
+        ({"members": {"latitude": {"grid": ["65 deg", "66 deg"]}}}, "labels along 'latitude'"),
+        ({"latitude": np.full(3_000_000, 0.1)}, "fit into memory"),
+    ],
+)
+def test_wrong_keys_are_refused(keys: Any, words: str) -> None:
+    with pytest.raises(EarthspinError, match=words) as told:
+        insolation(**FEW, **keys)
+    assert "\n" not in str(told.value)
+
+
+def test_an_unknown_start_leaves_no_error() -> None:
+    found = insolation(**FEW, body=EARTH.replace(pole_uncertainty=None))
+    assert np.isnan(found.insolation_error).all()
+    assert "pole_uncertainty" in found.insolation_error.attrs["no_error"]
+
+
+def test_a_day_takes_the_place_of_the_longitude_of_a_scene() -> None:
+    scene = earthspin.load_scene("insolation", {**FEW, "day": 80})
+    found = earthspin.run(scene)
+    assert "longitude" not in found.coords
+    assert np.allclose(
+        found.insolation, insolation(**FEW, longitude=0).insolation, rtol=1e-12, atol=0
+    )

@@ -9,11 +9,11 @@ import xarray as xr
 
 import earthspin
 from earthspin import EARTH, SUN, SceneError
-from earthspin.engine.part import Block
-from earthspin.engine.question import Question
+from earthspin.engine.question import Block, Question
 from earthspin.engine.run import Run
 from earthspin.motion.effects import EFFECTS
-from earthspin.scenes import load_scene, run, run_blocks, series_length, write_series
+from earthspin.scenes import load_scene, run, series_length, write_series
+from tests.blocks import run_blocks
 
 YEAR = {"span": ["2000-01-01", "2001-01-01"], "step": "4 min"}
 

@@ -117,6 +117,7 @@ def test_both_readers_answer_every_question_that_opens_a_kernel() -> None:
         "iau": {"span": ["2000-01-01", "2001-01-01"], "step": "30 d"},
         "rotation": {"span": ["2000-01-01", "2000-01-03"], "step": "6 h"},
         "long-term": {"span": ["-10 kyr", "0 kyr"]},
+        "insolation": {"span": ["-10 kyr", "0 kyr"]},
     }
     words = [word for word, question in QUESTIONS.items() if "source" in keys_of(question)]
     assert set(short) <= set(words)

@@ -142,7 +142,7 @@ def test_no_error_is_claimed_where_none_was_measured(orbit: VectorFunction) -> N
     for name in ("precession_rate_error", "precession_period_error", "mean_torque_error"):
         assert np.isfinite(rates[name]).values.tolist() == [True, False, False]
     assert np.isnan(earthspin.pole(*SPAN, perturbers=[SUN, comet]).direction_error).all()
-    with pytest.raises(earthspin.SceneError, match="never measured, and the comparison"):
+    with pytest.raises(earthspin.SceneError, match="error of its positions"):
         earthspin.compare_iau(perturbers=[SUN, MOON, comet])
 
 

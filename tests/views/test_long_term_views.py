@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from itertools import combinations
+from typing import Any
 
 import numpy as np
 import pytest
@@ -50,6 +51,30 @@ def test_one_epoch_can_be_drawn() -> None:
     for ax in (long_term.plot_climate(then), long_term.plot_periods(then)):
         ax.figure.draw_without_rendering()
         assert ax.lines[0].get_marker() == "o"
+
+
+@pytest.mark.parametrize(
+    ("keys", "lines", "label"),
+    [
+        ({}, 1, "time from J2000.0 (1000 years)"),
+        (
+            {"latitude": ["65N", "65S"], "longitude": [1.0, 2.0]},
+            4,
+            "time from J2000.0 (1000 years)",
+        ),
+        ({"times": ["0 kyr"], "latitude": ["10S", "20N", "5N"]}, 1, "latitude (deg)"),
+        ({"times": ["0 kyr"]}, 1, "time from J2000.0 (1000 years)"),
+        ({"latitude": [k / 10 for k in range(9)]}, 0, "time from J2000.0 (1000 years)"),
+    ],
+)
+def test_insolation_is_drawn_as_lines_or_as_a_map(keys: Any, lines: int, label: str) -> None:
+    ax = long_term.plot_insolation(earthspin.insolation(**{"times": ["-9 kyr", "0 kyr"]} | keys))
+    ax.figure.draw_without_rendering()
+    assert len(ax.lines) == lines
+    assert ax.get_xlabel() == label
+    assert len(ax.figure.axes) == (1 if lines else 2)  # with the bar of colours
+    for line in ax.lines:
+        assert np.all(np.diff(line.get_xdata()) > 0)
 
 
 def test_the_line_of_the_path_is_the_path(about_now: xr.Dataset) -> None:

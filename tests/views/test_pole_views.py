@@ -46,7 +46,7 @@ def test_figures_draw_what_is_there(pole: xr.Dataset, iau: xr.DataTree) -> None:
     assert 8 < np.max(np.abs(drawn[:, 1])) < 12
 
     line = of_iau.plot_pole_residuals(iau).lines[0].get_ydata()
-    assert np.array_equal(line, iau["residuals"].dpsi_sineps)
+    assert np.array_equal(line, iau["residuals"].dX)
 
     ratio = of_iau.plot_nutation_ratio(iau)
     budget = of_iau.plot_budget(iau)

@@ -73,6 +73,12 @@ def test_the_cones_touch_along_omega(difference: float, alpha: float) -> None:
     to_momentum = np.arctan2(np.hypot(omega[:, 0], omega[:, 1]), omega[:, 2])
     assert np.allclose(to_axis, alpha, rtol=0, atol=1e-14)
     assert np.allclose(to_momentum, abs(rotor.space_cone), rtol=0, atol=1e-14)
+    picture = rotors.rolling_cones(rotor, "cones")  # their middle is the middle of the picture
+    heights = np.concatenate(
+        [[0.0], *(np.ravel(i["tip"])[2:] for i in picture.items if "tip" in i)]
+    )
+    assert abs(np.mean([heights.min(), heights.max()]) - picture.height) < 0.1 * picture.radius
+    assert np.ptp(heights) > 1.2 * picture.radius
 
 
 def test_shapes() -> None:

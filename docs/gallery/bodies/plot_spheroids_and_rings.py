@@ -62,6 +62,6 @@ for flattening in (1 / 298.257, 0.0649, 0.5):
     ax.loglog(distance / radius, np.abs(short / exact - 1), label=f"f = {flattening:.4f}")
 ax.axvline(60.3, color="0.5", lw=0.8, ls="--")
 ax.annotate("the Moon's distance", (60.3, 1e-3), (-4, 0), textcoords="offset points", ha="right")
-ax.set(xlabel="distance over the pole / equatorial radius", ylim=(1e-17, 1))
+ax.set(xlabel="distance on the polar axis over equatorial radius", ylim=(1e-17, 1))
 ax.set_ylabel("relative error of the short form")
 ax.legend(title="flattening", loc="lower left")

@@ -37,7 +37,8 @@ for angle in np.radians([8, 20, 32, 40, 44.2, 50, 60, 70, 82]):
             ax.plot(dots @ across, dots @ up, ".", ms=1.5, alpha=alpha, color=colour)
 for axis, name in zip(np.diag(moments**-0.5), "ABC", strict=True):
     ax.annotate(f"axis of {name}", (axis @ across, axis @ up), fontsize=8)
-ax.set(xlabel="across the view (rad/s)", ylabel="up the view (rad/s)", aspect="equal")
+ax.set(xlabel="angular velocity, horizontal in this view (rad/s)", aspect="equal")
+ax.set_ylabel("angular velocity, vertical in this view (rad/s)")
 
 # %%
 # A herpolhode does not close
@@ -58,8 +59,9 @@ fig, ax = plt.subplots(figsize=(4.8, 4.8))
 for radius in rolling.herpolhode_radius:
     ax.add_patch(plt.Circle((0, 0), radius, fill=False, ec="0.5", ls="--", lw=0.8))
 ax.plot(*rolling.herpolhode.transpose("in_plane", ...).values, color="C1", lw=1)
-ax.set(xlabel="in the invariable plane (rad/s)", ylabel="in the invariable plane (rad/s)")
-ax.set(aspect="equal", title=f"each round turns it by {advance:.2f}°")
+ax.set(xlabel="angular velocity, first axis in the plane (rad/s)", aspect="equal")
+ax.set_ylabel("angular velocity, second axis in the plane (rad/s)")
+ax.set_title(f"advance per period of the polhode: {advance:.2f}°")
 
 # %%
 # Period of the polhode near the separatrix
@@ -82,6 +84,6 @@ period = [polhode(moments, start).period for start in starts]
 fig, ax = plt.subplots()
 ax.plot(angle, period)
 ax.axvline(parting, color="0.5", lw=0.8, ls="--")
-ax.set_title(f"the families part at {parting:.2f}°")
+ax.set_title(f"separatrix at {parting:.2f}°")
 ax.set_xlabel("spin at the start, from the axis of least moment (deg)")
 ax.set(ylabel="period of the polhode (s)", xticks=range(0, 91, 15))

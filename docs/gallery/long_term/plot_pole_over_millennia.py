@@ -26,7 +26,6 @@ from earthspin.views.long_term import plot_pole
 
 fig, ax = plt.subplots(figsize=(6.5, 6.3))
 plot_pole(earthspin.long_term("-13 kyr", "13 kyr", "1 kyr"), ax=ax)
-ax.set(xlim=(-33.5, 36), ylim=(-32, 30))
 
 # %%
 # Distance from IAU 2006 and from long-term series

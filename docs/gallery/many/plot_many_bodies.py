@@ -33,7 +33,7 @@ lines = ax.contour(day, h * 1e3, period.transpose("h", "day"), levels, cmap="vir
 ax.clabel(lines, fmt="%g", fontsize=8)
 ax.plot(EARTH.spin_period / 3600, EARTH.dynamical_flattening * 1e3, "o", color="C1")
 ax.set(xlabel="sidereal day (h)", ylabel="dynamical flattening (10$^{-3}$)")
-ax.set_title("thousands of years for one turn")
+ax.set_title("period of precession (1000 years)")
 
 # %%
 # Three hundred rackets

@@ -34,7 +34,7 @@ ax.hist(periods - middle, bins=60, density=True, color="C0", alpha=0.6, label="1
 off = np.linspace(-4, 4, 201) * claimed
 law = np.exp(-((off / claimed) ** 2) / 2) / (claimed * np.sqrt(2 * np.pi))
 ax.plot(off, law, "C1", label="claimed by one answer")
-ax.set_xlabel(f"period of precession less {middle:.3f} years (years)")
+ax.set_xlabel(f"period of precession minus {middle:.3f} years (years)")
 ax.set_ylabel("density (1/year)")
 ax.set_title(f"scatter {float(periods.std()):.4f}, claimed {claimed:.4f} years")
 ax.legend()
@@ -60,6 +60,6 @@ for ax, name, given, symbol in (
     x, y = earths[given], earths[name]
     ax.plot((x / x.mean() - 1) * 1e6, (y / y.mean() - 1) * 1e6, ".", ms=1, alpha=0.3)
     share = float(shares[f"{name}_share"].sel(input=x.attrs["input"]))
-    ax.set_title(f"{name.replace('_', ' ')}: {100 * share:.1f} % of\nits variance by {symbol}")
+    ax.set_title(f"{name.replace('_', ' ')}: {100 * share:.1f} % of\nthe variance from {symbol}")
     ax.set_ylabel(f"relative change of the {name.replace('_', ' ')} (10$^{{-6}}$)")
     ax.set_xlabel(f"relative change of {symbol} (10$^{{-6}}$)")

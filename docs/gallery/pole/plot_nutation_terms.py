@@ -28,7 +28,7 @@ fig, ax = plt.subplots(figsize=(6.4, 4.4))
 ax.barh(rows - 0.2, np.abs(terms.rigid_in_phase), 0.38, label="ours, rigid")
 ax.barh(rows + 0.2, np.abs(terms.iau_in_phase), 0.38, color="C4", label="IAU 2000A")
 ax.set_yticks(rows, [f"{period:+.2f} d" for period in terms.period.values])
-ax.set(xscale="log", xlabel="amplitude in phase (mas)", ylabel="period; − is retrograde")
+ax.set(xscale="log", xlabel="amplitude in phase (mas)", ylabel="period, negative if retrograde")
 ax.invert_yaxis()
 ax.legend(loc="lower right")
 ax.grid(axis="y", visible=False)
@@ -54,13 +54,13 @@ ax.set_ylabel("amplitude of IAU 2000A over the model")
 # Three axes, milliarcseconds apart
 # ---------------------------------
 # The Earth has three axes: of figure, of rotation, and of angular momentum (the three lines of
-# I.6.31). Under the torque the figure axis departs from the angular momentum by some
+# I.6.31). In a rigid Earth under torques the figure axis departs from the angular momentum by some
 # milliarcseconds with the period of half a month; the rotation axis stays closer by a factor of
 # hundreds.
 #
-# *Next:* switch triaxiality on, ``effects=["triaxiality"]``.
+# *Next:* add the response of the interior, ``effects="all"``.
 
-path = earthspin.pole("2006-01-01", "2006-07-01", "6 h")
+path = earthspin.pole("2006-01-01", "2006-07-01", "6 h", effects="rigid")
 vectors = np.stack([path.X, path.Y, path.Z], axis=-1)  # time, axis, component
 axes = dict(zip(path.axis.values, np.moveaxis(vectors, 1, 0), strict=True))
 
@@ -68,6 +68,6 @@ fig, ax = plt.subplots()
 for name in ("figure", "rotation"):
     apart = np.linalg.norm(axes[name] - axes["angular_momentum"], axis=-1)
     ax.semilogy(path.time, np.degrees(apart) * 3.6e6, label=f"{name} axis")
-ax.set_ylabel("distance from the angular momentum (mas)")
+ax.set(xlabel="time (TDB)", ylabel="angle from the angular momentum (mas)")
 ax.set_ylim(1e-4, 100)
 ax.legend()

@@ -41,7 +41,7 @@ for row, found in enumerate(worlds.values()):
     words = measured(all_of_it, "precession_period") + " years"
     note(ax, words, (float(period), row), (8, 0), va="center")
 ax.set_yticks(range(3), worlds)
-ax.set(xlabel="one turn of precession (1000 years)", xlim=(0, 230), ylim=(2.6, -0.6))
+ax.set(xlabel="period of precession (1000 years)", xlim=(0, 230), ylim=(2.6, -0.6))
 
 # %%
 # Rate against obliquity
@@ -98,7 +98,7 @@ for row, (name, rate) in enumerate(published.items()):
     note(ax, words, (period, row), (12, 10), va="center")
 ax.set_xscale("log")
 ax.set_yticks(range(len(published)), map(proper, published))
-ax.set(xlabel="one turn of precession (years)", xlim=(1.5e4, 2e7), ylim=(4.6, -0.7))
+ax.set(xlabel="period of precession (years)", xlim=(1.5e4, 2e7), ylim=(4.6, -0.7))
 
 # %%
 # Obliquities in Cassini states
@@ -132,5 +132,5 @@ for name, seen in observed.items():
     if seen is not None:
         ax.plot(turns, seen / np.degrees(orbit.i), "o", ms=12, mfc="none", color="0.5")
     note(ax, proper(name), (turns, float(leans)), (10, 6), color=point.get_color())
-ax.set(xscale="log", yscale="log", xlabel="how often the axis would turn, $w$ (number)")
+ax.set(xscale="log", yscale="log", xlabel="turns of the axis per turn of the node, $w$ (number)")
 ax.set_ylabel("obliquity over inclination of the orbit")

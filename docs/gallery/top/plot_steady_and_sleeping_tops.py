@@ -33,7 +33,7 @@ ax.axvline(least, color="0.5", lw=0.8)
 ax.set(xlabel="spin (rad/s)", ylabel="steady precession (rad/s)")
 ax.set_xticks(ticks := [2, 3, 5, 10], [f"{tick}" for tick in ticks])
 ax.minorticks_off()
-ax.set_title(f"none below {least:.3f} rad/s")
+ax.set_title(f"no steady precession below {least:.3f} rad/s")
 ax.legend()
 
 # %%
@@ -55,5 +55,5 @@ for weight in (0.5, 1.0, 2.0):
     fate = sleeping_top(top)
     critical = fate.critical_spin[0]
     ax.plot(spin, np.degrees(fate.fall_angle), label=f"{weight:g} N m: {critical:.2f} rad/s")
-ax.set(xlabel="spin (rad/s)", ylabel="greatest inclination after the least push (deg)")
+ax.set(xlabel="spin (rad/s)", ylabel="largest inclination after a tiny push (deg)")
 ax.legend(title="weight × distance: critical spin")

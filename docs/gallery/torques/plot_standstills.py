@@ -36,6 +36,6 @@ for one, words in zip(extremes.standstill.values, extremes.standstill_kind.value
     away = np.sign(at) * (24 if words == "minor" else 5)  # clear of the Sun
     side = "bottom" if at > 0 else "top"
     note(ax, f"{words}\n{at:+.2f}°", (one, at), (0, away), ha="center", va=side)
-ax.set(ylabel="declination (deg)", ylim=(-38, 38), yticks=range(-30, 31, 10))
+ax.set(xlabel="time (TDB)", ylabel="declination (deg)", ylim=(-38, 38), yticks=range(-30, 31, 10))
 for line in ax.legend(loc="upper right", bbox_to_anchor=(1, 1.1), ncols=2).get_lines():
     line.set_linewidth(1.5)

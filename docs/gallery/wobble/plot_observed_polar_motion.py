@@ -85,4 +85,4 @@ lowest = found.chandler_amplitude.isel(middle=int(found.chandler_amplitude.argmi
 fig, ax = plt.subplots(figsize=(7, 3.8))
 plot_amplitude(tree, ax=ax)
 when = lowest.middle.dt.strftime("%B %Y").item()
-ax.set_title(f"least in {when}: {float(lowest):.0f} mas")
+ax.set_title(f"minimum {float(lowest):.0f} mas in {when}")

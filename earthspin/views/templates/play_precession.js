@@ -25,7 +25,7 @@
     readings: (m, values, time) => [
       ["rate of precession", shown((m.rate * YEAR) / ARCSEC, 7, " ″ per year")],
       ["once round in", shown(m.period / YEAR, 6, " years")],
-      ["of this by the Moon", shown((100 * m.rates[1]) / m.rate, 3, " %")],
+      ["share of the Moon", shown((100 * m.rates[1]) / m.rate, 3, " %")],
       ["time", shown(time / YEAR, 5, " years")],
     ],
     draw({ scene, values, motion: m, time, ink }) {
@@ -45,8 +45,8 @@
       scene.line(circle(length * sin, length * cos), ink("soft"), 1, [3, 4]);
       const gone = Math.min(Math.abs(m.rate * time), 2 * Math.PI) * Math.sign(m.rate || 1);
       scene.line(circle(length * sin, length * cos, angle, angle + gone), ink("red"), 3);
-      scene.line([[0, 0, 0], [0, 0, 1.3]], ink("soft"), 1, [5, 5]);
-      scene.label([0, 0, 1.3], "pole of the ecliptic", ink("soft"));
+      scene.line([[0, 0, -1.3], [0, 0, 1.3]], ink("soft"), 1, [5, 5]);
+      scene.label([0, 0, -1.3], "normal to the ecliptic", ink("soft"));
       scene.arrow(axis.map((x) => length * x), ink("red"), "pole", axis.map((x) => -length * x));
       // A month lasts nine turns of the planet in the picture; distances are drawn by their fourth root.
       const moon = circle(1.12 * values.distance ** 0.25, 0, spin / 9 + 0.6, spin / 9 + 0.6, 1)[0], size = 0.09 * Math.cbrt(values.mass);

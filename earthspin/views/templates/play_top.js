@@ -30,7 +30,7 @@
       ["mean precession", shown(m.meanRate, 6, " rad/s")],
       ["period of nutation", shown(m.period * 1000, 6, " ms")],
       ["inclination", `${shown(m.turning[0] / degrees, 5)}° to ${shown(m.turning[1] / degrees, 5)}°`],
-      ["steady with a push of", shown(m.steady, 5, " rad/s")],
+      ["steady rate of precession", shown(m.steady, 5, " rad/s")],
       ["path of the axis", m.pattern],
       ["time", shown(time, 4, " s")],
     ],

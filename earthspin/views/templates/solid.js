@@ -36,7 +36,7 @@ function makeSolid(figure) {
     const ct = Math.cos(view.turn), st = Math.sin(view.turn), cp = Math.cos(view.tilt), sp = Math.sin(view.tilt);
     const x = ct * point[0] + st * point[1], away = -st * point[0] + ct * point[1];
     const size = (Math.min(canvas.width, canvas.height) / 2.25 / scene.radius) * view.zoom;
-    return [canvas.width / 2 + size * x, canvas.height / 2 - size * (cp * point[2] + sp * away), sp * point[2] - cp * away];
+    return [canvas.width / 2 + size * x, canvas.height / 2 - size * (cp * (point[2] - scene.height) + sp * away), sp * point[2] - cp * away];
   }
 
   function pieces() {
@@ -105,6 +105,7 @@ function makeSolid(figure) {
     }
     pen.globalAlpha = 1;
     clock.textContent = frames > 1 ? `${scene.times[view.frame].toPrecision(4)} ${scene.unit}` : "";
+    slider.setAttribute("aria-valuetext", clock.textContent);
     figure.dataset.painted = "yes";
   }
 

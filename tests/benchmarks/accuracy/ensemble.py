@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 from scipy.special import ndtri
 
-from earthspin.many import ensemble
-from earthspin.scenes import QUESTIONS, run
+from earthspin.scenes import QUESTIONS, ensemble, run
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.sky import BODY, H
 

@@ -13,10 +13,8 @@ from numpy.typing import ArrayLike
 
 from earthspin import bodies
 from earthspin.bodies import BODIES, SUN, Body, label_of
-from earthspin.bodies import PLANETS as PLANET_NAMES
 from earthspin.constants import ARCSEC, DAY, NORMAL_95
-from earthspin.engine.part import part
-from earthspin.engine.question import key
+from earthspin.engine.question import key, part
 from earthspin.errors import EarthspinError, KernelError, UndefinedError, Where, one_line
 from earthspin.mass.figure import inverse_polar_moment
 from earthspin.motion.effects import EFFECTS, GEODESIC, NONRIGID, PLANETS, RIGID
@@ -81,12 +79,9 @@ class AxisMotion(Series):
         if self.effects and self.effects[0] in words:
             object.__setattr__(self, "effects", words[self.effects[0]]())
         elif PLANETS.name in self.effects and all_by_elements(self.body, self.perturbers):
-            raise self.error(
-                "effects",
-                PLANETS.name,
-                "all orbits are given by elements, and this effect needs a kernel: remove it, or "
-                "list the planets as perturbers",
-            )
+            problem = "all orbits are given by elements, and this effect needs a kernel"
+            remedy = "remove it, or list the planets as perturbers"
+            raise self.error("effects", PLANETS.name, f"{problem}: {remedy}")
 
     def known_effects(self) -> tuple[str, ...]:
         """Names of the effects that are known for this body, its perturbers and its kernel."""
@@ -234,13 +229,10 @@ def turning(rate: FloatArray) -> Torque:
 
 def figure_of(body: Body, spin_rate: float) -> Figure:
     """Flattening, spin rate and radius of a body, which determine its motion under torque."""
-    h = body.number("dynamical_flattening")
+    h, radius, meridian = map(body.number, ("dynamical_flattening", "radius", "meridian"))
+    inverse = inverse_polar_moment(body.number("j2"), h)
     return Figure(
-        h=h,
-        spin_rate=spin_rate,
-        inverse_polar_moment=inverse_polar_moment(body.number("j2"), h),
-        radius=body.number("radius"),
-        meridian=body.number("meridian"),
+        h=h, spin_rate=spin_rate, inverse_polar_moment=inverse, radius=radius, meridian=meridian
     )
 
 
@@ -268,12 +260,10 @@ def start_note(body: Body) -> dict[str, str]:
 def idle_note(body: Body, effects: Sequence[str]) -> dict[str, str]:
     """Note for the attributes of a result: the effects that do nothing, with the reason."""
     fields = {name: EFFECTS[name].coefficient for name in effects}
-    idle = [
-        f"{name} ({field} of {bodies.in_a_sentence(body.name)} is 0)"
-        for name, field in fields.items()
-        if field and body.number(field) == 0
-    ]
-    return {"effects_that_do_nothing": ", ".join(idle)} if idle else {}
+    idle = {name: field for name, field in fields.items() if field and body.number(field) == 0}
+    owner = bodies.in_a_sentence(body.name)
+    words = ", ".join(f"{name} ({field} of {owner} is 0)" for name, field in idle.items())
+    return {"effects_that_do_nothing": words} if idle else {}
 
 
 def start_error(body: Body) -> float | None:
@@ -297,11 +287,8 @@ def switched_off(
 
     An effect does not act if its coefficient is zero or its perturbers are not there.
     """
-    idle = {
-        name
-        for name, effect in EFFECTS.items()
-        if effect.coefficient and body.number(effect.coefficient) == 0
-    }
+    fields = {name: effect.coefficient for name, effect in EFFECTS.items()}
+    idle = {name for name, field in fields.items() if field and body.number(field) == 0}
     if body.known_as not in BODIES and all_by_elements(body, perturbers):
         idle.add(PLANETS.name)  # the body is not in the solar system
     if label_of(SUN.name, perturbers) is None:
@@ -339,15 +326,14 @@ def drift_by_planets(body: Body, seconds: float) -> dict[str, float]:
     Sun, or whose obliquity is not known.
     """
     obliquity = obliquity_of(body)
-    if body.known_as not in PLANET_NAMES or body.orbital_period is None or obliquity is None:
+    if body.known_as not in bodies.PLANETS or body.orbital_period is None or obliquity is None:
         return {}
     phases = math.pi * (np.arange(_SAMPLES) + 0.5) / _SAMPLES
     own, pull = _orbit_radius(body), 0.0
-    for name in PLANET_NAMES:
-        if name != body.known_as:
-            other = _orbit_radius(BODIES[name])
-            square = own**2 + other**2 - 2 * own * other * np.cos(phases)
-            pull += BODIES[name].number("gm") * float(np.mean(square**-1.5))
+    for planet in (BODIES[name] for name in bodies.PLANETS if name != body.known_as):
+        other = _orbit_radius(planet)
+        square = own**2 + other**2 - 2 * own * other * np.cos(phases)
+        pull += planet.number("gm") * float(np.mean(square**-1.5))
     speed = 0.75 * body.number("dynamical_flattening") / float(body.spin_rate) * pull
     factor = float(carried(body, pull, obliquity).rate)
     return {PLANETS.name: abs(speed * math.sin(2 * obliquity) * factor * seconds)}
@@ -388,10 +374,8 @@ class CustomTorque:
         if isinstance(value, CustomTorque):
             return value
         if isinstance(value, Mapping) and _FUNCTION in value:
-            raise where.error(
-                value[_FUNCTION],
-                "it was a function, which no scene can hold; give it again in Python",
-            )
+            problem = "it was a function, which no scene can hold; give it again in Python"
+            raise where.error(value[_FUNCTION], problem)
         if not callable(value):
             raise where.error(value, f"give {cls.words}")
         return cls(value)
@@ -434,10 +418,9 @@ class CustomTorque:
                 ) from None
             finite = np.isfinite(values).all(axis=1)
             if not finite.all():
-                raise UndefinedError(
-                    f"the custom torque is not finite {float(times[~finite][0]):.6g} s from the "
-                    "start; return a finite torque for each time"
-                )
+                first = f"{float(times[~finite][0]):.6g} s from the start"
+                problem = f"the custom torque is not finite {first}"
+                raise UndefinedError(f"{problem}; return a finite torque for each time")
             return np.asarray(values / polar_moment)
 
         return torque
