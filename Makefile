@@ -68,6 +68,7 @@ bench: $(VENV)/.test
 	$(BIN)/python tests/benchmarks/side_by_side.py
 	$(BIN)/python tests/benchmarks/call_overhead.py
 	$(BIN)/python tests/benchmarks/ensemble.py
+	$(BIN)/python -m tests.benchmarks.repeated
 	$(BIN)/python -m tests.benchmarks.how_large
 
 clean:
