@@ -24,6 +24,7 @@ from os import PathLike
 from typing import Any, Literal
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from astropy.time import Time
 from astropy.units import Quantity

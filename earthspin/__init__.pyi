@@ -6,6 +6,7 @@ from os import PathLike
 from typing import Any, Literal
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from astropy.time import Time
 from astropy.units import Quantity
@@ -298,7 +299,7 @@ def polar_motion(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
-    file: str | PathLike[str] | None = ...,
+    file: str | PathLike[str] | xr.Dataset | pd.DataFrame | None = ...,
     kind: Literal["c04", "c01", "finals2000A"] | None = ...,
     method: Literal["burg", "likelihood"] | None = ...,
     window: Value | None = ...,
@@ -310,7 +311,7 @@ def pole_offsets(
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
-    file: str | PathLike[str] | None = ...,
+    file: str | PathLike[str] | xr.Dataset | pd.DataFrame | None = ...,
     kind: Literal["c04", "c01", "finals2000A"] | None = ...,
     window: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
@@ -321,11 +322,12 @@ def forecast(
     days: Value | None = ...,
     step: Value | None = ...,
     origin: Date | float | None = ...,
-    file: str | PathLike[str] | xr.Dataset | None = ...,
+    file: str | PathLike[str] | xr.Dataset | pd.DataFrame | None = ...,
     *,
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
+    start: Date | float | None = ...,
     parameters: Literal["shipped", "fitted"] | None = ...,
-    excitation: xr.Dataset | None = ...,
+    excitation: xr.Dataset | pd.DataFrame | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
     uncertainty: Literal["linear", "sample"] | None = ...,
     n: int | None = ...,

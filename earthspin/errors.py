@@ -319,8 +319,8 @@ class SeriesError(EarthspinError, ValueError):
     >>> try:
     ...     earthspin.polar_motion(file="pole.txt")
     ... except earthspin.SeriesError as error:
-    ...     print(error)
-    file 'pole.txt': it is none of the known tables; name its kind: c04, c01, finals2000A
+    ...     print(str(error).split(";")[0])
+    file 'pole.txt': it is none of the known tables
     """
 
     def __init__(self, path: Any, problem: str, remedy: str = "", line: int | None = None) -> None:

@@ -2,40 +2,30 @@
 
 from __future__ import annotations
 
+import datetime as dt
 import json
-from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 
-from earthspin._lazy import xr
 from earthspin.bodies import EARTH, Body
 from earthspin.bodies.orbit import Epoch
 from earthspin.constants import DAY, MAS, NORMAL_95
-from earthspin.dates import SPACING, date_text, datetime64
+from earthspin.dates import SPACING, TABLES, date_text, datetime64, days
 from earthspin.engine.answers import public_call
 from earthspin.engine.question import Question, key, part
 from earthspin.engine.run import Run
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number, words
 from earthspin.errors import SceneError, SeriesError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.nutation.core_nutation import LONGEST as FARTHEST
-from earthspin.nutation.core_nutation import predict, too_short
-from earthspin.questions.observed_pole import MJD, Daily, TableFile, complex_pole, labelled_series
+from earthspin.nutation import core_nutation
+from earthspin.questions.observed_pole import Daily, GivenTable, PoleInput
 from earthspin.questions.reasons import no_iau_model
-from earthspin.sky.eop import (
-    PoleSeries,
-    file_of,
-    finals_path,
-    read_bulletin_a,
-    read_polar_motion,
-    read_pole_offsets,
-)
-from earthspin.units import Number, Plain, pack, unpack
+from earthspin.sky import eop
+from earthspin.sky.eop import MJD, GivenSeries, PoleSeries
+from earthspin.units import Number, Plain
 from earthspin.wobble import forecast as model
-from earthspin.wobble.forecast import COMPONENTS, LONGEST, NEWEST_BIAS, SKILL
-from earthspin.wobble.forecast import Forecast as Predicted
 
 if TYPE_CHECKING:
     from earthspin.engine.accessor import Answer
@@ -45,67 +35,24 @@ if TYPE_CHECKING:
 _MIDNIGHT = 1e-6
 
 
-@dataclass(frozen=True, eq=False)
-class GivenSeries:
-    """Polar motion or its excitation, given as a Dataset.
+class Day(Epoch):
+    """Kind of input: a day, which scenes store as a date."""
 
-    Attributes
-    ----------
-    rows : array, shape (3, n)
-        Days from J2000.0, and x and y, or chi1 and chi2, in mas.
-    """
+    words, hint = 'a date, or "today"', "Date | float"
 
-    rows: FloatArray
+    def read(self, value: object, where: Where) -> float:
+        """Read a date as the days from J2000.0 to its midnight; "today" is the present UTC day."""
+        day = today() if isinstance(value, str) and value == "today" else super().read(value, where)
+        return float(np.floor(day + 0.5 + _MIDNIGHT)) - 0.5
 
-
-class KnownExcitation:
-    """Kind of input: the excitation of polar motion in a Dataset, as `read_excitation` returns."""
-
-    words = "a Dataset of read_excitation"
-    hint = "xr.Dataset"
-
-    def read(self, value: Any, where: Where) -> Any:
-        """Read the series from a Dataset, or restore it from the table that `write` returns."""
-        if isinstance(value, GivenSeries):
-            return value
-        if isinstance(value, dict):
-            return GivenSeries(unpack(value, where))
-        if not hasattr(value, "data_vars"):
-            raise where.error(value, f"it is {self.words}")
-        return self.series(value)
-
-    def series(self, dataset: xr.Dataset) -> GivenSeries:
-        """Convert the variables of a Dataset to a series in mas."""
-        time, chi1, chi2 = labelled_series(dataset, ("chi1", "chi2"), ("mas",))
-        return GivenSeries(np.array([time, chi1 / MAS, chi2 / MAS]))
-
-    def write(self, value: GivenSeries) -> Plain:
-        """Form stored in scenes: the rows of the series as bytes."""
-        return pack(value.rows)
+    def write(self, value: float) -> Plain:
+        """Return the day as a date."""
+        return date_text(value)
 
 
-class ObservedPole(KnownExcitation, TableFile):
-    """Kind of input: a table of polar motion, or a Dataset that `polar_motion` returned."""
-
-    words = '"c04", "finals", the path of a file or a Dataset of polar_motion'
-    hint = "str | PathLike[str] | xr.Dataset"
-
-    def read(self, value: Any, where: Where) -> Any:
-        """Read polar motion from a Dataset or its stored form, or the name or path of a table."""
-        if isinstance(value, (GivenSeries, dict)) or hasattr(value, "data_vars"):
-            return KnownExcitation.read(self, value, where)
-        return TableFile.read(self, value, where)
-
-    def series(self, dataset: xr.Dataset) -> GivenSeries:
-        """Convert the polar motion in a Dataset to x and y in mas."""
-        time, p = complex_pole(dataset)
-        return GivenSeries(np.array([time, p.real, -p.imag]))
-
-    def write(self, value: Any) -> Plain:
-        """Form stored in scenes: the name or path of a table, or the rows of a Dataset as bytes."""
-        return (
-            super().write(value) if isinstance(value, GivenSeries) else TableFile.write(self, value)
-        )
+def today() -> float:
+    """Present day in UTC, days from J2000.0."""
+    return float(days(dt.datetime.now(dt.UTC).date(), Where("today"))[0])
 
 
 class Forecast(
@@ -113,12 +60,13 @@ class Forecast(
 ):
     """Forecast of polar motion with its 95 % half-widths.
 
-    Only observed rows up to the origin are used.
+    Only observed rows up to the origin are used. The attributes of `time` give the age of the
+    newest one.
 
     Returns
     -------
     Dataset
-        Over `time`, from the day after the origin: `x`, `y` (arcsec) with their 95 % half-widths,
+        Over `time`, from a step after `start`: `x`, `y` (arcsec) with their 95 % half-widths,
         and `correlation_xy`, the correlation of the errors. `earthspin.run_tree` adds `components`
         (Chandler, annual and semiannual wobble, slow pole), the measured `skill` by horizon,
         `bulletin_a`, the prediction of Bulletin A from the same table if it has one, and
@@ -128,7 +76,7 @@ class Forecast(
     ------
     EarthspinError
         If the table has gaps or less than 15 years before the origin, if the origin is outside
-        it, or if the horizon is longer than 730 days; in one line.
+        it, or if the start precedes the origin or the end is more than 730 days after it.
 
     Examples
     --------
@@ -143,7 +91,7 @@ class Forecast(
 
     body: Body = key(EARTH, doc="body whose pole is forecast")
     days: Annotated[float, Number("d", "365 d", above=0.0)] = key(
-        365.0, doc="horizon, 730 days at most"
+        365.0, doc="days after `start`; the last is at most 730 days after the newest observed one"
     )
     step: Annotated[float, replace(SPACING, example="1 d")] = key(
         "1 d", doc="time between two epochs, a whole number of days"
@@ -151,106 +99,80 @@ class Forecast(
     origin: Annotated[float, Epoch()] | None = key(
         None, doc="last day whose observation is used; the newest observed day if not given"
     )
-    file: Annotated[str | Path | GivenSeries, ObservedPole()] = key(
-        "finals", doc="table of the IERS that astropy carries, a local file, or polar motion"
+    start: Annotated[float, Day()] | None = key(
+        None, doc="day after which the forecast begins; the last observed day used if not given"
+    )
+    file: Annotated[eop.PoleTable, PoleInput()] = key(
+        "finals", doc="table that astropy carries, a file of the IERS, CelesTrak or JPL, or a table"
     )
     parameters: Literal["shipped", "fitted"] | None = key(
         None,
         doc="parameters of the fast excitation: shipped, or fitted before the origin; "
         "shipped by default, and always fitted with an excitation",
     )
-    excitation: Annotated[GivenSeries, KnownExcitation()] | None = key(
+    excitation: Annotated[GivenSeries, GivenTable(("chi1", "chi2"), ("mas",))] | None = key(
         None, doc="excitation by air, water and ground, observed and forecast: daily means"
     )
 
     def check(self) -> None:
-        """Require whole days, a horizon of measured skill, fitted parameters with excitation."""
+        """Require whole days, and fitted parameters with excitation."""
         if self.excitation is not None and self.parameters == "shipped":
             problem = "with an excitation they are fitted; leave parameters out"
             raise SceneError("parameters", self.parameters, problem)
-        if self.days > LONGEST:
-            problem = f"a forecast reaches {LONGEST} d at most; take fewer days"
-            raise SceneError("days", f"{self.days:g} d", problem)
         step = self.step / DAY
         if step != round(step) or self.days < step:
             raise SceneError("step", f"{step:g} d", "give whole days, at most as many as `days`")
 
 
-@dataclass(frozen=True)
-class Record:
-    """Observed polar motion up to the origin, the last day that the forecast uses.
-
-    Attributes
-    ----------
-    time : array, shape (n,)
-        Consecutive days from J2000.0.
-    p : complex array, shape (n,)
-        x - i y, mas.
-    name : str
-        Series.
-    sha256 : str
-        Of the file; empty for a Dataset.
-    newest : bool
-        Whether the last day is the newest observed row of finals2000A.
-    """
-
-    time: FloatArray
-    p: ComplexArray
-    name: str
-    sha256: str = ""
-    newest: bool = False
-
-    @property
-    def provenance(self) -> dict[str, str]:
-        """SHA-256 of the table of polar motion, for the attributes of the forecast."""
-        return {"table_sha256": self.sha256} if self.sha256 else {}
-
-
 @part(unless=no_iau_model)
-def record(file: str | Path | GivenSeries, origin: float | None) -> Record:
+def record(file: eop.PoleTable, origin: float | None) -> PoleSeries:
     """Read the observed polar motion up to the origin; refuse a series that is not daily."""
-    if isinstance(file, GivenSeries):
-        time, x, y = file.rows
-        p: ComplexArray = (x - 1j * y).astype(complex)
-        whole = Record(time, p, "polar_motion")
-    else:
-        table = read_polar_motion(file)
-        if "bridged" in table.repairs:
-            raise SceneError("file", str(file), f"{table.repairs}; a forecast needs every day")
-        p = ((table.x - 1j * table.y) / MAS).astype(complex)
-        rapid = table.name == "finals2000A"
-        whole = Record(table.mjd - MJD, p, f"IERS {table.name}", table.sha256, rapid)
-    steps = np.diff(whole.time)
-    if np.any(abs(steps - 1) > _MIDNIGHT):
-        wrong = whole.time[:-1][abs(steps - 1) > _MIDNIGHT][0]
-        problem = "a forecast needs one row for each day"
-        raise SceneError("file", f"a step of {steps.max():g} d after {date_text(wrong)}", problem)
+    table = eop.read_polar_motion(file)
+    if "bridged" in table.repairs or abs(table.step - 1) > _MIDNIGHT:
+        steps = table.repairs or f"steps of {table.step:g} d"
+        raise SceneError("file", table.source, f"{steps}; a forecast needs a row for each day")
     if origin is None:
-        return whole
-    first, last = whole.time[[0, -1]]
+        return table
+    first, last = table.mjd[[0, -1]] - MJD
     if not first <= origin < last + 1:
-        problem = (
-            f"the observed rows cover {date_text(first)} to {date_text(last)}; choose a day inside"
-        )
-        raise SceneError("origin", date_text(origin), problem)
-    count = int(np.floor(origin - first + _MIDNIGHT)) + 1
-    newest = whole.newest and count == whole.time.size
-    return replace(whole, time=whole.time[:count], p=whole.p[:count], newest=newest)
+        problem = f"the observed rows cover {date_text(first)} to {date_text(last)}"
+        raise SceneError("origin", date_text(origin), f"{problem}; choose a day inside")
+    return table.between(table.mjd[0], origin + MJD + _MIDNIGHT)
+
+
+@part
+def output_days(record: PoleSeries, days: float, step: float, start: float | None) -> slice:
+    """Days of a daily forecast in the answer: every `step` up to `days` after the start."""
+    newest = float(record.mjd[-1]) - MJD
+    gap, every = 0 if start is None else round(start - newest), round(step / DAY)
+    if not 0 <= gap <= model.LONGEST - days:
+        name, given = ("start", date_text(newest + gap)) if gap else ("days", f"{days:g} d")
+        problem = f"the last observed day used is {date_text(newest)}; start then or later, "
+        raise SceneError(name, given, f"{problem}and end {model.LONGEST} d after it at the latest")
+    return slice(gap + every - 1, gap + int(days), every)
+
+
+def _times(record: PoleSeries, output_days: slice) -> FloatArray:
+    """Days from J2000.0 that a forecast returns."""
+    ahead: FloatArray = np.arange(1.0, output_days.stop + 1)[output_days]
+    return ahead + float(record.mjd[-1]) - MJD
 
 
 @part(loads=("scipy.linalg",))
 def predicted(
-    record: Record, days: float, parameters: str | None, excitation: GivenSeries | None
-) -> Predicted:
+    record: PoleSeries, output_days: slice, parameters: str | None, excitation: GivenSeries | None
+) -> model.Forecast:
     """Predict polar motion and the covariance of its error for each day after the origin."""
     if excitation is not None:
         pole, chi = _from_common_day(record, excitation)
-        return model.forecast_with_excitation(pole, chi, int(days), record.newest)
-    fast = model.fit(record.p) if parameters == "fitted" else model.SHIPPED
-    return model.forecast(record.p, int(days), fast, newest=record.newest)
+        return model.forecast_with_excitation(pole, chi, output_days.stop, record.newest)
+    fast = model.fit(record.pole) if parameters == "fitted" else model.SHIPPED
+    return model.forecast(record.pole, output_days.stop, fast, newest=record.newest)
 
 
-def _from_common_day(record: Record, excitation: GivenSeries) -> tuple[ComplexArray, ComplexArray]:
+def _from_common_day(
+    record: PoleSeries, excitation: GivenSeries
+) -> tuple[ComplexArray, ComplexArray]:
     """Return pole and excitation from the first day that both cover, each to its own end.
 
     Raises
@@ -259,16 +181,14 @@ def _from_common_day(record: Record, excitation: GivenSeries) -> tuple[ComplexAr
         If the excitation is not a series of daily means from one day of the pole to the next.
     """
     middles, chi1, chi2 = excitation.rows
-    before = middles[0] - 0.5 - record.time[0]  # days without excitation
+    before = middles[0] - 0.5 - (record.mjd[0] - MJD)  # days without excitation
     uneven = abs(np.diff(middles) - 1).max(initial=0.0) > _MIDNIGHT
     if uneven or abs(before - round(before)) > _MIDNIGHT:
-        raise SceneError(
-            "excitation",
-            f"means about {datetime64(middles[:1])[0]}, {datetime64(middles[1:2])[0]} and so on",
-            "give the mean of each day; read_excitation(..., daily=True) makes it, 0h to 0h",
-        )
+        means = f"means about {', '.join(map(str, datetime64(middles[:2])))} and so on"
+        problem = "give the mean of each day; read_excitation(..., daily=True) makes it, 0h to 0h"
+        raise SceneError("excitation", means, problem)
     skipped = round(before)
-    return record.p[max(skipped, 0) :], (chi1 + 1j * chi2)[max(-skipped, 0) :]
+    return record.pole[max(skipped, 0) :], (chi1 + 1j * chi2)[max(-skipped, 0) :]
 
 
 class ForecastPole(Daily):
@@ -281,57 +201,47 @@ class ForecastPole(Daily):
     )
 
 
-def _days_returned(days: float, step: float) -> Any:
-    """Return the slice that selects the requested days from a daily forecast."""
-    every = round(step / DAY)
-    return slice(every - 1, int(days), every)
-
-
-def _days_ahead(record: Record, days: float, step: float) -> FloatArray:
-    """Days from J2000.0 that a forecast returns: every `step` up to `days` after the origin."""
-    ahead: FloatArray = np.arange(1.0, int(days) + 1)[_days_returned(days, step)]
-    return ahead + float(record.time[-1])
-
-
 @part
 def ahead(
-    record: Record,
-    predicted: Predicted,
-    days: float,
-    step: float,
+    record: PoleSeries,
+    predicted: model.Forecast,
+    output_days: slice,
     parameters: str | None,
     origin: float | None,
+    start: float | None,
     excitation: GivenSeries | None,
 ) -> ForecastPole:
     """Return the forecast x and y of the pole, with half-widths and correlation of errors."""
-    newest = float(record.time[-1])
+    newest = date_text(float(record.mjd[-1]) - MJD)
     fast = ", ".join(f"{name} = {value:.4g}" for name, value in vars(predicted.fast).items())
     kind = parameters or ("shipped" if excitation is None else "fitted")
-    shown = _days_returned(days, step)
-    p, covariance = predicted.pole[shown] * MAS, predicted.covariance[shown] * MAS**2
+    p, covariance = predicted.pole[output_days] * MAS, predicted.covariance[output_days] * MAS**2
     sx, sy = np.sqrt(covariance[:, 0, 0]), np.sqrt(covariance[:, 1, 1])
+    day = next(day for day in (start, origin, today()) if day is not None)
+    age = f"{np.floor(day + MJD) - record.mjd[-1]:.0f} d"
     source = {
-        "references": record.name,
-        "comment": f"observations up to {date_text(newest)}",
-        "origin": date_text(newest if origin is None else origin),
-        "newest_row": date_text(newest),
-        "age_of_newest_row": f"{0.0 if origin is None else origin - newest:g} d at the origin",
+        "references": record.source,
+        "comment": f"observations up to {newest}",
+        "origin": newest if origin is None else date_text(origin),
+        "newest_row": newest,
+        "age_of_newest_row": f"{age} on {date_text(day)}",
         "parameters": f"{kind}: {fast}",
     }
     if record.newest:
-        source["newest_row_corrected"] = (
-            f"{abs(NEWEST_BIAS.imag):.3f} mas, its measured bias, subtracted from y"
-        )
+        bias = f"{abs(model.NEWEST_BIAS.imag):.3f} mas, its measured bias"
+        source["newest_row_corrected"] = f"{bias}, subtracted from y"
     if excitation is not None:
-        source["excitation"] = (
-            f"given from {date_text(excitation.rows[0, 0])} to {date_text(excitation.rows[0, -1])}"
-        )
+        first, last = map(date_text, excitation.rows[0, [0, -1]])
+        source["excitation"] = f"given from {first} to {last}"
+    newer = f"; for newer rows: pip install --upgrade {TABLES}, or file"
+    comment = f"0h UTC; the newest observed day, {newest}, is {age} before {date_text(day)}{newer}"
+    time = {"comment": comment} if origin is None else {}
     return ForecastPole(
-        time=datetime64(_days_ahead(record, days, step)),
+        time=datetime64(_times(record, output_days)),
         x=(p.real, NORMAL_95 * sx),
         y=(-p.imag, NORMAL_95 * sy),
         correlation_xy=covariance[:, 0, 1] / (sx * sy),
-    ).with_attributes(x=source, y=source)
+    ).with_attributes(x=source, y=source, time=time)
 
 
 class Components(Daily):
@@ -339,25 +249,23 @@ class Components(Daily):
 
     component_x = measured("mas", "part of x", along=("component", "time"))
     component_y = measured("mas", "part of y", along=("component", "time"))
-    component = labels(default=list(COMPONENTS))
+    component = labels(default=list(model.COMPONENTS))
 
 
 def not_separated(excitation: GivenSeries | None) -> str | None:
     """Return the reason (text) to omit the components if an excitation is given, else None."""
-    if excitation is None:
-        return None
-    return "the pole that a given excitation drives is not separated into components"
+    reason = "the pole that a given excitation drives is not separated into components"
+    return None if excitation is None else reason
 
 
 @part(unless=not_separated)
-def components(record: Record, predicted: Predicted, days: float, step: float) -> Components:
+def components(record: PoleSeries, predicted: model.Forecast, output_days: slice) -> Components:
     """Compute the forecast Chandler, annual and semiannual wobbles and slow pole, with errors."""
-    shown = _days_returned(days, step)
-    p = np.array([values[shown] for values in predicted.components.values()]) * MAS
-    variance = np.array([values[shown] for values in predicted.component_variance.values()])
+    p = np.array([values[output_days] for values in predicted.components.values()]) * MAS
+    variance = np.array([values[output_days] for values in predicted.component_variance.values()])
     half_width = NORMAL_95 * np.sqrt(variance) * MAS
     return Components(
-        time=datetime64(_days_ahead(record, days, step)),
+        time=datetime64(_times(record, output_days)),
         component_x=(p.real, half_width[..., 0]),
         component_y=(-p.imag, half_width[..., 1]),
     )
@@ -388,7 +296,7 @@ class Skill(Variables, along=("case", "coordinate"), no_error=_COUNTED):
 @part
 def skill() -> Skill:
     """Return measured errors of forecasts, from hindcasts and from releases of IERS tables."""
-    table = json.loads(SKILL.read_text(encoding="utf-8"))
+    table = json.loads(model.SKILL.read_text(encoding="utf-8"))
 
     def of(name: str) -> FloatArray:
         return np.array([row[name] for row in table], dtype=float)
@@ -412,29 +320,29 @@ class BulletinA(Daily):
     bulletin_a_y = measured("arcsec", "y predicted by Bulletin A")
 
 
-def not_in_file(file: str | Path | GivenSeries, origin: float | None, days: float) -> str | None:
+def not_in_file(
+    file: eop.PoleTable, origin: float | None, start: float | None, days: float
+) -> str | None:
     """Return the reason (text) to omit Bulletin A if it lacks days of the forecast, else None."""
     if origin is not None:
         return "Bulletin A predicts from the newest observed day; leave origin out"
-    if isinstance(file, GivenSeries) or (table := read_bulletin_a(file)) is None:
+    if (table := eop.read_bulletin_a(file)) is None:
         return "the table holds no predictions of Bulletin A"
-    if table.mjd.size < days:
+    last = table.mjd[0] - 1 if start is None else start + MJD
+    if table.mjd[-1] < last + int(days):
         return f"Bulletin A predicts {table.mjd.size} d ahead; take at most as many days"
     return None
 
 
 @part(unless=not_in_file)
-def bulletin_a(
-    file: str | Path | GivenSeries, record: Record, days: float, step: float
-) -> BulletinA:
+def bulletin_a(file: eop.PoleTable, output_days: slice) -> BulletinA:
     """Read the polar motion predicted by Bulletin A, with 95 % half-widths, from the table."""
-    table = None if isinstance(file, GivenSeries) else read_bulletin_a(file)
+    table = eop.read_bulletin_a(file)
     assert table is not None
-    rows = _days_returned(days, step)
     return BulletinA(
-        time=datetime64(table.mjd[rows] - MJD),
-        bulletin_a_x=(table.x[rows], NORMAL_95 * table.x_error[rows]),
-        bulletin_a_y=(table.y[rows], NORMAL_95 * table.y_error[rows]),
+        time=datetime64(table.mjd[output_days] - MJD),
+        bulletin_a_x=(table.x[output_days], NORMAL_95 * table.x_error[output_days]),
+        bulletin_a_y=(table.y[output_days], NORMAL_95 * table.y_error[output_days]),
     )
 
 
@@ -445,46 +353,45 @@ class AheadOffsets(Daily):
     dY = measured("mas", "Y of the celestial pole minus that of IAU 2006/2000A")
 
 
-def offsets_until(file: str | Path, last: float | None) -> PoleSeries:
+def offsets_until(file: eop.PoleTable, last: float | None) -> PoleSeries:
     """Read the observed celestial pole offsets of a table, up to a last day if one is given."""
-    table = read_pole_offsets(file)
+    table = eop.read_pole_offsets(file)
     return table if last is None else table.between(table.mjd[0], last + MJD)
 
 
 def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Predict celestial pole offsets and their half-widths at given dates, shape (n, 2) each."""
-    return predict(table.mjd, table.x, table.y, table.x_error, table.y_error, mjd)
+    return core_nutation.predict(table.mjd, table.x, table.y, table.x_error, table.y_error, mjd)
 
 
-def no_offsets(file: str | Path | GivenSeries, origin: float | None, days: float) -> str | None:
+def no_offsets(
+    file: eop.PoleTable, origin: float | None, start: float | None, days: float
+) -> str | None:
     """Return the reason (text) to omit celestial pole offsets without a forecast, else None."""
     if isinstance(file, GivenSeries):
         return "polar motion has no celestial pole offsets; name a table"
     try:
         table = offsets_until(file, origin)
-        newest = read_polar_motion(file).mjd[-1] if origin is None else np.floor(origin + MJD)
+        newest = eop.read_polar_motion(file).mjd[-1] if origin is None else np.floor(origin + MJD)
     except SeriesError as error:
         return str(error)
-    if "bridged" in table.repairs:
-        return "the table lacks days of celestial pole offsets"
-    longest = newest + int(days) - table.mjd[-1]
-    if longest > FARTHEST:
+    if "bridged" in table.repairs or np.isnan(table.x_error).any():
+        return "the table lacks days or errors of celestial pole offsets"
+    longest = (newest if start is None else start + MJD) + int(days) - table.mjd[-1]
+    if longest > core_nutation.LONGEST:
         return f"the last offset is {newest - table.mjd[-1]:.0f} d older than the origin"
-    return too_short(table.mjd.size, longest)
+    return core_nutation.too_short(table.mjd.size, longest)
 
 
 @part(unless=no_offsets, loads=("scipy.signal",))
-def pole_offsets(
-    file: str | Path | GivenSeries, record: Record, days: float, step: float
-) -> AheadOffsets:
+def pole_offsets(file: eop.PoleTable, record: PoleSeries, output_days: slice) -> AheadOffsets:
     """Forecast the celestial pole offsets from those observed up to the origin of the forecast."""
-    assert not isinstance(file, GivenSeries)
-    table = offsets_until(file, float(record.time[-1]))
-    time = _days_ahead(record, days, step)
+    table = offsets_until(file, float(record.mjd[-1]) - MJD)
+    time = _times(record, output_days)
     value, error = (pair.T for pair in predicted_offsets(table, time + MJD))
     newest = date_text(table.mjd[-1] - MJD)
     source = {
-        "references": f"IERS {table.name}",
+        "references": table.source,
         "comment": f"observations up to {newest}",
         "newest_row": newest,
     }
@@ -496,22 +403,20 @@ def pole_offsets(
 @part
 def neglected(excitation: GivenSeries | None) -> Neglected:
     """Effects that the forecast neglects."""
-    momentum = (
-        "forecasts of the angular momentum of air, water and ground"
-        if excitation is None
-        else "errors of a forecast of the excitation beyond those of its values up to the origin"
-    )
-    return Neglected(
-        unknown=f"{momentum}; tides of a day and of half a day, which tables of the pole leave out "
-        "by convention"
-    )
+    momentum = "forecasts of the angular momentum of air, water and ground"
+    if excitation is not None:
+        momentum = (
+            "errors of a forecast of the excitation beyond those of its values up to the origin"
+        )
+    tides = "tides of a day and of half a day, which tables of the pole leave out by convention"
+    return Neglected(unknown=f"{momentum}; {tides}")
 
 
 forecast = public_call(
     Forecast,
     answer=ahead,
     sections=(components, skill, bulletin_a, pole_offsets, neglected),
-    parts=(record, predicted),
+    parts=(record, output_days, predicted),
 )
 
 
@@ -557,20 +462,20 @@ def to_iers_table(answer: Answer) -> PoleTable:
     if isinstance(file, GivenSeries):
         raise SceneError("file", "polar motion", "name a table, which has celestial pole offsets")
     run = Run(question)
-    seen: Record = run["record"]
-    mjd, horizon = seen.time + MJD, int(question.days)
-    offsets = offsets_until(file, float(seen.time[-1]))
-    rapid = file_of(file) if offsets.name == "finals2000A" else finals_path()
-    if (reach := last_ut1(rapid) - mjd[-1]) < horizon:
-        problem = f"{rapid.name} has UT1-UTC for {reach:.0f} d after the origin; take no more days"
-        raise SceneError("days", f"{question.days:g} d", problem)
-    p = np.concatenate([seen.p, run["predicted"].pole]) * MAS
-    pole = np.array([_continued(mjd, mjd[-1] + horizon), p.real, -p.imag])
-    days = _continued(offsets.mjd, mjd[-1] + horizon)
+    seen: PoleSeries = run["record"]
+    last = seen.mjd[-1] + run["output_days"].stop
+    offsets = offsets_until(file, float(seen.mjd[-1]) - MJD)
+    rapid = eop.file_of(file) if offsets.name == "finals2000A" else eop.file_of("finals")
+    if (reach := last_ut1(rapid)) < last:
+        problem = f"{rapid.name} has UT1-UTC for {reach - seen.mjd[-1]:.0f} d after the origin"
+        raise SceneError("days", f"{question.days:g} d", f"{problem}; take no more days")
+    p = np.concatenate([seen.pole, run["predicted"].pole]) * MAS
+    pole = np.array([_continued(seen.mjd, last), p.real, -p.imag])
+    days = _continued(offsets.mjd, last)
     later, _ = predicted_offsets(offsets, days[offsets.mjd.size :])
     observed = np.stack([offsets.x, offsets.y], axis=1)
-    last = (float(mjd[-1]), float(offsets.mjd[-1]))
-    return with_pole(rapid, pole, np.array([days, *np.concatenate([observed, later]).T]), last)
+    ends = (float(seen.mjd[-1]), float(offsets.mjd[-1]))
+    return with_pole(rapid, pole, np.array([days, *np.concatenate([observed, later]).T]), ends)
 
 
 def _continued(mjd: FloatArray, last: float) -> FloatArray:

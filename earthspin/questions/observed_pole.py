@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
+from os import PathLike
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -12,8 +13,8 @@ from numpy.typing import NDArray
 
 from earthspin._lazy import xr
 from earthspin.bodies import EARTH, Body, in_a_sentence
-from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, J2000_JD, MAS
-from earthspin.dates import Epochs, Span, days
+from earthspin.constants import DAY, DAYS_PER_CENTURY, MAS
+from earthspin.dates import Epochs, Span, datetime64, days
 from earthspin.engine.question import Question, key, part, setting
 from earthspin.engine.variables import Variables, labels, number, si
 from earthspin.errors import SceneError, Where
@@ -21,25 +22,71 @@ from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import core_nutation
 from earthspin.nutation.analysis import without_line
 from earthspin.questions import reasons, times
+from earthspin.sky import eop
 from earthspin.sky.columns import is_table
-from earthspin.sky.eop import CARRIED, PoleSeries, read_pole_offsets
-from earthspin.units import FileName
+from earthspin.sky.eop import GivenSeries, PoleSeries
+from earthspin.units import FileName, Plain, pack, unpack
 from earthspin.wobble.excitation import pole_of
 
-#: Modified Julian date of J2000.0.
-MJD = J2000_JD - 2400000.5
-#: Smallest plausible value of the largest distance from the conventional pole, mas.
-SMALLEST = 0.1
+#: Smallest and largest plausible value of the largest distance from the conventional pole, mas.
+SMALLEST, LARGEST = 0.1, 2000.0
+#: Why errors of a table may be NaN.
+NO_ERRORS = "the table gives no errors"
 #: Name of the daily table C04 of the IERS, which astropy includes.
 C04 = "c04"
 
 
-class TableFile(FileName):
-    """Kind of input: a table of the observed pole, included in astropy or in a local file."""
+@dataclass(frozen=True)
+class GivenTable:
+    """Kind of input: two numbers along time, in a Dataset or a pandas table.
 
-    words = '"c04", "finals" or the path of a file'
-    known = tuple(CARRIED)
+    Attributes
+    ----------
+    names : tuple of str
+        Names of the numbers.
+    units : tuple of str
+        Allowed units.
+    """
+
+    names: tuple[str, str] = ("x", "y")
+    units: tuple[str, ...] = ("arcsec", "mas")
+
+    words = "a Dataset, as polar_motion or read_excitation returns, or a pandas table"
+    hint = "xr.Dataset | pd.DataFrame"
+
+    def read(self, value: Any, where: Where) -> Any:
+        """Read both numbers, with their errors if given, or restore them from a scene."""
+        if isinstance(value, GivenSeries):
+            return value
+        if isinstance(value, dict):
+            return GivenSeries(unpack(value, where))
+        if not hasattr(value, "data_vars") and not hasattr(value, "iloc"):
+            raise where.error(value, f"it is {self.words}")
+        table, (x, y) = _labelled(value), self.names
+        rows = [*labelled_series(table, self.names, self.units)]
+        if f"{x}_error" in table and f"{y}_error" in table:
+            rows += labelled_series(table, (f"{x}_error", f"{y}_error"), self.units)[1:]
+        known = np.isfinite(rows[1:3]).all(axis=0)
+        time, *values = (row[known] for row in rows if np.isfinite(row[known]).all())
+        return GivenSeries(np.array([time, *np.divide(values, MAS)]))
+
+    def write(self, value: Any) -> Plain:
+        """Form stored in scenes: the rows as bytes, or the name or path of a table."""
+        return pack(value.rows) if isinstance(value, GivenSeries) else value
+
+
+class PoleInput(GivenTable, FileName):
+    """Kind of input: a table of the pole that astropy carries, in a file, or as given."""
+
+    words = '"c04", "finals", the path of a file, or a Dataset or pandas table'
+    hint = "str | PathLike[str] | xr.Dataset | pd.DataFrame"
+    known = tuple(eop.CARRIED)
     content = "a table of polar motion"
+
+    def read(self, value: Any, where: Where) -> Any:
+        """Read the name or path of a table, or a table."""
+        by_name = isinstance(value, (str, PathLike))
+        return FileName.read(self, value, where) if by_name else super().read(value, where)
 
     def begins(self, head: bytes) -> bool:
         """Return True if a file with the first bytes `head` may be a table of the pole."""
@@ -51,8 +98,8 @@ class OfTable(Question):
 
     body: Body = key(EARTH, doc="body whose pole was observed")
     span: Span | None = key(None, doc="first and last date; the whole table if not given")
-    file: Annotated[str, TableFile()] = setting(
-        C04, doc="a daily table of the IERS that astropy carries, or a local file"
+    file: Annotated[eop.PoleTable, PoleInput()] = setting(
+        C04, doc="table that astropy carries, a file of the IERS, CelesTrak or JPL, or a table"
     )
     kind: Literal["c04", "c01", "finals2000A"] | None = setting(
         None, doc="layout of the table; recognised from the file if not given"
@@ -79,10 +126,7 @@ def within(series: PoleSeries, span: Span | None) -> PoleSeries:
     SeriesError
         If fewer than two rows lie within the span.
     """
-    if span is None:
-        return series
-    first, last = span.days
-    return series.between(first + MJD, last + MJD)
+    return series.between(*(day + eop.MJD for day in span.days)) if span else series
 
 
 def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
@@ -94,14 +138,10 @@ def complex_pole(pole: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
         If there are no x and y with units along time, or the days are not ascending.
     """
     time, x, y = labelled_series(pole, ("x", "y"), ("arcsec", "mas"))
-    for name, values in (("x", x), ("y", y)):
-        largest = float(abs(values).max()) / ARCSEC
-        if largest > 2:
-            problem = "polar motion is below 1 arcsec; check the unit"
-            raise SceneError(f"largest {name}", f"{largest:.3g} arcsec", problem)
     p = pole_of(x, y) / MAS
-    if 0 < (largest := float(np.max(abs(p)))) < SMALLEST:
-        problem = f"polar motion is larger than {SMALLEST:g} mas; check the unit"
+    largest = float(np.max(abs(p)))
+    if largest > LARGEST or 0 < largest < SMALLEST:
+        problem = f"polar motion is {SMALLEST:g} to {LARGEST:g} mas at its largest; check the unit"
         raise SceneError("largest distance of the pole", f"{largest:.3g} mas", problem)
     return time, p
 
@@ -117,13 +157,12 @@ def labelled_series(
         If a variable or its unit is missing, there are fewer than two days, or the days are not
         ascending.
     """
-    if not hasattr(series, "data_vars"):
-        problem = f"give a Dataset with {' and '.join(names)}"
-        raise SceneError("series", type(series).__name__, problem)
+    series = _labelled(series)
+    given = [*map(str, getattr(series, "data_vars", ()))]
     for name in names:
-        if name not in series or series[name].dims != ("time",):
-            names_given = list(map(str, series.data_vars))
-            raise SceneError("series", names_given, f"'{name}' along 'time' is needed")
+        if name not in given or series[name].dims != ("time",):
+            problem = f"give a Dataset with '{name}' along 'time', or a pandas table"
+            raise SceneError("series", given or type(series).__name__, problem)
         unit, kind = series[name].attrs.get("units"), series[name].dtype
         if kind.kind != "f" or series["time"].dtype.kind != "M":
             raise SceneError(name, str(kind), "give numbers along dates without a zone")
@@ -135,11 +174,35 @@ def labelled_series(
     time = days(series.time, Where("time"))
     backward = np.diff(time) <= 0
     if np.any(backward):
-        problem = "times are not ascending; sort them with ds.sortby('time')"
-        problem += " and remove duplicates with ds.drop_duplicates('time')"
+        problem = "times are not ascending: use ds.sortby('time') and ds.drop_duplicates('time')"
         raise SceneError("time", str(series.time.values[1:][backward][0]), problem)
     first, second = (si(series[name]).values for name in names)
     return time, first, second
+
+
+def _labelled(table: Any) -> Any:
+    """Label the columns of a pandas table along `time`; return anything else unchanged.
+
+    Raises
+    ------
+    SceneError
+        If it has no dates.
+    """
+    if not hasattr(table, "iloc"):
+        return table
+    frame = table.reset_index()
+    dates = [n for n in frame if str(n).lower() == "mjd" or frame[n].dtype.kind == "M"]
+    if not dates:
+        problem = "give dates as its index, or a column 'MJD'"
+        raise SceneError("columns", list(map(str, table.columns)), problem)
+    time = frame.pop(dates[0])
+    if time.dtype.kind != "M":
+        time = datetime64(time.to_numpy(float) - eop.MJD)
+    elif time.dt.tz is not None:
+        time = time.dt.tz_convert(None)
+    units = {"units": table.attrs.get("units")}
+    columns = {str(name): ("time", frame[name].to_numpy(), units) for name in frame}
+    return xr.Dataset(columns, {"time": time.astype("datetime64[us]")}, table.attrs)
 
 
 # --- models beside the observed pole -------------------------------------------------------------
@@ -147,7 +210,7 @@ def labelled_series(
 
 #: First day of comparisons, 1990, in days from J2000.0. The stated errors of earlier offsets are
 #: 0.4 to 0.6 mas a day, larger than the error of IAU 2006/2000A.
-FIRST_DAY = 47892.0 - MJD
+FIRST_DAY = 47892.0 - eop.MJD
 #: Smallest number of dates that are compared.
 FEWEST = 10
 #: Name of IAU 2006/2000A among the models.
@@ -157,13 +220,13 @@ IAU = "iau"
 @cache
 def observed_series() -> PoleSeries:
     """Observed celestial pole offsets of the IERS series C04."""
-    return read_pole_offsets()
+    return eop.read_pole_offsets()
 
 
 def not_observed_then(span: Span, step: float) -> str | None:
     """Return the reason (text) to omit the comparison if too few dates are observed, else None."""
     first, last = span.days
-    first, last = max(first, FIRST_DAY), min(last, float(observed_series().mjd[-1]) - MJD)
+    first, last = max(first, FIRST_DAY), min(last, float(observed_series().mjd[-1]) - eop.MJD)
     if (last - first) * DAY >= FEWEST * step:
         return None
     return f"fewer than {FEWEST} dates lie between 1990 and the last observed offset of C04"
@@ -229,7 +292,7 @@ class ObservedSky:
 def observed_sky(epochs: Epochs) -> ObservedSky:
     """Interpolate the observed celestial pole offsets and their free core nutation to the dates."""
     table = observed_series()
-    time = table.mjd - MJD
+    time = table.mjd - eop.MJD
     days = times.days_of(epochs)
     rows = (days >= FIRST_DAY) & (days <= time[-1])
     days = days[rows]

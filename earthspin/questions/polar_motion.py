@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -19,20 +19,16 @@ from earthspin.engine.variables import Neglected, Variables, labels, measured, n
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.mass.figure import polar_radius
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.questions.observed_pole import (
-    MJD,
-    Daily,
-    OfTable,
-    complex_pole,
-    labelled_series,
-    not_observed,
-    within,
-)
+from earthspin.questions import observed_pole as tables
+from earthspin.questions.observed_pole import complex_pole, labelled_series
 from earthspin.sky.angular_momentum import TERMS, read_angular_momentum
-from earthspin.sky.eop import PoleSeries, read_polar_motion
+from earthspin.sky.eop import MJD, PoleSeries, PoleTable, read_polar_motion
 from earthspin.units import Days, FileName, Number, Numbers, Several, Text, Word, kind_of
 from earthspin.wobble import excitation as ex
 from earthspin.wobble import record
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 #: How the free wobble is found.
 Method = Literal["burg", "likelihood"]
@@ -44,7 +40,7 @@ FASTEST = 3 / DAYS_PER_YEAR
 OCEAN_TIDES = 0.027 + 0.142 + 0.056 + 0.171 + 0.058 + 0.331 + 0.158 + 0.040
 
 
-class PolarMotion(OfTable, word="polar-motion", call="polar_motion", table="polar_motion"):
+class PolarMotion(tables.OfTable, word="polar-motion", call="polar_motion", table="polar_motion"):
     """Observed polar motion, and the free wobble in it.
 
     Returns
@@ -75,7 +71,7 @@ class PolarMotion(OfTable, word="polar-motion", call="polar_motion", table="pola
     )
 
 
-class ObservedPole(Daily):
+class ObservedPole(tables.Daily):
     """Observed coordinates x and y of the pole in time, with errors."""
 
     x = measured("arcsec", "coordinate of the pole towards the prime meridian")
@@ -85,23 +81,23 @@ class ObservedPole(Daily):
     )
 
 
-@part(unless=not_observed)
-def pole_table(file: str, kind: str | None) -> PoleSeries:
+@part(unless=tables.not_observed)
+def pole_table(file: PoleTable, kind: str | None) -> PoleSeries:
     """Read the polar motion of a whole table of the IERS."""
     return read_polar_motion(file, kind)
 
 
-@part(unless=not_observed)
+@part(unless=tables.not_observed)
 def observed_pole(pole_table: PoleSeries, body: Body, span: Span | None) -> ObservedPole:
     """Return the observed polar motion of a table of the IERS within the requested span."""
-    series = within(pole_table, span)
-    source = {"references": f"IERS {series.name}", "repairs": series.repairs or "none"}
+    series = tables.within(pole_table, span)
+    source = {"references": series.source, "repairs": series.repairs or "none"}
     return ObservedPole(
         time=datetime64(series.mjd - MJD),
         x=(series.x, NORMAL_95 * series.x_error),
         y=(series.y, NORMAL_95 * series.y_error),
         polar_radius=polar_radius(body.needed("radius"), body.needed("flattening")),
-    ).with_attributes(x=source, y=source)
+    ).with_attributes(no_error=tables.NO_ERRORS, x=source, y=source)
 
 
 _END = "an end of an interval of 95 %"
@@ -217,7 +213,7 @@ _PURE = Number("", "100", above=0.0)
 
 @in_range("fit_chandler")
 def fit_chandler(
-    ds: xr.Dataset,
+    ds: xr.Dataset | pd.DataFrame,
     *,
     method: str | None = None,
     window: Any = None,
@@ -227,8 +223,9 @@ def fit_chandler(
 
     Parameters
     ----------
-    ds : Dataset
-        `x` and `y` over `time`, evenly spaced, with units ("arcsec" or "mas").
+    ds : Dataset or DataFrame
+        `x` and `y` over `time`, evenly spaced, with units ("arcsec" or "mas"). A pandas table has
+        dates as its index, or a column `MJD`, and the unit in ``attrs["units"]``.
     method : str, optional
         ``"burg"`` (the default) or ``"likelihood"``.
     window : duration, optional
@@ -304,14 +301,14 @@ def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     return time, ex.excitation_of(chi1, chi2) / MAS
 
 
-class Excitation(Daily, no_error="the table gives no errors"):
+class Excitation(tables.Daily, no_error="the table gives no errors"):
     """Excitation of polar motion."""
 
     chi1 = number("mas", "excitation, towards the prime meridian")
     chi2 = number("mas", "excitation, towards 90 degrees east")
 
 
-class DrivenPole(Daily, no_error="excitation and free wobble are given without errors"):
+class DrivenPole(tables.Daily, no_error="excitation and free wobble are given without errors"):
     """Polar motion that results from a given excitation."""
 
     x = number("arcsec", "pole, towards the prime meridian")
@@ -319,13 +316,15 @@ class DrivenPole(Daily, no_error="excitation and free wobble are given without e
 
 
 @in_range("excitation")
-def excitation(ds: xr.Dataset, *, period: Any = 433.0, quality_factor: Any = 100.0) -> xr.Dataset:
+def excitation(
+    ds: xr.Dataset | pd.DataFrame, *, period: Any = 433.0, quality_factor: Any = 100.0
+) -> xr.Dataset:
     """Excitation that produces a given polar motion: exact means over each step.
 
     Parameters
     ----------
-    ds : Dataset
-        `x` and `y` over `time`, evenly spaced.
+    ds : Dataset or DataFrame
+        `x` and `y` over `time`, evenly spaced, as for `fit_chandler`.
     period : duration
         Period of the free wobble; plain numbers are in days.
     quality_factor : float

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Annotated
 
 import numpy as np
 
@@ -14,8 +15,8 @@ from earthspin.engine.variables import Neglected, Variables, labels, measured, n
 from earthspin.errors import UndefinedError
 from earthspin.interior.named import OBSERVED_CORE_NUTATION
 from earthspin.nutation import core_nutation as core
-from earthspin.questions.observed_pole import MJD, Daily, OfTable, not_observed, within
-from earthspin.sky.eop import PoleSeries, read_pole_offsets
+from earthspin.questions import observed_pole as tables
+from earthspin.sky.eop import MJD, PoleSeries, PoleTable, read_pole_offsets
 from earthspin.units import Days
 from earthspin.wobble.record import shortest_span
 
@@ -23,7 +24,7 @@ from earthspin.wobble.record import shortest_span
 FIRST_MJD = 45700.0
 
 
-class PoleOffsets(OfTable, word="pole-offsets", call="pole_offsets", table="pole_offsets"):
+class PoleOffsets(tables.OfTable, word="pole-offsets", call="pole_offsets", table="pole_offsets"):
     """Observed celestial pole offsets, and the free core nutation in them.
 
     The offsets dX, dY are X, Y observed by very long baseline interferometry minus those of IAU
@@ -53,35 +54,38 @@ class PoleOffsets(OfTable, word="pole-offsets", call="pole_offsets", table="pole
 
     page, headline = "pole_offsets", "dX"
 
+    file: Annotated[PoleTable, tables.PoleInput(("dX", "dY"))] = setting(
+        "c04", doc="table that astropy carries, a file of the IERS, CelesTrak or JPL, or a table"
+    )
     window: Days | None = setting(
         None, doc="length of the sliding windows; three years if not given"
     )
 
 
-class ObservedOffsets(Daily):
+class ObservedOffsets(tables.Daily):
     """Observed celestial pole offsets."""
 
     dX = measured("mas", "observed X of the celestial pole minus that of IAU 2006/2000A")
     dY = measured("mas", "observed Y of the celestial pole minus that of IAU 2006/2000A")
 
 
-@part(unless=not_observed)
-def offset_table(file: str, kind: str | None, span: Span | None) -> PoleSeries:
+@part(unless=tables.not_observed)
+def offset_table(file: PoleTable, kind: str | None, span: Span | None) -> PoleSeries:
     """Read the celestial pole offsets of a table of the IERS, within the requested span."""
     first = -math.inf if span is None else span.days[0] + MJD
-    return within(read_pole_offsets(file, kind, first), span)
+    return tables.within(read_pole_offsets(file, kind, first), span)
 
 
-@part(unless=not_observed)
+@part(unless=tables.not_observed)
 def observed_offsets(offset_table: PoleSeries) -> ObservedOffsets:
     """Return the observed celestial pole offsets of a table of the IERS, with errors."""
     series = offset_table
-    source = {"references": f"IERS {series.name}", "repairs": series.repairs or "none"}
+    source = {"references": series.source, "repairs": series.repairs or "none"}
     return ObservedOffsets(
         time=datetime64(series.mjd - MJD),
         dX=(series.x, NORMAL_95 * series.x_error),
         dY=(series.y, NORMAL_95 * series.y_error),
-    ).with_attributes(dX=source, dY=source)
+    ).with_attributes(no_error=tables.NO_ERRORS, dX=source, dY=source)
 
 
 class CoreNutation(

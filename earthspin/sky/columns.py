@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import datetime
+import gzip
 import hashlib
 import re
+import zlib
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from earthspin.errors import SeriesError, no_plain_file
 
+#: First bytes of a file compressed by gzip.
+GZIP = b"\x1f\x8b"
 #: Exponent letter of Fortran: 1.5D-03.
 FORTRAN = re.compile(r"(?<=\d)[dD](?=[-+]?\d)")
 #: First characters of comment lines.
-COMMENTS = "#%!*"
+COMMENTS = "#%!*$"
 #: Proleptic day number of the modified Julian date 0, 1858 November 17.
 _FIRST_DAY = datetime.date(1858, 11, 17).toordinal()
 #: Tolerance between a modified Julian date and the calendar date in its row, for rounding, d.
@@ -21,7 +25,7 @@ _SAME_DATE = 2e-3
 
 
 def lines_of(file: Path) -> list[str]:
-    """Read the lines of a text file.
+    """Read the lines of a text file, which may be compressed by gzip.
 
     Raises
     ------
@@ -31,21 +35,24 @@ def lines_of(file: Path) -> list[str]:
     if problem := no_plain_file(file):
         raise SeriesError(file, problem)
     try:
-        return file.read_text(encoding="ascii", errors="replace").splitlines()
-    except OSError as error:
-        raise SeriesError(file, f"it cannot be read: {error.strerror}") from None
+        data = file.read_bytes()
+        data = gzip.decompress(data) if data.startswith(GZIP) else data
+    except (OSError, EOFError, zlib.error) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise SeriesError(file, f"it cannot be read: {reason}") from None
+    return data.decode("ascii", errors="replace").splitlines()
 
 
 def is_table(head: bytes) -> bool:
-    """Return True if a file may be a table: text, with a line that starts with a number.
+    """Return True if a file may be a table: text with a line that starts with a number, or gzip.
 
     Parameters
     ----------
     head : bytes
         First bytes of the file.
     """
-    rows = (re.split(rb"[\s,;]", line.strip(b" \t,;"), maxsplit=1) for line in head.splitlines())
-    return b"\0" not in head and any(is_number(row[0].decode("latin-1")) for row in rows)
+    row = re.search(rb"(?m)^[\s,;]*[-+]?\.?\d", head)
+    return head.startswith(GZIP) or (b"\0" not in head and row is not None)
 
 
 def checksum(file: Path) -> str:
@@ -90,8 +97,8 @@ def text_between(lines: list[str], is_row: Callable[[str], bool]) -> list[int]:
 
 def starts_with_number(line: str) -> bool:
     """Return True if the first word of a line is a number; words end at spaces or commas."""
-    words = re.split(r"[\s,;]", line.strip(" \t,;"), maxsplit=1)
-    return is_number(FORTRAN.sub("e", words[0]))
+    word = re.split(r"[\s,;]", line.strip(" \t,;"), maxsplit=1)[0]
+    return is_number(word) or is_number(FORTRAN.sub("e", word))
 
 
 def refuse_text_between(file: Path, lines: list[str]) -> None:

@@ -1,36 +1,34 @@
-"""Observed polar motion and observed celestial pole offsets, read from files.
+"""Observed polar motion and observed celestial pole offsets, read from files and tables.
 
-Known tables of the IERS: C04 (daily, from 1962), C01 (from 1846, ten rows per year, twenty since
-1890) and finals2000A (daily, with predictions, which are ignored). C04 and finals2000A are included
-in astropy; nothing is downloaded. Invalid rows raise an error that gives the line; defects with an
-unambiguous correction are repaired and reported.
+Known tables: C04 (daily, from 1962), C01 (from 1846, ten rows per year, twenty since 1890) and
+finals2000A (daily) of the IERS, also as CSV of its data centre; EOP-All.csv of CelesTrak; EOP2 of
+the JPL; each also compressed by gzip. Predictions are ignored. Columns are found by name: in the
+header of a CSV, and else among the names that belong to the number of columns. C04 and finals2000A
+are included in astropy; nothing is downloaded. Invalid rows raise an error that gives the line;
+defects with an unambiguous correction are repaired and reported.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+import re
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import pairwise
+from operator import itemgetter
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
-from earthspin.constants import ARCSEC
+from earthspin.constants import ARCSEC, J2000_JD, MAS, NORMAL_95
 from earthspin.errors import SeriesError
-from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.sky.columns import (
-    check_calendar,
-    checksum,
-    is_number,
-    lines_of,
-    numbers,
-    rows_of,
-    starts_with_number,
-    text_between,
-)
+from earthspin.numerics.arrays import BoolArray, ComplexArray, FloatArray
+from earthspin.sky import columns
 
+#: First of the modified Julian dates, and J2000.0 in them.
+_MJD_0 = np.datetime64("1858-11-17")
+MJD = J2000_JD - 2400000.5
 #: Longest gap that is interpolated linearly, in steps and in days; the oldest tables have ten rows
 #: per year.
 LONGEST_BRIDGE, LONGEST_DAYS = 10, 37.0
@@ -40,8 +38,6 @@ LOST = 0.01
 DATE_ROUNDING = 1e-3
 #: Period of the free wobble, used to report the error of interpolation, d.
 FREE_WOBBLE = 433.0
-#: Number of columns of the table C01 by date, and of that by year with celestial pole offsets.
-_C01_COLUMNS, _C01_YEAR_COLUMNS = 29, 11
 #: First day after the optical observations of the table C01, MJD of 1962-01-01.
 _AFTER_OPTICAL = 37665.0
 #: Offsets whose median distance from those of finals2000A is larger are from IAU 1980, arcsec: in
@@ -50,26 +46,47 @@ _AFTER_OPTICAL = 37665.0
 _ANOTHER_MODEL, _TWO_TABLES = 0.002, 45700.0
 #: Largest offset that finals2000A does not confirm, arcsec.
 _LARGEST_ELSEWHERE = 0.005
-_ERRORS = ("x_error", "y_error")
+#: Columns of the dates, and of the rows of a table.
+_DATE = ("year", "month", "day", "hour", "mjd")
+_COLUMNS = ("line", "mjd", "x", "y", "x_error", "y_error")
+
+#: Names of the columns of C04 and of C01, by their number, as far as they are used.
+_C04 = {
+    16: "year month day mjd x y ut1 lod dx dy e_x e_y e_ut1 e_lod e_dx e_dy",
+    21: "year month day hour mjd x y ut1 dx dy x_rate y_rate lod e_x e_y e_ut1 e_dx e_dy",
+}
+_C01_YEAR = "year x e_x y e_y"
+_C01 = {
+    11: f"{_C01_YEAR} ut1 e_ut1 dx e_dx dy e_dy",
+    29: "mjd x y ut1 dx dy e_x e_y e_ut1 e_dx e_dy",
+}
+_EOP2 = "mjd x y ut1 e_x e_y e_ut1 xy x_ut1 y_ut1 dx dy e_dx e_dy dxdy date"
+#: Names of the columns of finals2000A, and where they begin and end. Of the columns "type", which
+#: are "I" if observed and "P" if predicted, the third belongs to dX, dY, here as in the CSV.
+_FINALS = "year month day mjd type x e_x y e_y type type dx e_dx dy e_dy"
+_BEGINS = (0, 2, 4, 7, 16, 18, 27, 37, 46, 57, 95, 97, 106, 116, 125)
+_ENDS = (2, 4, 6, 15, 17, 27, 36, 46, 55, 58, 96, 106, 115, 125, 134)
+_CELLS = itemgetter(*map(slice, _BEGINS, _ENDS))
+#: Layouts that can be named, and number of lines in which a header is looked for.
+KINDS, _HEAD = ("c04", "c01", "finals2000A"), 60
+#: How any other table is used.
+_AS_PANDAS = "give a pandas table with x, y, dates as index and attrs['units'] = 'arcsec' or 'mas'"
+#: Publishers of tables that are not those of the IERS.
+_PUBLISHERS = {"EOP-All.csv": "CelesTrak ", "EOP2": "JPL ", "given table": ""}
 
 
 @dataclass(frozen=True)
 class _Coordinates:
-    """Columns, unit and limits of polar motion or of celestial pole offsets in the IERS tables.
+    """Columns, units and limits of polar motion or of celestial pole offsets.
 
     Attributes
     ----------
     name, words : str
         Name of the two together, and of each, in messages.
-    columns : dict of int to tuple of int
-        By number of columns of a row: the columns of the MJD, of the first coordinate, which the
-        second follows, and of the error of the first.
     flag : int
-        Column of finals2000A that holds "I" if the row was observed and "P" if it was predicted.
-    cells : tuple of slice
-        First coordinate, second coordinate and their errors in a row of finals2000A.
-    unit : float
-        Unit of these cells, arcsec.
+        Which of the columns "type" tells observed from predicted rows, if there are several.
+    datum : str
+        Their name in the header of EOP2.
     largest, smallest : float
         Larger values, and tables whose largest value is smaller, are in another unit, arcsec.
     fastest, jump : float
@@ -78,10 +95,8 @@ class _Coordinates:
 
     name: str
     words: str
-    columns: dict[int, tuple[int, int, int]]
     flag: int
-    cells: tuple[slice, slice, slice, slice]
-    unit: float
+    datum: str
     largest: float
     smallest: float
     fastest: float
@@ -90,32 +105,31 @@ class _Coordinates:
 
 #: Polar motion has never passed 0.7 arcsec, and never stayed within a milliarcsecond of the origin.
 _POLAR_MOTION = _Coordinates(
-    "polar motion",
-    "x, y",
-    {16: (3, 4, 10), 21: (4, 5, 13), _C01_COLUMNS: (0, 1, 6)},
-    flag=16,
-    cells=(slice(18, 27), slice(37, 46), slice(27, 36), slice(46, 55)),
-    unit=1.0,
-    largest=2.0,
-    smallest=1e-3,
-    fastest=0.01,
-    jump=0.1,
+    "polar motion", "x, y", 0, "UTPM", largest=2.0, smallest=1e-3, fastest=0.01, jump=0.1
 )
 #: Offsets from IAU 2006/2000A have never passed 9 mas; those from IAU 1980 pass 20 mas since 1991.
 _POLE_OFFSETS = _Coordinates(
-    "celestial pole offsets",
-    "dX, dY",
-    {16: (3, 8, 14), 21: (4, 8, 16), _C01_COLUMNS: (0, 4, 9)},
-    flag=95,
-    cells=(slice(97, 106), slice(116, 125), slice(106, 115), slice(125, 134)),
-    unit=1e-3,
-    largest=0.02,
-    smallest=1e-5,
-    fastest=1e-4,
-    jump=5e-3,
+    "celestial pole offsets", "dX, dY", 2, "DX,DY", 0.02, smallest=1e-5, fastest=1e-4, jump=5e-3
 )
 _NO_OPTICAL = "before 1962 they are optical; give a span that begins in 1962 or later"
 _NOT_IAU_1980 = "offsets from IAU 2006/2000A are needed; are they from IAU 1980?"
+
+
+@dataclass(frozen=True, eq=False)
+class GivenSeries:
+    """Polar motion, celestial pole offsets or an excitation from a labelled table of the caller.
+
+    Attributes
+    ----------
+    rows : array, shape (3, n) or (5, n)
+        Days from J2000.0, both values in mas, and their 95 % half-widths in mas if they are known.
+    """
+
+    rows: FloatArray
+
+
+#: Table of the pole: a file, the short name of one that astropy carries, or a table of the caller.
+PoleTable = str | Path | GivenSeries
 
 
 @dataclass(frozen=True)
@@ -136,7 +150,9 @@ class PoleSeries:
     repairs : str
         Description of repairs; empty if there are none.
     sha256 : str
-        SHA-256 of the file.
+        SHA-256 of the file; empty for a table of the caller.
+    newest : bool
+        Whether the last row is the newest observed one of finals2000A.
     """
 
     mjd: FloatArray
@@ -147,16 +163,27 @@ class PoleSeries:
     name: str
     repairs: str = ""
     sha256: str = ""
+    newest: bool = False
 
     @property
     def provenance(self) -> dict[str, str]:
         """SHA-256 hash of the file of the series, for the attributes of a result."""
-        return {"table_sha256": self.sha256}
+        return {"table_sha256": self.sha256} if self.sha256 else {}
+
+    @property
+    def source(self) -> str:
+        """Publisher and name of the table."""
+        return _PUBLISHERS.get(self.name, "IERS ") + self.name
 
     @property
     def step(self) -> float:
         """Time between two successive dates of the series, d."""
         return float((self.mjd[-1] - self.mjd[0]) / (self.mjd.size - 1))
+
+    @property
+    def pole(self) -> ComplexArray:
+        """Polar motion as x - i y, mas, shape (n,)."""
+        return np.asarray((self.x - 1j * self.y) / MAS)
 
     @property
     def offsets(self) -> ComplexArray:
@@ -176,50 +203,28 @@ class PoleSeries:
             start, end, from_day, to_day = map(day_of, (*self.mjd[[0, -1]], first, last))
             problem = f"it covers {start} to {end}; {from_day} to {to_day} was asked for"
             raise SeriesError(self.name, problem, "choose a span inside it")
-        return replace(
-            self, **{name: getattr(self, name)[inside] for name in ("mjd", "x", "y", *_ERRORS)}
-        )
+        rows = {name: getattr(self, name)[inside] for name in _COLUMNS[1:]}
+        return replace(self, **rows, newest=self.newest and bool(inside[-1]))
 
 
-@dataclass(frozen=True)
-class _Row:
-    """Date, two pole coordinates and their errors from one row of a file, arcsec."""
-
-    line: int
-    mjd: float
-    values: tuple[float, float, float, float]
-
-
-def c04_path() -> Path:
-    """Path of the C04 file (IERS Earth orientation series) that is included in astropy."""
-    from astropy_iers_data import IERS_B_FILE
-
-    return Path(IERS_B_FILE)
-
-
-def finals_path() -> Path:
-    """Path of the finals2000A file (IERS rapid series) that is included in astropy."""
-    from astropy_iers_data import IERS_A_FILE
-
-    return Path(IERS_A_FILE)
-
-
-#: Files that astropy carries, by name.
-CARRIED = {"c04": c04_path, "finals": finals_path}
+#: Files that astropy carries, by the short names that stand for them.
+CARRIED = {"c04": "IERS_B_FILE", "finals": "IERS_A_FILE"}
 
 
 def file_of(path: str | Path) -> Path:
     """Return the path of a file; a short name such as "c04" gives the file included in astropy."""
-    return CARRIED[str(path)]() if str(path) in CARRIED else Path(path)
+    import astropy_iers_data
+
+    return Path(getattr(astropy_iers_data, CARRIED.get(str(path), ""), path))
 
 
-def read_polar_motion(path: str | Path = "c04", kind: str | None = None) -> PoleSeries:
-    """Read a time series of observed polar motion from a file.
+def read_polar_motion(path: PoleTable = "c04", kind: str | None = None) -> PoleSeries:
+    """Read a time series of observed polar motion.
 
     Parameters
     ----------
-    path : str or Path
-        A file, or ``"c04"`` or ``"finals"`` for those included in astropy.
+    path : str, Path or GivenSeries
+        A file, ``"c04"`` or ``"finals"`` for those included in astropy, or a table of the caller.
     kind : str, optional
         ``"c04"``, ``"c01"`` or ``"finals2000A"``; detected from the file by default.
 
@@ -232,12 +237,12 @@ def read_polar_motion(path: str | Path = "c04", kind: str | None = None) -> Pole
 
 
 def read_pole_offsets(
-    path: str | Path = "c04", kind: str | None = None, first: float = -math.inf
+    path: PoleTable = "c04", kind: str | None = None, first: float = -math.inf
 ) -> PoleSeries:
-    """Read a time series of observed celestial pole offsets dX, dY from a file.
+    """Read a time series of observed celestial pole offsets dX, dY.
 
-    Rows that finals2000A flags as predicted in column 96, and the zeros with which C04 and C01
-    begin, before there were observations, are left out.
+    Rows that are flagged as predicted, and the zeros with which C04 and C01 begin, before there
+    were observations, are left out.
 
     Parameters
     ----------
@@ -255,192 +260,257 @@ def read_pole_offsets(
     return _read(path, kind, _POLE_OFFSETS, first)
 
 
-def _read(
-    path: str | Path, kind: str | None, pair: _Coordinates, first: float = -math.inf
-) -> PoleSeries:
-    """Read polar motion or celestial pole offsets from a file; unchanged files are read once."""
-    file = file_of(path)
-    lines_of(file)  # refuses what cannot be read
-    return _parsed(file, checksum(file), kind, pair.name, first)
-
-
-@lru_cache(maxsize=8)
-def _parsed(file: Path, sha256: str, kind: str | None, name: str, first: float) -> PoleSeries:
-    """Convert the text of a file to a pole series; repair small defects and refuse large ones."""
-    pair = _POLE_OFFSETS if name == _POLE_OFFSETS.name else _POLAR_MOTION
-    lines = lines_of(file)
-    kind = kind or _kind(file, lines)
-    if kind not in _READERS:
-        raise SeriesError(file, f"kind {kind!r} is unknown", f"allowed: {', '.join(_READERS)}")
-    rows = list(_READERS[kind](file, lines, pair))
-    repairs: list[str] = []
-    _check_dates(file, rows)
-    if kind == "c01":
-        rows = [row for row in rows if row.mjd >= first]
-    rows = _drop_missing(file, rows, text_between(lines, _IS_ROW[kind]), repairs)
-    if pair is _POLE_OFFSETS:
-        rows = _drop_zeros(rows, repairs)
-    if len(rows) < 2:
-        raise SeriesError(file, f"it holds {len(rows)} rows of {pair.name}", "is it complete?")
-    _check_size(file, rows, pair, kind)
-    if pair is _POLE_OFFSETS and file not in (path() for path in CARRIED.values()):
-        _check_model(file, rows)
-    rows = _in_order(file, rows, repairs)
-    _check_jumps(file, rows, pair)
-    series = replace(_even(file, rows, kind, repairs), sha256=sha256)
-    for column in ("mjd", "x", "y", *_ERRORS):
-        getattr(series, column).setflags(write=False)
-    return series
-
-
-# --- the kinds of table --------------------------------------------------------------------------
-
-
-def _c04(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
-    """Yield the rows of a C04 table, in the layout of 20 C04 or of older series."""
-    columns = 0
-    layouts = {count: layout for count, layout in pair.columns.items() if count != _C01_COLUMNS}
-    for number, words in rows_of(lines):
-        columns = columns or len(words)
-        if len(words) != columns or columns not in layouts:
-            allowed = " or ".join(map(str, layouts))
-            remedy = (
-                f"{allowed} are expected, as many in each row; is it cut off, or a column lost?"
-            )
-            raise SeriesError(file, f"{len(words)} columns", remedy, number)
-        date, value, error = layouts[columns]
-        *calendar, mjd = numbers(file, number, words[: date + 1])
-        check_calendar(file, number, [*calendar, 0.0][:4], mjd)
-        x, y, x_error, y_error = numbers(
-            file, number, words[value : value + 2] + words[error : error + 2]
-        )
-        yield _Row(number, mjd, (x, y, x_error, y_error))
-
-
-def _c01(file: Path, lines: list[str], pair: _Coordinates) -> Iterator[_Row]:
-    """Yield the rows of a C01 table, dated by MJD (new layout) or Besselian year (old layout).
-
-    By date: MJD, x, y, UT1-TAI, dX, dY, then their errors and 18 more columns. By year: decimal
-    year, x, its error, y, its error, and in the longer layout UT1-TAI, its error, dX, its error,
-    dY, its error.
-    """
-    columns = 0
-    for number, words in rows_of(lines):
-        columns = columns or len(words)
-        if len(words) != columns or columns < 5:
-            problem = f"{len(words)} columns"
-            raise SeriesError(file, problem, "5 or more are expected, as many in each row", number)
-        if columns == _C01_COLUMNS:
-            date, value, error = pair.columns[columns]
-            (mjd,) = numbers(file, number, words[date : date + 1])
-            x, y = numbers(file, number, words[value : value + 2])
-            x_error, y_error = numbers(file, number, words[error : error + 2])
-        elif pair is _POLE_OFFSETS and columns != _C01_YEAR_COLUMNS:
-            problem = f"a table C01 by year of {columns} columns holds no dX, dY"
-            remedy = f"take one of {_C01_YEAR_COLUMNS} columns, or by MJD, of {_C01_COLUMNS}"
-            raise SeriesError(file, problem, remedy, number)
-        else:
-            value = 7 if pair is _POLE_OFFSETS else 1
-            (year,) = numbers(file, number, words[:1])
-            x, x_error, y, y_error = numbers(file, number, words[value : value + 4])
-            if not 1800 <= year <= 2200:
-                remedy = f"it lies in 1800 to 2200; a table by MJD has {_C01_COLUMNS} columns"
-                raise SeriesError(file, f"the year is {year:g}", remedy, number)
-            # Besselian years, accurate to the 1 mas resolution of this table.
-            mjd = 15019.81352 + (year - 1900.0) * 365.242198781
-        yield _Row(number, mjd, (x, y, x_error, y_error))
-
-
-def read_bulletin_a(path: str | Path = "finals") -> PoleSeries | None:
+def read_bulletin_a(path: PoleTable = "finals") -> PoleSeries | None:
     """Read the polar motion predicted by Bulletin A, from the last rows of a finals2000A table.
 
     Parameters
     ----------
-    path : str or Path
-        A file or a word, as for `read_polar_motion`.
+    path : str, Path or GivenSeries
+        As of `read_polar_motion`.
 
     Returns
     -------
     PoleSeries or None
         None if the table has no predictions.
     """
+    if isinstance(path, GivenSeries):
+        return None
     file = file_of(path)
-    lines = lines_of(file)
-    if _kind(file, lines) != "finals2000A":
+    layout = _layout(file, columns.lines_of(file), None)
+    rows = _rows(file, layout, _POLAR_MOTION, predicted=True)
+    if len(rows) < 2 or not layout.name.startswith("finals2000A"):
         return None
-    rows = list(_finals(file, lines, _POLAR_MOTION, "P"))
+    _check_size(file, rows, _POLAR_MOTION, layout.name)
+    return replace(_even(file, rows, "Bulletin A", []), sha256=columns.checksum(file))
+
+
+def _read(
+    path: PoleTable, kind: str | None, pair: _Coordinates, first: float = -math.inf
+) -> PoleSeries:
+    """Read polar motion or celestial pole offsets; unchanged files are read once."""
+    if isinstance(path, GivenSeries):
+        days, *values = path.rows
+        rows = np.full((days.size, len(_COLUMNS)), np.nan)
+        rows[:, 0], rows[:, 1] = np.arange(1, days.size + 1), days + MJD
+        rows[:, 2 : 2 + len(values)] = np.transpose(values) / 1e3
+        rows[:, 4:] /= NORMAL_95
+        return _checked("given table", rows, "given table", pair, [])
+    file = file_of(path)
+    columns.lines_of(file)  # refuses what cannot be read
+    return _parsed(file, columns.checksum(file), kind, pair, first)
+
+
+@lru_cache(maxsize=8)
+def _parsed(
+    file: Path, sha256: str, kind: str | None, pair: _Coordinates, first: float
+) -> PoleSeries:
+    """Convert the text of a file to a pole series."""
+    layout = _layout(file, columns.lines_of(file), kind)
+    rows = _rows(file, layout, pair)
+    if layout.name == "c01":
+        rows = rows[rows[:, 1] >= first]
+    text = columns.text_between(layout.lines, layout.is_row)
+    return replace(_checked(file, rows, layout.name, pair, text), sha256=sha256)
+
+
+def _checked(
+    file: object, rows: FloatArray, name: str, pair: _Coordinates, text: list[int]
+) -> PoleSeries:
+    """Make a series of rows; repair small defects and refuse large ones.
+
+    Parameters
+    ----------
+    file : str or Path
+    rows : array, shape (n, 6)
+        Line of the file, mjd, x, y, x_error and y_error (d, arcsec).
+    name : str
+        Name of the table.
+    pair : _Coordinates
+    text : list of int
+        Lines of text between the rows.
+    """
+    repairs: list[str] = []
+    rows = _complete(file, rows, text, repairs)
+    if pair is _POLE_OFFSETS:
+        rows = _drop_zeros(rows, repairs)
     if len(rows) < 2:
-        return None
-    _check_dates(file, rows)
-    _check_size(file, rows, _POLAR_MOTION, "finals2000A")
-    return replace(_even(file, rows, "Bulletin A", []), sha256=checksum(file))
+        remedy = "is it complete?" if pair is _POLAR_MOTION else _NOT_IAU_1980
+        raise SeriesError(file, f"it holds {len(rows)} rows of {pair.name}", remedy)
+    _check_size(file, rows, pair, name)
+    if pair is _POLE_OFFSETS and file not in [file_of(name) for name in CARRIED]:
+        _check_model(file, rows)
+    rows = _in_order(file, rows, repairs)
+    _check_jumps(file, rows, pair)
+    series = replace(_even(file, rows, name, repairs), newest=name.startswith("finals2000A"))
+    for column in _COLUMNS[1:]:
+        getattr(series, column).setflags(write=False)
+    return series
 
 
-def _finals(file: Path, lines: list[str], pair: _Coordinates, flag: str = "I") -> Iterator[_Row]:
-    """Yield the rows of a finals2000A table that are observed ("I") or predicted ("P")."""
-    for number, line in enumerate(lines, start=1):
-        if not line.strip() or line[pair.flag : pair.flag + 1] != flag:
-            continue
-        if len(line.rstrip("\n")) < pair.cells[-1].stop:
-            raise SeriesError(file, "it ends early", "is the file cut off?", number)
-        (mjd,) = numbers(file, number, [line[7:15]])
-        x, y, x_error, y_error = numbers(file, number, [line[cell] for cell in pair.cells])
-        year, month, day = numbers(file, number, [line[0:2], line[2:4], line[4:6]])
-        # Two-digit years: 73 is 1973, and 72 is 2072.
-        century = 1900 if year >= 73 else 2000
-        check_calendar(file, number, [century + year, month, day, mjd % 1 * 24], mjd)
-        u = pair.unit
-        yield _Row(number, mjd, (u * x, u * y, u * x_error, u * y_error))
+# --- layouts of tables ---------------------------------------------------------------------------
 
 
-_READERS: dict[str, Callable[[Path, list[str], _Coordinates], Iterator[_Row]]] = {
-    "c04": _c04,
-    "c01": _c01,
-    "finals2000A": _finals,
-}
+class _Layout(NamedTuple):
+    """Lines of a table, and how its rows are split into named columns.
+
+    Attributes
+    ----------
+    lines : list of str
+    name : str
+        Name of the table.
+    names : list of str
+        Names of its columns; empty if no such table has as many.
+    allowed : str
+        Allowed numbers of columns, in words.
+    is_row : callable
+        Test for lines that are rows.
+    split : callable
+        Function that splits a row into the words of its columns.
+    """
+
+    lines: list[str]
+    name: str
+    names: list[str]
+    allowed: str
+    is_row: Callable[[str], bool] = columns.starts_with_number
+    split: Callable[[str], Sequence[str]] = str.split
+
+
+def _layout(file: Path, lines: list[str], kind: str | None) -> _Layout:
+    """Detect the layout of a table from its header or from its first row of numbers."""
+    if kind not in (None, *KINDS):
+        raise SeriesError(file, f"kind {kind!r} is unknown", f"allowed: {', '.join(KINDS)}")
+    head = lines[:_HEAD]
+    if any(line.lstrip().startswith("EOP2") for line in head):
+        return _Layout(lines, "EOP2", _EOP2.split(), "16", split=_cells)
+    if header := next((line for line in head if "mjd" in _cells(line.lower())), ""):
+        names = [re.sub("_pole|data_", "", cell) for cell in _cells(header.lower())]
+        names = [name.replace("sigma_", "e_") for name in names]
+        name = "finals2000A.csv" if any(";final;" in line for line in lines) else "c04.csv"
+        name = "EOP-All.csv" if "dat" in names else name
+        return _Layout(lines, name, names, str(len(names)), _begins_with_digit, _cells)
+    number, words = next(columns.rows_of(lines), (0, ["0"]))
+    year = 1800 <= float(words[0]) <= 2200
+    if kind is None and number and lines[number - 1][16:17] in ("I", "P"):
+        kind = "finals2000A"
+    elif kind is None and year and words[0].isdigit() and len(words) >= 6:
+        kind = "c04"
+    elif kind is None and (len(words) == max(_C01) or (year and "." in words[0])):
+        kind = "c01"
+    if kind == "finals2000A":
+        return _Layout(lines, kind, _FINALS.split(), "15", _is_row_of_finals, _CELLS)
+    if kind == "c04":
+        return _Layout(lines, kind, _C04.get(len(words), "").split(), "16 or 21")
+    if kind == "c01":
+        known = _C01.get(len(words), _C01_YEAR if len(words) >= 5 else "")
+        return _Layout(lines, kind, known.split(), "5 or more")
+    if "bulletin" in "".join(head).lower().replace(" ", ""):
+        remedy = "take finals2000A.all, or its CSV, which have the same rows"
+        raise SeriesError(file, "it is the text of a bulletin", remedy)
+    remedy = f"name its kind: {', '.join(KINDS)}; or {_AS_PANDAS}" if len(words) > 4 else _AS_PANDAS
+    raise SeriesError(file, "it is none of the known tables", remedy)
+
+
+def _cells(line: str) -> list[str]:
+    """Words of a line between commas or semicolons."""
+    return [cell.strip() for cell in re.split("[,;]", line)]
+
+
+def _begins_with_digit(line: str) -> bool:
+    """Return True if a line begins with a number or a date."""
+    return line.strip()[:1].isdigit()
 
 
 def _is_row_of_finals(line: str) -> bool:
     """Return True if a line of finals2000A is a data row: with flag "I" or "P", or only a date."""
-    return line[16:17] in ("I", "P") or (is_number(line[7:15]) and not line[15:].strip())
+    return line[16:17] in ("I", "P") or (columns.is_number(line[7:15]) and not line[15:].strip())
 
 
-#: Test for rows, by kind of table.
-_IS_ROW: dict[str, Callable[[str], bool]] = {
-    "c04": starts_with_number,
-    "c01": starts_with_number,
-    "finals2000A": _is_row_of_finals,
-}
+# --- rows ----------------------------------------------------------------------------------------
 
 
-def _kind(file: Path, lines: list[str]) -> str:
-    """Detect the kind of IERS table (C01, C04 or finals2000A) from its first row of numbers."""
-    for line in lines:
-        words = line.split()
-        if not words or not is_number(words[0]):
-            continue
-        if len(line) > 60 and line[16:17] in ("I", "P"):
-            return "finals2000A"
-        if words[0].isdigit() and 1800 <= int(words[0]) <= 2200 and len(words) >= 6:
-            return "c04"
-        by_date = len(words) == _C01_COLUMNS
-        if by_date or ("." in words[0] and 1800 <= float(words[0]) <= 2200):
-            return "c01"
-        break
-    problem = "it is none of the known tables"
-    raise SeriesError(file, problem, f"name its kind: {', '.join(_READERS)}")
+def _rows(file: Path, layout: _Layout, pair: _Coordinates, predicted: bool = False) -> FloatArray:
+    """Observed, or predicted, rows of a table: mjd, x, y, x_error and y_error, by line; arcsec."""
+    names, lines = layout.names, enumerate(layout.lines, start=1)
+    table = [(at, layout.split(line)) for at, line in lines if layout.is_row(line)]
+    count = int(layout.allowed) if layout.allowed.isdigit() else len(table[0][1])
+    for at, words in table:
+        if len(words) != count or not names:
+            remedy = f"{layout.allowed} are expected, as many in each row"
+            remedy += "; is it cut off, or a column lost?"
+            raise SeriesError(file, f"{len(words)} columns", remedy, at)
+    x, y = pair.words.lower().split(", ")
+    coordinates = [x, y, f"e_{x}", f"e_{y}"]
+    if not {x, y} <= {*names}:
+        problem = f"a table {layout.name} of {count} columns holds no {pair.words}"
+        remedy = "take one of 11 columns, or by MJD, of 29" if layout.name == "c01" else _AS_PANDAS
+        raise SeriesError(file, problem, remedy)
+    if flags := [place for place, name in enumerate(names) if name == "type"]:
+        flag = flags[pair.flag % len(flags)]
+        if any(words[flag].strip() for _, words in table):
+            kept = ("P", "p") if predicted else ("I", "f", "O")  # "P", "prediction"; "I", "final"
+            table = [row for row in table if row[1][flag].startswith(kept)]
+    if layout.split is _cells:  # dates without values
+        table = [row for row in table if row[1][names.index(x)] or row[1][names.index(y)]]
+    wanted = [name for name in (*_DATE, *coordinates) if name in names]
+    places, values = [names.index(name) for name in wanted], []
+    for at, words in table:
+        if layout.split is _CELLS and len(words[places[-1]]) < _ENDS[-1] - _BEGINS[-1]:
+            raise SeriesError(file, "it ends early", "is the file cut off?", at)
+        texts = [words[place].strip() or "nan" for place in places]
+        values.append((at, *columns.numbers(file, at, texts)))
+    cells = dict(zip(["line", *wanted], np.reshape(values, (-1, len(wanted) + 1)).T, strict=True))
+    in_mas = layout.name == "EOP2" or (pair is _POLE_OFFSETS and "finals" in layout.name)
+    unit = 1e-3 if in_mas else 1.0
+    line, mjd, missing = cells["line"], _dates(file, cells), np.full(len(table), np.nan)
+    rows = np.array([line, mjd, *(unit * cells.get(name, missing) for name in coordinates)]).T
+    if layout.name != "EOP2":
+        return rows
+    datum = re.search(rf"last {pair.datum}\D+([\d-]+)", " ".join(layout.lines[:_HEAD]), re.I)
+    if datum is None:
+        problem = f"its header does not name the last observed {pair.words}"
+        raise SeriesError(file, problem, "take a file with its header")
+    return rows[mjd <= (np.datetime64(datum[1]) - _MJD_0) / np.timedelta64(1, "D")]
+
+
+def _dates(file: Path, cells: dict[str, FloatArray]) -> FloatArray:
+    """Modified Julian dates of rows; refuse those that differ from the calendar date."""
+    line, year = cells["line"].astype(int), cells.get("year")
+    if "mjd" not in cells and year is not None:
+        outside = (year < 1800) | (year > 2200)
+        if outside.any():
+            remedy = "it lies in 1800 to 2200; a table by MJD has 29 columns"
+            raise SeriesError(file, f"the year is {year[outside][0]:g}", remedy, line[outside][0])
+        # Besselian years, accurate to the 1 mas resolution of this table.
+        return np.asarray(15019.81352 + (year - 1900.0) * 365.242198781)
+    mjd = cells["mjd"]
+    if year is not None and {"month", "day"} <= {*cells}:
+        # Two-digit years: 73 is 1973, and 72 is 2072.
+        year = np.where(year < 100, year + 1900 + 100 * (year < 73), year)
+        date = (year, cells["month"], cells["day"], cells.get("hour", mjd % 1 * 24))
+        for at, day, *calendar in zip(line, mjd, *date, strict=True):
+            columns.check_calendar(file, at, calendar, day)
+    return mjd
 
 
 # --- what can be wrong ---------------------------------------------------------------------------
 
 
-def _drop_missing(file: Path, rows: list[_Row], text: list[int], repairs: list[str]) -> list[_Row]:
+def _refuse(file: object, rows: FloatArray, wrong: BoolArray, problem: str, remedy: str) -> None:
+    """Refuse the first of the rows that are wrong, with its values in the text of the problem."""
+    if wrong.any():
+        row = dict(zip(_COLUMNS, rows[np.argmax(wrong)], strict=False))
+        raise SeriesError(file, problem.format(**row), remedy, int(row["line"]))
+
+
+def _complete(file: object, rows: FloatArray, text: list[int], repairs: list[str]) -> FloatArray:
     """Remove rows without pole coordinates, and add a note of their number to the repairs.
 
     Lines of text between rows count as such rows.
     """
-    complete = [row for row in rows if all(map(math.isfinite, (row.mjd, *row.values[:2])))]
-    lost = sorted([*text, *({row.line for row in rows} - {row.line for row in complete})])
+    _refuse(file, rows, ~np.isfinite(rows[:, 1]), "the date is {mjd}", "give each row a date")
+    complete = rows[np.isfinite(rows[:, 2:4]).all(axis=1)]
+    lost = sorted([*text, *np.setdiff1d(rows[:, 0], complete[:, 0]).astype(int).tolist()])
     if lost:
         if len(lost) > max(1, LOST * (len(complete) + len(lost))):
             problem = f"{len(lost)} of {len(complete) + len(lost)} rows hold no numbers"
@@ -450,95 +520,83 @@ def _drop_missing(file: Path, rows: list[_Row], text: list[int], repairs: list[s
     return complete
 
 
-def _check_dates(file: Path, rows: list[_Row]) -> None:
-    for row in rows:
-        if not math.isfinite(row.mjd):
-            raise SeriesError(file, f"the date is {row.mjd}", "give each row a date", row.line)
-
-
-def _drop_zeros(rows: list[_Row], repairs: list[str]) -> list[_Row]:
+def _drop_zeros(rows: FloatArray, repairs: list[str]) -> FloatArray:
     """Remove the rows of zeros that a table holds before its first observation."""
-    first = next((i for i, row in enumerate(rows) if any(row.values[:2])), len(rows))
-    if first:
-        repairs.append(f"{first} rows of zeros at the start, before observations, left out")
-    return rows[first:]
+    observed = np.logical_or.accumulate(np.any(rows[:, 2:4] != 0, axis=1))
+    if not observed.all():
+        count = np.count_nonzero(~observed)
+        repairs.append(f"{count} rows of zeros at the start, before observations, left out")
+    return rows[observed]
 
 
-def _check_model(file: Path, rows: list[_Row]) -> None:
+def _check_model(file: object, rows: FloatArray) -> None:
     """Refuse offsets that differ from those of finals2000A, which astropy carries.
 
     The size alone tells no model: offsets from IAU 1980 stay below 20 mas until 1991, and the
     oldest of the others reach 9 mas.
     """
     known = read_pole_offsets("finals")
-    days, *values = np.array([(row.mjd, *row.values[:2]) for row in rows]).T
-    there = [np.interp(days, known.mjd, c / ARCSEC, np.nan, np.nan) for c in (known.x, known.y)]
-    distance = np.max(np.abs(np.subtract(values, there)), axis=0)
-    for row, apart in zip(rows, distance, strict=True):
-        if max(map(abs, row.values[:2])) > _LARGEST_ELSEWHERE and not apart <= _ANOTHER_MODEL:
-            problem = f"dX, dY = {row.values[0]:g}, {row.values[1]:g} arcsec"
-            raise SeriesError(file, problem, _NOT_IAU_1980, row.line)
-    common = distance[(days >= _TWO_TABLES) & np.isfinite(distance)]
+    there = [
+        np.interp(rows[:, 1], known.mjd, values / ARCSEC, np.nan, np.nan)
+        for values in (known.x, known.y)
+    ]
+    distance = np.max(abs(rows[:, 2:4].T - there), axis=0)
+    large = np.max(abs(rows[:, 2:4]), axis=1) > _LARGEST_ELSEWHERE
+    wrong = large & ~(distance <= _ANOTHER_MODEL)
+    _refuse(file, rows, wrong, "dX, dY = {x:g}, {y:g} arcsec", _NOT_IAU_1980)
+    common = distance[(rows[:, 1] >= _TWO_TABLES) & np.isfinite(distance)]
     if common.size and np.median(common) > _ANOTHER_MODEL:
         problem = f"dX, dY differ by {1000 * np.median(common):.1f} mas from finals2000A (median)"
         raise SeriesError(file, problem, _NOT_IAU_1980)
 
 
-def _check_size(file: Path, rows: list[_Row], pair: _Coordinates, kind: str) -> None:
-    for row in rows:
-        x, y, *errors = row.values
-        if max(abs(x), abs(y)) > pair.largest:
-            remedy = f"{pair.name} stays below {pair.largest / 2:g}; is it in milliarcseconds?"
-            if pair is _POLE_OFFSETS:
-                is_optical = kind == "c01" and row.mjd < _AFTER_OPTICAL
-                remedy = _NO_OPTICAL if is_optical else _NOT_IAU_1980
-            raise SeriesError(file, f"{pair.words} = {x:g}, {y:g} arcsec", remedy, row.line)
-        if min(errors) < 0:
-            problem = f"errors of {pair.words} = {errors[0]:g}, {errors[1]:g} arcsec"
-            raise SeriesError(file, problem, "errors are not negative; is a column lost?", row.line)
-    farthest = max(rows, key=lambda row: math.hypot(*row.values[:2]))
-    if 0 < math.hypot(*farthest.values[:2]) < pair.smallest:
-        x, y, *_ = farthest.values
-        problem = f"{pair.words} = {x:g}, {y:g} arcsec, and no more elsewhere"
+def _check_size(file: object, rows: FloatArray, pair: _Coordinates, name: str) -> None:
+    """Refuse coordinates in another unit or from another model, and negative errors."""
+    values, size = f"{pair.words} = {{x:g}}, {{y:g}} arcsec", np.hypot(rows[:, 2], rows[:, 3])
+    large = np.max(abs(rows[:, 2:4]), axis=1) > pair.largest
+    remedy = f"{pair.name} stays below {pair.largest / 2:g}; is it in milliarcseconds?"
+    if pair is _POLE_OFFSETS and large.any():
+        optical = name == "c01" and rows[large][0, 1] < _AFTER_OPTICAL
+        remedy = _NO_OPTICAL if optical else _NOT_IAU_1980
+    _refuse(file, rows, large, values, remedy)
+    problem = f"errors of {pair.words} = {{x_error:g}}, {{y_error:g}} arcsec"
+    remedy = "errors are not negative; is a column lost?"
+    _refuse(file, rows, np.any(rows[:, 4:] < 0, axis=1), problem, remedy)
+    if 0 < size.max() < pair.smallest:
         remedy = f"the pole moves farther than {pair.smallest:g} arcsec; is it in radians?"
-        raise SeriesError(file, problem, remedy, farthest.line)
+        _refuse(file, rows, size == size.max(), f"{values}, and no more elsewhere", remedy)
 
 
-def _check_jumps(file: Path, rows: list[_Row], pair: _Coordinates) -> None:
+def _check_jumps(file: object, rows: FloatArray, pair: _Coordinates) -> None:
     """Refuse a jump of the pole that is too large for its usual motion and the stated errors."""
-    for last, row in pairwise(rows):
-        x, y = (abs(a - b) for a, b in zip(row.values[:2], last.values[:2], strict=True))
-        days = row.mjd - last.mjd
-        scatter = sum(error for error in (*last.values[2:], *row.values[2:]) if error > 0)
-        if max(x, y) > pair.jump + pair.fastest * days + 3 * scatter:
-            problem = f"the pole jumps by {x:.3g}, {y:.3g} arcsec in {days:.4g} d"
-            remedy = f"it moves by less than {pair.fastest:g} arcsec a day; is a digit wrong?"
-            raise SeriesError(file, problem, remedy, row.line)
+    step, error = abs(np.diff(rows, axis=0)), np.nansum(rows[:, 4:], axis=1)
+    limit = pair.jump + pair.fastest * step[:, 1] + 3 * (error[1:] + error[:-1])
+    wrong = np.max(step[:, 2:4], axis=1) > limit
+    step[:, 0] = rows[1:, 0]
+    problem = "the pole jumps by {x:.3g}, {y:.3g} arcsec in {mjd:.4g} d"
+    remedy = f"it moves by less than {pair.fastest:g} arcsec a day; is a digit wrong?"
+    _refuse(file, step, wrong, problem, remedy)
 
 
-def _in_order(file: Path, rows: list[_Row], repairs: list[str]) -> list[_Row]:
+def _in_order(file: object, rows: FloatArray, repairs: list[str]) -> FloatArray:
     """Sort rows by date; remove repeated rows, and refuse different rows with the same date."""
-    ordered = sorted(rows, key=lambda row: row.mjd)
-    if ordered != rows:
+    order = np.argsort(rows[:, 1], kind="stable")
+    if np.any(np.diff(order) < 0):
         repairs.append("rows sorted by date")
-    unique = ordered[:1]
-    for row in ordered[1:]:
-        if row.mjd > unique[-1].mjd + 1e-6:
-            unique.append(row)
-        elif row.values != unique[-1].values:
-            problem = (
-                f"MJD {row.mjd:.2f} stands twice, in line {unique[-1].line} with other numbers"
-            )
-            raise SeriesError(file, problem, "keep one of them", row.line)
-    if len(unique) < len(ordered):
-        repairs.append(f"{len(ordered) - len(unique)} repeated rows left out")
-    return unique
+    ordered = rows[order]
+    step = np.diff(ordered, axis=0)
+    repeated = step[:, 1] <= 1e-6
+    other = repeated & np.any(np.nan_to_num(step[:, 2:]) != 0, axis=1)
+    problem = "MJD {mjd:.2f} stands twice, with different numbers"
+    _refuse(file, ordered[1:], other, problem, "keep one of the two rows")
+    if repeated.any():
+        repairs.append(f"{np.count_nonzero(repeated)} repeated rows left out")
+    return np.asarray(ordered[np.append(True, ~repeated)])
 
 
-def _even(file: Path, rows: list[_Row], kind: str, repairs: list[str]) -> PoleSeries:
+def _even(file: object, rows: FloatArray, name: str, repairs: list[str]) -> PoleSeries:
     """Interpolate the rows to an even time step, the median of the steps; refuse long gaps."""
-    mjd = np.array([row.mjd for row in rows])
-    values = np.array([row.values for row in rows]) * ARCSEC
+    mjd, values = rows[:, 1], rows[:, 2:] * ARCSEC
     steps = np.diff(mjd)
     usual = float(np.median(steps))
     longest = int(np.argmax(steps))
@@ -546,7 +604,7 @@ def _even(file: Path, rows: list[_Row], kind: str, repairs: list[str]) -> PoleSe
     if steps[longest] > bridge:
         problem = f"a gap of {steps[longest]:.1f} d follows MJD {mjd[longest]:.2f}"
         remedy = f"gaps up to {bridge:.0f} d are bridged; take a span on one side of it"
-        raise SeriesError(file, problem, remedy, rows[longest].line)
+        raise SeriesError(file, problem, remedy, int(rows[longest, 0]))
     # Dates are rounded: the mean of all steps is more accurate than a single step.
     count = round((mjd[-1] - mjd[0]) / usual)
     whole = int(np.sum(np.round(steps / usual)))
@@ -561,9 +619,9 @@ def _even(file: Path, rows: list[_Row], kind: str, repairs: list[str]) -> PoleSe
         )
         values = np.column_stack([np.interp(even, mjd, column) for column in values.T])
     x, y, x_error, y_error = values.T
-    return PoleSeries(even, x, y, x_error, y_error, kind, "; ".join(repairs))
+    return PoleSeries(even, x, y, x_error, y_error, name, "; ".join(repairs))
 
 
 def day_of(mjd: float) -> str:
     """Calendar date, as text like ``"1962-01-01"``, of a modified Julian date."""
-    return str(np.datetime64("1858-11-17") + np.timedelta64(int(mjd // 1), "D"))
+    return str(_MJD_0 + np.timedelta64(int(mjd // 1), "D"))

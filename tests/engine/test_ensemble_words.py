@@ -17,7 +17,7 @@ import earthspin
 from earthspin import EarthspinError, OutputError, SceneError
 from earthspin.engine.ensemble import LARGEST_NUMBER_OF_RUNS, ROW, Ensemble
 from earthspin.scenes import QUESTIONS, VersionWarning
-from earthspin.sky.eop import c04_path
+from earthspin.sky.eop import file_of
 from earthspin.sky.ephemeris import open_ephemeris
 from earthspin.sky.orbit_table import shipped
 from tests.engine.test_ensemble import asked, differ
@@ -193,7 +193,7 @@ def test_answers_know_the_tables_that_they_were_read_from(orbits: Path) -> None:
     from_frame = earthspin.read_orbit(pd.read_csv(ROUND, sep=" "))
     assert "orbit_sha256" not in earthspin.run(long_term(orbit=from_frame)).attrs
     pole = earthspin.polar_motion(span=("2000-01-01", "2001-01-01"))
-    assert pole.attrs["table_sha256"] == hashlib.sha256(c04_path().read_bytes()).hexdigest()
+    assert pole.attrs["table_sha256"] == hashlib.sha256(file_of("c04").read_bytes()).hexdigest()
 
 
 # --- other questions -----------------------------------------------------------------------------

@@ -6,6 +6,7 @@ from typing import Any
 
 import astropy.units as u
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 from astropy.coordinates import AltAz, EarthLocation, SkyCoord
@@ -14,6 +15,7 @@ from astropy.utils import iers
 from scipy.stats import binomtest
 
 import earthspin
+from earthspin import dates
 from earthspin.constants import ARCSEC, MAS
 from earthspin.sky import eop
 from earthspin.views import observed_pole as views
@@ -25,7 +27,7 @@ ORIGIN = "2018-06-01"
 @pytest.fixture(scope="module")
 def lines() -> list[str]:
     """Lines of C04."""
-    return eop.c04_path().read_text(encoding="ascii").splitlines()
+    return eop.file_of("c04").read_text(encoding="ascii").splitlines()
 
 
 @pytest.fixture(scope="module")
@@ -69,7 +71,7 @@ def test_rows_after_the_origin_change_no_bit(
 
 
 def test_predicted_rows_are_never_used(tmp_path: Path) -> None:
-    lines = eop.finals_path().read_text(encoding="ascii").splitlines()
+    lines = eop.file_of("finals").read_text(encoding="ascii").splitlines()
     observed = [line for line in lines if line[16:17] == "I"]
     file = tmp_path / "finals.txt"
     file.write_text("\n".join(observed) + "\n", encoding="ascii")
@@ -83,7 +85,7 @@ def test_predicted_rows_are_never_used(tmp_path: Path) -> None:
 
 def test_only_the_newest_row_of_finals_is_corrected(tmp_path: Path) -> None:
     """Without other rows the newest one is y - 0.065 mas; an origin inside the table is not."""
-    lines = eop.finals_path().read_text(encoding="ascii").splitlines()
+    lines = eop.file_of("finals").read_text(encoding="ascii").splitlines()
     observed = [line for line in lines if line[16:17] == "I"]
     file = tmp_path / "finals.txt"
     file.write_text("\n".join(observed[:-1]) + "\n", encoding="ascii")
@@ -170,6 +172,48 @@ def test_steps_are_rows_of_the_daily_forecast(ahead: xr.Dataset) -> None:
     assert np.array_equal(weekly.time, ahead.time[6::7])
 
 
+def test_days_count_from_a_start(ahead: xr.Dataset) -> None:
+    later = earthspin.forecast(30, origin=ORIGIN, file="c04", start="2018-07-01T15:00")
+    assert later.time.values[0] == np.datetime64("2018-07-02")
+    same = ahead.sel(time=later.time)
+    for name in ahead.data_vars:
+        assert np.array_equal(same[name], later[name])
+
+
+def test_the_age_of_a_table_and_a_stored_today(monkeypatch: pytest.MonkeyPatch) -> None:
+    newest = eop.read_polar_motion("finals").mjd[-1] - eop.MJD
+    monkeypatch.setattr("earthspin.questions.forecast.today", lambda: newest + 40)
+    answer = earthspin.forecast(5, start="today")
+    assert answer.time.values[0] == dates.datetime64(newest + 41)
+    for word in ("40 d", "pip install --upgrade astropy-iers-data"):
+        assert word in answer.time.attrs["comment"]
+    assert f'start = "{dates.date_text(newest + 40)}"' in answer.attrs["scene"]
+    monkeypatch.setattr("earthspin.questions.forecast.today", lambda: newest + 50)
+    xr.testing.assert_identical(earthspin.run(answer), answer)
+    assert "50 d" in earthspin.forecast(5).time.attrs["comment"]
+    assert "pip" not in earthspin.forecast(5, origin=ORIGIN).time.attrs["comment"]
+
+
+def test_a_forecast_from_the_csv_of_the_iers(tmp_path: Path) -> None:
+    tables = {"final": eop.read_polar_motion("finals"), "prediction": eop.read_bulletin_a()}
+    rows = [
+        pd.DataFrame({"MJD": t.mjd, "Type": word, "x_pole": t.x, "y_pole": t.y}).assign(
+            sigma_x_pole=t.x_error, sigma_y_pole=t.y_error
+        )
+        for word, t in tables.items()
+    ]
+    table = pd.concat(rows).set_index(["MJD", "Type"]) / ARCSEC
+    table.round(6).to_csv(tmp_path / "finals2000A.all.csv", sep=";")
+    sections = ["bulletin_a"]
+    scene = earthspin.load_scene("forecast", {"days": 30})
+    plain = earthspin.run_tree(scene, sections)
+    tree = earthspin.run_tree(scene.replace(file=tmp_path / "finals2000A.all.csv"), sections)
+    assert np.allclose(tree.x, plain.x, rtol=0, atol=1e-12)
+    assert np.allclose(tree.y_error, plain.y_error, rtol=0, atol=1e-12)
+    other = tree["bulletin_a"].bulletin_a_y
+    assert np.allclose(other, plain["bulletin_a"].bulletin_a_y, rtol=0, atol=1e-12)
+
+
 def test_components_add_up_to_the_pole() -> None:
     """After the innovations' extrapolation the parts differ from the pole by rounding."""
     tree = earthspin.run_tree(earthspin.load_scene("forecast", {"origin": ORIGIN, "file": "c04"}))
@@ -186,7 +230,7 @@ def test_bulletin_a_is_that_of_astropys_reader() -> None:
 
     tree = earthspin.run_tree(earthspin.load_scene("forecast", {"days": "60 d"}))
     bulletin = tree["bulletin_a"].to_dataset()
-    table = IERS_A.open(str(eop.finals_path()))
+    table = IERS_A.open(str(eop.file_of("finals")))
     mjd = (bulletin.time.values - np.datetime64("1858-11-17")) / np.timedelta64(1, "D")
     rows = np.searchsorted(table["MJD"].value, mjd)
     assert set(table["PolPMFlag_A"][rows]) == {"P"}
@@ -201,6 +245,8 @@ def test_bulletin_a_is_that_of_astropys_reader() -> None:
         ({"origin": "1950-01-01"}, "1962-01-01"),
         ({"origin": "2100-01-01"}, "choose a day inside"),
         ({"days": 731}, "730"),
+        ({"origin": ORIGIN, "start": "2018-05-31"}, "start then or later"),
+        ({"origin": ORIGIN, "start": "2020-05-01", "days": 60}, "730 d after"),
         ({"days": 0}, "0"),
         ({"step": "6 h"}, "whole days"),
         ({"step": "40 d", "days": 30}, "whole days"),
@@ -217,7 +263,7 @@ def test_gaps_are_refused(lines: list[str], tmp_path: Path) -> None:
     end = number_of_row(lines, ORIGIN)
     file = tmp_path / "pole.txt"
     file.write_text("\n".join([*lines[: end - 90], *lines[end - 88 : end]]), encoding="ascii")
-    with pytest.raises(earthspin.EarthspinError, match="every day"):
+    with pytest.raises(earthspin.EarthspinError, match="each day"):
         earthspin.forecast(30, file=str(file))
     seen = earthspin.polar_motion(span=("2000-01-01", ORIGIN))
     with pytest.raises(earthspin.EarthspinError, match="each day"):
@@ -270,7 +316,7 @@ def rapid() -> xr.Dataset:
 def test_a_telescope_with_the_forecast_pole(rapid: xr.Dataset) -> None:
     """Directions turn by the angle between the poles; stars all around show nearly all of it."""
     table = rapid.earthspin.to_iers_table()
-    plain = iers.IERS_A.read(str(eop.finals_path()))
+    plain = iers.IERS_A.read(str(eop.file_of("finals")))
     stars = SkyCoord(np.arange(0, 360, 20) * u.deg, 20 * u.deg)
     site = EarthLocation(lon=-70 * u.deg, lat=-24 * u.deg)
     later = Time(rapid.time.values[60].astype(str))

@@ -1,9 +1,12 @@
 """Tables of polar motion and of excitation: read whole, or refused by line."""
 
+import gzip
+import re
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import earthspin
@@ -16,7 +19,7 @@ from tests.reference import simulation
 @pytest.fixture(scope="module")
 def lines() -> list[str]:
     """Head and four hundred days of C04."""
-    return eop.c04_path().read_text().splitlines()[:406]
+    return eop.file_of("c04").read_text().splitlines()[:406]
 
 
 @pytest.fixture
@@ -41,7 +44,7 @@ def test_c04_against_astropys_own_reader() -> None:
 
 
 def test_finals_against_c04() -> None:
-    finals = eop.read_polar_motion(eop.c04_path().with_name("finals2000A.all"))
+    finals = eop.read_polar_motion(eop.file_of("c04").with_name("finals2000A.all"))
     assert finals.name == "finals2000A"
     c04 = eop.read_polar_motion().between(55000, 60000)
     late = finals.between(55000, 60000)
@@ -163,7 +166,7 @@ def test_the_older_layout_of_c04(file: Path) -> None:
 
 
 def test_finals_with_another_calendar(file: Path) -> None:
-    rows = eop.c04_path().with_name("finals2000A.all").read_text().splitlines()[:400]
+    rows = eop.file_of("c04").with_name("finals2000A.all").read_text().splitlines()[:400]
     file.write_text("\n".join(rows))
     assert eop.read_polar_motion(file, "finals2000A").mjd[0] == 41684
     file.write_text("\n".join([*rows[:99], "73 4 1" + rows[99][6:], *rows[100:]]))
@@ -299,3 +302,129 @@ def test_missing_files_and_kinds(file: Path) -> None:
         eop.read_polar_motion(kind="c05")
     with pytest.raises(SeriesError, match="choose a span inside it"):
         earthspin.polar_motion(span=("1900-01-01", "1950-01-01"))
+
+
+#: Header of the CSV of the IERS data centre since November 2023. Before, it had no rates; in the
+#: oldest files X and Y stand for x_pole and y_pole. Each Type is that of the columns after it.
+CENTRE = (
+    "MJD;Year;Month;Day;Type;x_pole;sigma_x_pole;y_pole;sigma_y_pole;x_rate;sigma_x_rate;y_rate;"
+    "sigma_y_rate;Type;UT1-UTC;sigma_UT1-UTC;LOD;sigma_LOD;Type;dPsi;sigma_dPsi;dEpsilon;"
+    "sigma_dEpsilon;dX;sigma_dX;dY;sigma_dY"
+)
+FINALS = CENTRE + ";Type;bulB/x_pole;bulB/y_pole;Type;bulB/UT-UTC;Type;bulB/dX;bulB/dY"
+WITHOUT_RATES = FINALS.replace("x_rate;sigma_x_rate;y_rate;sigma_y_rate;", "")
+OLDEST = WITHOUT_RATES.replace("x_pole", "X").replace("y_pole", "Y")
+CELESTRAK = "DATE,MJD,X,Y,UT1-UTC,LOD,DPSI,DEPS,DX,DY,DAT,DATA_TYPE"
+DATES = [f"2025-11-{21 + day}" for day in range(4)]
+EOP2 = (
+    f" $  Last UTPM Data Point   {DATES[2]}T00:00:00 UTC\n $  UTPM Predicts to  2026-02-01\n"
+    f" $  Last DX,DY Data Point  {DATES[1]}T00:00:00 UTC\n EOP2TYP='EOP2'\n EOP2=\n"
+)
+
+
+def in_layout(header: str, observed: str, predicted: str, unit: float) -> str:
+    """Four days, of which x, y were observed on three, and dX, dY (0.1, -0.2 mas) on two."""
+    lines = [header]
+    for day, date in enumerate(DATES):
+        pole, offsets = (observed if day < last else predicted for last in (3, 2))
+        types = iter([pole, pole, offsets, "", "", ""])
+        values = {"mjd": 61000 + day, "date": date, "year": 2025, "month": 11, "day": 21 + day}
+        values |= {"x": 0.1 + 0.001 * day, "y": 0.3, "sigma_x": 0.01, "sigma_y": 0.02}
+        values |= {"dx": 1e-4 * unit, "dy": -2e-4 * unit, "data_type": pole}
+        values |= {"sigma_dx": 3e-4 * unit, "sigma_dy": 4e-4 * unit}
+        cells = [
+            next(types) if name == "Type" else values.get(name.lower().replace("_pole", ""), "")
+            for name in re.split("[;,]", header)
+        ]
+        lines.append((";" if ";" in header else ",").join(map(str, cells)))
+    return "\r\n".join(lines)
+
+
+PUBLISHED = {
+    "finals2000A.csv": (in_layout(FINALS, "final", "prediction", 1e3), 3, 2),
+    "finals2000A.csv without rates": (in_layout(WITHOUT_RATES, "final", "prediction", 1e3), 3, 2),
+    "finals2000A.csv with X and Y": (in_layout(OLDEST, "final", "prediction", 1e3), 3, 2),
+    "c04.csv": (in_layout(CENTRE, "", "", 1.0), 4, 4),
+    "EOP-All.csv": (in_layout(CELESTRAK, "O", "P", 1.0), 3, 3),
+    "EOP2": (
+        EOP2
+        + "\n".join(
+            f" {61000 + day}.0, {100.0 + day}, 300.0, 36944.1, 10.0, 20.0, 0.1, 0.0, 0.0, 0.0, "
+            f"0.1, -0.2, 0.3, 0.4, 0.0, $ {date}"
+            for day, date in enumerate(DATES)
+        ),
+        3,
+        2,
+    ),
+}
+
+
+@pytest.mark.parametrize("layout", PUBLISHED)
+def test_published_layouts_by_name_of_column(file: Path, layout: str) -> None:
+    text, days, offset_days = PUBLISHED[layout]
+    file.write_bytes(gzip.compress(text.encode()))
+    pole, offsets = eop.read_polar_motion(file), eop.read_pole_offsets(file)
+    assert pole.name == layout.split()[0]
+    assert np.array_equal(pole.mjd, 61000 + np.arange(days))
+    assert np.array_equal(offsets.mjd, 61000 + np.arange(offset_days))
+    errors = [np.nan] * 2 if layout == "EOP-All.csv" else [0.01, 0.02]
+    seen = [column[2] / ARCSEC for column in (pole.x, pole.y, pole.x_error, pole.y_error)]
+    assert np.allclose(seen, [0.102, 0.3, *errors], rtol=1e-12, atol=0, equal_nan=True)
+    errors = [np.nan] * 2 if layout == "EOP-All.csv" else [0.3, 0.4]
+    seen = [c[1] / MAS for c in (offsets.x, offsets.y, offsets.x_error, offsets.y_error)]
+    assert np.allclose(seen, [0.1, -0.2, *errors], rtol=1e-12, atol=0, equal_nan=True)
+    assert earthspin.pole_offsets(file=file).dX_error.isnull().all() == (layout == "EOP-All.csv")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (" I E R S  B U L L E T I N - A\n 5 September\n 26 9 5 61288 0.1\n", "finals2000A.all"),
+        ("year,pole\n2000.0,0.1\n", "pandas table"),
+        ("0 0 0 0 0 0\n1 1 1 1 1 1\n", "name its kind.* pandas table"),
+        (PUBLISHED["EOP2"][0].replace("Last UTPM", ""), "header"),
+        (PUBLISHED["c04.csv"][0].rsplit(";", 1)[0], "line 5: 26 columns; 27"),
+        ("MJD,x\n61000,0.1\n61001,0.1\n", "no x, y"),
+    ],
+)
+def test_other_tables_are_refused_with_a_remedy(file: Path, text: str, words: str) -> None:
+    file.write_text(text)
+    with pytest.raises(SeriesError, match=words) as error:
+        earthspin.polar_motion(file=file)
+    assert ("name its kind" in str(error.value)) == ("kind" in words)
+
+
+def test_a_bad_archive_is_refused(file: Path) -> None:
+    file.write_bytes(gzip.compress(b"1" * 1000)[:-9])
+    with pytest.raises(SeriesError, match="cannot be read"):
+        eop.read_polar_motion(file)
+
+
+@pytest.mark.parametrize("dates", ["index", "mjd", "zone"])
+def test_a_pandas_table_with_units(dates: str) -> None:
+    """As the Dataset of the same numbers, in questions and in calls on labelled data."""
+    seen = earthspin.polar_motion(span=("1999-01-01", "2016-01-01"))
+    table = (1e3 * seen[["x", "y", "x_error", "y_error"]]).to_dataframe()
+    if dates == "mjd":
+        table.index = pd.Index(eop.read_polar_motion().between(51179, 57388).mjd, name="MJD")
+    elif dates == "zone":
+        table.index = table.index.tz_localize("UTC")
+    with pytest.raises(earthspin.EarthspinError, match=r"attrs\['units'\]"):
+        earthspin.polar_motion(file=table)
+    table.attrs["units"] = "mas"
+    again = earthspin.polar_motion(file=table)
+    for name in ("x", "y", "x_error", "y_error"):
+        assert np.allclose(again[name], seen[name], rtol=0, atol=1e-12)
+    assert np.array_equal(again.time, seen.time)
+    assert earthspin.run(again).equals(again)
+    assert float(earthspin.forecast(30, file=table).x[-1]) == pytest.approx(
+        float(earthspin.forecast(30, file=seen).x[-1]), abs=1e-12
+    )
+    assert float(earthspin.fit_chandler(table).chandler_period) == pytest.approx(
+        float(earthspin.fit_chandler(seen).chandler_period), abs=1e-6
+    )
+    table.loc[table.index[50], "x"] += 900
+    with pytest.raises(SeriesError, match="jumps"):
+        earthspin.polar_motion(file=table)
+    with pytest.raises(earthspin.EarthspinError, match="column 'MJD'"):
+        earthspin.polar_motion(file=table.reset_index(drop=True))

@@ -31,7 +31,7 @@ def test_c04_against_astropys_own_reader() -> None:
 
 def test_finals_by_its_documented_columns() -> None:
     """ReadMe.finals2000A: flag in column 96, dX in 98-106, error 107-115, dY 117-125, 126-134."""
-    lines = eop.finals_path().read_text().splitlines()
+    lines = eop.file_of("finals").read_text().splitlines()
     rows = [line for line in lines if line[95:96] == "I"]
     series = eop.read_pole_offsets("finals")
     assert series.name == "finals2000A"
@@ -47,7 +47,7 @@ def test_finals_by_its_documented_columns() -> None:
 
 def test_what_is_predicted_is_left_out() -> None:
     """The flag of dX, dY ends before that of x, y, and both before the predictions do."""
-    lines = eop.finals_path().read_text().splitlines()
+    lines = eop.file_of("finals").read_text().splitlines()
     offsets, pole = eop.read_pole_offsets("finals"), eop.read_polar_motion("finals")
     flagged = [float(line[7:15]) for line in lines if line[95:96] == "P"]
     assert not np.isin(offsets.mjd, flagged).any()
@@ -57,7 +57,7 @@ def test_what_is_predicted_is_left_out() -> None:
 
 
 def test_a_row_that_loses_its_flag_is_no_observation(tmp_path: Path) -> None:
-    lines = [line for line in eop.finals_path().read_text().splitlines() if line[95:96] == "I"]
+    lines = [line for line in eop.file_of("finals").read_text().splitlines() if line[95:96] == "I"]
     rows = lines[5000:5100]
     rows[-1] = f"{rows[-1][:95]}P{rows[-1][96:]}"
     file = tmp_path / "finals.txt"
@@ -74,7 +74,7 @@ def test_the_two_tables_agree() -> None:
 
 
 def test_offsets_from_an_older_model_are_refused(tmp_path: Path) -> None:
-    rows = eop.c04_path().read_text().splitlines()[-60:]
+    rows = eop.file_of("c04").read_text().splitlines()[-60:]
     old = [f"{row[:62]}   -0.110000{row[74:]}" for row in rows]
     assert old[0].split()[8] == "-0.110000"
     file = tmp_path / "old.txt"
@@ -139,7 +139,7 @@ def test_small_offsets_from_iau_1980_are_refused(tmp_path: Path) -> None:
 
 def test_finals_all_before_august_1992_is_refused(tmp_path: Path) -> None:
     """The rows of finals2000A with the offsets of finals.all in the same columns, mas."""
-    rows = [line for line in eop.finals_path().read_text().splitlines() if line[95:96] == "I"]
+    rows = [line for line in eop.file_of("finals").read_text().splitlines() if line[95:96] == "I"]
     rows = [line for line in rows if float(line[7:15]) < 48835]
     (tmp_path / "new").write_text("\n".join(rows))
     assert eop.read_pole_offsets(tmp_path / "new").mjd.size == len(rows)
@@ -204,7 +204,7 @@ def test_c01_by_year(tmp_path: Path) -> None:
     assert np.array(values) / MAS == pytest.approx([0.169, -0.209, 0.1, 0.1], rel=1e-12, abs=0)
     assert eop.read_polar_motion(file).y[1] == pytest.approx(0.490185 * ARCSEC, rel=1e-14, abs=0)
     file.write_text("1900.0 0.1 0.01 0.1 0.01\n1900.1 0.1 0.01 0.1 0.01\n")
-    with pytest.raises(SeriesError, match="by year of 5 columns holds no dX, dY; take one of 11"):
+    with pytest.raises(SeriesError, match="5 columns holds no dX, dY; take one of 11"):
         eop.read_pole_offsets(file, "c01")
 
 
