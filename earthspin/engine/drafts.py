@@ -21,7 +21,7 @@ from pathlib import Path
 
 from filelock import FileLock, Timeout
 
-from earthspin.errors import EarthspinError, OutputError, in_bytes, one_line
+from earthspin.errors import EarthspinError, OutputError, in_bytes, no_plain_file, one_line
 
 #: Names in the folder of a draft: the lock of its owner, and the old target.
 LOCK, _OLD = "owner", "old"
@@ -136,7 +136,8 @@ def prepared(path: str | Path) -> Path:
     Raises
     ------
     OutputError
-        If the folder cannot be written, or the target is a folder that is not a Zarr store.
+        If the folder cannot be written, or the target is a device, a pipe, or a folder that is not
+        a Zarr store.
     """
     check_writable(as_path(path).parent)
     with output_errors(path):
@@ -145,6 +146,8 @@ def prepared(path: str | Path) -> Path:
         zarr = (target / ".zgroup").exists() or (target / "zarr.json").exists()
         if target.is_dir() and not zarr:
             raise OutputError(path, "it is a folder, but not a Zarr store", "move it away")
+        if not target.is_dir() and (problem := no_plain_file(target)):
+            raise OutputError(path, problem, "choose another name")
         return target
 
 

@@ -60,8 +60,7 @@ class Forecast(
 ):
     """Forecast of polar motion with its 95 % half-widths.
 
-    Only observed rows up to the origin are used. The attributes of `time` give the age of the
-    newest one.
+    Only observed rows up to the origin are used. The attributes of `time` name the newest one.
 
     Returns
     -------
@@ -217,14 +216,12 @@ def ahead(
     kind = parameters or ("shipped" if excitation is None else "fitted")
     p, covariance = predicted.pole[output_days] * MAS, predicted.covariance[output_days] * MAS**2
     sx, sy = np.sqrt(covariance[:, 0, 0]), np.sqrt(covariance[:, 1, 1])
-    day = next(day for day in (start, origin, today()) if day is not None)
-    age = f"{np.floor(day + MJD) - record.mjd[-1]:.0f} d"
+    day = origin if start is None else start
     source = {
         "references": record.source,
         "comment": f"observations up to {newest}",
         "origin": newest if origin is None else date_text(origin),
         "newest_row": newest,
-        "age_of_newest_row": f"{age} on {date_text(day)}",
         "parameters": f"{kind}: {fast}",
     }
     if record.newest:
@@ -233,9 +230,10 @@ def ahead(
     if excitation is not None:
         first, last = map(date_text, excitation.rows[0, [0, -1]])
         source["excitation"] = f"given from {first} to {last}"
-    newer = f"; for newer rows: pip install --upgrade {TABLES}, or file"
-    comment = f"0h UTC; the newest observed day, {newest}, is {age} before {date_text(day)}{newer}"
-    time = {"comment": comment} if origin is None else {}
+    newer = f"for newer rows: pip install --upgrade {TABLES}, or give a file"
+    time = {"comment": f"0h UTC; {newer}", "newest_row": newest} if origin is None else {}
+    if day is not None:  # otherwise the age is that of the day on which an answer is printed
+        time["age_of_newest_row"] = f"{day + MJD - record.mjd[-1]:.0f} d on {date_text(day)}"
     return ForecastPole(
         time=datetime64(_times(record, output_days)),
         x=(p.real, NORMAL_95 * sx),

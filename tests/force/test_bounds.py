@@ -136,6 +136,13 @@ def test_devices_and_pipes_are_no_files(pipe: Path, tmp_path: Path) -> None:
             earthspin.load_scene(path)
 
 
+def test_a_result_replaces_no_pipe(pipe: Path) -> None:
+    """What is moved to the name of a pipe or a device would take its place."""
+    with pytest.raises(OutputError, match="a device or a pipe, not a file"):
+        earthspin.wobble_ladder().earthspin.to_csv(pipe)
+    assert pipe.is_fifo()
+
+
 # --- nonsense ------------------------------------------------------------------------------------
 
 

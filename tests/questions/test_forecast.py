@@ -1,6 +1,7 @@
 """Forecast of the pole: what it uses, what it refuses, and what was observed later."""
 
 import json
+from datetime import UTC, date, datetime
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ from earthspin import dates
 from earthspin.constants import ARCSEC, MAS
 from earthspin.sky import eop
 from earthspin.views import observed_pole as views
+from earthspin.views.reading import closing_line
 from earthspin.wobble.forecast import SKILL
 
 ORIGIN = "2018-06-01"
@@ -185,13 +187,14 @@ def test_the_age_of_a_table_and_a_stored_today(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr("earthspin.questions.forecast.today", lambda: newest + 40)
     answer = earthspin.forecast(5, start="today")
     assert answer.time.values[0] == dates.datetime64(newest + 41)
-    for word in ("40 d", "pip install --upgrade astropy-iers-data"):
-        assert word in answer.time.attrs["comment"]
+    assert "pip install --upgrade astropy-iers-data" in answer.time.attrs["comment"]
+    assert answer.time.attrs["age_of_newest_row"].startswith("40 d")
     assert f'start = "{dates.date_text(newest + 40)}"' in answer.attrs["scene"]
     monkeypatch.setattr("earthspin.questions.forecast.today", lambda: newest + 50)
     xr.testing.assert_identical(earthspin.run(answer), answer)
-    assert "50 d" in earthspin.forecast(5).time.attrs["comment"]
-    assert "pip" not in earthspin.forecast(5, origin=ORIGIN).time.attrs["comment"]
+    age = datetime.now(UTC).date() - date.fromisoformat(answer.time.attrs["newest_row"])
+    assert f"{age.days} d old" in closing_line(earthspin.forecast(5))
+    assert " d old" not in closing_line(earthspin.forecast(5, origin=ORIGIN))
 
 
 def test_a_forecast_from_the_csv_of_the_iers(tmp_path: Path) -> None:
