@@ -134,7 +134,7 @@ def _parser() -> ArgumentParser:
     add("--ephemeris", **kernel)
 
     add = command("play", _play, "write an interactive page").add_argument
-    add("what", choices=PAGES, help="topic of the page")
+    add("what", choices=PAGES, metavar="|".join(PAGES), help="topic of the page")
     add("--out", metavar="FILE", help="default: play-WHAT.html")
     add("--open", **opens)
 
@@ -256,7 +256,7 @@ def _run(options: Namespace) -> None:
         if data.suffix not in ("", ".nc", ".zarr", ".csv") and not data.is_dir():
             raise OutputError(data, "unknown suffix", "give a folder, or a .nc, .zarr or .csv file")
         if data.suffix == ".csv" and sections is not None:
-            raise SceneError("--sections", options.sections, "a .csv file has the answer alone")
+            raise SceneError("--sections", options.sections, "not in a .csv: give a folder or .nc")
         long = data if data.suffix == ".zarr" else data / f"{name}.zarr"
         if data.suffix not in (".nc", ".zarr", ".csv"):
             data, page = data / f"{name}.nc", data / f"{name}.html"

@@ -485,7 +485,7 @@ class Whole(_AsItIs):
 
     @property
     def words(self) -> str:
-        """Text for error messages: the smallest allowed whole number."""
+        """Allowed whole numbers in words, for error messages."""
         return f"a whole number, {self.low} or more{self.others}"
 
     def read(self, value: object, where: Where) -> int:

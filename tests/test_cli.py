@@ -74,6 +74,21 @@ def test_play_writes_a_page(what: str, capsys: pytest.CaptureFixture[str], tmp_p
     assert set(PAGES) == set(PLAYS)
 
 
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["play"], PAGES),
+        (["run", "precession", "--sections", "all", "--out", "p.csv"], ("folder", ".nc")),
+    ],
+)
+def test_refusals_name_what_is_allowed(
+    words: list[str], said: tuple[str, ...], capsys: pytest.CaptureFixture[str]
+) -> None:
+    status, _, err = run(capsys, *words)
+    assert status == 2
+    assert all(word in err for word in said)
+
+
 @pytest.mark.parametrize(("opens", "said"), [(True, ""), (False, "no browser could be opened")])
 def test_a_page_is_opened_when_asked(
     *,

@@ -269,7 +269,7 @@ class Satellite:
         return cls(**{key: kinds[key].read(entry, where.at(key)) for key, entry in value.items()})
 
     def write(self) -> Plain:
-        """Convert the satellite to a table of all numbers that are set, for scene files."""
+        """Convert the satellite to a table of the numbers that are given, for scene files."""
         values = {f.name: getattr(self, f.name) for f in fields(self)}
         return {n: _SATELLITE_KINDS[n].write(v) for n, v in values.items() if v not in (0.0, "")}
 

@@ -255,7 +255,7 @@ class Work(Protocol):
 
     @property
     def what(self) -> str:
-        """Name of the computed result, which the progress bar shows."""
+        """Name of what is computed, for the progress bar."""
 
     @property
     def layout(self) -> Layout:

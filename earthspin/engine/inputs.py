@@ -49,7 +49,7 @@ class Input(NamedTuple):
 
     @property
     def named(self) -> bool:
-        """Return True if the values of this input are names rather than numbers."""
+        """Return True if this input takes names, such as that of a model, instead of numbers."""
         return not self.field and self.element is None and by_name(self.kind)
 
 

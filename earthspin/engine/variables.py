@@ -424,12 +424,13 @@ class Neglected:
         return f"{known}; {unknown}" if unknown else known
 
     def dataset(self, effects: Sequence[str] = ()) -> xr.Dataset:
-        """Return the sizes as a Dataset along `effect`, with the largest effect first.
+        """Return the sizes as a Dataset along `effect`, the largest first if no order is given.
 
         Parameters
         ----------
         effects : sequence of str
-            Labels that the answer has along `effect`; included effects have size 0.
+            All labels that the answer has along `effect`, in their order. Those without a size in
+            `sizes` are effects that the answer includes; their size is 0, as nothing is neglected.
         """
         names = list(effects) or sorted(self.sizes, key=lambda effect: -abs(self.sizes[effect]))
         sizes = np.array([self.sizes.get(name, 0.0) for name in names]) * from_si(self.unit)

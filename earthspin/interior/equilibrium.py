@@ -121,7 +121,9 @@ class Regions:
 
 @dataclass(frozen=True)
 class Figure(Regions):
-    """Regions of a body in hydrostatic equilibrium.
+    """Regions of a body in hydrostatic equilibrium, with three numbers of the whole figure.
+
+    The other eight fields are those of `Regions`.
 
     Attributes
     ----------

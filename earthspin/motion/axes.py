@@ -61,9 +61,13 @@ class Segment:
         Legendre coefficients of the semidiurnal amplitudes; None for an axisymmetric body.
     turn : float
         Upper bound on the motion of the axis, rad.
-    tail, floor, left : float
-        Errors, rad: from torques between the nodes; from the slow manifold and the semidiurnal
-        amplitudes; from the unfinished iteration.
+    tail : float
+        Error from the torque between the nodes, estimated from the last coefficients, rad.
+    floor : float
+        Error of the slow manifold and of the semidiurnal amplitudes, which more nodes do not
+        reduce, rad.
+    left : float
+        Change of the axis that further Picard rounds would still make, rad.
     rounds : int
         Number of Picard rounds.
     """

@@ -127,9 +127,10 @@ class Pull:
     places : ndarray, shape (3, masses, n)
         Positions along the sky's axes, m.
     near : int
-        Number of masses, from the first, that act on J_n.
+        Number of near masses, which are the first in `gm` and `places`. Only they also act on the
+        zonal harmonics J_n of the body; the others are too far away.
     laws : sequence of callable
-        Contributions of effects.
+        Contributions of effects to the torque.
     """
 
     times: FloatArray
@@ -142,11 +143,14 @@ class Pull:
 class Equations:
     """Euler's equations in one time window, for angular momentum and an attitude quaternion.
 
-    Arrays of unknowns and of rates have the shape (7, lanes * n).
+    Several bodies under the same perturbers are integrated together; each is a *lane*. Arrays of
+    unknowns and of rates have the shape (7, lanes * n): the n times of the first body, then those
+    of the next.
 
     Parameters
     ----------
     body : Rigid
+        The bodies, one in each lane.
     pull : Pull
     in_space : bool
         True if the angular momentum is along the sky's axes, False if along the body's axes.

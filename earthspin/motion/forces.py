@@ -264,7 +264,10 @@ def equatorial_basis(figure: FloatArray) -> tuple[FloatArray, FloatArray]:
 def semidiurnal_amplitudes(
     windows: Windows, tensor: FloatArray, direction: FloatArray, tilt: FloatArray, figure: Figure
 ) -> ComplexArray:
-    """Complex amplitudes of the semidiurnal motion of a triaxial body's three axes.
+    """Complex amplitudes of the motion of a triaxial body's axes with a period of half a turn.
+
+    The torque on an elongated equator changes twice in each turn of the body. The axes are, in
+    this order, the angular momentum, the rotation axis and the figure axis.
 
     Parameters
     ----------

@@ -84,7 +84,7 @@ class AxisMotion(Series):
             raise self.error("effects", PLANETS.name, f"{problem}: {remedy}")
 
     def known_effects(self) -> tuple[str, ...]:
-        """Names of the effects that are known for this body, its perturbers and its kernel."""
+        """Names of the effects that can be computed for this body, its perturbers and kernel."""
         return self.rigid_effects()
 
     def rigid_effects(self) -> tuple[str, ...]:

@@ -182,7 +182,11 @@ class LongTerm(
 
     @property
     def unused(self) -> str:
-        """Motion of satellites that is left out: the rate includes them as they are at J2000.0."""
+        """What the answer leaves out of the satellites, in words; empty for a body without any.
+
+        The rate of precession includes them with the tilts of their orbits at J2000.0, which here
+        do not change.
+        """
         satellites = super().unused
         return f"the change of the tilts of {satellites}" if satellites else ""
 
@@ -234,7 +238,7 @@ def wanted(span: YearSpan, step: float, times: YearList | None) -> FloatArray:
 
 @part
 def stretch(sky: Sky) -> Stretch:
-    """Return the time span over which torques are averaged: all dates that the kernel covers."""
+    """Return the first and last day over which torques are averaged: all that the kernel covers."""
     return Stretch(*sky.coverage())
 
 

@@ -83,7 +83,11 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
             raise self.error("response", self.response, f"{why}; take 'fitted'")
 
     def known_effects(self) -> tuple[str, ...]:
-        """Add the response of the interior for the unchanged Earth under Sun and Moon."""
+        """Names of the effects that can be computed.
+
+        They are those on a rigid body, and for the unchanged Earth under Sun and Moon the response
+        of its interior.
+        """
         known = super().known_effects()
         usual = all(p.is_as_named and p.orbit is p.position is None for p in self.perturbers)
         if not usual or reasons.not_the_iaus_earth(self.body, self.perturbers):

@@ -167,9 +167,11 @@ class Swing:
 
 
 def swings(body: Body, pull: Numeric, obliquity: float) -> dict[str, Swing]:
-    """Nutations of a body by the nodes of its satellites, by name.
+    """Nutations of a body, by the name of the satellite whose turning orbit causes each.
 
-    Parameters are those of `carried`; of labelled arrays the means are used.
+    An orbit that is tilted to the Laplace plane turns, so its node goes round, and the torque on
+    the body changes with the period of the node. Parameters are those of `carried`; of arrays with
+    labels the means are used. Empty for a body without satellites.
     """
     if not body.satellites:
         return {}

@@ -521,7 +521,7 @@ def _complete(file: object, rows: FloatArray, text: list[int], repairs: list[str
 
 
 def _drop_zeros(rows: FloatArray, repairs: list[str]) -> FloatArray:
-    """Remove the rows of zeros that a table holds before its first observation."""
+    """Remove rows before the first observation, in which some tables hold zeros."""
     observed = np.logical_or.accumulate(np.any(rows[:, 2:4] != 0, axis=1))
     if not observed.all():
         count = np.count_nonzero(~observed)

@@ -476,7 +476,10 @@ def growth(day: float) -> float:
 
 
 def drift_is_measured(centre: int, target: int) -> bool:
-    """Return True if the error `DRIFT` of the axis motion was measured for a body and perturber."""
+    """Return True if `DRIFT` was measured for this pair of a body and its perturber (NAIF codes).
+
+    `DRIFT` is the error of the motion of the axis that is due to errors of the positions.
+    """
     pair = sorted((_barycentre(centre), _barycentre(target)))
     return (pair[0], pair[1]) in DRIFT_MEASURED
 

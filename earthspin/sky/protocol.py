@@ -36,9 +36,12 @@ class Trajectory(Protocol):
     """
 
     @property
-    def centre(self) -> int: ...  # noqa: D102
+    def centre(self) -> int:
+        """NAIF code of the reference body; 0 is the solar-system barycentre."""
+
     @property
-    def coverage(self) -> tuple[float, float]: ...  # noqa: D102
+    def coverage(self) -> tuple[float, float]:
+        """First and last day with positions, TDB from J2000.0; infinite if unlimited."""
 
     def positions(self, days: FloatArray, /) -> FloatArray:
         """Geometric positions of the body relative to its centre, in the ICRF, m, shape (n, 3).
@@ -67,7 +70,8 @@ class Source(Protocol):
     """
 
     @property
-    def name(self) -> str: ...  # noqa: D102
+    def name(self) -> str:
+        """Name in messages and results."""
 
     @property
     def provenance(self) -> dict[str, str]:

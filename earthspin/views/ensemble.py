@@ -42,7 +42,11 @@ class Number(NamedTuple):
 
 
 def tables(tree: Result) -> list[Table]:
-    """Tables of an ensemble: medians with half of the central 95 %, and shares of the variance."""
+    """Tables of an ensemble: medians of the members, and shares of the inputs in the variance.
+
+    The brackets behind a median hold half the width of the interval with the central 95 % of the
+    members. If no number differs among the members, the tables are those of the first.
+    """
     answer = _whole(tree)
     if not _numbers(answer):
         first, *others = tables_of(answer.isel({MEMBER: 0}), str(answer.attrs["title"]))

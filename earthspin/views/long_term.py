@@ -90,6 +90,8 @@ def _plot_curves(
     return rows[0]
 
 
+#: Seasons of the Earth from a true longitude of the Sun of 0, each 90 degrees later.
+_SEASONS = ("March equinox", "June solstice", "September equinox", "December solstice")
 #: Labels of the axes along which an insolation may be drawn, and words for one of their values.
 _AXES = {
     "latitude": ("latitude (deg)", "latitude {:g}°"),
@@ -97,6 +99,16 @@ _AXES = {
     "day": ("day of the year", "day {:g}"),
     "epoch": ("time from J2000.0 (1000 years)", "{:g} kyr"),
 }
+
+
+def _words(line: xr.Dataset, name: str) -> str:
+    """Latitude with its hemisphere, season of the Earth, or another value of a coordinate."""
+    value = line[name].item()
+    if name == "longitude" and value % 90 == 0 and line.attrs.get("body") == "earth":
+        return _SEASONS[int(value // 90) % 4]
+    if name == "latitude" and value:
+        return f"{abs(value):g}° {'N' if value > 0 else 'S'}"
+    return _AXES[name][1].format(value).replace("-", "−")
 
 
 def plot_insolation(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -120,8 +132,7 @@ def plot_insolation(result: Result, *, ax: Axes | None = None) -> Axes:
     constant = [name for name in _AXES if name in answer.coords and name != across]
 
     def place(line: xr.Dataset) -> str:
-        words = (_AXES[name][1].format(line[name].item()) for name in constant)
-        return ", ".join(words).replace("-", "−")
+        return ", ".join(_words(line, name) for name in constant)
 
     ax.set_xlabel(_AXES[across][0])
     if math.prod(size[name] for name in others) > len(drawing.CYCLE):

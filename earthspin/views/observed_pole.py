@@ -348,6 +348,7 @@ def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
         ax.set_ylabel(f"{name} (mas)")
         ax.legend(loc="best")
     panels[-1].set_xlabel("time (UTC)")
+    drawing.few_dates(panels[-1])
     return figure
 
 
@@ -366,8 +367,7 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
     answer = answer_of(result)
     x, y = answer.x.values * 1e3, answer.y.values * 1e3
     ax.plot(y, x, color=drawing.BLUE, lw=1.4)
-    ax.plot(y[0], x[0], "o", color=drawing.BLUE, ms=4)
-    note(ax, date(answer.time[0]), (y[0], x[0]), (-5, 4), color=drawing.BLUE, ha="right")
+    ax.plot(y[0], x[0], "o", color=drawing.BLUE, ms=4, label=date(answer.time[0]))
     days = (answer.time.values - np.datetime64(answer.x.attrs["origin"])) / np.timedelta64(1, "D")
     for day in ELLIPSES:
         near = np.flatnonzero(abs(days - day) < 0.5)
@@ -386,6 +386,7 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
         note(ax, f"{day} d", centre, (6, 5), color=drawing.RED, bbox=clear)
     ax.set(aspect="equal", ylabel="x, towards the prime meridian (mas)")
     ax.set_xlabel("y, towards 90° west (mas)")
+    ax.legend(loc="best")
     return ax
 
 

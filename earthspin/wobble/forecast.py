@@ -201,8 +201,9 @@ class FastExcitation:
 
     @property
     def free(self) -> FloatArray:
-        """Parameters of the fast excitation, transformed to unbounded values for an optimiser.
+        """The eight parameters, transformed so that an optimiser may give them any value.
 
+        Positive ones become their logarithms, and the correlation its inverse hyperbolic tangent.
         The white part must be greater than zero.
         """
         logs = np.log([self.first_decay, self.second_decay, self.x, self.y])

@@ -295,7 +295,7 @@ class Spin:
     period: Numeric
 
     def centrifugal(self, love_radius: Numeric) -> Numeric:
-        """Product of inertia over M a2 per radian of wobble, for k2 = 1: Omega2 R5/(3 G M a2)."""
+        """Product of inertia over M a2 per radian of wobble if k2 is 1: Omega2 R5/(3 G M a2)."""
         rate = 2 * np.pi / self.period
         return rate**2 * love_radius**5 / (3 * self.gm * self.radius**2)
 

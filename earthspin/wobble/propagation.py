@@ -180,7 +180,10 @@ def core_nutation_half_width(
     interior: Interior,
     ocean: str = "real",
 ) -> Numeric:
-    """95 % half-width of the free core nutation in rotations, linear in the uncertain inputs.
+    """95 % half-width of the period of the free core nutation, in rotations of the body.
+
+    Each uncertain input is changed up and down by its own half-width; the changes of the period
+    are added in quadrature.
 
     Parameters
     ----------

@@ -214,8 +214,8 @@ def envelope(
 def _amplitude_error(residuals: ComplexArray, spacing: float, rate: float) -> FloatArray:
     """95 % half-width of wobble amplitudes in time windows, from residuals with correlated noise.
 
-    Neighbouring months err alike: the noise is taken for an autoregressive one of first
-    order, and its spectrum read off at the wobble's frequency.
+    The errors of neighbouring months are correlated: the noise is taken as autoregressive of first
+    order, with the power of its spectrum at the frequency of the wobble.
     """
     power = np.mean(abs(residuals) ** 2, axis=1)
     correlation = np.mean(residuals[:, 1:] * residuals[:, :-1].conj(), axis=1) / power

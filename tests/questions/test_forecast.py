@@ -2,6 +2,7 @@
 
 import json
 from datetime import UTC, date, datetime
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -292,6 +293,10 @@ def test_the_ellipse_holds_as_many_draws_as_it_claims(ahead: xr.Dataset) -> None
 
 def test_figures_of_a_hindcast_and_skill_as_measured(ahead: xr.Dataset) -> None:
     assert len(ahead.earthspin.plot()) == 3
+    figure = views.plot_coordinates(ahead.isel(time=slice(0, 30)))
+    figure.draw_without_rendering()
+    boxes = [label.get_window_extent() for label in figure.axes[-1].get_xticklabels()]
+    assert not any(left.overlaps(right) for left, right in pairwise(boxes))
     table = json.loads(SKILL.read_text(encoding="utf-8"))
     released = [row for row in table if row["set"] == "releases"]
     errors, shares = views.plot_skill(ahead).axes

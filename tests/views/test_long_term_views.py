@@ -77,6 +77,13 @@ def test_insolation_is_drawn_as_lines_or_as_a_map(keys: Any, lines: int, label: 
         assert np.all(np.diff(line.get_xdata()) > 0)
 
 
+def test_insolation_names_hemisphere_and_season() -> None:
+    ax = long_term.plot_insolation(
+        earthspin.insolation(times=["-9 kyr", "0 kyr"], latitude="65S", longitude="270 deg")
+    )
+    assert ax.get_title() == "65° S, December solstice"
+
+
 def test_the_line_of_the_path_is_the_path(about_now: xr.Dataset) -> None:
     """Between epochs a thousand years apart, against epochs that the question was asked for."""
     coarse = drawn_path(long_term.plot_pole(about_now))
