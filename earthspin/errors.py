@@ -465,7 +465,7 @@ def _example(function: Callable[..., Any]) -> str:
 
 
 def _rounded_up(value: float) -> str:
-    """Round an accuracy up to three digits, so that the printed value can be requested."""
+    """Round an accuracy up to three digits, so that a request of the printed value is met."""
     digits = f"{value:.3g}"
     return digits if float(digits) >= value else f"{value * (1 + 5e-3):.3g}"
 

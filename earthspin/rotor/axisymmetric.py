@@ -124,7 +124,7 @@ class SymmetricRotor:
 
         The body cone of a prolate body rolls on the outside of the space cone (I.6.30). That of an
         oblate body encloses the space cone and rolls on it with its inner surface (I.6.31).
-        ``not``: there is no cone.
+        ``not``: there is no cone, so nothing rolls.
         """
         return np.select(
             [self.tilt * np.cos(self.alpha) > 0, self.space_cone > 0], ["inside", "outside"], "not"

@@ -100,7 +100,7 @@ def test_spheroids() -> Distances:
 
 @refused("write them to a store")
 def test_too_many() -> None:
-    """refusal of an ensemble of thirty thousand torque series that exceeds the memory
+    """refusal of thirty thousand torque series of ten years, each day, that exceed the memory
 
     Hard because: each series alone fits into memory, and so do all drawn numbers
     """
