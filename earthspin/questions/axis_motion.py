@@ -70,7 +70,7 @@ class AxisMotion(Series):
 
     by_body = ("effects",)
 
-    effects: Effects = key("rigid", doc=EFFECTS_DOC)
+    effects: Effects = key("known", doc=EFFECTS_DOC)
 
     def check(self) -> None:
         """Replace words by the names of effects; refuse `planets` without a kernel."""

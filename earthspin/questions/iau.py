@@ -73,7 +73,8 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
         adds sections: `residuals` (over `time`: `dX`, `dY`, the computed pole minus that of the
         IAU, mas), the largest nutations, the free core nutation, the angles of precession, and H
         and C as implied by the rate of the IAU. ``earthspin.compare_iau().earthspin.plot()[0]``
-        draws `dX` and `dY`.
+        draws `dX` and `dY`. They contain the response of the interior, which is fitted to IAU
+        2000A; ``effects="rigid"`` leaves it out.
 
     Examples
     --------

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import Body
+from earthspin.bodies import BODIES, PLANETS, Body
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
 from earthspin.dates import Epochs, Span, Step
@@ -26,9 +26,9 @@ from earthspin.nutation.analysis import Circles, PoleAnalysis, Secular
 from earthspin.nutation.budget import published_effects
 from earthspin.progress import progress
 from earthspin.questions import satellites, times
-from earthspin.questions.axis_motion import AxisMotion, Pulls, forces_of
+from earthspin.questions.axis_motion import AxisMotion, Pulls, forces_of, own_kernel
 from earthspin.questions.interiors import CHOSEN, Prediction, no_layers, prediction
-from earthspin.questions.reasons import no_iau_model
+from earthspin.questions.reasons import no_iau_model, not_the_iaus_earth
 from earthspin.sky import iau
 from earthspin.sky.kernel import DRIFT_FROM, growth
 
@@ -155,7 +155,25 @@ def continuous_longitude(
 # --- comparison with the IAU ---------------------------------------------------------------------
 
 
-class Comparison(AxisMotion):
+class WithInterior(AxisMotion):
+    """Base class of questions whose known effects include the response of the Earth's interior."""
+
+    def known_effects(self) -> tuple[str, ...]:
+        """Add the response of the interior for the unchanged Earth under Sun and Moon."""
+        known = super().known_effects()
+        usual = all(p.is_as_named and p.orbit is p.position is None for p in self.perturbers)
+        if not usual or not_the_iaus_earth(self.body, self.perturbers):
+            return known
+        kernel = own_kernel(self.ephemeris)
+        members = (self.body, *self.perturbers, *(BODIES[name] for name in PLANETS))
+        if kernel is not None and kernel.holds(member.naif for member in members):
+            codes = [kernel.code(member.naif, member.name) for member in members]
+            if analysed_days(kernel.coverage(codes))[1] < SHORTEST_SPAN:
+                return known
+        return (*known, NONRIGID.name)
+
+
+class Comparison(WithInterior):
     """Base class of questions that compare the computed pole with the IAU pole over time."""
 
     span: Span = key(

@@ -7,7 +7,7 @@ from typing import Any, Literal
 import numpy as np
 
 from earthspin._lazy import xr
-from earthspin.bodies import BODIES, PLANETS, Body, in_a_sentence
+from earthspin.bodies import Body, in_a_sentence
 from earthspin.constants import DAY
 from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.answers import public_call
@@ -19,13 +19,13 @@ from earthspin.motion.effects import LARGEST_CORE_NUTATION, NONRIGID, RESPONSE
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation.analysis import followed, on_fixed_ecliptic
 from earthspin.questions import axis_motion, interiors, path, reasons, satellites
-from earthspin.questions.axis_motion import PULLS, AxisMotion, Pulls
-from earthspin.questions.path import Shift
+from earthspin.questions.axis_motion import PULLS, Pulls
+from earthspin.questions.path import Shift, WithInterior
 from earthspin.questions.sky import Sky
 from earthspin.questions.times import SPAN_DOC, Dated, days_of
 
 
-class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "step")):
+class Pole(WithInterior, word="pole", call="pole", positional=("start", "stop", "step")):
     """Path of the angular momentum, rotation and figure axes under torques, in the GCRS.
 
     The path starts at J2000.0 from the pole of the body; for the Earth, from the true pole of IAU
@@ -63,7 +63,6 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
 
     span: Span = key(("1980-01-01T12:00:00", "2020-01-01T12:00:00"), doc=SPAN_DOC)
     step: Step = key("5 d", doc="interval between dates")
-    effects: axis_motion.Effects = key("known", doc=axis_motion.EFFECTS_DOC)
     response: Literal["fitted", "predicted"] = key(
         "fitted",
         doc="source of the response of the interior for the effect nonrigid: fitted to IAU "
@@ -81,20 +80,6 @@ class Pole(AxisMotion, word="pole", call="pole", positional=("start", "stop", "s
             raise self.error("effects", NONRIGID.name, problem)
         if self.response == "predicted" and (why := interiors.no_layers(self.body)):
             raise self.error("response", self.response, f"{why}; take 'fitted'")
-
-    def known_effects(self) -> tuple[str, ...]:
-        """Add the response of the interior for the unchanged Earth under Sun and Moon."""
-        known = super().known_effects()
-        usual = all(p.is_as_named and p.orbit is p.position is None for p in self.perturbers)
-        if not usual or reasons.not_the_iaus_earth(self.body, self.perturbers):
-            return known
-        kernel = axis_motion.own_kernel(self.ephemeris)
-        members = (self.body, *self.perturbers, *(BODIES[name] for name in PLANETS))
-        if kernel is not None and kernel.holds(member.naif for member in members):
-            codes = [kernel.code(member.naif, member.name) for member in members]
-            if path.analysed_days(kernel.coverage(codes))[1] < path.SHORTEST_SPAN:
-                return known
-        return (*known, NONRIGID.name)
 
 
 def not_nonrigid(effects: tuple[str, ...]) -> str | None:

@@ -8,6 +8,7 @@ import xarray as xr
 from earthspin.bodies import MOON
 from earthspin.constants import DAY, DAYS_PER_YEAR
 from earthspin.interior.named import CORE_NUTATION
+from earthspin.motion.effects import NONRIGID
 from earthspin.views import drawing, tables
 from earthspin.views.drawing import Axes, PageFigure, Views, axes, note
 from earthspin.views.reading import Result, answer_of, needed
@@ -199,7 +200,8 @@ def plot_pole_residuals(result: Result, *, ax: Axes | None = None) -> Axes:
         error = series[f"{name}_error"]
         drawing.band(ax, series.time, series[name], error, colour, lw=0.6, label=name)
         sizes.append(f"{float(np.sqrt(np.mean(series[name] ** 2))):.2f}")
-    title = f"computed pole minus IAU 2006/2000A; rms {' and '.join(sizes)} mas"
+    earth = "" if NONRIGID.name in result.attrs["effects"] else " of a rigid Earth"
+    title = f"computed pole{earth} minus IAU 2006/2000A; rms {' and '.join(sizes)} mas"
     ax.set_title(title, loc="left", fontsize=9)
     ax.set(xlabel="time (TDB)", ylabel="dX, dY (mas)")
     ax.legend(loc="best", ncols=2)
