@@ -14,6 +14,7 @@ from earthspin.errors import BodyError, SceneError
 from earthspin.questions.precession import Precession
 from earthspin.questions.satellites import carried, largest_drifts, mean_pole_error, swings
 from earthspin.torque.laplace import Planet, Satellites, laplace_tilts
+from earthspin.views.answers import tables_for
 from tests.reference import gyroscopes
 
 #: Pull of the Sun, GM/(a3 (1 - e2)^1.5), s-2, and obliquity to the orbit, deg.
@@ -83,6 +84,14 @@ def test_uranus_with_its_satellites() -> None:
     assert carried(uranus, 1e-20, math.radians(82.2)).bulge == pytest.approx(
         1 + spread / URANUS.j2, rel=3e-3, abs=0
     )
+
+
+def test_the_table_of_uranus_names_its_satellites_and_what_is_left_out() -> None:
+    table, *_ = tables_for(earthspin.precession(body=URANUS.replace(dynamical_flattening=0.0156)))
+    assert all(moon.name in table.note for moon in URANUS.satellites)
+    assert "node of Miranda" in str(table.rows)
+    assert "zero in the mean" in table.note
+    assert "with the all" not in table.note
 
 
 @pytest.mark.parametrize(("name", "rate"), [("jupiter", 2.645), ("saturn", 0.720)])

@@ -317,19 +317,25 @@ class Body(FromMass):
     def read(cls, value: object, where: Where) -> Body:
         """Return a `Body` from a `Body`, a name, or a table of changes to a named body.
 
+        A table without "from" changes the Earth.
+
         Raises
         ------
         SceneError, UnitsError
-            If a name or key is unknown, a unit is wrong, or the body is impossible.
+            If a name or key is unknown, a unit is wrong, the body is impossible, or a table that
+            names another body than the Earth has no "from".
         """
         if isinstance(value, Body):
             return value
         if not isinstance(value, Mapping):
             return _placed(value, where) if hasattr(value, "target") else body(value, where)
         table = dict(value)
-        start = table.pop("from", "earth")
+        start = table.pop("from", "")
         where.refuse_unknown(table, ["from", *_READ_AS])
         changes = {key: _READ_AS[key].read(entry, where.at(key)) for key, entry in table.items()}
+        if not start and changes.get("name", "earth").lower() != "earth":
+            allowed = "write from = 'earth' to change the Earth, from = 'nothing' for a new body"
+            raise where.error(dict(table), allowed)
         try:
             if start in _LEAST:
                 missing = [
@@ -337,12 +343,15 @@ class Body(FromMass):
                 ]
                 if missing:
                     allowed = f"a body from {start} needs more, like {', '.join(missing)}"
+                    spin = [n for n in _OF_SPIN if not {n, _INSTEAD.get(n)} & changes.keys()]
+                    if start == NOTHING and spin:
+                        allowed += f"; a spinning one also needs {', '.join(spin)}"
                     raise where.error(dict(table), allowed)
                 if start == LAYERS:
                     return cls.from_layers(changes.pop("interior"), **changes)
                 derived = {key: changes.pop(key) for key in _DERIVED & changes.keys()}
                 return cls(**changes).replace(**derived)
-            return body(start, where.at("from")).replace(**changes)
+            return body(start or "earth", where.at("from")).replace(**changes)
         except (EarthspinError, TypeError) as error:
             if isinstance(error, EarthspinError) and not isinstance(error, BodyError):
                 raise
@@ -627,6 +636,10 @@ _LEAST = {
     NOTHING: {"name": '"ceres"', "gm": '"62.6 km3/s2"'},
     LAYERS: {"name": '"ceres"', "spin_period": '"9.07 h"', "interior": "{layers = [...]}"},
 }
+
+#: Fields that most questions about a spinning body need, and keys that replace some of them.
+_OF_SPIN = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
+_INSTEAD = {"j2": "moments", "dynamical_flattening": "moments", "pole": "obliquity"}
 
 #: Fields omitted from the body's card, and fields shown in its repr.
 _NOT_TOLD = {"name", "relative_uncertainty"}

@@ -420,7 +420,8 @@ class Neglected:
             return unknown or self.what
         name = max(self.sizes, key=lambda effect: abs(self.sizes[effect]))
         shown = self.sizes[name] * from_si(self.unit)
-        known = f"{name}: {shown:.3g} {self.unit} ({self.what})"
+        mean = "; zero in the mean over its period" if name in self.periodic else ""
+        known = f"{name}: {shown:.3g} {self.unit} ({self.what}{mean})"
         return f"{known}; {unknown}" if unknown else known
 
     def dataset(self, effects: Sequence[str] = ()) -> xr.Dataset:

@@ -158,7 +158,7 @@ def plot(answer: Answer) -> list[Figure]:
     Raises
     ------
     SceneError
-        If this is a selection of an answer that cannot be drawn.
+        If this is a selection of an answer that cannot be drawn, or the answer has no figure.
 
     Examples
     --------
@@ -172,11 +172,17 @@ def plot(answer: Answer) -> list[Figure]:
             return [observed_pole.plot_amplitude_and_phase(data)]
     question = answer.scene
     try:
-        return figures_of(data)
+        figures = figures_of(data)
     except (AttributeError, KeyError, ValueError):
         selection = f"a selection of the answer to '{question.word}'"
         remedy = "plot the full result, which earthspin.run(ds) computes again"
         raise SceneError("plot", selection, remedy) from None
+    if not figures:
+        needed = {figure.section.replace("_", "-") for figure in _views(data).figures}
+        left_out = plan(data, "all").left_out.items()
+        why = "; ".join(dict.fromkeys(reason for title, reason in left_out if title in needed))
+        raise SceneError("plot", question.word, f"no figure: {why or 'none is defined'}")
+    return figures
 
 
 def print_tables(tree: Result, *, with_plan: bool = False) -> None:

@@ -94,8 +94,9 @@ def rates(tree: Result) -> Table:
     method, given = map(tables.two_digits, errors)
 
     neglected = answer.attrs["neglected"]
-    largest = None if "unknown size" in neglected else largest_of(neglected)
+    largest = largest_of(neglected)
     size = "size unknown" if largest is None else f"{largest[1]:g} ({largest[0]})"
+    size += ", others unknown" if largest and "unknown size" in neglected else ""
 
     def left_out(row: xr.Dataset) -> str:
         return size if row.perturber == last else ""
@@ -109,10 +110,12 @@ def rates(tree: Result) -> Table:
     note = (
         "Rates are in longitude along the fixed orbit and refer to "
         f"{tables.date(answer.reference_epoch, 'm')} TDB; the obliquity is "
-        f"{float(answer.obliquity):.6f} deg. Torques are averaged with the "
-        f"{answer.precession_rate.attrs['window']}. In the error of the last rate, {method} "
+        f"{float(answer.obliquity):.6f} deg. The torques are averages "
+        f"({answer.precession_rate.attrs['window']}). In the error of the last rate, {method} "
         f"arcsec/yr are due to averaging and {given} arcsec/yr to the given numbers."
     )
+    if (pole := answer.precession_rate.attrs["pole"]).startswith("mean over the nodes of "):
+        note += f" The rate includes the satellites, which precess with the body: pole = {pole}."
     return table_along(answer, "perturber", "Precession", columns, note, first="pulled by")
 
 

@@ -193,6 +193,11 @@ def test_a_part_that_cannot_be_drawn_says_so() -> None:
         part.earthspin.plot()
 
 
+def test_an_answer_without_figures_says_why() -> None:
+    with pytest.raises(SceneError, match=r"no figure.*no precession model for Saturn"):
+        earthspin.precession(body="saturn").earthspin.plot()
+
+
 @pytest.mark.parametrize(
     ("call", "words"),
     [
