@@ -143,7 +143,7 @@ def test_a_scene_file(tmp_path: Path) -> None:
         compute = "precession"
         perturbers = [
           { from = "sun", orbit = { a = "1 au", e = 0.0167 } },
-          { name = "moon", gm = "4902.8 km3/s2", orbit = { a = "384399 km", e = 0.0549, \
+          { from = "moon", gm = "4902.8 km3/s2", orbit = { a = "384399 km", e = 0.0549, \
 i = "5.145 deg", node_period = "-6793.5 d", epoch = "2000-01-01T12:00" } },
         ]
         """,
