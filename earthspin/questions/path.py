@@ -161,8 +161,8 @@ class WithInterior(AxisMotion):
     def known_effects(self) -> tuple[str, ...]:
         """Names of the effects that can be computed.
 
-        They are those on a rigid body, and for the unchanged Earth under Sun and Moon the response
-        of its interior.
+        They are those on a rigid body, and for the Earth under Sun and Moon the response of its
+        interior, unless one of the three is changed by more than 1 %.
         """
         known = super().known_effects()
         usual = all(p.is_as_named and p.orbit is p.position is None for p in self.perturbers)

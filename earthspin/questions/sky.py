@@ -224,7 +224,7 @@ class Sky:
         places = self.centre, *self.targets.values()
         if any(body.labelled for body in bodies) or not all(isinstance(p, int) for p in places):
             return None
-        if not isinstance(bodies[0].pole, (FixedPole, IAU2006Pole, MovingPole)):
+        if type(bodies[0].pole) not in (FixedPole, IAU2006Pole, MovingPole):
             return None
         return frozenset(self.provenance.items()), places, bodies, also
 
