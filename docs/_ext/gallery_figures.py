@@ -20,7 +20,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.dates import AutoDateFormatter
+from matplotlib.dates import AutoDateFormatter, ConciseDateFormatter
 from matplotlib.figure import Figure
 
 from earthspin.views.drawing import STYLE
@@ -87,7 +87,7 @@ def _axes_with_numbers(ax: Axes) -> Iterator[tuple[str, Axis]]:
         axis = getattr(ax, f"{name}axis", None)
         if axis is None or not axis.get_visible():
             continue
-        if isinstance(axis.get_major_formatter(), AutoDateFormatter):
+        if isinstance(axis.get_major_formatter(), AutoDateFormatter | ConciseDateFormatter):
             continue
         texts = [tick.get_text() for tick in axis.get_ticklabels() if tick.get_visible()]
         shown = [re.sub(r"[\s$\\{}^−+×.,°-]|mathdefault|times", "", text) for text in texts if text]
