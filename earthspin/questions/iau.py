@@ -225,6 +225,8 @@ class Differences:
         Index of the model with the effects that are switched on.
     offsets : ndarray, shape (t, 2)
         X and Y of that model minus those of the IAU, without a fit.
+    offset_error : ndarray, shape (t,)
+        95 % half-width of either of them: `unfitted_error`, and the response of the interior.
     error : float
         95 % half-width of either angle after the fit: the integration, and H in the nutation.
     unfitted_error : ndarray, shape (t,)
@@ -237,6 +239,7 @@ class Differences:
     fitted: FloatArray
     chosen: int
     offsets: FloatArray
+    offset_error: FloatArray
     error: float
     unfitted_error: FloatArray
 
@@ -267,7 +270,8 @@ def differences(
         "first-order": axes_of([], pulls.start)["angular_momentum"],
         "rigid": axes_of(rigid(effects), pulls.start)["figure"],
     }
-    from_mean_pole = axes_of(rigid(effects), done.start)
+    path = path_over(pulls, rigid(effects), done.start, ends)
+    from_mean_pole = path.at(days * DAY, semidiurnal=False)
     for name, shift in (("nonrigid", nonrigid_shift), ("predicted", predicted_shift)):
         if shift is not None:
             shifted = dict(from_mean_pole)
@@ -279,7 +283,9 @@ def differences(
     centuries = days / DAYS_PER_CENTURY
     error = residual_error(done, body, iau_eta, days)
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    precession = error_of_input(done.path, done.path.at(days * DAY)["figure"], u_h)
+    precession = error_of_input(path, from_mean_pole["figure"], u_h)
+    unfitted_error = np.hypot(error, precession)
+    response_error = nonrigid_shift.half_width(days) if chosen == 2 else 0.0
     return Differences(
         days=days,
         models=tuple(models),
@@ -287,8 +293,9 @@ def differences(
         fitted=analysis.without_line(centuries, plain.reshape(days.size, -1)).reshape(plain.shape),
         chosen=chosen,
         offsets=([*models.values()][chosen] - iau_pole)[:, :2],
+        offset_error=np.hypot(unfitted_error, response_error),
         error=error,
-        unfitted_error=np.hypot(error, precession),
+        unfitted_error=unfitted_error,
     )
 
 
@@ -315,8 +322,8 @@ def residuals(differences: Differences) -> Residuals:
     fitted, offsets = differences.fitted[:, differences.chosen], differences.offsets
     return Residuals(
         time=datetime64(differences.days),
-        dX=(offsets[:, 0], differences.unfitted_error),
-        dY=(offsets[:, 1], differences.unfitted_error),
+        dX=(offsets[:, 0], differences.offset_error),
+        dY=(offsets[:, 1], differences.offset_error),
         dpsi_sineps=fitted[:, 0],
         deps=fitted[:, 1],
         residual_error=differences.error,
