@@ -1,5 +1,6 @@
 """Daily insolation, as a question and from an answer: labels, conventions, errors, refusals."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -9,9 +10,11 @@ from astropy import units as u
 
 import earthspin
 from earthspin import EARTH, EarthspinError, daily_insolation, insolation
+from earthspin.secular.insolation import Season, daily
 from tests import shipped
 
-KYR = 1000.0
+KYR, DEG = 1000.0, np.pi / 180
+LA2004 = Path(__file__).parents[1] / "data" / "la2004-excerpt.txt"
 FEW = {"times": ["-125 kyr", "0 kyr"]}
 PLACES = {"latitude": ["65N", "0N", "40S"], "solar_constant": "1365 W/m2"}
 
@@ -40,6 +43,20 @@ def test_65_north_at_the_june_solstice(past: xr.Dataset) -> None:
         true = 1365 / np.pi * day * ((1 - cp) / (1 - e * e)) ** 2
         assert float(found.sel(epoch=kyr * KYR)) == pytest.approx(true, rel=5e-4, abs=0)
     assert float(found.sel(epoch=0)) == pytest.approx(479.3, rel=0, abs=0.1)
+
+
+@pytest.mark.parametrize("latitude", [65.0, 0.0, -40.0])
+@pytest.mark.parametrize("longitude", [90.0, 180.0])
+def test_half_widths_hold_the_differences_from_la2004(latitude: float, longitude: float) -> None:
+    """Over 200,000 years, as returned (measured: 96.5 to 98.5 % are inside, at most 0.07 W/m2)."""
+    theirs = earthspin.read_solution(LA2004)
+    ours = insolation(times=theirs.epoch, latitude=latitude * u.deg, longitude=longitude * u.deg)
+    elements = (theirs.obliquity, theirs.eccentricity, theirs.longitude_of_perihelion)
+    eps, e, w = (x.values * k for x, k in zip(elements, (DEG, 1, DEG), strict=True))
+    value = 1361 * daily(Season(eps, e, w), latitude * DEG, longitude * DEG)
+    difference = np.abs(ours.insolation.values - value)
+    assert (difference <= ours.insolation_error.values).mean() > 0.95
+    assert difference.max() < 0.08
 
 
 def test_several_latitudes_and_longitudes(past: xr.Dataset) -> None:
