@@ -408,26 +408,23 @@ def scene_text(question: Question) -> str:
     """Write a question, with the values of all its inputs, as the text of a scene file."""
     import tomli_w
 
-    arrays: list[str] = []
+    arrays: dict[str, str] = {}
     text = tomli_w.dumps(_shortened(question.to_table(), arrays))
-    for data in arrays:
-        text = text.replace(f'"{data[:_BEGINNING]}"', f'"{data}"', 1)
+    for mark, data in arrays.items():
+        text = text.replace(mark, data, 1)
     return text
 
 
-#: Number of characters of a packed array that tomli_w writes, since it writes long text slowly.
-_BEGINNING = 50
-
-
-def _shortened(value: Any, arrays: list[str]) -> Any:
-    """Copy a table with only the beginnings of packed arrays; append the whole to `arrays`."""
+def _shortened(value: Any, arrays: dict[str, str]) -> Any:
+    """Copy a table with marks for packed arrays, since tomli_w writes long text slowly."""
     if isinstance(value, list):
         return [_shortened(item, arrays) for item in value]
     if not isinstance(value, dict):
         return value
     if "float64" in value:
-        arrays.append(value["float64"])
-        return value | {"float64": arrays[-1][:_BEGINNING]}
+        mark = f"packed array {len(arrays):050}"
+        arrays[mark] = value["float64"]
+        return value | {"float64": mark}
     return {name: _shortened(item, arrays) for name, item in value.items()}
 
 
