@@ -308,7 +308,7 @@ def _parsed(
     layout = _layout(file, columns.lines_of(file), kind)
     rows = _rows(file, layout, pair)
     if layout.name == "c01":
-        rows = rows[rows[:, 1] >= first]
+        rows = rows[~(rows[:, 1] < first)]
     text = columns.text_between(layout.lines, layout.is_row)
     return replace(_checked(file, rows, layout.name, pair, text), sha256=sha256)
 
@@ -470,7 +470,7 @@ def _rows(file: Path, layout: _Layout, pair: _Coordinates, predicted: bool = Fal
     if datum is None:
         problem = f"its header does not name the last observed {pair.words}"
         raise SeriesError(file, problem, "take a file with its header")
-    return rows[mjd <= (np.datetime64(datum[1]) - _MJD_0) / np.timedelta64(1, "D")]
+    return rows[~(mjd > (np.datetime64(datum[1]) - _MJD_0) / np.timedelta64(1, "D"))]
 
 
 def _dates(file: Path, cells: dict[str, FloatArray]) -> FloatArray:

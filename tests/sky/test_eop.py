@@ -394,6 +394,13 @@ def test_other_tables_are_refused_with_a_remedy(file: Path, text: str, words: st
     assert ("name its kind" in str(error.value)) == ("kind" in words)
 
 
+@pytest.mark.parametrize("text", [part_of_c01(46900, 48000), PUBLISHED["EOP2"][0]], ids=range(2))
+def test_rows_without_a_date_are_refused(file: Path, text: str) -> None:
+    file.write_text(re.sub(r"(?m)^\s*(46923\S*|61001\.0)", " nan", text))
+    with pytest.raises(SeriesError, match="the date is nan; give each row a date"):
+        eop.read_polar_motion(file)
+
+
 def test_a_bad_archive_is_refused(file: Path) -> None:
     file.write_bytes(gzip.compress(b"1" * 1000)[:-9])
     with pytest.raises(SeriesError, match="cannot be read"):
