@@ -10,6 +10,7 @@ defects with an unambiguous correction are repaired and reported.
 
 from __future__ import annotations
 
+import datetime
 import math
 import re
 from collections.abc import Callable, Sequence
@@ -467,10 +468,12 @@ def _rows(file: Path, layout: _Layout, pair: _Coordinates, predicted: bool = Fal
     if layout.name != "EOP2":
         return rows
     datum = re.search(rf"last {pair.datum}\D+([\d-]+)", " ".join(layout.lines[:_HEAD]), re.I)
-    if datum is None:
-        problem = f"its header does not name the last observed {pair.words}"
-        raise SeriesError(file, problem, "take a file with its header")
-    return rows[~(mjd > (np.datetime64(datum[1]) - _MJD_0) / np.timedelta64(1, "D"))]
+    try:
+        last = np.datetime64(datetime.date.fromisoformat(datum[1] if datum else ""))
+    except ValueError:
+        problem = f"its header gives no date of the last observed {pair.words}"
+        raise SeriesError(file, problem, "take a file with its header") from None
+    return rows[~(mjd > (last - _MJD_0) / np.timedelta64(1, "D"))]
 
 
 def _dates(file: Path, cells: dict[str, FloatArray]) -> FloatArray:

@@ -383,6 +383,7 @@ def test_published_layouts_by_name_of_column(file: Path, layout: str) -> None:
         ("year,pole\n2000.0,0.1\n", "pandas table"),
         ("0 0 0 0 0 0\n1 1 1 1 1 1\n", "name its kind.* pandas table"),
         (PUBLISHED["EOP2"][0].replace("Last UTPM", ""), "header"),
+        (PUBLISHED["EOP2"][0].replace(f"Point   {DATES[2]}", "Point   2025-11-31"), "no date"),
         (PUBLISHED["c04.csv"][0].rsplit(";", 1)[0], "line 5: 26 columns; 27"),
         ("MJD,x\n61000,0.1\n61001,0.1\n", "no x, y"),
     ],
