@@ -402,6 +402,13 @@ def test_rows_without_a_date_are_refused(file: Path, text: str) -> None:
         eop.read_polar_motion(file)
 
 
+def test_a_byte_order_mark_before_the_first_row_is_ignored(lines: list[str], file: Path) -> None:
+    file.write_text("\n".join(lines[6:]), encoding="utf-8-sig")
+    assert eop.read_polar_motion(file).mjd[0] == 37665
+    file.write_text(PUBLISHED["c04.csv"][0], encoding="utf-8-sig")
+    assert eop.read_polar_motion(file).name == "c04.csv"
+
+
 def test_a_bad_archive_is_refused(file: Path) -> None:
     file.write_bytes(gzip.compress(b"1" * 1000)[:-9])
     with pytest.raises(SeriesError, match="cannot be read"):
