@@ -385,9 +385,10 @@ def _layout(file: Path, lines: list[str], kind: str | None) -> _Layout:
     if any(line.lstrip().startswith("EOP2") for line in head):
         return _Layout(lines, "EOP2", _EOP2.split(), "16", split=_cells)
     if header := next((line for line in head if "mjd" in _cells(line.lower())), ""):
-        names = [re.sub("_pole|data_", "", cell) for cell in _cells(header.lower())]
+        names = [re.sub(r"_pole|data_|\.\d+$", "", cell) for cell in _cells(header.lower())]
         names = [name.replace("sigma_", "e_") for name in names]
-        name = "finals2000A.csv" if any(";final;" in line for line in lines) else "c04.csv"
+        final = re.search("[;,] *final *[;,]", "\n".join(lines))
+        name = "finals2000A.csv" if final else "c04.csv"
         name = "EOP-All.csv" if "dat" in names else name
         return _Layout(lines, name, names, str(len(names)), _begins_with_digit, _cells)
     number, words = next(columns.rows_of(lines), (0, ["0"]))

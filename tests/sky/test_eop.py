@@ -402,6 +402,14 @@ def test_rows_without_a_date_are_refused(file: Path, text: str) -> None:
         eop.read_polar_motion(file)
 
 
+def test_a_csv_that_pandas_wrote_again(file: Path) -> None:
+    """Commas separate its columns, and pandas numbers those of equal name: Type, Type.1, Type.2."""
+    file.write_text(PUBLISHED["finals2000A.csv"][0])
+    pd.read_csv(file, sep=";").to_csv(file)
+    assert eop.read_polar_motion(file).name == "finals2000A.csv"
+    assert np.array_equal(eop.read_pole_offsets(file).mjd, [61000, 61001])
+
+
 def test_a_byte_order_mark_before_the_first_row_is_ignored(lines: list[str], file: Path) -> None:
     file.write_text("\n".join(lines[6:]), encoding="utf-8-sig")
     assert eop.read_polar_motion(file).mjd[0] == 37665
