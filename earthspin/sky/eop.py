@@ -491,7 +491,7 @@ def _dates(file: Path, cells: dict[str, FloatArray]) -> FloatArray:
     if year is not None and {"month", "day"} <= {*cells}:
         # Two-digit years: 73 is 1973, and 72 is 2072.
         year = np.where(year < 100, year + 1900 + 100 * (year < 73), year)
-        date = (year, cells["month"], cells["day"], cells.get("hour", mjd % 1 * 24))
+        date = (year, cells["month"], cells["day"], cells.get("hour", 24 * np.modf(mjd)[0]))
         for at, day, *calendar in zip(line, mjd, *date, strict=True):
             columns.check_calendar(file, at, calendar, day)
     return mjd

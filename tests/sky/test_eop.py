@@ -278,6 +278,7 @@ def below(change: Callable[[str], str]) -> Callable[[list[str]], list[str]]:
             "line 151: errors of x, y = -",
         ),
         (at(150, lambda row: row[:16] + "       nan" + row[26:]), "line 151: .*calendar"),
+        (at(150, lambda row: row[:16] + "       inf" + row[26:]), "line 151: .*calendar"),
         (
             at(20, lambda row: row[:26] + "       pole " + row[38:]),
             "line 21: could not convert",
