@@ -298,8 +298,8 @@ class Body(FromMass):
         ----------
         name : str
         numbers : mapping of str to Constant
-            Values with sources and uncertainties, by field and in its unit. An angle has no
-            relative uncertainty.
+            Values with sources and uncertainties, by field, in the unit of the field. An angle has
+            no relative uncertainty.
         **others
             Non-numeric fields.
         """

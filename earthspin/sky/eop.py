@@ -45,7 +45,7 @@ _AFTER_OPTICAL = 37665.0
 #: C04 it is 0.1 mas, and in each year of offsets from IAU 1980 at least 3.5 mas. It is taken over
 #: days from 1984 on, MJD, since which C04 and finals2000A agree.
 _ANOTHER_MODEL, _TWO_TABLES = 0.002, 45700.0
-#: Largest offset that finals2000A does not confirm, arcsec.
+#: Larger offsets must agree with those of finals2000A, arcsec.
 _LARGEST_ELSEWHERE = 0.005
 #: Columns of the dates, and of the rows of a table.
 _DATE = ("year", "month", "day", "hour", "mjd")
@@ -85,13 +85,13 @@ class _Coordinates:
     name, words : str
         Name of the two together, and of each, in messages.
     flag : int
-        Which of the columns "type" tells observed from predicted rows, if there are several.
+        Number of the column "type" that marks rows as observed or predicted, if there are several.
     datum : str
         Their name in the header of EOP2.
     largest, smallest : float
         Larger values, and tables whose largest value is smaller, are in another unit, arcsec.
     fastest, jump : float
-        Largest motion in a day, and what is no jump yet beside it, arcsec.
+        Largest motion in a day, and largest further change that is not a jump, arcsec.
     """
 
     name: str
@@ -248,7 +248,7 @@ def read_pole_offsets(
     Parameters
     ----------
     path, kind
-        As of `read_polar_motion`.
+        See `read_polar_motion`.
     first : float
         Modified Julian date before which no row of a C01 table is used: before 1962 it holds
         offsets of optical observations, of up to 0.1 arcsec.
@@ -256,7 +256,7 @@ def read_pole_offsets(
     Raises
     ------
     SeriesError
-        If the file cannot be used; it names the line.
+        If the file is invalid; the message gives the line.
     """
     return _read(path, kind, _POLE_OFFSETS, first)
 
@@ -267,7 +267,7 @@ def read_bulletin_a(path: PoleTable = "finals") -> PoleSeries | None:
     Parameters
     ----------
     path : str, Path or GivenSeries
-        As of `read_polar_motion`.
+        See `read_polar_motion`.
 
     Returns
     -------
@@ -536,8 +536,8 @@ def _drop_zeros(rows: FloatArray, repairs: list[str]) -> FloatArray:
 def _check_model(file: object, rows: FloatArray) -> None:
     """Refuse offsets that differ from those of finals2000A, which astropy carries.
 
-    The size alone tells no model: offsets from IAU 1980 stay below 20 mas until 1991, and the
-    oldest of the others reach 9 mas.
+    The size alone does not show the model: offsets from IAU 1980 stay below 20 mas until 1991, and
+    the oldest of those from IAU 2006/2000A reach 9 mas.
     """
     known = read_pole_offsets("finals")
     there = [
