@@ -435,6 +435,8 @@ def _rows(file: Path, layout: _Layout, pair: _Coordinates, predicted: bool = Fal
     """Observed, or predicted, rows of a table: mjd, x, y, x_error and y_error, by line; arcsec."""
     names, lines = layout.names, enumerate(layout.lines, start=1)
     table = [(at, layout.split(line)) for at, line in lines if layout.is_row(line)]
+    if not table:
+        raise SeriesError(file, "it holds no rows of numbers", "is it complete?")
     count = int(layout.allowed) if layout.allowed.isdigit() else len(table[0][1])
     for at, words in table:
         if len(words) != count or not names:

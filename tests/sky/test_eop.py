@@ -411,6 +411,13 @@ def test_a_csv_that_pandas_wrote_again(file: Path) -> None:
     assert np.array_equal(eop.read_pole_offsets(file).mjd, [61000, 61001])
 
 
+@pytest.mark.parametrize("kind", eop.KINDS)
+def test_a_file_without_rows_is_refused(file: Path, kind: str) -> None:
+    file.write_text("# a header\n")
+    with pytest.raises(SeriesError, match="holds no rows of numbers"):
+        eop.read_polar_motion(file, kind)
+
+
 def test_a_byte_order_mark_before_the_first_row_is_ignored(lines: list[str], file: Path) -> None:
     file.write_text("\n".join(lines[6:]), encoding="utf-8-sig")
     assert eop.read_polar_motion(file).mjd[0] == 37665
