@@ -278,8 +278,10 @@ def read_bulletin_a(path: PoleTable = "finals") -> PoleSeries | None:
         return None
     file = file_of(path)
     layout = _layout(file, columns.lines_of(file), None)
+    if not layout.name.startswith("finals2000A"):
+        return None
     rows = _rows(file, layout, _POLAR_MOTION, predicted=True)
-    if len(rows) < 2 or not layout.name.startswith("finals2000A"):
+    if len(rows) < 2:
         return None
     _check_size(file, rows, _POLAR_MOTION, layout.name)
     return replace(_even(file, rows, "Bulletin A", []), sha256=columns.checksum(file))

@@ -418,6 +418,14 @@ def test_a_file_without_rows_is_refused(file: Path, kind: str) -> None:
         eop.read_polar_motion(file, kind)
 
 
+def test_predictions_are_not_looked_for_in_other_tables(
+    lines: list[str], file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file.write_text("\n".join(lines))
+    monkeypatch.setattr(eop, "_rows", None)
+    assert eop.read_bulletin_a(file) is None
+
+
 def test_a_byte_order_mark_before_the_first_row_is_ignored(lines: list[str], file: Path) -> None:
     file.write_text("\n".join(lines[6:]), encoding="utf-8-sig")
     assert eop.read_polar_motion(file).mjd[0] == 37665
