@@ -298,8 +298,8 @@ class Body(FromMass):
         ----------
         name : str
         numbers : mapping of str to Constant
-            Values with sources and uncertainties, by field and in its unit. An angle has no
-            relative uncertainty.
+            Values with sources and uncertainties, by field, in the unit of the field. An angle has
+            no relative uncertainty.
         **others
             Non-numeric fields.
         """
@@ -330,10 +330,10 @@ class Body(FromMass):
         if not isinstance(value, Mapping):
             return _placed(value, where) if hasattr(value, "target") else body(value, where)
         table = dict(value)
-        start = table.pop("from", "")
+        start = table.pop("from", "earth")
         where.refuse_unknown(table, ["from", *_READ_AS])
         changes = {key: _READ_AS[key].read(entry, where.at(key)) for key, entry in table.items()}
-        if not start and changes.get("name", "earth").lower() != "earth":
+        if "from" not in value and changes.get("name", "earth").lower() != "earth":
             allowed = "write from = 'earth' to change the Earth, from = 'nothing' for a new body"
             raise where.error(dict(table), allowed)
         try:
@@ -351,7 +351,7 @@ class Body(FromMass):
                     return cls.from_layers(changes.pop("interior"), **changes)
                 derived = {key: changes.pop(key) for key in _DERIVED & changes.keys()}
                 return cls(**changes).replace(**derived)
-            return body(start or "earth", where.at("from")).replace(**changes)
+            return body(start, where.at("from")).replace(**changes)
         except (EarthspinError, TypeError) as error:
             if isinstance(error, EarthspinError) and not isinstance(error, BodyError):
                 raise

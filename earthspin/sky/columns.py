@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import datetime
 import gzip
 import hashlib
@@ -40,7 +41,7 @@ def lines_of(file: Path) -> list[str]:
     except (OSError, EOFError, zlib.error) as error:
         reason = getattr(error, "strerror", None) or error
         raise SeriesError(file, f"it cannot be read: {reason}") from None
-    return data.decode("ascii", errors="replace").splitlines()
+    return data.removeprefix(codecs.BOM_UTF8).decode("ascii", errors="replace").splitlines()
 
 
 def is_table(head: bytes) -> bool:

@@ -10,6 +10,7 @@ defects with an unambiguous correction are repaired and reported.
 
 from __future__ import annotations
 
+import datetime
 import math
 import re
 from collections.abc import Callable, Sequence
@@ -44,7 +45,7 @@ _AFTER_OPTICAL = 37665.0
 #: C04 it is 0.1 mas, and in each year of offsets from IAU 1980 at least 3.5 mas. It is taken over
 #: days from 1984 on, MJD, since which C04 and finals2000A agree.
 _ANOTHER_MODEL, _TWO_TABLES = 0.002, 45700.0
-#: Largest offset that finals2000A does not confirm, arcsec.
+#: Larger offsets must agree with those of finals2000A, arcsec.
 _LARGEST_ELSEWHERE = 0.005
 #: Columns of the dates, and of the rows of a table.
 _DATE = ("year", "month", "day", "hour", "mjd")
@@ -84,13 +85,13 @@ class _Coordinates:
     name, words : str
         Name of the two together, and of each, in messages.
     flag : int
-        Which of the columns "type" tells observed from predicted rows, if there are several.
+        Number of the column "type" that marks rows as observed or predicted, if there are several.
     datum : str
         Their name in the header of EOP2.
     largest, smallest : float
         Larger values, and tables whose largest value is smaller, are in another unit, arcsec.
     fastest, jump : float
-        Largest motion in a day, and what is no jump yet beside it, arcsec.
+        Largest motion in a day, and largest further change that is not a jump, arcsec.
     """
 
     name: str
@@ -247,7 +248,7 @@ def read_pole_offsets(
     Parameters
     ----------
     path, kind
-        As of `read_polar_motion`.
+        See `read_polar_motion`.
     first : float
         Modified Julian date before which no row of a C01 table is used: before 1962 it holds
         offsets of optical observations, of up to 0.1 arcsec.
@@ -255,7 +256,7 @@ def read_pole_offsets(
     Raises
     ------
     SeriesError
-        If the file cannot be used; it names the line.
+        If the file is invalid; the message gives the line.
     """
     return _read(path, kind, _POLE_OFFSETS, first)
 
@@ -266,7 +267,7 @@ def read_bulletin_a(path: PoleTable = "finals") -> PoleSeries | None:
     Parameters
     ----------
     path : str, Path or GivenSeries
-        As of `read_polar_motion`.
+        See `read_polar_motion`.
 
     Returns
     -------
@@ -277,8 +278,10 @@ def read_bulletin_a(path: PoleTable = "finals") -> PoleSeries | None:
         return None
     file = file_of(path)
     layout = _layout(file, columns.lines_of(file), None)
+    if not layout.name.startswith("finals2000A"):
+        return None
     rows = _rows(file, layout, _POLAR_MOTION, predicted=True)
-    if len(rows) < 2 or not layout.name.startswith("finals2000A"):
+    if len(rows) < 2:
         return None
     _check_size(file, rows, _POLAR_MOTION, layout.name)
     return replace(_even(file, rows, "Bulletin A", []), sha256=columns.checksum(file))
@@ -308,7 +311,7 @@ def _parsed(
     layout = _layout(file, columns.lines_of(file), kind)
     rows = _rows(file, layout, pair)
     if layout.name == "c01":
-        rows = rows[rows[:, 1] >= first]
+        rows = rows[~(rows[:, 1] < first)]
     text = columns.text_between(layout.lines, layout.is_row)
     return replace(_checked(file, rows, layout.name, pair, text), sha256=sha256)
 
@@ -384,9 +387,10 @@ def _layout(file: Path, lines: list[str], kind: str | None) -> _Layout:
     if any(line.lstrip().startswith("EOP2") for line in head):
         return _Layout(lines, "EOP2", _EOP2.split(), "16", split=_cells)
     if header := next((line for line in head if "mjd" in _cells(line.lower())), ""):
-        names = [re.sub("_pole|data_", "", cell) for cell in _cells(header.lower())]
+        names = [re.sub(r"_pole|data_|\.\d+$", "", cell) for cell in _cells(header.lower())]
         names = [name.replace("sigma_", "e_") for name in names]
-        name = "finals2000A.csv" if any(";final;" in line for line in lines) else "c04.csv"
+        final = re.search("[;,] *final *[;,]", "\n".join(lines))
+        name = "finals2000A.csv" if final else "c04.csv"
         name = "EOP-All.csv" if "dat" in names else name
         return _Layout(lines, name, names, str(len(names)), _begins_with_digit, _cells)
     number, words = next(columns.rows_of(lines), (0, ["0"]))
@@ -433,6 +437,8 @@ def _rows(file: Path, layout: _Layout, pair: _Coordinates, predicted: bool = Fal
     """Observed, or predicted, rows of a table: mjd, x, y, x_error and y_error, by line; arcsec."""
     names, lines = layout.names, enumerate(layout.lines, start=1)
     table = [(at, layout.split(line)) for at, line in lines if layout.is_row(line)]
+    if not table:
+        raise SeriesError(file, "it holds no rows of numbers", "is it complete?")
     count = int(layout.allowed) if layout.allowed.isdigit() else len(table[0][1])
     for at, words in table:
         if len(words) != count or not names:
@@ -467,10 +473,12 @@ def _rows(file: Path, layout: _Layout, pair: _Coordinates, predicted: bool = Fal
     if layout.name != "EOP2":
         return rows
     datum = re.search(rf"last {pair.datum}\D+([\d-]+)", " ".join(layout.lines[:_HEAD]), re.I)
-    if datum is None:
-        problem = f"its header does not name the last observed {pair.words}"
-        raise SeriesError(file, problem, "take a file with its header")
-    return rows[mjd <= (np.datetime64(datum[1]) - _MJD_0) / np.timedelta64(1, "D")]
+    try:
+        last = np.datetime64(datetime.date.fromisoformat(datum[1] if datum else ""))
+    except ValueError:
+        problem = f"its header gives no date of the last observed {pair.words}"
+        raise SeriesError(file, problem, "take a file with its header") from None
+    return rows[~(mjd > (last - _MJD_0) / np.timedelta64(1, "D"))]
 
 
 def _dates(file: Path, cells: dict[str, FloatArray]) -> FloatArray:
@@ -487,7 +495,7 @@ def _dates(file: Path, cells: dict[str, FloatArray]) -> FloatArray:
     if year is not None and {"month", "day"} <= {*cells}:
         # Two-digit years: 73 is 1973, and 72 is 2072.
         year = np.where(year < 100, year + 1900 + 100 * (year < 73), year)
-        date = (year, cells["month"], cells["day"], cells.get("hour", mjd % 1 * 24))
+        date = (year, cells["month"], cells["day"], cells.get("hour", 24 * np.modf(mjd)[0]))
         for at, day, *calendar in zip(line, mjd, *date, strict=True):
             columns.check_calendar(file, at, calendar, day)
     return mjd
@@ -532,8 +540,8 @@ def _drop_zeros(rows: FloatArray, repairs: list[str]) -> FloatArray:
 def _check_model(file: object, rows: FloatArray) -> None:
     """Refuse offsets that differ from those of finals2000A, which astropy carries.
 
-    The size alone tells no model: offsets from IAU 1980 stay below 20 mas until 1991, and the
-    oldest of the others reach 9 mas.
+    The size alone does not show the model: offsets from IAU 1980 stay below 20 mas until 1991, and
+    the oldest of those from IAU 2006/2000A reach 9 mas.
     """
     known = read_pole_offsets("finals")
     there = [

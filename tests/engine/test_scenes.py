@@ -40,6 +40,7 @@ WRONG = [
     ({"compute": "torque", "body": {"name": "mine", "spin_period": "9 h"}}, "from = 'nothing'"),
     ({"compute": "torque", "perturbers": [{"name": "star"}]}, "from = 'nothing'"),
     ({"compute": "torque", "body": {"from": "nothing", "name": "a"}}, "spin_period, pole"),
+    ({"compute": "torque", "body": {"from": ""}}, "body.from = ''"),
     ({"compute": "free-rotor", "rotor": 3}, "it is a table"),
     ({"compute": "torque", "rotor": {}}, "no such key"),
     ({"compute": "free-rotor", "omega": ["1 rad/s"] * 3}, "it belongs in the table [rotor]"),

@@ -278,6 +278,7 @@ def below(change: Callable[[str], str]) -> Callable[[list[str]], list[str]]:
             "line 151: errors of x, y = -",
         ),
         (at(150, lambda row: row[:16] + "       nan" + row[26:]), "line 151: .*calendar"),
+        (at(150, lambda row: row[:16] + "       inf" + row[26:]), "line 151: .*calendar"),
         (
             at(20, lambda row: row[:26] + "       pole " + row[38:]),
             "line 21: could not convert",
@@ -383,6 +384,7 @@ def test_published_layouts_by_name_of_column(file: Path, layout: str) -> None:
         ("year,pole\n2000.0,0.1\n", "pandas table"),
         ("0 0 0 0 0 0\n1 1 1 1 1 1\n", "name its kind.* pandas table"),
         (PUBLISHED["EOP2"][0].replace("Last UTPM", ""), "header"),
+        (PUBLISHED["EOP2"][0].replace(f"Point   {DATES[2]}", "Point   2025-11-31"), "no date"),
         (PUBLISHED["c04.csv"][0].rsplit(";", 1)[0], "line 5: 26 columns; 27"),
         ("MJD,x\n61000,0.1\n61001,0.1\n", "no x, y"),
     ],
@@ -392,6 +394,43 @@ def test_other_tables_are_refused_with_a_remedy(file: Path, text: str, words: st
     with pytest.raises(SeriesError, match=words) as error:
         earthspin.polar_motion(file=file)
     assert ("name its kind" in str(error.value)) == ("kind" in words)
+
+
+@pytest.mark.parametrize("text", [part_of_c01(46900, 48000), PUBLISHED["EOP2"][0]], ids=range(2))
+def test_rows_without_a_date_are_refused(file: Path, text: str) -> None:
+    file.write_text(re.sub(r"(?m)^\s*(46923\S*|61001\.0)", " nan", text))
+    with pytest.raises(SeriesError, match="the date is nan; give each row a date"):
+        eop.read_polar_motion(file)
+
+
+def test_a_csv_that_pandas_wrote_again(file: Path) -> None:
+    """Commas separate its columns, and pandas numbers those of equal name: Type, Type.1, Type.2."""
+    file.write_text(PUBLISHED["finals2000A.csv"][0])
+    pd.read_csv(file, sep=";").to_csv(file)
+    assert eop.read_polar_motion(file).name == "finals2000A.csv"
+    assert np.array_equal(eop.read_pole_offsets(file).mjd, [61000, 61001])
+
+
+@pytest.mark.parametrize("kind", eop.KINDS)
+def test_a_file_without_rows_is_refused(file: Path, kind: str) -> None:
+    file.write_text("# a header\n")
+    with pytest.raises(SeriesError, match="holds no rows of numbers"):
+        eop.read_polar_motion(file, kind)
+
+
+def test_predictions_are_not_looked_for_in_other_tables(
+    lines: list[str], file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file.write_text("\n".join(lines))
+    monkeypatch.setattr(eop, "_rows", None)
+    assert eop.read_bulletin_a(file) is None
+
+
+def test_a_byte_order_mark_before_the_first_row_is_ignored(lines: list[str], file: Path) -> None:
+    file.write_text("\n".join(lines[6:]), encoding="utf-8-sig")
+    assert eop.read_polar_motion(file).mjd[0] == 37665
+    file.write_text(PUBLISHED["c04.csv"][0], encoding="utf-8-sig")
+    assert eop.read_polar_motion(file).name == "c04.csv"
 
 
 def test_a_bad_archive_is_refused(file: Path) -> None:
