@@ -66,8 +66,8 @@ class GivenTable:
         rows = [*labelled_series(table, self.names, self.units)]
         if f"{x}_error" in table and f"{y}_error" in table:
             rows += labelled_series(table, (f"{x}_error", f"{y}_error"), self.units)[1:]
-        known = np.isfinite(rows[1:3]).all(axis=0)
-        time, *values = (row[known] for row in rows if np.isfinite(row[known]).all())
+        known = np.array(rows)[:, np.isfinite(rows[1:3]).all(axis=0)]
+        time, *values = known if np.isfinite(known).all() else known[:3]
         return GivenSeries(np.array([time, *np.divide(values, MAS)]))
 
     def write(self, value: Any) -> Plain:
