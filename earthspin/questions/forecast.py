@@ -128,7 +128,7 @@ def record(file: eop.PoleTable, origin: float | None) -> PoleSeries:
     """Read the observed polar motion up to the origin; refuse a series that is not daily."""
     table = eop.read_polar_motion(file)
     if "bridged" in table.repairs or abs(table.step - 1) > _MIDNIGHT:
-        steps = table.repairs or f"steps of {table.step:g} d"
+        steps = table.repairs if "bridged" in table.repairs else f"steps of {table.step:g} d"
         raise SceneError("file", table.source, f"{steps}; a forecast needs a row for each day")
     if origin is None:
         return table
@@ -328,7 +328,7 @@ def not_in_file(
         return "the table holds no predictions of Bulletin A"
     last = table.mjd[0] - 1 if start is None else start + MJD
     if table.mjd[-1] < last + int(days):
-        return f"Bulletin A predicts {table.mjd.size} d ahead; take at most as many days"
+        return f"Bulletin A ends on {date_text(table.mjd[-1] - MJD)}; end the forecast by then"
     return None
 
 
