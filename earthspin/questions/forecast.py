@@ -20,7 +20,7 @@ from earthspin.engine.variables import Neglected, Variables, labels, measured, n
 from earthspin.errors import SceneError, SeriesError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import core_nutation
-from earthspin.questions.observed_pole import Daily, GivenTable, PoleInput
+from earthspin.questions.observed_pole import FILE_DOC, Daily, GivenTable, PoleInput
 from earthspin.questions.reasons import no_iau_model
 from earthspin.sky import eop
 from earthspin.sky.eop import MJD, GivenSeries, PoleSeries
@@ -101,9 +101,7 @@ class Forecast(
     start: Annotated[float, Day()] | None = key(
         None, doc="day after which the forecast begins; the last observed day used if not given"
     )
-    file: Annotated[eop.PoleTable, PoleInput()] = key(
-        "finals", doc="table that astropy carries, a file of the IERS, CelesTrak or JPL, or a table"
-    )
+    file: Annotated[eop.PoleTable, PoleInput()] = key("finals", doc=FILE_DOC)
     parameters: Literal["shipped", "fitted"] | None = key(
         None,
         doc="parameters of the fast excitation: shipped, or fitted before the origin; "

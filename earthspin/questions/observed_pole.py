@@ -32,6 +32,10 @@ from earthspin.wobble.excitation import pole_of
 SMALLEST, LARGEST = 0.1, 2000.0
 #: Why errors of a table may be NaN.
 NO_ERRORS = "the table gives no errors"
+#: Description of the key `file`.
+FILE_DOC = (
+    "table that astropy carries, a file of the IERS, CelesTrak or JPL, or a Dataset or pandas table"
+)
 #: Name of the daily table C04 of the IERS, which astropy includes.
 C04 = "c04"
 
@@ -98,9 +102,7 @@ class OfTable(Question):
 
     body: Body = key(EARTH, doc="body whose pole was observed")
     span: Span | None = key(None, doc="first and last date; the whole table if not given")
-    file: Annotated[eop.PoleTable, PoleInput()] = setting(
-        C04, doc="table that astropy carries, a file of the IERS, CelesTrak or JPL, or a table"
-    )
+    file: Annotated[eop.PoleTable, PoleInput()] = setting(C04, doc=FILE_DOC)
     kind: Literal["c04", "c01", "finals2000A"] | None = setting(
         None, doc="layout of the table; recognised from the file if not given"
     )

@@ -301,7 +301,7 @@ def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     return time, ex.excitation_of(chi1, chi2) / MAS
 
 
-class Excitation(tables.Daily, no_error="the table gives no errors"):
+class Excitation(tables.Daily, no_error=tables.NO_ERRORS):
     """Excitation of polar motion."""
 
     chi1 = number("mas", "excitation, towards the prime meridian")
