@@ -119,12 +119,12 @@ def _shown(value: Any, kind: Kind[Any]) -> Any:
 
 
 def names_in(value: str | Iterable[str], key: str) -> list[str]:
-    """List the names that a user gives, which are one name, several, or `ALL`.
+    """Return a list of the given names: one name, several names, or the word `ALL`.
 
     Raises
     ------
     SceneError
-        If they are no names; `key` is the argument in its message.
+        If a name is not a text; `key` is the name of the argument, for the message.
     """
     try:
         names = [value] if isinstance(value, str) else [*value]

@@ -247,7 +247,7 @@ def read_pole_offsets(
     Parameters
     ----------
     path, kind
-        As of `read_polar_motion`.
+        See `read_polar_motion`.
     first : float
         Modified Julian date before which no row of a C01 table is used: before 1962 it holds
         offsets of optical observations, of up to 0.1 arcsec.
@@ -266,7 +266,7 @@ def read_bulletin_a(path: PoleTable = "finals") -> PoleSeries | None:
     Parameters
     ----------
     path : str, Path or GivenSeries
-        As of `read_polar_motion`.
+        See `read_polar_motion`.
 
     Returns
     -------
