@@ -290,7 +290,7 @@ def neglected(
     sizes = {name: size for name, size in moved.items() if size}
     unknown = [name for name in off if name not in moved]
     sources = ["effects that are off: to first order, along the computed path"] if off else []
-    if reasons.no_iau_model(body) or not body.is_as_named:
+    if reasons.no_iau_model(body) or not body.is_as_named or body.orbit:
         unknown.append(f"response of the interior of {in_a_sentence(body.name)}")
     elif NONRIGID.name in effects:
         sizes |= {"free core nutation": LARGEST_CORE_NUTATION}
