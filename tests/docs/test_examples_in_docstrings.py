@@ -25,7 +25,9 @@ def public() -> Iterator[tuple[str, Any]]:
             yield name, value
     yield "Body.replace", Body.replace
     yield "Answer", Answer
-    yield "Answer.to_frame", Answer.to_frame
+    for name, value in vars(Answer).items():
+        if callable(value) and not name.startswith("_"):
+            yield f"Answer.{name}", value
     for name in METHODS:
         yield name, registered(name)
 
