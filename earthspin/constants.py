@@ -32,7 +32,7 @@ class Constant:
         confirms the value less closely than the source states it, the uncertainty contains the
         difference.
     source : str
-        Place of the value in the source. If no public copy was found, "(not verified)" is appended.
+        Publication and place in it; "(not verified)" is appended if no public copy was found.
     read_in : str
         Copy, abstract or code in which the value was read; `UNVERIFIED` if none was found; empty
         for a number of the user's own.

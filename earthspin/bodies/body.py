@@ -317,7 +317,7 @@ class Body(FromMass):
     def read(cls, value: object, where: Where) -> Body:
         """Return a `Body` from a `Body`, a name, or a table of changes to a named body.
 
-        A table without "from" changes the Earth.
+        A table without "from" changes the Earth; a question adds its default body as "from".
 
         Raises
         ------

@@ -200,7 +200,7 @@ class Answer:
         --------
         >>> import earthspin
         >>> past = earthspin.long_term("-2 kyr", "0 kyr", "1 kyr")
-        >>> print(past.earthspin.to_csv("past.csv", "obliquity").read_text().split()[0])
+        >>> print(past.earthspin.to_csv("past.csv", "obliquity").read_text().splitlines()[0])
         epoch (yr),obliquity (deg),obliquity_error (deg)
         """
         if columns is None:

@@ -104,6 +104,14 @@ def _read(kind: Kind[Any], value: object, where: Where) -> Any:
         raise where.error(value, f"it is not {kind.words}") from error
 
 
+def _from_default(value: object, default: Any) -> object:
+    """Let a table of a body without another name and "from" start from the default body."""
+    name = getattr(default, "name", None)
+    if name and isinstance(value, Mapping) and str(value.get("name", name)).lower() == name:
+        return {"from": name, **value}
+    return value
+
+
 def _shown(value: Any, kind: Kind[Any]) -> Any:
     """Convert a value to the form in which a user would write it, with bodies by name."""
     bodies = value if isinstance(value, tuple) else (value,)
@@ -111,12 +119,12 @@ def _shown(value: Any, kind: Kind[Any]) -> Any:
 
 
 def names_in(value: str | Iterable[str], key: str) -> list[str]:
-    """List the names that a user gives, which are one name, several, or `ALL`.
+    """Return a list of the given names: one name, several names, or the word `ALL`.
 
     Raises
     ------
     SceneError
-        If they are no names; `key` is the argument in its message.
+        If a name is not a text; `key` is the name of the argument, for the message.
     """
     try:
         names = [value] if isinstance(value, str) else [*value]
@@ -224,7 +232,7 @@ class Question:
             shown = f"{self.table}.{name}" if entry.setting and in_scene else name
             where = Where(shown, source, name in typed)
             if name in chosen:
-                value = _read(entry.kind, chosen[name], where)
+                value = _read(entry.kind, _from_default(chosen[name], entry.shown), where)
             elif name in known:
                 value = known[name]
             elif entry.shown is MISSING:

@@ -196,7 +196,7 @@ def all_by_elements(body: Body, perturbers: tuple[Body, ...]) -> bool:
 
 
 def exact_means(body: Body, perturbers: tuple[Body, ...]) -> str | None:
-    """Return in words why windowed means are left out: exact ones are possible; otherwise None.
+    """Return the reason (text) to omit windowed means if exact means are possible, else None.
 
     Exact means are possible if each perturber moves on an ellipse about the body.
 

@@ -20,7 +20,7 @@ from earthspin.engine.variables import Neglected, Variables, labels, measured, n
 from earthspin.errors import SceneError, SeriesError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import core_nutation
-from earthspin.questions.observed_pole import Daily, GivenTable, PoleInput
+from earthspin.questions.observed_pole import FILE_DOC, Daily, GivenTable, PoleInput
 from earthspin.questions.reasons import no_iau_model
 from earthspin.sky import eop
 from earthspin.sky.eop import MJD, GivenSeries, PoleSeries
@@ -101,9 +101,7 @@ class Forecast(
     start: Annotated[float, Day()] | None = key(
         None, doc="day after which the forecast begins; the last observed day used if not given"
     )
-    file: Annotated[eop.PoleTable, PoleInput()] = key(
-        "finals", doc="table that astropy carries, a file of the IERS, CelesTrak or JPL, or a table"
-    )
+    file: Annotated[eop.PoleTable, PoleInput()] = key("finals", doc=FILE_DOC)
     parameters: Literal["shipped", "fitted"] | None = key(
         None,
         doc="parameters of the fast excitation: shipped, or fitted before the origin; "
@@ -128,7 +126,7 @@ def record(file: eop.PoleTable, origin: float | None) -> PoleSeries:
     """Read the observed polar motion up to the origin; refuse a series that is not daily."""
     table = eop.read_polar_motion(file)
     if "bridged" in table.repairs or abs(table.step - 1) > _MIDNIGHT:
-        steps = table.repairs or f"steps of {table.step:g} d"
+        steps = table.repairs if "bridged" in table.repairs else f"steps of {table.step:g} d"
         raise SceneError("file", table.source, f"{steps}; a forecast needs a row for each day")
     if origin is None:
         return table
@@ -328,7 +326,7 @@ def not_in_file(
         return "the table holds no predictions of Bulletin A"
     last = table.mjd[0] - 1 if start is None else start + MJD
     if table.mjd[-1] < last + int(days):
-        return f"Bulletin A predicts {table.mjd.size} d ahead; take at most as many days"
+        return f"Bulletin A ends on {date_text(table.mjd[-1] - MJD)}; end the forecast by then"
     return None
 
 

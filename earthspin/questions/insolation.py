@@ -29,6 +29,7 @@ _CALL = "daily_insolation"
 #: day 80 is 21 March (Huybers & Eisenman 2006, NOAA/NCDC Paleoclimatology 2006-100; climlab).
 MARCH_EQUINOX, CALENDAR_YEAR = 80.0, 365.2422
 BERGER = "Berger 1978, J. Atmos. Sci. 35, 2362"
+_SUNLIGHT = "sunlight at the top of the atmosphere, averaged over day and night"
 
 # --- latitudes and longitudes --------------------------------------------------------------------
 
@@ -162,11 +163,7 @@ class Insolation(
 class InsolationSeries(Variables, along=("epoch",)):
     """Insolation at every epoch, latitude, and longitude or day."""
 
-    insolation = measured(
-        "W m-2",
-        "sunlight at the top of the atmosphere, averaged over day and night",
-        references=BERGER,
-    )
+    insolation = measured("W m-2", _SUNLIGHT, references=BERGER)
     epoch = labels()
     latitude = labels()
     longitude = labels(default=None)
@@ -291,6 +288,7 @@ def daily_insolation(
         raise Where("true_longitude", _CALL).error(true_longitude, "give True or False")
     body = str(result["obliquity"].attrs.get("orbit_of", ""))
     year, window = BODIES[body].orbital_period if body in BODIES else None, None
+    mean = "mean over a day"
     if year is None and (days is not None or solar_constant is None):
         raise UndefinedError(
             f"{_CALL}: the year of {body or 'this body'} is not known; give solar_constant, and "
@@ -298,8 +296,9 @@ def daily_insolation(
         )
     if year is not None and days is not None:
         words = "give one length of time, at most a year"
-        length = Number("d", "30 d", above=0.0, high=year / DAY, limits=words)
-        window = length.read(days, Where("days", _CALL)) * DAY / year
+        kind = Number("d", "30 d", above=0.0, high=year / DAY, limits=words)
+        length = kind.read(days, Where("days", _CALL))
+        window, mean = length * DAY / year, f"mean over {length:g} d"
     if year is not None and solar_constant is None:
         constant = _solar_constant(year)
     else:
@@ -309,12 +308,12 @@ def daily_insolation(
     sun = _place(solar_longitude, "solar_longitude", _TURN, result)
     value, error = _with_error(result, place, sun, constant, window, bool(true_longitude))
     error.attrs = {"units": "W m-2", "long_name": "95 % half-width of the daily insolation"}
-    kind = "true" if true_longitude else "mean"
+    longitude = f"{'true' if true_longitude else 'mean'} longitude of the Sun"
     value.attrs = {
         "units": "W m-2",
-        "long_name": "sunlight at the top of the atmosphere, mean over a day",
+        "long_name": _SUNLIGHT,
         "solar_constant": constant,
-        "comment": f"{kind} longitude of the Sun from the moving equinox",
+        "comment": f"{mean}; {longitude} from the moving equinox",
         "references": BERGER,
     }
     return value.rename(_CALL).assign_coords(daily_insolation_error=error)

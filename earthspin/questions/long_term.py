@@ -182,10 +182,10 @@ class LongTerm(
 
     @property
     def unused(self) -> str:
-        """What the answer leaves out of the satellites, in words; empty for a body without any.
+        """Neglected effect of satellites, in words; empty for a body without satellites.
 
-        The rate of precession includes them with the tilts of their orbits at J2000.0, which here
-        do not change.
+        The rate of precession includes satellites with the tilts of their orbits at J2000.0; later
+        changes of these tilts are neglected.
         """
         satellites = super().unused
         return f"the change of the tilts of {satellites}" if satellites else ""

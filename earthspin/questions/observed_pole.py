@@ -32,6 +32,10 @@ from earthspin.wobble.excitation import pole_of
 SMALLEST, LARGEST = 0.1, 2000.0
 #: Why errors of a table may be NaN.
 NO_ERRORS = "the table gives no errors"
+#: Description of the key `file`.
+FILE_DOC = (
+    "table that astropy carries, a file of the IERS, CelesTrak or JPL, or a Dataset or pandas table"
+)
 #: Name of the daily table C04 of the IERS, which astropy includes.
 C04 = "c04"
 
@@ -66,8 +70,8 @@ class GivenTable:
         rows = [*labelled_series(table, self.names, self.units)]
         if f"{x}_error" in table and f"{y}_error" in table:
             rows += labelled_series(table, (f"{x}_error", f"{y}_error"), self.units)[1:]
-        known = np.isfinite(rows[1:3]).all(axis=0)
-        time, *values = (row[known] for row in rows if np.isfinite(row[known]).all())
+        known = np.array(rows)[:, np.isfinite(rows[1:3]).all(axis=0)]
+        time, *values = known if np.isfinite(known).all() else known[:3]
         return GivenSeries(np.array([time, *np.divide(values, MAS)]))
 
     def write(self, value: Any) -> Plain:
@@ -98,9 +102,7 @@ class OfTable(Question):
 
     body: Body = key(EARTH, doc="body whose pole was observed")
     span: Span | None = key(None, doc="first and last date; the whole table if not given")
-    file: Annotated[eop.PoleTable, PoleInput()] = setting(
-        C04, doc="table that astropy carries, a file of the IERS, CelesTrak or JPL, or a table"
-    )
+    file: Annotated[eop.PoleTable, PoleInput()] = setting(C04, doc=FILE_DOC)
     kind: Literal["c04", "c01", "finals2000A"] | None = setting(
         None, doc="layout of the table; recognised from the file if not given"
     )

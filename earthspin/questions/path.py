@@ -162,11 +162,13 @@ class WithInterior(AxisMotion):
         """Names of the effects that can be computed.
 
         They are those on a rigid body, and for the Earth under Sun and Moon the response of its
-        interior, unless one of the three is changed by more than 1 %.
+        interior, unless mass, figure or spin of one of the three differs from the built-in body by
+        more than 1 %, or has an orbit of its own. After smaller changes the error includes the
+        difference of the pole from that of the IAU.
         """
         known = super().known_effects()
         usual = all(p.is_as_named and p.orbit is p.position is None for p in self.perturbers)
-        if not usual or not_the_iaus_earth(self.body, self.perturbers):
+        if not usual or self.body.orbit or not_the_iaus_earth(self.body, self.perturbers):
             return known
         kernel = own_kernel(self.ephemeris)
         members = (self.body, *self.perturbers, *(BODIES[name] for name in PLANETS))

@@ -301,7 +301,7 @@ def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     return time, ex.excitation_of(chi1, chi2) / MAS
 
 
-class Excitation(tables.Daily, no_error="the table gives no errors"):
+class Excitation(tables.Daily, no_error=tables.NO_ERRORS):
     """Excitation of polar motion."""
 
     chi1 = number("mas", "excitation, towards the prime meridian")
@@ -386,7 +386,8 @@ def polar_motion_from(
     chi : Dataset
         `chi1`, `chi2` (mas) over `time`, means over even steps.
     period, quality_factor : duration, float, optional
-        Of the free wobble (plain numbers in days); by default those stored by `excitation`.
+        Period (plain numbers in days) and quality factor of the free wobble; by default those
+        stored by `excitation`.
     start : pair of angles, optional
         x and y at the start (plain numbers in mas); by default those stored by `excitation`, or
         zero.
@@ -466,8 +467,8 @@ def read_excitation(
         Files, or folders of them: yearly files of a component are joined, and repeated epochs count
         once.
     components : sequence of str, optional
-        Of ``"AAM"``, ``"OAM"``, ``"HAM"``, ``"SLAM"``, as in the names of files; the sum of all by
-        default.
+        Any of ``"AAM"``, ``"OAM"``, ``"HAM"``, ``"SLAM"``, as in the names of files; by default all
+        are added.
     terms : sequence of str
         ``"mass"``, ``"motion"``, or both.
     daily : bool

@@ -55,7 +55,7 @@ class PoleOffsets(tables.OfTable, word="pole-offsets", call="pole_offsets", tabl
     page, headline = "pole_offsets", "dX"
 
     file: Annotated[PoleTable, tables.PoleInput(("dX", "dY"))] = setting(
-        "c04", doc="table that astropy carries, a file of the IERS, CelesTrak or JPL, or a table"
+        tables.C04, doc=tables.FILE_DOC
     )
     window: Days | None = setting(
         None, doc="length of the sliding windows; three years if not given"

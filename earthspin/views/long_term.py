@@ -119,7 +119,8 @@ def plot_insolation(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Of the question ``insolation``. Of a third dimension of a map, the first label is drawn.
+        Answer to the question ``insolation``. If it has three dimensions, a map shows the first
+        label of the third one.
     ax : Axes, optional
     """
     answer, ax = in_order(answer_of(result)), axes(ax, 8.0, 3.8)

@@ -256,8 +256,8 @@ def plot_core_nutation(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Answer to the question ``pole-offsets``, which is run again without its section
-        ``core_nutation``.
+        Answer to the question ``pole-offsets``; computed again if the section ``core_nutation`` is
+        missing.
     ax : Axes, optional
     """
     ax = axes(ax, 7.5, 3.6)

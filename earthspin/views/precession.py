@@ -115,7 +115,7 @@ def rates(tree: Result) -> Table:
         f"arcsec/yr are due to averaging and {given} arcsec/yr to the given numbers."
     )
     if (pole := answer.precession_rate.attrs["pole"]).startswith("mean over the nodes of "):
-        note += f" The rate includes the satellites, which precess with the body: pole = {pole}."
+        note += f" The rate includes the satellites, which precess with the body; it is the {pole}."
     return table_along(answer, "perturber", "Precession", columns, note, first="pulled by")
 
 

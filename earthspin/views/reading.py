@@ -103,7 +103,7 @@ def _first_case(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
 # --- line that closes the output -----------------------------------------------------------------
 
 
-#: Endings of the names of shares of an error, and words for those that are called otherwise.
+#: Endings of the names of shares of an error, and the words for endings that are not shown as such.
 SHARES = ("method", "input", "kernel", "response", "satellites")
 WORDS = {"input": "inputs", "kernel": "positions"}
 

@@ -230,8 +230,8 @@ def plot_effective_potential(result: Result, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : Dataset or DataTree
-        Answer to the question ``top``; without the sections ``potential`` and ``turning`` it is run
-        again.
+        Answer to the question ``top``; computed again if its section ``potential`` or ``turning``
+        is missing.
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """

@@ -14,6 +14,7 @@ import pytest
 
 import earthspin
 from earthspin.bodies import Body
+from earthspin.bodies.orbit import Satellite
 from earthspin.engine import METHODS, registered
 from earthspin.engine.accessor import Answer
 
@@ -24,8 +25,11 @@ def public() -> Iterator[tuple[str, Any]]:
         if callable(value := getattr(earthspin, name)):
             yield name, value
     yield "Body.replace", Body.replace
+    yield "Body.satellites", Satellite
     yield "Answer", Answer
-    yield "Answer.to_frame", Answer.to_frame
+    for name, value in vars(Answer).items():
+        if callable(value) and not name.startswith("_"):
+            yield f"Answer.{name}", value
     for name in METHODS:
         yield name, registered(name)
 

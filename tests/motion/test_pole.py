@@ -64,11 +64,27 @@ def test_the_default_is_the_pole_of_the_sky() -> None:
         {"perturbers": ["sun"]},
         {"body": EARTH.replace(spin_period="23 h")},
         {"perturbers": ["sun", MOON.replace(gm=6e12)]},
+        {"body": {"orbit": {"a": "0.5 au", "about": "sun"}}},
     ],
 )
 def test_a_response_that_is_not_known_is_left_out_by_default(scene: dict[str, object]) -> None:
     result = earthspin.pole(times=["2010-01-01"], **scene)
     assert "nonrigid" not in result.attrs["effects"].split()
+
+
+def test_the_response_has_no_known_size_on_another_orbit() -> None:
+    body = {"orbit": {"a": "0.5 au", "about": "sun"}}
+    result = earthspin.pole(times=["2010-01-01"], body=body, perturbers=["sun"])
+    assert result.attrs["neglected"].endswith("size: response of the interior of the Earth")
+
+
+def test_the_error_of_a_slightly_changed_moon_holds_the_change() -> None:
+    """Up to 1 % the response of the interior stays on, and the error is not that of the Earth."""
+    scene = {"times": ["2020-01-01T12:00"], "perturbers": ["sun", MOON.replace(gm=1.01 * MOON.gm)]}
+    changed, usual = earthspin.pole(**scene), earthspin.pole(times=scene["times"])
+    assert "nonrigid" in changed.attrs["effects"].split()
+    moved = np.linalg.norm(direction(changed) - direction(usual)) / ARCSEC
+    assert 1.0 < moved < float(changed.direction_error[0])
 
 
 def test_the_word_rigid_fits_bodies_on_given_orbits() -> None:

@@ -29,6 +29,18 @@ def test_the_shipped_scene_is_the_moon_in_state_2() -> None:
     assert found.obliquity.attrs["spin"] == "locked, 1 turns in each orbit"
 
 
+def test_a_table_of_changes_starts_from_the_moon() -> None:
+    """It is the default body of this question; elsewhere this is the Earth."""
+    table = {"spin_period": "20 d"}
+    changed = earthspin.Scene(compute="cassini-states", body=table).body
+    assert changed == earthspin.MOON.replace(spin_period="20 d")
+    named = earthspin.Scene(compute="cassini-states", body={"name": "moon", **table}).body
+    assert named == changed
+    assert earthspin.Scene(compute="wobble", body=table).body.known_as == "earth"
+    with pytest.raises(earthspin.SceneError, match="from = 'nothing' for a new body"):
+        earthspin.Scene(compute="cassini-states", body={"name": "luna", **table})
+
+
 def test_mercury_by_its_name_has_its_mean_orbit() -> None:
     """Its orbit is of another source (Yseboodt & Margot 2006) than that of the test below."""
     found = earthspin.cassini_states("mercury")

@@ -84,7 +84,9 @@ def test_mean_longitudes_count_days_from_the_equinox(past: xr.Dataset) -> None:
 
 def test_a_window_of_days_is_a_mean_of_days(past: xr.Dataset) -> None:
     today = past.isel(epoch=[-1])
-    window = daily_insolation(today, "65 deg", "90 deg", days="30 d").item()
+    answer = daily_insolation(today, "65 deg", "90 deg", days="30 d")
+    assert answer.attrs["comment"].startswith("mean over 30 d; true longitude")
+    window = answer.item()
     share = 360 * 30 / 365.25636
     e, w = float(today.eccentricity[0]), np.radians(float(today.longitude_of_perihelion[0]))
 

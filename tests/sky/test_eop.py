@@ -467,3 +467,13 @@ def test_a_pandas_table_with_units(dates: str) -> None:
         earthspin.polar_motion(file=table)
     with pytest.raises(earthspin.EarthspinError, match="column 'MJD'"):
         earthspin.polar_motion(file=table.reset_index(drop=True))
+
+
+@pytest.mark.parametrize("name", ["x_error", "y_error"])
+def test_errors_of_a_given_table_that_are_not_complete_are_left_out(name: str) -> None:
+    """Without a column, those of x would stand for y, or the reverse."""
+    seen = earthspin.polar_motion(span=("1999-01-01", "2016-01-01"))
+    given = earthspin.polar_motion(file=seen.assign({name: seen[name].where(seen.x > 0)}))
+    assert np.allclose(given.x, seen.x, rtol=0, atol=1e-12)
+    assert np.isnan(given.x_error).all()
+    assert np.isnan(given.y_error).all()
