@@ -183,6 +183,20 @@ def test_days_count_from_a_start(ahead: xr.Dataset) -> None:
         assert np.array_equal(same[name], later[name])
 
 
+def test_sections_count_from_a_start() -> None:
+    newest = eop.read_polar_motion("finals").mjd[-1] - eop.MJD
+    sections = ["components", "bulletin_a", "pole_offsets"]
+    whole, later = (
+        earthspin.run_tree(earthspin.load_scene("forecast", keys), sections)
+        for keys in ({"days": 40}, {"days": 10, "start": dates.date_text(newest + 30)})
+    )
+    for name in ("/", *sections):
+        assert later[name].to_dataset().equals(whole[name].to_dataset().isel(time=slice(30, 40)))
+    late = {"days": 300, "start": dates.date_text(newest + 100)}
+    with pytest.raises(earthspin.SceneError, match="Bulletin A predicts"):
+        earthspin.run_tree(earthspin.load_scene("forecast", late), ["bulletin_a"])
+
+
 def test_the_age_of_a_table_and_a_stored_today(monkeypatch: pytest.MonkeyPatch) -> None:
     newest = eop.read_polar_motion("finals").mjd[-1] - eop.MJD
     monkeypatch.setattr("earthspin.questions.forecast.today", lambda: newest + 40)
