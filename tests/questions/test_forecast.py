@@ -146,13 +146,15 @@ def test_offsets_against_later_observations() -> None:
 
 def test_sections_that_the_table_cannot_give_are_left_out() -> None:
     seen = earthspin.polar_motion(span=("2003-01-01", ORIGIN))
-    far, early, given = (
-        earthspin.run_tree(earthspin.load_scene("forecast", keys))
-        for keys in ({"days": 730}, {"origin": "1986-06-01", "file": "c04"}, {"file": seen})
+    early, near = ({"origin": f"{year}-06-01", "file": "c04", "days": 10} for year in (1986, 1988))
+    scenes = {"days": 730}, near, early, near | {"start": "1989-06-01"}, {"file": seen}
+    far, soon, *others = (
+        earthspin.run_tree(earthspin.load_scene("forecast", keys)) for keys in scenes
     )
     assert "bulletin_a" not in far.children
-    assert "pole_offsets" in far.children
-    for tree in (early, given):
+    for tree in (far, soon):
+        assert "pole_offsets" in tree.children
+    for tree in others:
         assert "pole_offsets" not in tree.children
 
 
