@@ -102,9 +102,11 @@ def test_columns_that_are_named(file: Path) -> None:
     assert ages.epoch.values.tolist() == [-370e6, 0.0]
 
 
-def test_a_csv_file_of_long_term_is_read_back(tmp_path: Path) -> None:
+@pytest.mark.parametrize("mark", ["", "# "])
+def test_a_csv_file_of_long_term_is_read_back(file: Path, mark: str) -> None:
     past = earthspin.long_term("-30 kyr", "0 kyr", "1 kyr")
-    solution = read_solution(past.earthspin.to_csv(tmp_path / "past.csv"))
+    file.write_text(mark + past.earthspin.to_csv(file).read_text())
+    solution = read_solution(file)
     assert "obliquity_error" in solution
     assert all(np.all(abs(solution[name] - past[name]) < 1e-12) for name in solution)
 
