@@ -76,7 +76,9 @@ def test_the_cones_touch_along_omega(difference: float, alpha: float) -> None:
     picture = rotors.rolling_cones(rotor, "cones")  # their middle is the middle of the picture
     tips = [i[name] for i in picture.items for name in ("tip", "track") if name in i]
     heights = np.concatenate([[0.0], *(np.reshape(tip, (-1, 3))[:, 2] for tip in tips)])
-    assert np.mean([heights.min(), heights.max()]) == pytest.approx(picture.height, rel=1e-14)
+    assert np.mean([heights.min(), heights.max()]) == pytest.approx(
+        picture.height, rel=1e-14, abs=0
+    )
     assert 1.2 < np.ptp(heights) / picture.radius < 2
 
 
