@@ -214,8 +214,8 @@ def test_one_epoch_is_that_of_the_whole(past: xr.Dataset, half: float, keys: Any
         ({}, ("65 deg", "90 deg"), {}),
         (PLACES, (["65 deg", "0 deg", "-40 deg"], "90 deg"), {"solar_constant": 1365}),
         (
-            {"latitude": "10 deg", "longitude": ["0 deg", "50 deg"], "window": "30 d"},
-            ("10 deg", ["0 deg", "50 deg"]),
+            {"latitude": 0.1, "longitude": ["0 deg", "50 deg"], "window": "30 d"},
+            (0.1, ["0 deg", "50 deg"]),
             {"days": "30 d"},
         ),
         ({"day": 172}, ("65 deg", 2 * np.pi * (172 - 80) / 365.2422, False), {}),
