@@ -136,7 +136,7 @@ def test_refusals(now: EquatorOfDate) -> None:
     with pytest.raises(SceneError, match=r"model = 'Dataset'.*not a section of it"):
         EquatorOfDate(obstime=NOW, model=section)
     for nothing in (earthspin.precession(), None):
-        with pytest.raises(SceneError, match="'free-rotor' or 'top'"):
+        with pytest.raises(SceneError, match="'rotation' or 'free-rotor' or 'top'"):
             rotations(nothing)
     upright = earthspin.MARS.replace(pole=(5.0, 0.9), orbit_pole=(5.0, 0.9), pole_uncertainty=None)
     answer = earthspin.pole("2000-01-01T12:00", "2000-01-02", "6 h", body=upright, perturbers="sun")

@@ -50,10 +50,14 @@ def test_quick_work_shows_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "quick work" not in screen.getvalue()
 
 
-def test_work_within_work_shows_one_bar(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(("total", "inner"), [(1, 1), (1, None), (None, None)])
+def test_work_within_work_shows_one_bar(
+    monkeypatch: pytest.MonkeyPatch, total: int | None, inner: int | None
+) -> None:
     screen = watched(monkeypatch)
-    with progress("outer", 1), progress("inner", 1) as advance:
+    with progress("outer", total), progress("inner", inner) as advance:
         assert appears(screen, "outer")
+        time.sleep(0.2)  # in which another bar would appear
         advance(1)
     assert "inner" not in screen.getvalue()
 

@@ -52,7 +52,7 @@ def date(rng: Random) -> tuple[str, Callable[[], None]]:
             epochs = [float(earthspin.long_term(times=[one]).epoch[0]) for one in chosen]
         except earthspin.EarthspinError as error:
             raise AssertionError(f"refused: {error}") from None
-        if max(abs(epoch - years) for epoch in epochs) > 1e-9:  # 0.03 s
+        if max(abs(epoch - years) for epoch in epochs) > 1e-11:  # 0.3 ms
             raise AssertionError(f"epochs {epochs}, by the Julian day {years}")
 
     return f"{chosen!r}", ask

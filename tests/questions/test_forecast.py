@@ -146,13 +146,15 @@ def test_offsets_against_later_observations() -> None:
 
 def test_sections_that_the_table_cannot_give_are_left_out() -> None:
     seen = earthspin.polar_motion(span=("2003-01-01", ORIGIN))
-    far, early, given = (
-        earthspin.run_tree(earthspin.load_scene("forecast", keys))
-        for keys in ({"days": 730}, {"origin": "1986-06-01", "file": "c04"}, {"file": seen})
+    early, near = ({"origin": f"{year}-06-01", "file": "c04", "days": 10} for year in (1986, 1988))
+    scenes = {"days": 730}, near, early, near | {"start": "1989-06-01"}, {"file": seen}
+    far, soon, *others = (
+        earthspin.run_tree(earthspin.load_scene("forecast", keys)) for keys in scenes
     )
     assert "bulletin_a" not in far.children
-    assert "pole_offsets" in far.children
-    for tree in (early, given):
+    for tree in (far, soon):
+        assert "pole_offsets" in tree.children
+    for tree in others:
         assert "pole_offsets" not in tree.children
 
 
@@ -181,6 +183,20 @@ def test_days_count_from_a_start(ahead: xr.Dataset) -> None:
     same = ahead.sel(time=later.time)
     for name in ahead.data_vars:
         assert np.array_equal(same[name], later[name])
+
+
+def test_sections_count_from_a_start() -> None:
+    newest = eop.read_polar_motion("finals").mjd[-1] - eop.MJD
+    sections = ["components", "bulletin_a", "pole_offsets"]
+    whole, later = (
+        earthspin.run_tree(earthspin.load_scene("forecast", keys), sections)
+        for keys in ({"days": 40}, {"days": 10, "start": dates.date_text(newest + 30)})
+    )
+    for name in ("/", *sections):
+        assert later[name].to_dataset().equals(whole[name].to_dataset().isel(time=slice(30, 40)))
+    late = {"days": 300, "start": dates.date_text(newest + 100)}
+    with pytest.raises(earthspin.SceneError, match="Bulletin A ends on"):
+        earthspin.run_tree(earthspin.load_scene("forecast", late), ["bulletin_a"])
 
 
 def test_the_age_of_a_table_and_a_stored_today(monkeypatch: pytest.MonkeyPatch) -> None:

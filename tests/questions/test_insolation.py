@@ -12,6 +12,7 @@ import earthspin
 from earthspin import EARTH, EarthspinError, daily_insolation, insolation
 from earthspin.secular.insolation import Season, daily
 from tests import shipped
+from tests.refusals import refused
 
 KYR, DEG = 1000.0, np.pi / 180
 LA2004 = Path(__file__).parents[1] / "data" / "la2004-excerpt.txt"
@@ -232,8 +233,8 @@ def test_one_epoch_is_that_of_the_whole(past: xr.Dataset, half: float, keys: Any
         ({}, ("65 deg", "90 deg"), {}),
         (PLACES, (["65 deg", "0 deg", "-40 deg"], "90 deg"), {"solar_constant": 1365}),
         (
-            {"latitude": "10 deg", "longitude": ["0 deg", "50 deg"], "window": "30 d"},
-            ("10 deg", ["0 deg", "50 deg"]),
+            {"latitude": 0.1, "longitude": ["0 deg", "50 deg"], "window": "30 d"},
+            (0.1, ["0 deg", "50 deg"]),
             {"days": "30 d"},
         ),
         ({"day": 172}, ("65 deg", 2 * np.pi * (172 - 80) / 365.2422, False), {}),
@@ -258,7 +259,7 @@ def test_calendar_days_of_climlab() -> None:
         [418.611153, 437.992140, 386.020606, 392.882125, 429.227705],
         [502.059489, 335.521430, 146.532388, 164.745212, 431.285670],
     ]
-    assert np.allclose(found[0], of_climlab, rtol=0, atol=1e-4)  # its series; 2e-5 measured
+    assert np.allclose(found[0], of_climlab, rtol=0, atol=3e-5)  # its series; 2.1e-5 measured
 
 
 @pytest.mark.parametrize(
@@ -282,24 +283,18 @@ def test_latitudes_as_people_write_them(past: xr.Dataset, latitude: Any, degrees
     assert np.array_equal(same, daily_insolation(past, np.radians(degrees), "90 deg")[[-1]])
 
 
-@pytest.mark.parametrize(
-    ("keys", "words"),
-    [
-        ({"latitude": 65}, "write '65 deg'"),
-        ({"latitude": "95N"}, "latitude.*at most 90"),
-        ({"longitude": 90}, "write '90 deg'"),
-        ({"longitude": "90 deg", "day": 172}, "either longitude, or day"),
-        ({"day": 400}, "day = 400.*367"),
-        ({"day": 100, "body": "mars"}, "Earth's calendar"),
-        ({"window": "2 yr"}, "at most a year"),
-        ({"members": {"latitude": {"grid": ["65 deg", "66 deg"]}}}, "labels along 'latitude'"),
-        ({"latitude": np.full(3_000_000, 0.1)}, "fit into memory"),
-    ],
+test_wrong_keys_are_refused = refused(
+    ({"latitude": 65}, "write '65 deg'"),
+    ({"latitude": "95N"}, "latitude.*at most 90"),
+    ({"longitude": 90}, "write '90 deg'"),
+    ({"longitude": "90 deg", "day": 172}, "either longitude, or day"),
+    ({"day": 400}, "day = 400.*367"),
+    ({"day": 100, "body": "mars"}, "Earth's calendar"),
+    ({"window": "2 yr"}, "at most a year"),
+    ({"members": {"latitude": {"grid": ["65 deg", "66 deg"]}}}, "labels along 'latitude'"),
+    ({"latitude": np.full(3_000_000, 0.1)}, "fit into memory"),
+    call=lambda keys: insolation(**FEW, **keys),
 )
-def test_wrong_keys_are_refused(keys: Any, words: str) -> None:
-    with pytest.raises(EarthspinError, match=words) as told:
-        insolation(**FEW, **keys)
-    assert "\n" not in str(told.value)
 
 
 def test_an_unknown_start_leaves_no_error() -> None:

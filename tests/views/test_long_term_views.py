@@ -77,11 +77,20 @@ def test_insolation_is_drawn_as_lines_or_as_a_map(keys: Any, lines: int, label: 
         assert np.all(np.diff(line.get_xdata()) > 0)
 
 
-def test_insolation_names_hemisphere_and_season() -> None:
-    ax = long_term.plot_insolation(
-        earthspin.insolation(times=["-9 kyr", "0 kyr"], latitude="65S", longitude="270 deg")
-    )
-    assert ax.get_title() == "65° S, December solstice"
+@pytest.mark.parametrize(
+    ("keys", "title"),
+    [
+        ({"latitude": "65S", "longitude": "270 deg"}, "65° S, December solstice"),
+        ({"latitude": "0 deg", "longitude": "360 deg"}, "latitude 0°, March equinox"),
+        ({"longitude": "180 deg"}, "65° N, September equinox"),
+        ({"day": 172}, "65° N, day 172"),
+        ({"body": "mars", "longitude": "90 deg"}, "65° N, Sun at 90°"),
+    ],
+)
+def test_insolation_names_hemisphere_and_season(keys: Any, title: str) -> None:
+    """Seasons are named for the Earth alone."""
+    ax = long_term.plot_insolation(earthspin.insolation(times=["-9 kyr", "0 kyr"], **keys))
+    assert ax.get_title() == title
 
 
 def test_the_line_of_the_path_is_the_path(about_now: xr.Dataset) -> None:

@@ -74,11 +74,12 @@ def test_the_cones_touch_along_omega(difference: float, alpha: float) -> None:
     assert np.allclose(to_axis, alpha, rtol=0, atol=1e-14)
     assert np.allclose(to_momentum, abs(rotor.space_cone), rtol=0, atol=1e-14)
     picture = rotors.rolling_cones(rotor, "cones")  # their middle is the middle of the picture
-    heights = np.concatenate(
-        [[0.0], *(np.ravel(i["tip"])[2:] for i in picture.items if "tip" in i)]
+    tips = [i[name] for i in picture.items for name in ("tip", "track") if name in i]
+    heights = np.concatenate([[0.0], *(np.reshape(tip, (-1, 3))[:, 2] for tip in tips)])
+    assert np.mean([heights.min(), heights.max()]) == pytest.approx(
+        picture.height, rel=1e-14, abs=0
     )
-    assert abs(np.mean([heights.min(), heights.max()]) - picture.height) < 0.1 * picture.radius
-    assert np.ptp(heights) > 1.2 * picture.radius
+    assert 1.2 < np.ptp(heights) / picture.radius < 2
 
 
 def test_shapes() -> None:
