@@ -45,6 +45,12 @@ assert not any(name.endswith(".bsp") for name in opened)
     assert not modules_after(program) & {"skyfield", "jplephem", "numba", "matplotlib", "erfa"}
 
 
+@pytest.mark.parametrize("call", ["precession", "torque_series"])
+def test_answers_of_numpy_arrays_load_no_other_array_library(call: str) -> None:
+    """Where xarray would look for arrays of dask and pint, it imports both."""
+    assert not modules_after(f"import earthspin; earthspin.{call}()") & {"dask", "pint"}
+
+
 def test_the_observed_pole_needs_no_kernel() -> None:
     loaded = modules_after("import earthspin; earthspin.run('polar-motion')")
     assert not loaded & {"skyfield", "jplephem", "numba", "matplotlib", "erfa", "rich"}

@@ -19,7 +19,14 @@ from earthspin._lazy import xr
 from earthspin._version import __version__, version
 from earthspin.card import card
 from earthspin.engine.question import ALL, NEGLECTED, SCENE, Part, Question, names_in, scene_text
-from earthspin.engine.variables import CONVENTIONS, Neglected, Variables, error_of
+from earthspin.engine.variables import (
+    CONVENTIONS,
+    Neglected,
+    Variables,
+    error_of,
+    labels_of,
+    variable_of,
+)
 from earthspin.errors import SceneError, UndefinedError, nearest
 
 if TYPE_CHECKING:
@@ -101,11 +108,14 @@ class Plan:
         why = "description of the part, or reason for leaving it out"
         run_time = {"units": "s", "long_name": "run time of the part"}
         columns = {
-            "status": ("part", status, {"long_name": "whether the part ran"}),
-            "reason": ("part", reason, {"long_name": why}),
-            "run_time": ("part", [cost or 0.0 for cost in seconds], run_time),
+            "status": (status, {"long_name": "whether the part ran"}),
+            "reason": (reason, {"long_name": why}),
+            "run_time": ([cost or 0.0 for cost in seconds], run_time),
         }
-        return xr.Dataset(columns, {"part": ("part", part, {"long_name": "part of the plan"})})
+        rows = {name: variable_of(("part",), *column) for name, column in columns.items()}
+        return xr.Dataset(
+            rows, {"part": labels_of("part", part, {"long_name": "part of the plan"})}
+        )
 
     def __str__(self) -> str:
         width = max(len(row.part) for row in self.rows)
@@ -366,10 +376,8 @@ class Run:
 
 @cache
 def _load_xarray() -> None:
-    """Import xarray, and the array libraries for which it looks when it makes its first Dataset."""
-    import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
-
-    xr.Dataset(coords={"part": [0]})
+    """Import xarray, and register `ds.earthspin`."""
+    import earthspin.engine.accessor  # noqa: F401
 
 
 @contextmanager

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, Self
 
@@ -303,7 +303,7 @@ class Variables:
                         raise SchemaError(f"labels along '{dim}' differ between variables")
                 value = value.variable
             else:
-                value = xr.Variable(declared.dims, value)
+                value = variable_of(declared.dims, value)
             if not set(declared.dims) <= set(value.dims):
                 raise SchemaError(f"{name} has {value.dims}, declares {declared.dims}")
             laid = value.transpose(*declared.dims, ...)
@@ -315,7 +315,7 @@ class Variables:
                     problem = f"{declared.long_name} is undefined; check the numbers of the body"
                     raise UndefinedError(problem)
                 attributes["no_error"] = self._no_error
-            arrays[name] = xr.Variable(laid.dims, data, attributes)
+            arrays[name] = variable_of(laid.dims, data, attributes)
         result = xr.Dataset(arrays, coords=coords)
         for name, extra in self._attributes.items():
             result[name].attrs.update(extra)
@@ -342,8 +342,32 @@ class Variables:
             else:
                 own = {"units": entry.units, "long_name": entry.long_name}
                 attrs = {key: text for key, text in own.items() if text} | dict(entry.attrs)
-                coords[name] = (name, value, attrs)
+                coords[name] = labels_of(name, value, attrs)
         return values, coords
+
+
+def variable_of(
+    dims: Iterable[Hashable], values: object, attrs: Mapping[str, object] | None = None
+) -> xr.Variable:
+    """Make a Variable of an array of NumPy.
+
+    Without `fastpath`, xarray looks for arrays of dask and pint, and imports both if they are
+    installed (0.4 s). Objects need that search, as it also converts them.
+    """
+    array = np.asarray(values)
+    return xr.Variable(dims, array, attrs, fastpath=array.dtype != object)
+
+
+def labels_of(name: str, values: object, attrs: Mapping[str, object] | None = None) -> xr.Variable:
+    """Make the coordinate along a dimension of the same name, like `variable_of`."""
+    import pandas as pd
+    from xarray.indexes import PandasIndex
+
+    array = np.asarray(values)
+    index = PandasIndex(pd.Index(array), name, coord_dtype=array.dtype)
+    variable = index.create_variables()[name]
+    variable.attrs.update(attrs or {})
+    return variable
 
 
 # --- neglected effects: they are not part of the errors of results -------------------------------
@@ -438,6 +462,7 @@ class Neglected:
         attrs = {"long_name": self.what, "units": self.unit, "no_error": BOUND}
         attrs |= {"references": self.source, "of_unknown_size": self.unknown}
         attrs |= {"zero_in_the_mean": "; ".join(self.periodic)}
-        sized = ("effect", sizes, {name: words for name, words in attrs.items() if words})
-        labelled = ("effect", np.array(names, dtype=str))
+        attrs = {name: words for name, words in attrs.items() if words}
+        sized = variable_of(("effect",), sizes, attrs)
+        labelled = labels_of("effect", np.array(names, dtype=str))
         return xr.Dataset({"neglected_effect": sized}, {"effect": labelled})

@@ -11,7 +11,7 @@ import numpy as np
 from earthspin._lazy import xr
 from earthspin.engine.answers import public_call
 from earthspin.engine.question import Question, part, setting
-from earthspin.engine.variables import Neglected, labels, number
+from earthspin.engine.variables import Neglected, labels, number, variable_of
 from earthspin.errors import Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.times import FromStart, Seconds, instants
@@ -153,7 +153,7 @@ def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> 
     motion = triaxial.free_rotation(values, np.asarray(omega), instants)
 
     def lay(values: FloatArray, *dims: str) -> xr.DataArray:
-        return xr.DataArray(values, dims=(*many, *starts, "time", *dims))
+        return xr.DataArray(variable_of((*many, *starts, "time", *dims), values))
 
     return Rotation(
         omega_body=lay(motion.omega_body, "component"),

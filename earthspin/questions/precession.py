@@ -13,7 +13,15 @@ from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.dates import Span, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.question import key, part
-from earthspin.engine.variables import Neglected, Variables, labels, measured, number, words
+from earthspin.engine.variables import (
+    Neglected,
+    Variables,
+    labels,
+    labels_of,
+    measured,
+    number,
+    words,
+)
 from earthspin.mass import figure
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import budget
@@ -189,7 +197,7 @@ def figure_models(mean_torques: MeanTorques, mean_rates: MeanRates, body: Body) 
     j2, measured_h = body.needed("j2"), body.needed("dynamical_flattening")
     by_maccullagh = figure.h_maccullagh(body.needed("flattening"))
     models = (by_maccullagh, figure.h_homogeneous(j2), measured_h)
-    h = xr.concat(map(xr.DataArray, models), dim=xr.Variable("earth_model", list(MODELS)))
+    h = xr.concat(map(xr.DataArray, models), dim=labels_of("earth_model", list(MODELS)))
     precessing, radius = mean_torques.precessing[-1], body.needed("radius")
     difference, e = figure.moment_difference(j2, body.mass, radius), figure.ellipticity_from_h(h)
     rate = rates.precession_rate(precessing, h * mean_rates.carried.rate, body.spin_rate)

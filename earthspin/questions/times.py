@@ -14,7 +14,7 @@ from earthspin.bodies import Body
 from earthspin.bodies.body import members
 from earthspin.dates import Epochs, Span, Step, TimeGrid, TimeList
 from earthspin.engine.question import Block, key, part
-from earthspin.engine.variables import Variables, labels
+from earthspin.engine.variables import Variables, labels, variable_of
 from earthspin.errors import SceneError, in_bytes
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.sky import PerturbedBody
@@ -146,7 +146,7 @@ class SideBySide:
         if values.ndim < len(self.dims) + len(dims):
             many = np.shape(next(iter(self.numbers.values())))
             values = np.broadcast_to(values, (*many, *values.shape))
-        return xr.DataArray(values, self.labels, (*self.dims, *dims))
+        return xr.DataArray(variable_of((*self.dims, *dims), values), self.labels)
 
     def lay_pair(
         self, value: NDArray[Any], error: NDArray[Any], *dims: str

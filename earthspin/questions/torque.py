@@ -12,7 +12,7 @@ from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.dates import Epochs, Span, Step, datetime64
 from earthspin.engine.answers import public_call
 from earthspin.engine.question import Block, key, part
-from earthspin.engine.variables import Neglected, labels, measured, number
+from earthspin.engine.variables import Neglected, labels, measured, number, variable_of
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions import reasons, satellites
@@ -117,12 +117,12 @@ def torques(
     seen = sky.radec(body, now, true=equator == "true", nutation=nutation)
     kernel_error = {name: sky.error(sky.targets[name], epochs.span()) for name in names}
 
-    def stack(values: list[FloatArray], *dims: str, times: Numeric | None = None) -> xr.DataArray:
-        array = xr.DataArray(np.stack(values, axis=1), dims=("time", "perturber", *dims))
-        if times is None or hasattr(times, "dims"):
-            return array if times is None else array * times
-        array.values *= times  # in place: fresh memory costs more than the product
-        return array
+    def stack(values: list[FloatArray], *dims: str, times: Numeric = 1.0) -> xr.DataArray:
+        stacked, many = np.stack(values, axis=1), hasattr(times, "dims")
+        if not many:
+            stacked *= times  # in place: fresh memory costs more than the product
+        array = xr.DataArray(variable_of(("time", "perturber", *dims), stacked))
+        return array * times if many else array
 
     bulge = moment_difference(body.needed("j2"), body.mass, body.needed("radius"))
     u_bulge = body.relative_uncertainty_of_bulge()
