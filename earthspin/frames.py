@@ -366,7 +366,7 @@ class SkyfieldFrame:
         return f"SkyfieldFrame({self.model})"
 
     def rotation_at(self, t: Any) -> FloatArray:
-        """Rotation matrix from the ICRF at a Skyfield Time or other date, (3, 3) or (3, 3, n)."""
+        """Rotation matrix from the ICRF to this frame at a Time or date, (3, 3) or (3, 3, n)."""
         return np.moveaxis(_at(self.model, t, Where("t"))[0], (-2, -1), (0, 1))
 
     def error_at(self, t: Any) -> u.Quantity:

@@ -539,7 +539,7 @@ def ensemble(
 
 
 def _with_members(question: Question, members: object, settings: dict[str, Any]) -> Question:
-    """Return a question with changed members; a whole number changes only how many there are."""
+    """Return a question with another ensemble; an integer `members` changes only its size."""
     own, where = question.members, question.where("members")
     request: Members | None = own if members is None else Members.read(members, where)
     if request is None:

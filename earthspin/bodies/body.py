@@ -322,8 +322,8 @@ class Body(FromMass):
         Raises
         ------
         SceneError, UnitsError
-            If a name or key is unknown, a unit is wrong, the body is impossible, or a table that
-            names another body than the Earth has no "from".
+            If a name or key is unknown, a unit is wrong, the body is impossible, or a table with a
+            name has no "from".
         """
         if isinstance(value, Body):
             return value
@@ -333,8 +333,8 @@ class Body(FromMass):
         start = table.pop("from", "earth")
         where.refuse_unknown(table, ["from", *_READ_AS])
         changes = {key: _READ_AS[key].read(entry, where.at(key)) for key, entry in table.items()}
-        if "from" not in value and changes.get("name", "earth").lower() != "earth":
-            allowed = "write from = 'earth' to change the Earth, from = 'nothing' for a new body"
+        if "from" not in value and "name" in changes:
+            allowed = "write from = 'earth' or another to change, from = 'nothing' for a new body"
             raise where.error(dict(table), allowed)
         try:
             if start in _LEAST:

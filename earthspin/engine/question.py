@@ -419,7 +419,7 @@ def scene_text(question: Question) -> str:
     arrays: dict[str, str] = {}
     text = tomli_w.dumps(_shortened(question.to_table(), arrays))
     for mark, data in arrays.items():
-        text = text.replace(mark, data, 1)
+        text = text.replace(f'float64 = "{mark}"', f'float64 = "{data}"', 1)
     return text
 
 

@@ -151,7 +151,7 @@ def rule(order: int) -> Rule:
 
 
 def integrated(coefficients: FloatArray, half: FloatArray, start: FloatArray) -> FloatArray:
-    """Legendre coefficients of a start value plus the integral of a rate, in each window.
+    """Legendre coefficients of the integral of a rate plus its start value, in each window.
 
     Parameters
     ----------

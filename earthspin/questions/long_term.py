@@ -311,7 +311,7 @@ def strength(
 
 
 def _published() -> float:
-    """Published rate of precession that the first-order average leaves out for the Earth, rad/s."""
+    """Sum of published contributions to the Earth's precession rate, except geodesic, rad/s."""
     return sum(
         float(effect.value) * ARCSEC / JULIAN_YEAR
         for name, effect in PUBLISHED_EFFECTS.items()

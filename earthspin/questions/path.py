@@ -162,9 +162,9 @@ class WithInterior(AxisMotion):
         """Names of the effects that can be computed.
 
         They are those on a rigid body, and for the Earth under Sun and Moon the response of its
-        interior, unless mass, figure or spin of one of the three differs from the built-in body by
-        more than 1 %, or has an orbit of its own. After smaller changes the error includes the
-        difference of the pole from that of the IAU.
+        interior, unless one of the three has an orbit of its own, or its mass, figure or spin
+        differs from that of the built-in body by more than 1 %. After smaller changes the error
+        includes the difference of the pole from that of the IAU.
         """
         known = super().known_effects()
         usual = all(p.is_as_named and p.orbit is p.position is None for p in self.perturbers)

@@ -29,13 +29,13 @@ class Pole(WithInterior, word="pole", call="pole", positional=("start", "stop", 
     """Path of the angular momentum, rotation and figure axes under torques, in the GCRS.
 
     The path starts at J2000.0 from the pole of the body; for the Earth, from the true pole of IAU
-    2006/2000A. By default every effect that is known for the body acts, for the Earth under Sun
-    and Moon, none changed by more than 1 %, also `nonrigid`, the response of its interior;
-    ``effects="rigid"`` leaves this out. The response is `fitted` to IAU 2000A, including its
-    additive terms, or `predicted` from the layers. The effect `geodesic` needs the Sun among the
-    perturbers and also moves the axis of a sphere. With `nonrigid` the initial axes are such that
-    their mean pole agrees with that of the IAU, and all axes receive the published contribution of
-    the non-rigid Earth to the rate of precession.
+    2006/2000A. By default every effect that is known for the body acts. These include `nonrigid`,
+    the response of the interior, for the Earth under Sun and Moon if none of the three is changed
+    by more than 1 %; ``effects="rigid"`` leaves it out. The response is `fitted` to IAU 2000A,
+    including its additive terms, or `predicted` from the layers. The effect `geodesic` needs the
+    Sun among the perturbers and also moves the axis of a sphere. With `nonrigid` the initial axes
+    are such that their mean pole agrees with that of the IAU, and all axes receive the published
+    contribution of the non-rigid Earth to the rate of precession.
 
     Returns
     -------
@@ -290,7 +290,8 @@ def neglected(
     sizes = {name: size for name, size in moved.items() if size}
     unknown = [name for name in off if name not in moved]
     sources = ["effects that are off: to first order, along the computed path"] if off else []
-    if reasons.no_iau_model(body) or not body.is_as_named or body.orbit:
+    known = not reasons.no_iau_model(body) and body.is_as_named and not body.orbit
+    if not known and NONRIGID.name not in effects:
         unknown.append(f"response of the interior of {in_a_sentence(body.name)}")
     elif NONRIGID.name in effects:
         sizes |= {"free core nutation": LARGEST_CORE_NUTATION}

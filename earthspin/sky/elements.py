@@ -219,7 +219,7 @@ class ByElements:
 
 
 class Elements:
-    """Source of positions for which all bodies have orbital elements; it needs no kernel."""
+    """Source of positions of bodies that all have orbital elements; no kernel is needed."""
 
     name = BY_ELEMENTS
 

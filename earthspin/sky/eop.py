@@ -422,7 +422,7 @@ def _cells(line: str) -> list[str]:
 
 def _begins_with_digit(line: str) -> bool:
     """Return True if a line begins with a number or a date."""
-    return line.strip()[:1].isdigit()
+    return line.strip().lstrip("+-")[:1].isdigit()
 
 
 def _is_row_of_finals(line: str) -> bool:

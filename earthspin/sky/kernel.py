@@ -92,9 +92,7 @@ class Table(NamedTuple):
 
 
 class Epochs:
-    """Times at which Chebyshev series are evaluated, with their arrangement for each segment.
-
-    The arrangement of the times on each time grid is computed once.
+    """Times at which Chebyshev series are evaluated, arranged once for each time grid.
 
     Parameters
     ----------

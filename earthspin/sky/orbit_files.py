@@ -479,7 +479,7 @@ def _check_ecliptic(rows: _Rows, normal: FloatArray, axes: FloatArray, frame: ob
 
 
 def _check_body(rows: _Rows, e: FloatArray, body: str) -> None:
-    """Refuse eccentricities far above the largest in the orbit table of the package for a body."""
+    """Refuse eccentricities far above the largest one in the package's orbit table of the body."""
     largest = _largest_eccentricity(body)
     if largest is not None and np.any(e > MOST_ECCENTRIC * largest):
         row = int(np.argmax(e > MOST_ECCENTRIC * largest))

@@ -1,9 +1,12 @@
 """Scenes: what is read, and one clear line for whatever is wrong."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+import xarray as xr
 
 from earthspin import EARTH, MOON, EarthspinError, Scene, SceneError, load_scene
 from earthspin.engine.question import Question, scene_text
@@ -159,6 +162,22 @@ def test_the_complete_scene_of_an_answer_is_read_from_a_file(scene: str, tmp_pat
     path = tmp_path / "complete.toml"
     path.write_text(scene_text(question))
     assert load_scene(path).to_table() == question.to_table()
+
+
+def test_arrays_of_a_scene_keep_their_places(tmp_path: Path) -> None:
+    """Although they begin alike, and a title may look like the mark of an array."""
+    many = {
+        name: xr.DataArray(np.r_[[value] * 40, 2 * value], dims="case")
+        for name, value in (("j2", 1e-3), ("j3", -2e-6), ("j4", 1e-3))
+    }
+    question = load_scene("precession", {"body": EARTH.replace(**many)})
+    question = replace(question, title=f"packed array {0:050}")
+    path = tmp_path / "complete.toml"
+    path.write_text(scene_text(question))
+    again = load_scene(path)
+    assert again.title == question.title
+    for name, values in many.items():
+        assert getattr(again.body, name).equals(values)
 
 
 def test_an_element_of_an_orbit_that_is_typed_carries_its_unit(tmp_path: Path) -> None:

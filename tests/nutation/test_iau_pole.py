@@ -203,13 +203,14 @@ def test_residuals_are_those_of_the_returned_pole(left_out: tuple[str, ...], bou
 def test_half_widths_hold_the_residuals_as_returned() -> None:
     """By default with the response of the interior; also before the span that is analysed.
 
-    Measured: all are inside, and the largest half-width is 2.1 times the largest residual.
+    Without that response, 95.8 and 97.2 % are inside. The largest half-width is 2.1 times the
+    largest residual.
     """
     scene = earthspin.Scene(compute="iau", span=("1910-01-01", "2050-01-01"), step="50 d")
     residuals = earthspin.run_tree(scene, ["residuals"]).earthspin.section("residuals")
     for name in ("dX", "dY"):
         size, error = abs(residuals[name]), residuals[f"{name}_error"]
-        assert (size <= error).mean() > 0.95
+        assert (size <= error).all()
         assert error.max() < 2.5 * size.max()
 
 

@@ -34,11 +34,12 @@ def test_a_table_of_changes_starts_from_the_moon() -> None:
     table = {"spin_period": "20 d"}
     changed = earthspin.Scene(compute="cassini-states", body=table).body
     assert changed == earthspin.MOON.replace(spin_period="20 d")
-    named = earthspin.Scene(compute="cassini-states", body={"name": "moon", **table}).body
-    assert named == changed
+    named = earthspin.Scene(compute="cassini-states", body={"name": "Moon", **table}).body
+    assert named.replace(name="moon") == changed
     assert earthspin.Scene(compute="wobble", body=table).body.known_as == "earth"
-    with pytest.raises(earthspin.SceneError, match="from = 'nothing' for a new body"):
-        earthspin.Scene(compute="cassini-states", body={"name": "luna", **table})
+    for other in ("luna", "Earth"):
+        with pytest.raises(earthspin.SceneError, match="from = 'nothing'"):
+            earthspin.Scene(compute="cassini-states", body={"name": other, **table})
 
 
 def test_mercury_by_its_name_has_its_mean_orbit() -> None:

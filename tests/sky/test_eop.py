@@ -361,6 +361,12 @@ PUBLISHED = {
 }
 
 
+def test_dates_of_a_csv_before_1858_are_rows(file: Path) -> None:
+    rows = [f"{day};0.1;0.01;0.2;0.02" for day in range(-3, 4)]
+    file.write_text("\n".join(["MJD;x_pole;sigma_x_pole;y_pole;sigma_y_pole", *rows]))
+    assert eop.read_polar_motion(file).mjd.tolist() == [*range(-3, 4)]
+
+
 @pytest.mark.parametrize("layout", PUBLISHED)
 def test_published_layouts_by_name_of_column(file: Path, layout: str) -> None:
     text, days, offset_days = PUBLISHED[layout]
