@@ -246,7 +246,8 @@ def daily_insolation(
     Parameters
     ----------
     result : Dataset
-        An answer of `long_term`.
+        An answer of `long_term`, or of `read_solution`, which needs `solar_constant` and has no
+        errors, so that those of the insolation are NaN.
     latitude : str, Quantity, DataArray or list of them
         Latitude, like ``"65 deg"`` or ``"65N"``; plain numbers are radians.
     solar_longitude : str, Quantity, DataArray or list of them
@@ -290,10 +291,9 @@ def daily_insolation(
     year, window = BODIES[body].orbital_period if body in BODIES else None, None
     mean = "mean over a day"
     if year is None and (days is not None or solar_constant is None):
-        raise UndefinedError(
-            f"{_CALL}: the year of {body or 'this body'} is not known; give solar_constant, and "
-            "remove days"
-        )
+        name, remove = body or "the body of this solution", " and remove days" * (days is not None)
+        remedy = f"give solar_constant, like '1361 W/m2' for the Earth{remove}"
+        raise UndefinedError(f"{_CALL}: the year of {name} is not known; {remedy}")
     if year is not None and days is not None:
         words = "give one length of time, at most a year"
         kind = Number("d", "30 d", above=0.0, high=year / DAY, limits=words)
@@ -308,6 +308,8 @@ def daily_insolation(
     sun = _place(solar_longitude, "solar_longitude", _TURN, result)
     value, error = _with_error(result, place, sun, constant, window, bool(true_longitude))
     error.attrs = {"units": "W m-2", "long_name": "95 % half-width of the daily insolation"}
+    if f"{_NEEDED[0]}_error" not in result:
+        error.attrs["no_error"] = "the solution has no errors"
     longitude = f"{'true' if true_longitude else 'mean'} longitude of the Sun"
     value.attrs = {
         "units": "W m-2",
@@ -352,9 +354,13 @@ def _with_error(
     window: float | None,
     is_true: bool,
 ) -> tuple[xr.DataArray, xr.DataArray]:
-    """Insolation from an answer of `long_term` and its 95 % half-width, along all dimensions."""
-    inputs = [si(result[f"{name}{kind}"]) for kind in ("", "_error") for name in _NEEDED]
-    arrays = [*inputs, latitude, longitude]
+    """Insolation from a solution and its 95 % half-width, along all dimensions.
+
+    The half-width is NaN if the solution has no errors.
+    """
+    values = [result[name] for name in _NEEDED]
+    errors = [result.get(f"{name}_error", np.nan * result[name]) for name in _NEEDED]
+    arrays = [*map(si, values), *map(si, errors), latitude, longitude]
     labels = xr.broadcast(*arrays)[0]
     eps, e, w, *half_widths, phi, sun = (  # they broadcast along all dimensions without copies
         array.transpose(*labels.dims, missing_dims="ignore").values.reshape(

@@ -10,7 +10,6 @@ from astropy import units as u
 
 import earthspin
 from earthspin import EARTH, EarthspinError, daily_insolation, insolation
-from earthspin.secular.insolation import Season, daily
 from tests import shipped
 from tests.refusals import refused
 
@@ -52,10 +51,12 @@ def test_half_widths_hold_the_differences_from_la2004(latitude: float, longitude
     """Over 200,000 years, as returned (measured: 97.0 to 98.5 % are inside, at most 0.07 W/m2)."""
     theirs = earthspin.read_solution(LA2004)
     ours = insolation(times=theirs.epoch, latitude=latitude * u.deg, longitude=longitude * u.deg)
-    elements = (theirs.obliquity, theirs.eccentricity, theirs.longitude_of_perihelion)
-    eps, e, w = (x.values * k for x, k in zip(elements, (DEG, 1, DEG), strict=True))
-    value = 1361 * daily(Season(eps, e, w), latitude * DEG, longitude * DEG)
-    difference = np.abs(ours.insolation.values - value)
+    place = (latitude * u.deg, longitude * u.deg)
+    value = daily_insolation(theirs, *place, solar_constant=1361 * u.W / u.m**2)
+    assert np.isnan(value.daily_insolation_error).all()  # that of La2004 is not known
+    with pytest.raises(earthspin.EarthspinError, match="give solar_constant"):
+        daily_insolation(theirs, *place)
+    difference = np.abs(ours.insolation.values - value.values)
     assert (difference <= ours.insolation_error.values).mean() > 0.95
     assert difference.max() < 0.08
 
