@@ -256,7 +256,11 @@ def _run(options: Namespace) -> None:
         if data.suffix not in ("", ".nc", ".zarr", ".csv") and not data.is_dir():
             raise OutputError(data, "unknown suffix", "give a folder, or a .nc, .zarr or .csv file")
         if data.suffix == ".csv" and sections is not None:
-            raise SceneError("--sections", options.sections, "not in a .csv: give a folder or .nc")
+            raise SceneError(
+                "--sections",
+                options.sections,
+                "not in a .csv: give a folder or .nc, or use to_csv in Python",
+            )
         long = data if data.suffix == ".zarr" else data / f"{name}.zarr"
         if data.suffix not in (".nc", ".zarr", ".csv"):
             data, page = data / f"{name}.nc", data / f"{name}.html"

@@ -438,6 +438,8 @@ def checked(function: Callable[_P, _T]) -> Callable[_P, _T]:
         if unknown:
             return f"has no argument '{unknown[0]}'; {nearest(unknown[0], [*free, *named])}"
         if len(args) > len(free) and named:
+            if os.path.splitext(str(args[len(free)]))[1]:  # a file
+                named.sort(key=lambda name: name != "file")
             pairs = zip(named, args[len(free) :], strict=False)
             words = [*map(_shown, args[: len(free)]), *(f"{n}={_shown(v)}" for n, v in pairs)]
             return f"{error}; write {name}({', '.join(words)})"

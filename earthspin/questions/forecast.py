@@ -90,7 +90,8 @@ class Forecast(
 
     body: Body = key(EARTH, doc="body whose pole is forecast")
     days: Annotated[float, Number("d", "365 d", above=0.0)] = key(
-        365.0, doc="days after `start`; the last is at most 730 days after the newest observed one"
+        "365 d",
+        doc="days after `start`; the last is at most 730 days after the newest observed one",
     )
     step: Annotated[float, replace(SPACING, example="1 d")] = key(
         "1 d", doc="time between two epochs, a whole number of days"

@@ -91,7 +91,7 @@ def neglected_rates(modelled: Collection[str] = ()) -> Neglected:
     return Neglected(
         {name: size for name, size in published_effects().items() if name not in modelled},
         "arcsec/yr",
-        "published contribution to the rate of an effect that is not modelled",
+        "published contribution that the computed rate leaves out",
         next(iter(PUBLISHED_EFFECTS.values())).source,
     )
 
