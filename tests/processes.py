@@ -20,6 +20,7 @@ def printed(program: str, *words: str, **settings: Any) -> str:
     **settings
         Of `subprocess.run`.
     """
-    command = [sys.executable, "-X", "utf8", "-W", "error", "-c", program, *words]
+    old = "ignore:days count from the newest row:UserWarning"  # the tables of astropy age
+    command = [sys.executable, "-X", "utf8", "-W", "error", "-W", old, "-c", program, *words]
     settings = {"cwd": ROOT, "encoding": "utf-8"} | settings
     return subprocess.run(command, check=True, stdout=subprocess.PIPE, **settings).stdout

@@ -88,7 +88,10 @@ class Key:
     @property
     def default_words(self) -> str:
         """Default value of the key as text; empty if there is none."""
-        return "" if self.required or self.shown in (None, "") else plain_words(self.shown)
+        if self.required or self.shown in (None, ""):
+            return ""
+        number = isinstance(self.shown, float)
+        return plain_words(self.kind.write(self.shown) if number else self.shown)
 
 
 def _read(kind: Kind[Any], value: object, where: Where) -> Any:

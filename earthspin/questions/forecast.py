@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime as dt
 import json
+import warnings
 from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -50,6 +51,10 @@ class Day(Epoch):
         return date_text(value)
 
 
+#: Age of a table, d, from which a user is warned that the forecast begins in the past.
+OLD = 7.0
+
+
 def today() -> float:
     """Present day in UTC, days from J2000.0."""
     return float(days(dt.datetime.now(dt.UTC).date(), Where("today"))[0])
@@ -90,7 +95,7 @@ class Forecast(
 
     body: Body = key(EARTH, doc="body whose pole is forecast")
     days: Annotated[float, Number("d", "365 d", above=0.0)] = key(
-        "365 d",
+        365.0,
         doc="days after `start`; the last is at most 730 days after the newest observed one",
     )
     step: Annotated[float, replace(SPACING, example="1 d")] = key(
@@ -230,6 +235,10 @@ def ahead(
         first, last = map(date_text, excitation.rows[0, [0, -1]])
         source["excitation"] = f"given from {first} to {last}"
     newer = f"for newer rows: pip install --upgrade {TABLES}, or give a file"
+    age = today() + MJD - float(record.mjd[-1])
+    if day is None and age > OLD:
+        begun = f"days count from the newest row of the table, which is {age:.0f} d old"
+        warnings.warn(f"{begun}; start='today' counts from today; {newer}", stacklevel=2)
     time = {"comment": f"0h UTC; {newer}", "newest_row": newest} if origin is None else {}
     if day is not None:  # otherwise the age is that of the day on which an answer is printed
         time["age_of_newest_row"] = f"{day + MJD - record.mjd[-1]:.0f} d on {date_text(day)}"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import datetime as dt
 from collections.abc import Hashable, Mapping
 
 import numpy as np
@@ -131,17 +130,7 @@ def closing_line(result: Result, seconds: float | None = None) -> str:
         run_time = result["plan"].run_time
         imports = float(run_time.sel(part=IMPORTS)) if IMPORTS in run_time.part else 0.0
         cost = f"{plain(float(run_time.sum()) - imports)} s (+ {plain(imports)} s imports)"
-    return "; ".join(filter(None, (_error(answer), _age(answer), cost)))
-
-
-def _age(answer: xr.Dataset) -> str:
-    """Age of the newest row of a table, if the times of an answer continue this table."""
-    attrs = answer.time.attrs if "time" in answer.coords else {}
-    if "newest_row" not in attrs:
-        return ""
-    age = dt.datetime.now(dt.UTC).date() - dt.date.fromisoformat(attrs["newest_row"])
-    hint = "" if "age_of_newest_row" in attrs else " (start=today counts days from today)"
-    return f"newest row of the table {age.days} d old{hint}"
+    return "; ".join(filter(None, (_error(answer), cost)))
 
 
 def _error(answer: xr.Dataset) -> str:
