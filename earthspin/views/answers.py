@@ -174,7 +174,7 @@ def plot(answer: Answer) -> list[Figure]:
     try:
         figures = figures_of(data)
     except (AttributeError, KeyError, ValueError):
-        selection = f"a selection of the answer to '{question.word}'"
+        selection = f"a part of an answer to '{question.word}', or a difference"
         remedy = "plot the full result, which earthspin.run(ds) computes again"
         raise SceneError("plot", selection, remedy) from None
     if not figures:
