@@ -386,7 +386,7 @@ def is_ensemble(answer: xr.Dataset | xr.DataTree) -> bool:
 
 
 def inputs_of(answer: xr.Dataset) -> dict[str, NDArray[Any]]:
-    """Input values of all members of an ensemble by input name; numbers come before names.
+    """Input values of all members of an ensemble, by input; numbers first, then texts.
 
     An input of several numbers has one entry for each number.
     """

@@ -207,7 +207,7 @@ class Ensemble:
         return {names: np.array(group) for names, group in indices.items()}
 
     def variant(self, names: Names) -> Question:
-        """Return the question with the given names (such as file names) as inputs.
+        """Return the question with the given values of its text inputs (such as file names).
 
         Raises
         ------

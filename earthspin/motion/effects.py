@@ -52,7 +52,7 @@ EFFECTS: dict[str, Effect] = {}
 
 
 def add(effect: Effect) -> Effect:
-    """Register an effect on the axes; it is switched off by default.
+    """Register an effect on the axes by its name, so that a question can switch it on.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Rate of change of the angular momentum, and the figure axis that follows it without free wobble.
+"""Rate of the angular momentum under torques, and the figure axis without free wobble.
 
 The rate is that of all perturbers and of the effects that are switched on. For an effect that is
 switched off, no positions and no torque are evaluated.

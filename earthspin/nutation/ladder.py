@@ -463,7 +463,7 @@ def _half_width(changes: Array) -> FloatArray:
 
 
 def spread_of(setting: Setting, rungs: dict[str, Rung], uncertainty: Mapping[str, float]) -> Spread:
-    """Compute the models at the nodes of all uncertain inputs, and draw the inputs.
+    """Compute models with one input changed each, and weights to interpolate random draws.
 
     Parameters
     ----------

@@ -329,7 +329,7 @@ class BulletinA(Daily):
 def not_in_file(
     file: eop.PoleTable, origin: float | None, start: float | None, days: float
 ) -> str | None:
-    """Return the reason (text) to omit Bulletin A if it lacks days of the forecast, else None."""
+    """Return the reason (text) to omit Bulletin A if it cannot give the forecast, else None."""
     if origin is not None:
         return "Bulletin A predicts from the newest observed day; leave origin out"
     if (table := eop.read_bulletin_a(file)) is None:

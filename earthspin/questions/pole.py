@@ -96,7 +96,7 @@ def not_fitted(response: str) -> str | None:
 
 
 def not_predicted(response: str) -> str | None:
-    """Return the reason (text) to omit prediction if a fitted response is requested, else None.
+    """Return the reason (text) to omit the predicted response if it is not chosen, else None.
 
     The response is that of the body's interior to nutation torques.
     """
@@ -243,7 +243,7 @@ class Angles(Dated, along=("time", "axis"), error="direction_error"):
 
 @part(unless=no_longitude)
 def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> tuple[FloatArray, FloatArray]:
-    """Continuous longitude psi of the angular momentum: starts of the windows, s, and psi, rad."""
+    """Start times of the windows, s, and continuous longitude psi of the momentum then, rad."""
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     return path.continuous_longitude(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
 

@@ -482,7 +482,7 @@ def effect_changes(
 
 @part(unless=(nothing_pulls, no_satellites))
 def node_drifts(body: Body, pulls: Pulls, epochs: Epochs) -> dict[str, float]:
-    """Largest displacements of the pole by the nodes of the satellites from first to last date."""
+    """Largest displacements (rad) of the pole due to satellite nodes, from first to last date."""
     obliquity = obliquity_of(body)
     if obliquity is None:
         return {}

@@ -86,7 +86,7 @@ def mean_pole_error(body: Body, half: float | None, pull: Numeric) -> float | No
 
 
 def describe_pole(body: Body) -> str:
-    """Describe the pole of a precession rate: with satellites, its mean over their nodes."""
+    """Describe in words the pole used for precession: as given, or mean over satellite nodes."""
     if not body.satellites:
         return str(body.needed("pole"))
     names = ", ".join(satellite.name for satellite in body.satellites)
@@ -255,7 +255,7 @@ def common_turn(body: Body, pull: float) -> FloatArray | None:
 
 
 def _planet(columns: list[Any], obliquity: float) -> Planet:
-    """Make a `Planet` from columns of GM, radius, J2, H, spin rate and pull."""
+    """Make a `Planet` from arrays GM, radius, J2, H, spin rate and the perturbers' GM <1/r3>."""
     gm, radius, j2, h, spin_rate, pull = columns
     return Planet(gm, radius, j2, j2 / h, np.abs(spin_rate), pull, obliquity)
 

@@ -84,7 +84,7 @@ def daylight(obliquity: FloatArray, latitude: FloatArray, longitude: FloatArray)
 
 
 def true_longitude(season: Season, mean: FloatArray) -> FloatArray:
-    """True longitude of the Sun from its mean longitude, rad; equal at the March equinox."""
+    """True longitude of the Sun, rad, from a mean one that equals it at the March equinox."""
     e = season.eccentricity
     at_equinox = mean_anomaly(-season.perihelion - np.pi, e)
     anomaly = true_anomaly(at_equinox + mean, e)

@@ -277,7 +277,7 @@ class Trajectory:
     steps: int
 
     def about(self, times: FloatArray) -> FloatArray:
-        """Longitude of the spin axis about the reference axis, and component along it, at times.
+        """Spin axis at times: longitude about the reference axis (rad), component along it.
 
         The height is the component along the reference axis. The shape is (2, ..., n).
         """

@@ -144,7 +144,7 @@ class Pole(Protocol):
     of_the_iau: bool
 
     def orbit_normal(self, orbit: Direction | None) -> FloatArray:
-        """Unit normal of the plane in which precession is measured, shape (3,).
+        """Unit normal of the plane to which precession refers, shape (3,).
 
         Raises
         ------

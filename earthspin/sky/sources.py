@@ -76,7 +76,7 @@ def trajectory(position: Any) -> Trajectory:
 
 
 def read_position(value: Any, where: Where) -> VectorFunction | Trajectory:
-    """Read a body's positions from a Skyfield vector function, a trajectory, or stored tables.
+    """Check and return the source of positions: vector function, trajectory or stored tables.
 
     Parameters
     ----------
