@@ -79,7 +79,7 @@ def rows_of(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
 
 
 def text_between(lines: list[str], is_row: Callable[[str], bool]) -> list[int]:
-    """Line numbers of text lines below the first row of a table, except comments and blank lines.
+    """Numbers of the lines below a table's first row that are not rows, comments or blank lines.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ def numbers(file: Path, line: int, words: list[str]) -> list[float]:
 
 
 def table_of(file: Path) -> tuple[str, list[list[float]], list[int]]:
-    """Read a text table of numbers, which spaces, commas or semicolons separate.
+    """Read a text file of numbers in columns, separated by spaces, commas or semicolons.
 
     Returns
     -------

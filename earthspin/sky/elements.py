@@ -128,7 +128,7 @@ class Ellipse:
 
     @property
     def sidereal_motion(self) -> float:
-        """Mean rate of the body's longitude on the orbit, rad/s."""
+        """Rate of the body's mean longitude, precession of the orbit included, rad/s."""
         return self.motion + self.node_rate + self.pericentre_rate
 
     def positions(self, days: FloatArray) -> FloatArray:
@@ -154,7 +154,7 @@ class Ellipse:
         return np.asarray(in_plane @ self.plane.matrix)
 
     def error(self, day: float) -> tuple[float, float]:
-        """Bounds on the errors of direction (rad) and distance (m) due to rounding, on a day.
+        """Bounds on the rounding errors of the body's direction (rad) and distance (m) on a day.
 
         An error of the mean anomaly is amplified in direction by at most sqrt(1 + e)/(1 - e)^(3/2).
         """
@@ -166,7 +166,7 @@ class Ellipse:
         return angle, self.a * (1 + self.e) * angle
 
     def rounding(self, day: float) -> float:
-        """Relative error of the tidal tensor on a day, caused by rounding of the mean longitude.
+        """Relative error of the tidal tensor on a given day due to rounding of the mean longitude.
 
         Half a unit in the last place of the mean longitude: measured, see docs/coverage.md.
         """
@@ -176,7 +176,7 @@ class Ellipse:
 
 @dataclass(frozen=True)
 class ByElements:
-    """Trajectory of a body whose position is a sum of positions on Keplerian ellipses.
+    """Trajectory of a body as the sum of position vectors on a chain of Keplerian orbits.
 
     Attributes
     ----------
@@ -225,11 +225,11 @@ class Elements:
 
     @property
     def provenance(self) -> dict[str, str]:
-        """Note for the attributes of a result: positions follow from orbital elements."""
+        """Result attribute that says how positions are computed: from orbital elements."""
         return {"positions": "by the elements of orbits, without a kernel"}
 
     def code(self, codes: Iterable[int], name: str) -> int:
-        """Raise an error: the named body has no orbital elements, which this source needs.
+        """Raise an error: this source has no NAIF codes, so each body needs orbital elements.
 
         Raises
         ------

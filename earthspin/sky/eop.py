@@ -78,7 +78,7 @@ _PUBLISHERS = {"EOP-All.csv": "CelesTrak ", "EOP2": "JPL ", "given table": ""}
 
 @dataclass(frozen=True)
 class _Coordinates:
-    """Columns, units and limits of polar motion or of celestial pole offsets.
+    """Names and plausibility limits (arcsec) of polar motion, or of celestial pole offsets.
 
     Attributes
     ----------
@@ -118,7 +118,7 @@ _NOT_IAU_1980 = "offsets from IAU 2006/2000A are needed; are they from IAU 1980?
 
 @dataclass(frozen=True, eq=False)
 class GivenSeries:
-    """Polar motion, celestial pole offsets or an excitation from a labelled table of the caller.
+    """Polar motion, celestial pole offsets or excitation from a labelled table of the user.
 
     Attributes
     ----------
@@ -168,12 +168,12 @@ class PoleSeries:
 
     @property
     def provenance(self) -> dict[str, str]:
-        """SHA-256 hash of the file of the series, for the attributes of a result."""
+        """SHA-256 hash of the file with the series, as an attribute for results; may be empty."""
         return {"table_sha256": self.sha256} if self.sha256 else {}
 
     @property
     def source(self) -> str:
-        """Publisher and name of the table."""
+        """Publisher and name of the table that holds the series, such as "IERS c04"."""
         return _PUBLISHERS.get(self.name, "IERS ") + self.name
 
     @property
@@ -192,7 +192,7 @@ class PoleSeries:
         return np.asarray(self.x + 1j * self.y)
 
     def between(self, first: float, last: float) -> PoleSeries:
-        """Select the part of the series from one date to another, both dates included.
+        """Select the rows of the series between two modified Julian dates, both included.
 
         Raises
         ------
@@ -290,7 +290,7 @@ def read_bulletin_a(path: PoleTable = "finals") -> PoleSeries | None:
 def _read(
     path: PoleTable, kind: str | None, pair: _Coordinates, first: float = -math.inf
 ) -> PoleSeries:
-    """Read polar motion or celestial pole offsets; unchanged files are read once."""
+    """Read polar motion or celestial pole offsets; unchanged files are not parsed again."""
     if isinstance(path, GivenSeries):
         days, *values = path.rows
         rows = np.full((days.size, len(_COLUMNS)), np.nan)
@@ -307,7 +307,7 @@ def _read(
 def _parsed(
     file: Path, sha256: str, kind: str | None, pair: _Coordinates, first: float
 ) -> PoleSeries:
-    """Convert the text of a file to a pole series."""
+    """Parse and check a file of polar motion or celestial pole offsets; results are cached."""
     layout = _layout(file, columns.lines_of(file), kind)
     rows = _rows(file, layout, pair)
     if layout.name == "c01":
@@ -319,7 +319,7 @@ def _parsed(
 def _checked(
     file: object, rows: FloatArray, name: str, pair: _Coordinates, text: list[int]
 ) -> PoleSeries:
-    """Make a series of rows; repair small defects and refuse large ones.
+    """Convert the rows of a table to a series; repair small defects and refuse large ones.
 
     Parameters
     ----------
@@ -416,7 +416,7 @@ def _layout(file: Path, lines: list[str], kind: str | None) -> _Layout:
 
 
 def _cells(line: str) -> list[str]:
-    """Words of a line between commas or semicolons."""
+    """Split a line into cells at commas and semicolons."""
     return [cell.strip() for cell in re.split("[,;]", line)]
 
 
@@ -434,7 +434,7 @@ def _is_row_of_finals(line: str) -> bool:
 
 
 def _rows(file: Path, layout: _Layout, pair: _Coordinates, predicted: bool = False) -> FloatArray:
-    """Observed, or predicted, rows of a table: mjd, x, y, x_error and y_error, by line; arcsec."""
+    """Observed or predicted rows of a table, (n, 6): line, MJD, x, y, x_error, y_error (arcsec)."""
     names, lines = layout.names, enumerate(layout.lines, start=1)
     table = [(at, layout.split(line)) for at, line in lines if layout.is_row(line)]
     if not table:
@@ -482,7 +482,7 @@ def _rows(file: Path, layout: _Layout, pair: _Coordinates, predicted: bool = Fal
 
 
 def _dates(file: Path, cells: dict[str, FloatArray]) -> FloatArray:
-    """Modified Julian dates of rows; refuse those that differ from the calendar date."""
+    """Modified Julian dates of rows; refuse a row whose calendar date differs."""
     line, year = cells["line"].astype(int), cells.get("year")
     if "mjd" not in cells and year is not None:
         outside = (year < 1800) | (year > 2200)
@@ -505,14 +505,14 @@ def _dates(file: Path, cells: dict[str, FloatArray]) -> FloatArray:
 
 
 def _refuse(file: object, rows: FloatArray, wrong: BoolArray, problem: str, remedy: str) -> None:
-    """Refuse the first of the rows that are wrong, with its values in the text of the problem."""
+    """Raise an error for the first wrong row, if any; the message contains the row's values."""
     if wrong.any():
         row = dict(zip(_COLUMNS, rows[np.argmax(wrong)], strict=False))
         raise SeriesError(file, problem.format(**row), remedy, int(row["line"]))
 
 
 def _complete(file: object, rows: FloatArray, text: list[int], repairs: list[str]) -> FloatArray:
-    """Remove rows without pole coordinates, and add a note of their number to the repairs.
+    """Remove rows without pole coordinates, and note how many; refuse a table with too many.
 
     Lines of text between rows count as such rows.
     """
@@ -529,7 +529,7 @@ def _complete(file: object, rows: FloatArray, text: list[int], repairs: list[str
 
 
 def _drop_zeros(rows: FloatArray, repairs: list[str]) -> FloatArray:
-    """Remove rows before the first observation, in which some tables hold zeros."""
+    """Remove the rows of zeros that some tables have before the first observation."""
     observed = np.logical_or.accumulate(np.any(rows[:, 2:4] != 0, axis=1))
     if not observed.all():
         count = np.count_nonzero(~observed)
@@ -538,7 +538,7 @@ def _drop_zeros(rows: FloatArray, repairs: list[str]) -> FloatArray:
 
 
 def _check_model(file: object, rows: FloatArray) -> None:
-    """Refuse offsets that differ from those of finals2000A, which astropy carries.
+    """Refuse celestial pole offsets that differ from the finals2000A table included in astropy.
 
     The size alone does not show the model: offsets from IAU 1980 stay below 20 mas until 1991, and
     the oldest of those from IAU 2006/2000A reach 9 mas.
@@ -559,7 +559,7 @@ def _check_model(file: object, rows: FloatArray) -> None:
 
 
 def _check_size(file: object, rows: FloatArray, pair: _Coordinates, name: str) -> None:
-    """Refuse coordinates in another unit or from another model, and negative errors."""
+    """Refuse pole coordinates of implausible size (wrong unit or model), and negative errors."""
     values, size = f"{pair.words} = {{x:g}}, {{y:g}} arcsec", np.hypot(rows[:, 2], rows[:, 3])
     large = np.max(abs(rows[:, 2:4]), axis=1) > pair.largest
     remedy = f"{pair.name} stays below {pair.largest / 2:g}; is it in milliarcseconds?"
@@ -603,7 +603,7 @@ def _in_order(file: object, rows: FloatArray, repairs: list[str]) -> FloatArray:
 
 
 def _even(file: object, rows: FloatArray, name: str, repairs: list[str]) -> PoleSeries:
-    """Interpolate the rows to an even time step, the median of the steps; refuse long gaps."""
+    """Interpolate rows to evenly spaced dates, about the median step apart; refuse long gaps."""
     mjd, values = rows[:, 1], rows[:, 2:] * ARCSEC
     steps = np.diff(mjd)
     usual = float(np.median(steps))

@@ -80,7 +80,7 @@ class Ephemeris:
 
     @cached_property
     def sha256(self) -> str:
-        """SHA-256 of the kernel file; an unchanged file is read once."""
+        """SHA-256 hash of the kernel file; a file that has not changed is not read again."""
         state = self._file.stat()
         # The time of a change cannot be set by hand, unlike that of a modification.
         same = state.st_dev, state.st_ino, state.st_size, state.st_mtime_ns, state.st_ctime_ns
@@ -298,7 +298,7 @@ class Ephemeris:
 
 @lru_cache
 def _sha256(path: Path, same: tuple[int, ...]) -> str:
-    """SHA-256 of a file; `same` identifies the file and its state."""
+    """SHA-256 hash of a file, cached until the state of the file (`same`) changes."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 

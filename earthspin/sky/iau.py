@@ -107,7 +107,7 @@ def true_pole(days: FloatArray) -> FloatArray:
 
 
 def pole_and_nutation(days: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Pole of IAU 2006/2000A, and nutation of the original IAU 2000A, from one sum of its terms.
+    """Pole of IAU 2006/2000A and nutation of IAU 2000A, from one evaluation of the series.
 
     Returns
     -------
@@ -126,7 +126,7 @@ def pole_and_nutation(days: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def delaunay_arguments(days: FloatArray) -> FloatArray:
-    """Delaunay arguments l, l', F, D and the node (IERS 2003), rad, shape (5, n)."""
+    """Delaunay arguments l, l', F, D and Omega (IERS 2003), rad, shape (5, n)."""
     t = days / DAYS_PER_CENTURY
     return np.stack([erfa.fal03(t), erfa.falp03(t), erfa.faf03(t), erfa.fad03(t), erfa.faom03(t)])
 
@@ -191,7 +191,7 @@ def fixed_ecliptic() -> FloatArray:
 
 
 def ecliptic_of_date(days: FloatArray) -> FloatArray:
-    """Pole of the moving ecliptic in the frame of `fixed_ecliptic` (P_A, Q_A), shape (n, 3)."""
+    """Pole of the ecliptic of date from P_A and Q_A, in the frame of `fixed_ecliptic`, (n, 3)."""
     p, q = (np.asarray(angle) for angle in erfa.p06e(J2000_JD, days)[3:5])
     return np.stack([p, -q, np.sqrt(1 - p * p - q * q)], axis=-1)
 

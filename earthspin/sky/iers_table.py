@@ -24,7 +24,7 @@ class PoleTable(iers.IERS_A):  # type: ignore[misc]
     iers_table = None
 
     def mjd_utc(self, jd1: Any, jd2: Any = 0.0) -> Any:
-        """Convert dates to modified Julian dates as astropy does, but refuse those outside."""
+        """Modified Julian dates of times, as in astropy; refuse dates outside the table."""
         days = super().mjd_utc(jd1, jd2)
         mjd = np.ravel(np.sum(days, axis=0))
         first, last = self["MJD"][[0, -1]].value

@@ -1,4 +1,4 @@
-"""Content of an ephemeris kernel: Chebyshev series, checks for damage, and measured differences."""
+"""Ephemeris kernels: Chebyshev series, checks for damage, and differences of DE421 and DE440."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Grid(NamedTuple):
     records: int
 
     def places(self, days: FloatArray) -> tuple[IntArray, FloatArray]:
-        """For each time, return the index of its record, and its place there, from -1 to 1."""
+        """Index of the record that contains each time, and the time within it, from -1 to 1."""
         seconds = days * DAY
         record = ((seconds - self.start) / self.length).astype(np.int64)
         np.clip(record, 0, self.records - 1, out=record)
@@ -112,7 +112,7 @@ class Epochs:
 
 
 def _laid_out(record: IntArray, place: FloatArray) -> _InOrder | _InAnyOrder:
-    """Arrange times for Chebyshev series, as a matrix if they fill the kernel records evenly.
+    """Arrange times for Chebyshev series: as a matrix if evenly spread over the kernel records.
 
     Otherwise each time is evaluated by itself. A matrix also requires sorted times.
     """
@@ -187,7 +187,7 @@ class _InAnyOrder(NamedTuple):
 
 
 def _coefficients(series: FloatArray) -> FloatArray:
-    """Reorder Chebyshev coefficients from shape (n, 3 terms) to a contiguous (terms, 3, n)."""
+    """Reorder Chebyshev coefficients (n, 3 terms) to a contiguous array (terms, 3, n)."""
     return np.ascontiguousarray(series.reshape(len(series), 3, -1).transpose(2, 1, 0))
 
 
@@ -255,7 +255,7 @@ _SAMPLE = 33  # joints used for the median gap
 
 
 def check_summaries(daf: Any, path: Path) -> None:
-    """Check that the linked list of summary records in a kernel file ends and is plausible.
+    """Check that the linked list of summary records in a kernel file has an end and valid counts.
 
     Raises
     ------
@@ -329,7 +329,7 @@ class Records:
         return KernelError(self.path, f"its segment {name} {problem}", AGAIN)
 
     def _check_times(self, records: IntArray) -> None:
-        """Check the start and length stored in each record against the directory of the segment."""
+        """Check midpoints and half-lengths stored in given records against the directory."""
         middle = self.start + (records + 0.5) * self.length
         expected = np.stack([middle, np.full_like(middle, self.length / 2)], axis=1)
         if not np.all(np.abs(self._times[records] - expected) <= self._slack):  # NaN is wrong
@@ -372,15 +372,16 @@ class Records:
 
     @cached_property
     def _usual_gap(self) -> float:
-        """Median gap from each record of a segment to the next, NaN for few records."""
+        """Median relative jump of position between adjacent records; NaN for few records."""
         sample = np.unique(np.linspace(0, self.count - 2, _SAMPLE).astype(np.int64))
         return float(np.median(self._gaps(sample)[0])) if sample.size > 4 else np.nan
 
     def _gaps(self, joints: IntArray) -> tuple[FloatArray, FloatArray]:
-        """Position jumps from the end of each record to the start of the next, shape (n,).
+        """Relative position jumps after given records, and last terms of the series, (n,) each.
 
-        Returns also the smaller of the last terms of both series, which scales the truncation
-        error. Both are over the sum of the absolute terms, which scales the rounding error.
+        A jump is from the end of a record to the start of the next. The last terms, the smaller of
+        both records, scale the truncation error. Both results are divided by the sum of the
+        absolute terms, which scales the rounding error.
         """
         # T_k is 1 at the end of a record and (-1)^k at its beginning.
         signs = 1.0 - 2.0 * (np.arange(self._series.shape[2]) % 2)
@@ -444,7 +445,7 @@ DIFFERENCES = dict(zip(combinations(_CODES, 2), _SIZES, strict=True))
 
 
 def largest_difference(centre: int, target: int) -> tuple[float, float]:
-    """Largest difference between two kernels for a pair of bodies: direction (mas), distance (m).
+    """Largest difference of DE421 and DE440 for a pair of bodies: direction (mas), distance (m).
 
     Parameters
     ----------
@@ -483,6 +484,6 @@ def drift_is_measured(centre: int, target: int) -> bool:
 
 
 def _barycentre(code: int) -> int:
-    """NAIF code of the barycentre of a planet with its moons; Earth and others keep their code."""
+    """NAIF code of a planet's barycentre (4 for 499); Earth and other bodies keep their code."""
     planet = code // 100 if 100 < code < 1000 and code % 100 == 99 else code
     return code if planet == 3 else planet

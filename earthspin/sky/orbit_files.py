@@ -91,10 +91,7 @@ def _ecliptic() -> FloatArray:
 
 
 def _solar(pole: FloatArray) -> FloatArray:
-    """Axes of the Sun's equator; the first is towards the equator's ascending node.
-
-    The node is on the ecliptic.
-    """
+    """Axes of the Sun's equator as rows; the first points to the ascending node on the ecliptic."""
     node = np.cross(_ecliptic()[2], pole)
     node /= np.linalg.norm(node)
     return np.stack([node, np.cross(pole, node), pole])
@@ -224,7 +221,7 @@ def _load(file: Path) -> OrbitTable:
 
 @dataclass(frozen=True)
 class _Rows:
-    """Columns of orbital elements from the user's file or data frame, in order of time.
+    """Columns of orbital elements, as read from the user's file or data frame.
 
     Attributes
     ----------
@@ -284,7 +281,7 @@ class _Rows:
         return SeriesError(self.source, problem, remedy, int(self.lines[row]))
 
     def in_order(self) -> _Rows:
-        """Return the rows in order of time; refuse missing or repeated times and too few rows."""
+        """Return the rows in ascending time; refuse gaps, repeated times and too few rows."""
         for name, column in self.columns.items():
             if not np.isfinite(column).all():
                 row = int(np.argmin(np.isfinite(column)))
@@ -312,7 +309,7 @@ class _Rows:
 
 
 def _chosen(names: Sequence[str], source: object) -> dict[str, int]:
-    """Find the columns of orbital elements by their headers; return index by element name."""
+    """Return the column index of each orbital element, found by the column names."""
     places = {}
     for name, words in NAMES.items():
         exact = [at for at, column in enumerate(names) if column in words]
@@ -421,7 +418,7 @@ def _check_eccentricity(rows: _Rows, e: FloatArray) -> None:
 
 
 def _turning(rows: _Rows) -> list[FloatArray]:
-    """Columns of angles that take all values: node, and longitude or argument of perihelion."""
+    """Columns of the angles that run through a full circle: node and perihelion."""
     return [
         column for name, column in rows.columns.items() if name in ("varpi", "argument", "node")
     ]

@@ -43,7 +43,7 @@ UNIT = 1e-9
 
 
 class Growth(NamedTuple):
-    """Increase with time of the error of the package's orbit tables.
+    """Growth with time of the errors of the orbit tables included in the package.
 
     The integration error is excluded.
 
@@ -131,12 +131,12 @@ class OrbitTable:
 
     @property
     def provenance(self) -> dict[str, str]:
-        """SHA-256 hash of the file of the table, for the attributes of a result."""
+        """SHA-256 hash of the orbit table file, as an attribute for results; may be empty."""
         return {"orbit_sha256": self.sha256} if self.sha256 else {}
 
     @property
     def reference(self) -> str:
-        """Origin of the orbit, for the references of a result."""
+        """Body and source of the orbit, as text for the references of a result."""
         return f"orbit of {self.name}: {self.source}"
 
     @property
@@ -248,7 +248,7 @@ def fitted(
     axes: FloatArray,
     source: str,
 ) -> OrbitTable:
-    """Fit polynomials of an orbit table to samples of orbit normal and eccentricity vector.
+    """Make an orbit table: fit polynomials to samples of orbit normal and eccentricity vector.
 
     In a window with many samples the series are fitted by least squares, which smooths faster
     variations; with few samples, quintic splines are used.
@@ -304,7 +304,7 @@ def _left_out(
 
 
 def _to_meet(ends: FloatArray, samples: FloatArray) -> FloatArray:
-    """Corrections of the last two Legendre coefficients so that a series meets its end samples.
+    """Corrections of the last two Legendre coefficients, to pass through first and last sample.
 
     The last two terms are 1 at the end, plus and minus 1 at the start, and small in between.
     """
@@ -384,9 +384,9 @@ def _arrays(path: Path) -> dict[str, NDArray[Any]]:
 
 @cache
 def shipped(name: str) -> OrbitTable | None:
-    """Orbit table of a body that the package includes; None if it includes no such table.
+    """Return the package's orbit table of a body, or None if the package has none.
 
-    Its errors are those of its integration, stored in the file, plus those of `GROWTH`.
+    The errors are those of the integration, stored in the file, plus those of `GROWTH`.
     """
     path = Path(__file__).parent / "orbits" / f"{name}.npz"
     # os.path.exists is false for a name that is too long, where Path.exists raises an error

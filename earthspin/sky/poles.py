@@ -57,7 +57,7 @@ def angle(a: FloatArray, b: FloatArray) -> float:
 
 
 def spherical(vectors: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Right ascension (0 to 2 pi), declination and length of vectors, shape (n, 3).
+    """Right ascension (0 to 2 pi), declination and length of vectors (n, 3), shape (n,) each.
 
     Uses arctan2, because arcsin and arccos lose half the digits near the poles.
     """
@@ -194,7 +194,7 @@ class FixedPole(Direction):
     of_the_iau = False
 
     def orbit_normal(self, orbit: Direction | None) -> FloatArray:
-        """Unit normal of the body's orbit, the plane in which precession is measured, (3,)."""
+        """Unit normal of the body's orbit, the plane to which precession refers, shape (3,)."""
         if orbit is None:
             raise UndefinedError(
                 "the equinox of a body is the node of its orbit, which is not known; set its orbit "
@@ -249,7 +249,7 @@ class IAU2006Pole:
         return "iau2006"
 
     def orbit_normal(self, orbit: Direction | None) -> FloatArray:
-        """Unit normal of the ecliptic of J2000.0, where precession is measured, shape (3,)."""
+        """Unit normal of the ecliptic of J2000.0, to which precession refers, shape (3,)."""
         return iau.ecliptic_pole()
 
     def is_upright(self, orbit: Direction | None) -> bool:
@@ -285,7 +285,7 @@ NAMED_POLES: dict[str, Pole] = {str(IAU_2006): IAU_2006}
 
 
 def pole_of(value: object) -> Pole:
-    """Return the pole that is given directly, by its name, or by a pair of angles in radians.
+    """Return a pole from a pole, a name, or right ascension and declination in radians.
 
     Raises
     ------
@@ -489,7 +489,7 @@ class MovingPole:
         return cls(**fields)
 
     def write(self) -> dict[str, Any]:
-        """Form stored in scene files: a table of the pole's angles, rates and periodic terms."""
+        """Table for scene files: the pole's angles, rates and periodic terms."""
         table: dict[str, Any] = {name: f"{getattr(self, name)!r} rad" for name in _NAMES}
         table |= {name: f"{getattr(self, name)!r} rad/s" for name in _RATES}
         return table | {
@@ -533,7 +533,7 @@ class Angles:
         return tuple(quantity(angle, "rad", where, "317.7 deg") for angle in value)
 
     def write(self, value: Direction | Pole) -> str | list[str] | dict[str, Any]:
-        """Form stored in scene files: the name, the two angles, or the table of a moving pole."""
+        """Convert a pole for scene files: to a name, two angles, or the table of a moving pole."""
         if isinstance(value, MovingPole):
             return value.write()
         if isinstance(value, Direction):

@@ -20,7 +20,7 @@ from earthspin.units import real_numbers
 
 
 class Trajectory(Protocol):
-    """Protocol of a trajectory, by which a user gives positions of one body relative to another.
+    """Protocol of a trajectory: positions of one body relative to another, given by the user.
 
     It must be hashable, such as a frozen dataclass, so that a shared trajectory is evaluated once.
 
@@ -71,7 +71,7 @@ class Source(Protocol):
 
     @property
     def name(self) -> str:
-        """Name in messages and results."""
+        """Name of the source, as shown in messages and results."""
 
     @property
     def provenance(self) -> dict[str, str]:
@@ -132,7 +132,7 @@ class OfDate(Protocol):
 
 
 def measured_code(place: Place) -> int | None:
-    """NAIF code under which position errors of a body are known; None if they are not known."""
+    """NAIF code of a body, to look up its measured position error; None if it has no code."""
     return place if isinstance(place, int) else getattr(place, "code", None)
 
 
@@ -143,7 +143,7 @@ def words(place: object) -> str:
 
 
 def checked(positions: FloatArray, place: Place, days: FloatArray) -> FloatArray:
-    """Check the positions that a trajectory returned: one finite vector for each time.
+    """Check and return a trajectory's positions: one finite vector for each time.
 
     Raises
     ------

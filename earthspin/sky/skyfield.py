@@ -51,7 +51,7 @@ def timescale() -> Timescale:
 
 
 def blocks_of_times(days: FloatArray) -> Iterator[tuple[slice, Time]]:
-    """Yield Skyfield times for days of TDB from J2000.0, in blocks of limited size."""
+    """Yield given days (TDB from J2000.0) in blocks: the slice, and the times for Skyfield."""
     for first in range(0, days.size, _BLOCK):
         block = slice(first, first + _BLOCK)
         yield block, timescale().tdb_jd(J2000_JD, days[block])
@@ -75,7 +75,7 @@ def at(function: VectorFunction, t: Time) -> ICRF:
 
 @dataclass(frozen=True)
 class VectorTrajectory:
-    """Trajectory that computes its positions by a Skyfield vector function.
+    """Trajectory with positions from a Skyfield vector function.
 
     Attributes
     ----------
@@ -86,12 +86,12 @@ class VectorTrajectory:
 
     @property
     def centre(self) -> int:
-        """NAIF code of the body relative to which the vector function gives positions."""
+        """NAIF code of the reference body of the vector function's positions."""
         return int(self.function.center)
 
     @cached_property
     def code(self) -> int | None:
-        """NAIF code of the vector function's target, if all its segments are from kernels."""
+        """NAIF code of the vector function's target if all segments are from kernels, else None."""
         target = self.function.target
         is_measured = all(map(_segments, _leaves(self.function))) and isinstance(target, int)
         return target if is_measured else None
@@ -139,7 +139,7 @@ def function_of(trajectory: Trajectory) -> VectorFunction:
 
 
 def _leaves(function: VectorFunction) -> Iterator[VectorFunction]:
-    """Yield the elementary vector functions whose sum is the given one; signs are ignored."""
+    """Yield the elementary terms of a sum of vector functions, without signs."""
     if isinstance(function, VectorSum):
         for term in function.vector_functions:
             yield from _leaves(term)
@@ -239,7 +239,7 @@ class EquatorOfDate:
 
 
 class Skyfield(Ephemeris):
-    """Ephemeris kernel whose positions and directions Skyfield computes.
+    """Ephemeris kernel from which Skyfield computes positions and directions.
 
     Codes, coverage and measured errors are those of an `Ephemeris`.
 

@@ -66,7 +66,7 @@ def is_vector_function(value: object) -> bool:
 
 
 def trajectory(position: Any) -> Trajectory:
-    """Return the positions of a body as a trajectory; wrap a Skyfield vector function as one."""
+    """Return a body's trajectory; a Skyfield vector function is wrapped as a `VectorTrajectory`."""
     if is_vector_function(position):
         from earthspin.sky.skyfield import VectorTrajectory
 
@@ -121,7 +121,7 @@ def describe_position(position: object) -> str:
 
 
 def write_position(position: Any) -> Any:
-    """Convert a body's positions to the form stored in scene files: tables, or a description."""
+    """Describe a body's position source for scene files: kernel segments, or else a text."""
     if is_vector_function(position):
         from earthspin.sky.skyfield import write_segments
 
@@ -132,7 +132,7 @@ def write_position(position: Any) -> Any:
 
 
 def is_measured(position: Any) -> bool:
-    """Return True if a body's positions have a known error, which only kernels have."""
+    """Return True if the position error of a body is known (only for positions from kernels)."""
     return getattr(trajectory(position), "code", None) is not None
 
 
