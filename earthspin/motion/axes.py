@@ -83,7 +83,7 @@ class Segment:
     rounds: int
 
     def momentum_at_end(self, forward: bool) -> FloatArray:
-        """Angular momentum where the integration leaves this segment, in units of C Omega."""
+        """Angular momentum at the segment's last edge (first if backward), in units of C Omega."""
         if forward:
             return np.asarray(self.momentum[:, -1].sum(axis=-1))
         return np.asarray(self.momentum[:, 0] @ signs(self.momentum.shape[-1]))
@@ -196,7 +196,7 @@ def _chain(
 
 
 def _at_edge(windows: Windows, values: FloatArray, forward: bool) -> FloatArray:
-    """Extrapolate a function from the nodes to the time at which the segment starts, (3,)."""
+    """Extrapolate a vector from the nodes to the edge where the integration starts, shape (3,)."""
     series = windows.coefficients(values[:, :1] if forward else values[:, -1:])[:, 0]
     return np.asarray(series @ signs(series.shape[-1]) if forward else series.sum(axis=-1))
 
@@ -248,7 +248,7 @@ SEGMENT_TURN = 0.2
 
 @dataclass(frozen=True)
 class AxisPath:
-    """Integrated axes of a body over a time span, which can be evaluated at any time in it.
+    """Integrated axes of a body, as Legendre series that give the axes at any time in a span.
 
     Attributes
     ----------
@@ -467,10 +467,7 @@ def _displacement(path: AxisPath, figure: FloatArray) -> FloatArray:
 def _directions(
     epoch: float, span: tuple[float, float], limits: tuple[float, float], window: float
 ) -> list[tuple[FloatArray, bool]]:
-    """Edges of the time windows from the epoch forward, and from the epoch backward.
-
-    True marks the forward ones.
-    """
+    """Edges (s) of the time windows from the epoch forward and backward, with True if forward."""
     directions: list[tuple[FloatArray, bool]] = []
     for end, limit, sign in ((span[1], limits[1], 1.0), (span[0], limits[0], -1.0)):
         count = int(np.ceil(sign * (end - epoch) / window))

@@ -66,7 +66,7 @@ class Divergence:
         return bool(late > CHAOTIC and rate > spread)
 
     def at(self, times: FloatArray) -> FloatArray:
-        """Logarithm of the growth of the distance, interpolated at times in s from the start."""
+        """Natural logarithm of distance over initial distance, interpolated at times in s."""
         return np.asarray(np.interp(times, self.times, self.growth))
 
 
@@ -121,7 +121,7 @@ def _neighbour_pair(state: FloatArray, rotation: FloatArray, momentum: FloatArra
 
 
 def _distance(pair: FloatArray) -> tuple[FloatArray, FloatArray, float]:
-    """Difference of two states: rotation vector, relative change of momentum, and their norm."""
+    """Difference of two states: rotation vector, relative momentum change, and norm of both."""
     state, other = pair[:, :1], pair[:, 1:]
     quaternion = 2 * rotations.times(other[3:], rotations.conjugate(state[3:]))
     rotation = quaternion[1:] * np.sign(quaternion[:1])

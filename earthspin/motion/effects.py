@@ -21,7 +21,7 @@ from earthspin.torque.gravity import cross, dot
 
 
 class Numbers(Protocol):
-    """Interface to the fields of a body from which an effect takes its parameters."""
+    """Protocol for access to the numeric fields of a body that an effect uses."""
 
     def number(self, name: str) -> float:
         """Return a field of the body as a float."""
@@ -157,7 +157,7 @@ def geodesic_rate(
 
 
 def geodesic_torque(forces: Forces, windows: Windows, place: Places) -> RateLaw:
-    """Geodesic precession about the Sun as an equivalent torque, a `Torque` of `Forces`."""
+    """Geodesic precession as a contribution to the rate of angular momentum (a `Torque`)."""
     near = {name: forces.gm[name] for name in {forces.sun, *forces.near}}
     velocity = {name: windows.derivative(place[name]) for name in near}
     rate = geodesic_rate(near, place, velocity, forces.sun)
@@ -204,13 +204,13 @@ SECOND_ORDER = add(Effect("second-order", lambda forces, body: replace(forces, m
 
 
 class Growth(NamedTuple):
-    """Bound on an angle that grows in time: a + b |t|, t in years from J2000.0, in mas."""
+    """Bound on an angle, swing + rate |t| in mas, with t in years from J2000.0."""
 
     swing: float
     rate: float
 
     def at(self, day: float) -> float:
-        """Bound at a time in days from J2000.0, rad."""
+        """Bound on the angle at a time in days from J2000.0, rad."""
         return MAS * (self.swing + self.rate * abs(day) / DAYS_PER_YEAR)
 
 

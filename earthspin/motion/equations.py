@@ -92,7 +92,7 @@ class Rigid:
         return int(self.tide.size)
 
     def first(self, copies: int = 1) -> Rigid:
-        """Body of the first lane, without the others, in a given number of lanes."""
+        """Return the first body only, repeated in a given number of columns."""
         lanes = np.zeros(copies, dtype=int)
         return replace(
             self,
@@ -235,7 +235,7 @@ class Equations:
         return np.concatenate([rate, 0.5 * drift])
 
     def _torque(self, q: FloatArray, matrix: FloatArray, spin: FloatArray) -> FloatArray:
-        """Tidal torque on the bulge plus custom torque, along the body axes, scaled, s-1.
+        """Tidal torque on the bulge plus custom torque, along the body axes, over C u, s-1.
 
         The torque is divided by C u. C is the polar moment of inertia, and u the unit of spin.
         """
@@ -248,7 +248,7 @@ class Equations:
         return np.asarray(torque)
 
     def _further_torque(self, matrix: FloatArray, momentum: FloatArray) -> FloatArray:
-        """Torque on harmonics J_n and by further effects, along the sky axes, scaled, s-1.
+        """Torque on harmonics J_n and by further effects, along the sky axes, over C u, s-1.
 
         The torque is divided by C u. C is the polar moment of inertia, and u the unit of spin.
         """

@@ -62,7 +62,7 @@ class Figure:
 
     @property
     def tau(self) -> float:
-        """Ratio A/(C Omega): tilt of the figure axis per speed of the axis, s."""
+        """Ratio A/(C Omega), s: angle between figure axis and angular momentum over axis speed."""
         return (1 - self.h) / self.spin_rate
 
 
@@ -247,7 +247,7 @@ _SMALLEST_TERM = 1e-16
 
 
 def equatorial_basis(figure: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Two unit vectors in the equator plane; the first is the projected x axis.
+    """Two unit vectors in the equator plane; the first is along the projected x axis.
 
     Parameters
     ----------
@@ -264,7 +264,7 @@ def equatorial_basis(figure: FloatArray) -> tuple[FloatArray, FloatArray]:
 def semidiurnal_amplitudes(
     windows: Windows, tensor: FloatArray, direction: FloatArray, tilt: FloatArray, figure: Figure
 ) -> ComplexArray:
-    """Complex amplitudes of the motion of a triaxial body's axes with a period of half a turn.
+    """Complex amplitudes of the semidiurnal motion of a triaxial body's axes, rad, (3, w, n).
 
     The torque on an elongated equator changes twice in each turn of the body. The axes are, in
     this order, the angular momentum, the rotation axis and the figure axis.

@@ -108,7 +108,7 @@ def masses(forces: Forces, epoch: float = 0.0) -> Masses:
 
 
 def relative_tide_error(distance: float, distance_error: float, angle_error: float) -> float:
-    """Bound on the relative error of a tide GM/r3 due to the position error of its mass.
+    """Bound on the relative error of a tide GM/r3 due to errors of the mass's position.
 
     Parameters
     ----------
@@ -219,7 +219,7 @@ def start_of(body: Rigid, attitude: FloatArray, omega: FloatArray) -> State:
 
 
 class Motion:
-    """Numerical solution of a rotation; old time windows are discarded as it proceeds.
+    """Rotation of a body, integrated window by window; past time windows are discarded.
 
     Parameters
     ----------
@@ -277,7 +277,7 @@ class Motion:
 
     @property
     def evaluations(self) -> int:
-        """Number of nodes at which rates were evaluated so far, with those for error estimates."""
+        """Number of evaluations of the rates at nodes so far, in both solutions together."""
         return self._order * (self._fine.evaluations + self._coarse.evaluations)
 
     def _march(self, fine: FloatArray, coarse: FloatArray) -> Iterator[tuple[Piece, Piece]]:
@@ -342,7 +342,7 @@ class Motion:
         )
 
     def _errors_until(self, edges: FloatArray) -> FloatArray:
-        """Largest error of the rotation from the initial time up to each edge of the windows."""
+        """Largest errors of the rotation up to each window edge, shape (lanes, kinds, edges)."""
         errors = self._state_and_errors(edges)[1]
         return np.maximum(np.maximum.accumulate(errors, axis=2), self._worst)
 
