@@ -1,4 +1,4 @@
-"""Forecast of polar motion: driven free wobble, annual and semiannual motion, and a slow pole.
+"""Forecast of polar motion: driven free wobble, annual and semiannual motion, slow mean pole.
 
 With p = x - i y in mas,
 
@@ -48,7 +48,7 @@ ORDER, FITTED_OVER, EXTRAPOLATED = 20, 730, 40
 
 @dataclass(frozen=True)
 class Autoregression:
-    """Autoregression of complex innovations; residuals differ in size between both coordinates.
+    """Autoregressive model of complex innovations, with the residuals' covariance matrix.
 
     Attributes
     ----------
@@ -83,7 +83,7 @@ class Autoregression:
         return np.array(values[ORDER:], dtype=complex)
 
     def without_error(self, variance: float) -> tuple[complex, FloatArray]:
-        """Most probable last residual e given an error of the last observation, and its covariance.
+        """Most probable last residual and its covariance if the last observation has extra error.
 
         Parameters
         ----------
@@ -99,7 +99,7 @@ class Autoregression:
 def forecast_covariance(
     kalman: Filter, autoregression: Autoregression, last: FloatArray, days: int
 ) -> FloatArray:
-    """Covariance of the forecast, shape (days, 2, 2), real and imaginary part of the pole.
+    """Covariance of the forecast pole (real and imaginary part), mas2, shape (days, 2, 2).
 
     Parameters
     ----------
@@ -201,7 +201,7 @@ class FastExcitation:
 
     @property
     def free(self) -> FloatArray:
-        """The eight parameters, transformed so that an optimiser may give them any value.
+        """The eight parameters, transformed to unbounded numbers for an optimiser, shape (8,).
 
         Positive ones become their logarithms, and the correlation its inverse hyperbolic tangent.
         The white part must be greater than zero.
@@ -290,7 +290,7 @@ def forecast(
     used: int = RECORD,
     newest: bool = False,
 ) -> Forecast:
-    """Forecast polar motion, with its covariance, from a daily record of observed polar motion.
+    """Forecast polar motion, with a covariance, from daily values of observed polar motion.
 
     The covariance is that of the observed innovations in the first weeks, and that of the model
     after some months: the innovations of two years do not show the slow part of the excitation.
@@ -352,12 +352,12 @@ def forecast(
 
 
 def last_of(p: ComplexArray, used: int = RECORD) -> ComplexArray:
-    """Return the last days of a record of polar motion, as many as a forecast uses.
+    """Return the last `used` days of daily polar motion; refuse a shorter record.
 
     Raises
     ------
     UndefinedError
-        If it is shorter.
+        If the record is shorter.
     """
     if p.size < used:
         raise UndefinedError(
@@ -404,7 +404,7 @@ def fit(p: ComplexArray, used: int = RECORD) -> FastExcitation:
 def forecast_with_excitation(
     p: ComplexArray, chi: ComplexArray, days: int, newest: bool = False
 ) -> Forecast:
-    """Forecast polar motion from a record and from a known excitation that extends beyond it.
+    """Forecast polar motion from past polar motion and past (perhaps also future) excitation.
 
     The pole that the known excitation drives is computed exactly up to a day before its end. The
     rest of the record is forecast with parameters that are fitted to it, and so is the driven pole

@@ -278,7 +278,7 @@ class Inputs:
 
 @dataclass(frozen=True)
 class Spin:
-    """Mass, equatorial radius and rotation period of a body, in SI units.
+    """GM, equatorial radius and rotation period of a body, in SI units.
 
     Attributes
     ----------
@@ -306,7 +306,7 @@ def roots(
     compliance: tuple[Numeric, Numeric, Numeric, Numeric],
     ocean: Array | None = None,
 ) -> Roots:
-    """Solve the equations of mantle and core for the wobble and core nutation frequencies.
+    """Compute wobble and core nutation frequencies from figure, core and compliances.
 
     Parameters
     ----------
@@ -390,7 +390,7 @@ def inputs_of(
 
 
 def love_radius(interior: Interior, spin: Spin) -> Numeric:
-    """Radius to which k2 refers, m: that of the layers, or else the equatorial radius."""
+    """Reference radius of k2, m: outer radius of the layered model, else equatorial radius."""
     return spin.radius if interior.layers is None else interior.layers.radius
 
 
@@ -481,7 +481,7 @@ def _compliance(interior: Interior, inputs: Inputs) -> tuple[Numeric, ...]:
 
 
 def _water(interior: Interior, inputs: Inputs, unit: Numeric, ocean: str) -> Array | None:
-    """Product of inertia that the ocean adds per radian of wobble, over A, shape (..., 2, 2)."""
+    """Products of inertia of the ocean per radian of wobble, over A, (..., 2, 2), or None."""
     if interior.ocean is None or ocean == "none":
         return None
     shape = np.eye(2)

@@ -105,9 +105,9 @@ class Periodogram:
         return Periodogram(self.frequency[inside], self.power[inside])
 
     def ratio(self) -> tuple[float, float]:
-        """Mean power near the wobble frequency over that of noise, and the limit for pure noise.
+        """Ratio of the power in the wobble band to that expected from noise, and its threshold.
 
-        Noise alone exceeds the limit with a probability of `FALSE_ALARM`.
+        The ratio of pure noise exceeds the threshold with a probability of `FALSE_ALARM`.
         """
         band, slower, faster = (self.between(*ends) for ends in (BAND[::-1], SLOWER, FASTER))
         at, low, high = (np.log(part.frequency).mean() for part in (band, slower, faster))
@@ -159,7 +159,7 @@ def fit_burg(time: FloatArray, p: ComplexArray) -> WobbleFit:
 
 
 def _decay_interval(decay: float, span: float) -> tuple[float, float]:
-    """95 % interval of the wobble's decay rate d, from its estimate and the span of the data."""
+    """95 % interval of the wobble's decay rate, from an estimate (1/d) and the data's span (d)."""
     low, high = ((NORMAL_95 * excess) ** 2 / span for excess in DECAY_EXCESS)
     return (
         float(decay + low / 2 - np.sqrt(decay * low + low**2 / 4)),
@@ -226,7 +226,7 @@ class Likelihood:
         return np.asarray(block_means(turned, max(1, round(LIKELIHOOD_BLOCK / step))))
 
     def data(self, s: complex) -> ComplexArray:
-        """Matrix with a column for each term to fit, with the polar motion record as the last."""
+        """Columns of block means: terms to fit, and the polar motion record as the last column."""
         return np.column_stack([self.terms, self.record])
 
     def __call__(
@@ -277,7 +277,7 @@ class LikelihoodWithExcitation(Likelihood):
         self.step = float((time[-1] - time[0]) / (time.size - 1))
 
     def data(self, s: complex) -> ComplexArray:
-        """Matrix with a column for each term to fit, with record minus driven pole as the last."""
+        """Columns of block means: terms to fit, and record minus driven pole as the last column."""
         start = np.exp(1j * s * (self.time - self.time[0]))
         driven = polar_motion_from(self.chi, self.step, s)
         moving = self._averaged(self.time, np.column_stack([start, driven]))
@@ -285,7 +285,7 @@ class LikelihoodWithExcitation(Likelihood):
 
 
 def _minus_twice_log(data: ComplexArray, factors: ComplexArray, lags: ComplexArray) -> float:
-    """Minus twice the logarithm of the restricted likelihood of the record, the last column.
+    """Minus twice the logarithm of the restricted likelihood of the last column of `data`.
 
     A complex number counts as two real ones: the density is that of circular complex noise.
 
@@ -327,14 +327,14 @@ def _minus_twice_log(data: ComplexArray, factors: ComplexArray, lags: ComplexArr
 
 
 def fit_likelihood(time: FloatArray, p: ComplexArray) -> WobbleFit:
-    """Fit the free wobble by maximum likelihood, with 95 % intervals from the profile."""
+    """Fit the free wobble by maximum likelihood, with 95 % intervals from profile likelihoods."""
     return largest(Likelihood(time, p), "likelihood")
 
 
 def lowest(
     likelihood: Likelihood, start: FloatArray = START, fixed: int | None = None
 ) -> tuple[FloatArray, float]:
-    """Find the parameters of maximum likelihood, and minus twice the logarithm of that maximum.
+    """Parameters of maximum likelihood, and minus twice the logarithm of the likelihood there.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Errors of non-rigid wobble periods, by sampling uncertain inputs, and derivatives by inputs.
+"""Errors of non-rigid wobble periods from random inputs, and derivatives of the periods.
 
 The same draws of the inputs are used for every body, so that the error of a body does not depend
 on the other bodies of the computation. The ladder is not computed for every draw: the periods are
@@ -109,7 +109,7 @@ def _sampled(
     interior: Interior,
     ocean: str,
 ) -> dict[str, Array]:
-    """Change of the wobble period in rotations by random inputs, for each model.
+    """Changes of the wobble period, in rotations, due to random inputs, by model name.
 
     The shape is (bodies, draws). The period is interpolated quadratically.
     """
@@ -137,7 +137,7 @@ def _sampled(
 def _points(
     inputs: Inputs, names: list[str], uncertainty: Mapping[str, float], exponents: Array
 ) -> Inputs:
-    """Inputs at which the models are computed, between which their results are interpolated."""
+    """Input values at which the models are computed, as nodes of an interpolation."""
     count = 1 + 2 * len(names) + exponents.size
     exponent = np.concatenate(
         [
@@ -156,7 +156,7 @@ def _points(
 def half_widths(
     inputs: Inputs, uncertainty: Mapping[str, float], anelastic: bool
 ) -> dict[str, Array]:
-    """95 % half-widths of all inputs; for the anelastic exponent, half its published range.
+    """95 % half-widths of all inputs by name; half the published range for the exponent.
 
     Parameters
     ----------
@@ -212,9 +212,7 @@ def core_nutation_half_width(
 def sensitivities(
     inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real"
 ) -> dict[str, Numeric]:
-    """Derivative of the most detailed model's wobble period with respect to each input.
-
-    It is in days per unit of the input.
+    """Derivatives of the most detailed model's wobble period by the inputs, d per unit of input.
 
     Parameters
     ----------

@@ -31,12 +31,12 @@ LONGEST_STEP = 37.0
 
 
 def shortest_span(period: float = NEAR) -> float:
-    """Shortest record that separates free and annual wobble, d: one beat period of the two."""
+    """Shortest record that separates free and annual wobble: one beat period of both, d."""
     return 1 / (1 / YEAR - 1 / period)
 
 
 def check(time: FloatArray, p: ComplexArray) -> None:
-    """Refuse a record of polar motion that no fitting method can use.
+    """Refuse polar motion with invalid values, uneven steps or a span too short for a fit.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def least_squares(columns: ComplexArray, values: ComplexArray) -> ComplexArray:
 
 
 def without_known_terms(time: FloatArray, p: ComplexArray) -> ComplexArray:
-    """Subtract drift and seasonal terms from polar motion; the fit includes the free wobble."""
+    """Subtract drift and seasonal terms from polar motion, fitted together with the free wobble."""
     columns = known_terms(time)
     sizes = least_squares(np.column_stack([columns, turning(time, NEAR)]), p)
     return np.asarray(p - columns @ sizes[:-1])

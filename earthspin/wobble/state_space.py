@@ -22,13 +22,13 @@ from earthspin.numerics.arrays import ComplexArray, FloatArray
 
 
 def side_by_side(matrix: ComplexArray) -> FloatArray:
-    """Real matrix for a complex one, acting on real parts followed by imaginary parts."""
+    """Real matrix that acts like a complex matrix on real parts followed by imaginary parts."""
     return np.block([[matrix.real, -matrix.imag], [matrix.imag, matrix.real]])
 
 
 @dataclass(frozen=True)
 class StateSpace:
-    """Linear Gaussian model in discrete time.
+    """Linear Gaussian state-space model in discrete time, with real matrices.
 
     Attributes
     ----------
@@ -59,7 +59,7 @@ class StateSpace:
         error: FloatArray,
         start: FloatArray,
     ) -> StateSpace:
-        """Convert a linear model in continuous time to one with steps of a day.
+        """Convert a linear model in continuous time to a model with steps of one day.
 
         Parameters
         ----------
@@ -82,7 +82,7 @@ class StateSpace:
         return cls(transition, (noise + noise.T) / 2, side_by_side(observed), error, start)
 
     def every(self, steps: int) -> StateSpace:
-        """Model whose step is a given number of steps of this model."""
+        """Return this model with a longer step: a given number of the present steps."""
         transition, noise = self.transition, self.noise
         for _ in range(steps - 1):
             transition = self.transition @ transition
@@ -90,7 +90,7 @@ class StateSpace:
         return StateSpace(transition, noise, self.observed, self.error, self.start)
 
     def propagated(self, covariance: FloatArray) -> FloatArray:
-        """Covariance of the state one step later."""
+        """Covariance of the state one step after a state with a given covariance."""
         return np.asarray(self.transition @ covariance @ self.transition.T + self.noise)
 
     def of_observation(self, covariance: FloatArray) -> FloatArray:
@@ -100,7 +100,7 @@ class StateSpace:
 
 @dataclass(frozen=True)
 class Filter:
-    """Kalman filter of a model, with gains computed in advance.
+    """Kalman filter of a state-space model, with gains computed in advance.
 
     Attributes
     ----------
@@ -119,7 +119,7 @@ class Filter:
 
     @classmethod
     def of(cls, model: StateSpace, count: int) -> Filter:
-        """Build the Kalman filter of a model for a number of observations; compute its gains."""
+        """Build the Kalman filter of a state-space model, with a gain for each observation."""
         predicted, after = model.start, model.start
         gains = np.empty((count, len(predicted), len(model.observed)))
         innovation = np.empty((count, len(model.observed), len(model.observed)))
@@ -154,7 +154,7 @@ class Filter:
         return after, innovations
 
     def minus_twice_log(self, innovations: FloatArray) -> float:
-        """Minus twice the logarithm of the likelihood of the observations, from `run`."""
+        """Minus twice the logarithm of the likelihood, from the prediction errors of `run`."""
         weighted = np.linalg.solve(self.innovation, innovations[..., None])[..., 0]
         size = innovations.size * np.log(2 * np.pi)
         determinants = np.linalg.slogdet(self.innovation)[1].sum()
@@ -237,7 +237,7 @@ class DrivenOscillator:
         return np.asarray(-noise / (rates[:, None] + rates.conj()))
 
     def of_means(self, length: float, reference: float) -> tuple[ComplexArray, ComplexArray]:
-        """Covariance of block means of polar motion in this model, for lags of 0, 1 and 2 blocks.
+        """Factors of the modes from block to block, and covariance of block means at lags 0, 1, 2.
 
         The rotation at the reference frequency is removed first.
 
