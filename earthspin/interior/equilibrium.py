@@ -23,7 +23,7 @@ FASTEST = Constant(0.449331, "", None, _CHANDRASEKHAR, _CHANDRASEKHAR_READ)
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """Response to a degree-two potential of a body that is liquid but has the same densities.
+    """Degree-two response that a layered body would have if all layers were liquid.
 
     Attributes
     ----------
@@ -53,7 +53,7 @@ class Equilibrium:
 
 @lru_cache(maxsize=32)
 def equilibrium(body: LayeredBody) -> Equilibrium:
-    """Compute the response to a degree-two potential if the whole body were liquid.
+    """Compute the degree-two response that a layered body would have if all layers were liquid.
 
     The equations are those of a static liquid, equivalent to Clairaut's equation.
     """
@@ -95,7 +95,7 @@ def hydrostatic_core(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
 
 @dataclass(frozen=True)
 class Regions:
-    """Ellipticities and moments of a body, its fluid core and its inner core.
+    """Ellipticities and moments of whole body, fluid core and inner core, and coupling numbers.
 
     Attributes
     ----------
@@ -121,7 +121,7 @@ class Regions:
 
 @dataclass(frozen=True)
 class Figure(Regions):
-    """Regions of a body in hydrostatic equilibrium, with three numbers of the whole figure.
+    """Hydrostatic figure of a body: `Regions`, and core ellipticity, inertia unit, flattening.
 
     The other eight fields are those of `Regions`.
 

@@ -18,7 +18,7 @@ from earthspin.numerics.arrays import Numeric
 
 @dataclass(frozen=True)
 class Layer:
-    """One shell, whose density and velocities are polynomials in x = r/R, constant term first.
+    """Spherical shell with density and velocities as polynomials in x = r/R, constant term first.
 
     Attributes
     ----------
@@ -115,7 +115,7 @@ def _primitive(density: tuple[float, ...], power: int, x: float) -> float:
 def tidal_inertia(layers: LayeredBody, spin_rate: Numeric) -> Numeric:
     """Ratio Omega2 R5/(3 G A): product of inertia over A for k2 = 1 and a wobble of 1 rad.
 
-    It is the product of inertia divided by A for k2 = 1 and a wobble of 1 rad.
+    A is taken as the moment of inertia of the spherical layers.
     """
     moment = layers.moment_of_inertia()
     return spin_rate**2 * layers.radius**5 / (3 * G.value * moment)

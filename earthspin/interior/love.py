@@ -277,7 +277,7 @@ def softening(layers: LayeredBody) -> tuple[Chebyshev, ...]:
 
 
 def _solved(profile: Profile, strain: Array) -> tuple[Array, ...]:
-    """Solve the deformation equations with their boundary conditions, for all potentials."""
+    """Solve the deformation equations for all potentials; return the fields of `Yielding`."""
     if not profile.core:
         y = _across(profile, profile.first, solid_centre(profile, strain), strain)
         bottom = y = np.concatenate([y, np.zeros((strain.size, 6, 4))], axis=-1)
@@ -315,7 +315,7 @@ def _solved(profile: Profile, strain: Array) -> tuple[Array, ...]:
 
 
 def _inside(state: Array, r: float) -> Array:
-    """Contribution of mass displacements inside the radius `r` to the Love number k."""
+    """Contribution to the Love number k by mass displacements inside the radius `r`."""
     return np.asarray(r**3 * (state[:, 4] - r * state[:, 5] / 5))
 
 
@@ -354,7 +354,7 @@ def _through_inner_core(profile: Profile, strain: Array) -> tuple[Array, Array |
 
 
 def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
-    """Add the jump of the applied potential at a boundary to potential y5 and gradient y6.
+    """Potential y5 and gradient y6 after the jump of the applied potential at a boundary.
 
     The applied potential acts in one region only, so at the boundary of this region, of radius
     `r`, it changes by `step` r2.
@@ -377,7 +377,7 @@ def _through_liquid(profile: Profile, pair: Array) -> tuple[Array, int]:
 
 
 def _onto_mantle(profile: Profile, pair: Array) -> Array:
-    """Initial solutions at the base of the mantle, from those at the top of the liquid core.
+    """Initial solutions at the base of the mantle, from solutions at the top of the liquid core.
 
     Two columns are unit displacements of the mantle, which are free because the liquid may slip.
     """

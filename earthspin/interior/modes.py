@@ -104,9 +104,9 @@ def all_fluid(parts: Parts, e_core: Numeric) -> Parts:
 
 
 def system(parts: Parts) -> tuple[Array, Array, Array, Array]:
-    """Matrices P, Q and vectors p, q of the linear equations for the rotation of all regions.
+    """Matrices P, Q and vectors p, q of the linear equations of coupled rotation.
 
-    It is (sigma P + Q) x = (sigma p + q) phi with x = (m, m_f, m_s, n).
+    The equations are (sigma P + Q) x = (sigma p + q) phi with x = (m, m_f, m_s, n).
 
     Returns
     -------
@@ -192,7 +192,7 @@ def free_modes(parts: Parts) -> dict[str, complex]:
 
 
 def parts_of(layers: LayeredBody, spin_rate: float, answers: Array, e: float) -> Parts:
-    """Parameters of coupled rotation: hydrostatic core, observed ellipticity of the body.
+    """Parameters of coupled rotation, with a hydrostatic core and the given ellipticity (C - A)/A.
 
     Parameters
     ----------
@@ -210,7 +210,7 @@ def parts_of(layers: LayeredBody, spin_rate: float, answers: Array, e: float) ->
 
 
 def numbers_of(layers: LayeredBody, spin_rate: float) -> dict[str, float]:
-    """Compliances, ellipticities, coupling numbers and moments of core and mantle, by name.
+    """Compliances, ellipticities, coupling numbers and moments of a layered body, by name.
 
     The moments are relative; regions that the body lacks are omitted.
 

@@ -74,7 +74,7 @@ class Interior:
     neglected: Mapping[str, Constant] = field(default_factory=dict, hash=False)
 
     def values(self) -> tuple[float, float, float | None]:
-        """Love number k2, core's share of the moment of inertia, and core ellipticity.
+        """Love number k2, core moment over body moment of inertia, and core ellipticity or None.
 
         The ellipticity is None if it follows from layers and the spin; see
         `equilibrium.hydrostatic_core`.
@@ -87,7 +87,7 @@ class Interior:
 
 
 def with_layers(layers: LayeredBody, known: Interior | None = None) -> Interior:
-    """Make an interior from layers, with ocean and uncertainties of a known interior.
+    """Make an interior from layers; take ocean and uncertainties from a known interior, if any.
 
     Parameters
     ----------

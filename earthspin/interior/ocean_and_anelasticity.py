@@ -20,9 +20,9 @@ ABSORPTION_BAND = 200.0
 
 
 def anelastic_strain(period: Numeric, exponent: Numeric) -> Numeric:
-    """Relative change of the shear modulus from a period of 1 s to a long one, for Q = 1.
+    """Relative change of the shear modulus from 1 s to a longer period, for quality factor 1.
 
-    The change is for a material of quality factor 1; for others, divide it by the quality factor.
+    For another quality factor, divide the change by that quality factor.
 
     The loss is independent of the period up to 200 s, and grows as a power of the period beyond:
 
@@ -49,7 +49,7 @@ def anelastic_strain(period: Numeric, exponent: Numeric) -> Numeric:
 
 
 def _expm1_over(exponent: Numeric, log: Numeric) -> Numeric:
-    """Compute (x^alpha - 1)/alpha from ln x and alpha without cancellation; wrong at alpha = 0."""
+    """Compute (x^alpha - 1)/alpha from alpha and ln x without cancellation; wrong at alpha = 0."""
     safe = np.where(np.equal(exponent, 0), 1.0, exponent)
     return np.expm1(safe * log) / safe
 
@@ -87,7 +87,7 @@ def ocean_matrix() -> tuple[tuple[float, float], tuple[float, float]]:
 
 
 def global_ocean(layers: LayeredBody, density: float = SEA_WATER.value) -> float:
-    """Contribution of an equilibrium ocean that covers the whole body to its Love number k2.
+    """Contribution to the Love number k2 by an equilibrium ocean that covers the whole body.
 
     The sea surface follows the potential of the wobble, of the deformed body, of the water and of
     the loading by the water. This is one equation of degree two, solved in closed form (Munk &
@@ -156,7 +156,7 @@ WAVES = {
 
 
 def wave_response(wave: Wave) -> complex:
-    """Change of the Love number k2 by the ocean tide at the frequency of one diurnal wave.
+    """Change of the Love number k2 by the ocean tide of one diurnal wave.
 
     The phase is that of exp(i sigma Omega t) with sigma near -1.
 
@@ -167,7 +167,7 @@ def wave_response(wave: Wave) -> complex:
 
 
 def diurnal_response(sigma: Array) -> Array:
-    """Change of the Love number k2 by the ocean tide at body-fixed diurnal frequencies.
+    """Change of the Love number k2 by ocean tides at diurnal frequencies, cycles per rotation.
 
     Linear interpolation between the waves; constant beyond the first and the last.
 
