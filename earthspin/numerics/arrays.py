@@ -1,4 +1,4 @@
-"""Types of arrays and numbers, and a number with its 95 % half-widths."""
+"""Types of arrays and numbers, and a class for numbers with 95 % half-widths."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Numeric = Any
 
 @dataclass(frozen=True)
 class Estimate:
-    """A number or array, with its 95 % half-widths due to the method and to the inputs.
+    """A number or array, with 95 % half-widths due to the method and due to the inputs.
 
     Attributes
     ----------

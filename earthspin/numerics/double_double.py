@@ -74,7 +74,7 @@ class DoubleDouble:
         return DoubleDouble(*_fast_two_sum(root, rest / (2 * np.where(root > 0, root, 1.0))))
 
     def scaled(self, power_of_two: Numeric) -> DoubleDouble:
-        """Return this number multiplied by a power of two, which is exact."""
+        """Return this number multiplied by a power of two, without rounding."""
         return DoubleDouble(self.hi * power_of_two, self.lo * power_of_two)
 
 

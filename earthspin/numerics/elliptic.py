@@ -32,7 +32,7 @@ _CIRCULAR = 1e-8
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LandenDescent:
-    """Successive arithmetic and geometric means from 1 and the complementary modulus k'.
+    """Arithmetic and geometric means, iterated from 1 and the complementary modulus k'.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ class Jacobi(NamedTuple):
 
 
 def landen_descent(complementary_modulus: DoubleDouble) -> LandenDescent:
-    """Compute arithmetic and geometric means, starting from 1 and k', to 32 digits.
+    """Compute the arithmetic-geometric mean iteration from 1 and k' to 32 digits.
 
     Parameters
     ----------
@@ -147,7 +147,7 @@ def first_kind(sine: FloatArray, cosine: FloatArray, complementary: FloatArray) 
 
 
 def third_kind_mean(n: DoubleDouble, descent: LandenDescent) -> DoubleDouble:
-    """Mean of sn^2/(1 + n sn^2) over a period, after one Landen step (DLMF 19.8.7).
+    """Mean of sn^2/(1 + n sn^2) over a period, at the modulus after one Landen step (DLMF 19.8.7).
 
     The modulus is k1 = (1 - k')/(1 + k'), the next one in the Landen descent.
 
@@ -265,7 +265,7 @@ def jacobi_sncndn(
 
 
 def complete_third_kind(complement: FloatArray, shape: FloatArray) -> FloatArray:
-    """Complete elliptic integral of the third kind: sn^2/(cn^2 + shape sn^2), from 0 to K.
+    """Complete elliptic integral of sn^2/(cn^2 + shape sn^2) from 0 to K (third kind).
 
     The integrand is sn^2/(cn^2 + shape sn^2), from 0 to the quarter period K. The integral equals
     RJ(0, 1 - m, 1, shape)/3 and is computed by Landen steps with positive terms (Bulirsch 1969,

@@ -57,7 +57,7 @@ class Windows:
         return result
 
     def derivative(self, values: _AnyArray) -> _AnyArray:
-        """Derivative, per s, at the nodes, of the polynomial through values at the nodes."""
+        """Derivative (per s) at the nodes of the polynomial through values at the nodes."""
         result: _AnyArray = _apply(values, rule(self.order).differentiate) / self.half
         return result
 
@@ -151,7 +151,7 @@ def rule(order: int) -> Rule:
 
 
 def integrated(coefficients: FloatArray, half: FloatArray, start: FloatArray) -> FloatArray:
-    """Legendre coefficients of the integral of a rate plus its start value, in each window.
+    """Legendre coefficients of a quantity in each window, from its rate and initial values.
 
     Parameters
     ----------
@@ -246,7 +246,7 @@ def carry(
 
 
 def _largest(change: Array, space: Array | None) -> float:
-    """Largest absolute change of solutions, apart from recombinations of the columns of `space`."""
+    """Largest absolute element of `change` outside the space of the columns of `space`."""
     if space is not None:
         change = change - space @ (np.linalg.pinv(space) @ change)
     return float(np.max(abs(change)))
@@ -255,7 +255,7 @@ def _largest(change: Array, space: Array | None) -> float:
 def _through(
     matrix: Callable[[Array], Array], start: float, stop: float, y: Array, count: int
 ) -> Array:
-    """Integrate the solutions y from `start` to `stop` in a given number of panels.
+    """Integrate solutions of dy/dr = M(r) y from `start` to `stop` in a given number of panels.
 
     The edges of the panels are in geometric progression.
     """
@@ -280,7 +280,7 @@ def _through(
 
 
 def lagrange(nodes: Array, at: Array) -> Array:
-    """Values of the Lagrange polynomials of given nodes at given points, shape (nodes, points)."""
+    """Values at given points of the Lagrange polynomials of given nodes, shape (nodes, points)."""
     rows = []
     for i, node in enumerate(nodes):
         others = np.delete(nodes, i)

@@ -12,7 +12,7 @@ from earthspin.numerics.arrays import FloatArray
 
 
 def _structure() -> FloatArray:
-    """Coefficients of Hamilton's product of two quaternions, shape (4, 4, 4).
+    """Table of coefficients of Hamilton's product of two quaternions, shape (4, 4, 4).
 
     Component c of p q is the sum of table[c, a, b] p_a q_b.
     """
@@ -37,7 +37,7 @@ _MATRIX = np.ascontiguousarray(
 
 
 def matrices(q: FloatArray) -> FloatArray:
-    """Rotation matrices from quaternions; those of attitudes rotate from body to sky axes.
+    """Rotation matrices from quaternions; an attitude gives a matrix from body to sky axes.
 
     Parameters
     ----------

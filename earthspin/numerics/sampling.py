@@ -50,7 +50,7 @@ def block_means(values: Any, size: int) -> Any:
 def in_blocks(
     time: FloatArray, p: ComplexArray, length: float
 ) -> tuple[FloatArray, ComplexArray, float]:
-    """Means of times and values in consecutive blocks, and the block length in the unit of time.
+    """Means of times and of values in consecutive blocks, and the block length (unit of time).
 
     Blocks have about the given length, in the same unit. A sinusoid stays one and is shortened by
     sinc(block/T).
@@ -61,7 +61,7 @@ def in_blocks(
 
 
 class Shares(NamedTuple):
-    """Linear fit of outputs by inputs: slopes, and contribution of each input to the variance.
+    """Linear fit of outputs by inputs: slopes, and the inputs' shares of the variance.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ class Shares(NamedTuple):
 def shares_of_variance(
     inputs: FloatArray, outputs: FloatArray, classes: Sequence[NDArray[Any]] = ()
 ) -> Shares:
-    """Fit outputs by a linear function of all inputs; return slopes and shares of variance.
+    """Fit outputs by a linear function of all inputs; return slopes and shares of the variance.
 
     With the slopes b of the fit the explained variance is the sum of b_j b_k cov(x_j, x_k) over all
     pairs of inputs, and the share of input j is the part with that j. A covariance that may be
@@ -151,7 +151,7 @@ def shares_of_variance(
 
 
 def _related(covariance: FloatArray, owner: NDArray[Any], n: int) -> BoolArray:
-    """Select pairs of columns whose correlation is no chance: those of a class, and large ones."""
+    """True for pairs of columns with a significant correlation, or of the same input."""
     correlation = np.clip(np.abs(covariance), 0.0, 1 - 1e-15)
     # Fisher's transformation of a correlation has the standard error 1/sqrt(n - 3)
     significant = np.arctanh(correlation) * np.sqrt(max(n - 3, 0)) > SIGNIFICANT
@@ -166,7 +166,7 @@ def _shares(
     known: FloatArray,
     members: BoolArray,
 ) -> tuple[FloatArray, FloatArray, float]:
-    """Shares of the inputs in the variance of one output, their errors, and the unexplained part.
+    """Share of each input in one output's variance, errors of shares, and unexplained share.
 
     The standard errors follow from the influence of each sample on the shares (infinitesimal
     jackknife). The error of a square, b2, has a second term, without which it would vanish at
