@@ -77,12 +77,12 @@ class Window:
         return self.cycles * self.cycle
 
     def sample_times(self, step: float) -> FloatArray:
-        """Evenly spaced times over the window, with a spacing of `step` s, s."""
+        """Times (s) over the window, evenly spaced by `step` (s)."""
         half = math.floor(self.length / 2 / step)
         return np.asarray(self.centre + step * np.arange(-half, half + 1.0))
 
     def weights(self, times: FloatArray) -> FloatArray:
-        """Weights of the taper at evenly spaced times in the window; their sum is 1.
+        """Weights of the taper at evenly spaced times in the window, with the sum 1.
 
         Parameters
         ----------
@@ -148,7 +148,7 @@ def best_window(start: float, end: float, cycle: float, epoch: float = 0.0) -> W
 
 
 def neighbours(window: Window) -> list[Window]:
-    """Return slightly different windows, whose means are compared to estimate the error."""
+    """Return slightly different windows, to estimate the error of a mean by comparison."""
     shorter = window.cycles - 1
     others = [(window.cycles, "hann"), (shorter, "hann")]
     if shorter >= FEWEST_CYCLES:
@@ -163,7 +163,7 @@ def window_mean_and_error(
     slow_swing: FloatArray,
     strength: FloatArray | None = None,
 ) -> tuple[FloatArray, FloatArray]:
-    """Weighted mean of each torque and of their sum, with the error as a long-term mean.
+    """Weighted means of each torque and of the sum of all torques, with 95 % half-widths.
 
     Parameters
     ----------
@@ -205,7 +205,7 @@ def _means_of_many(
     slow_swing: FloatArray,
     strength: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
-    """Mean torques and errors if each torque is multiplied by each of several factors."""
+    """Mean torques and errors for several cases, in which each torque is scaled by a factor."""
     means = [window.mean(times, values), *(w.mean(times, values) for w in neighbours(window))]
     means.append(window.mean(times[::2], values[::2]))
     factor = strength.reshape(len(strength), *(1,) * (values.ndim - 2), -1)
@@ -218,7 +218,7 @@ def _means_of_many(
 
 
 def with_total(values: FloatArray) -> FloatArray:
-    """Append the sum of all perturbers' values as one more element of axis 1."""
+    """Append the sum over all perturbers as a last element along axis 1."""
     return np.concatenate([values, values.sum(axis=1, keepdims=True)], axis=1)
 
 
@@ -339,10 +339,7 @@ def mean_tide(gm: float, a: float, e: float, square: FloatArray) -> FloatArray:
 
 
 def mean_torque(tide: FloatArray, axis: FloatArray) -> FloatArray:
-    """Torque averaged over an orbit, per unit of C - A, from the mean tidal tensor, s-2.
-
-    The shape is (3,).
-    """
+    """Mean torque per unit of C - A over an orbit, from the mean tidal tensor, s-2, shape (3,)."""
     return np.asarray(3 * np.cross(tide @ axis, axis))
 
 

@@ -64,13 +64,13 @@ class Precessing:
     node_rate: float
 
     def slope(self, obliquity: FloatArray) -> FloatArray:
-        """Negative derivative of the spin axis's Hamiltonian by the obliquity, rad/s."""
+        """Derivative -dH/d(eps) of the spin axis's Hamiltonian by the obliquity, rad/s."""
         cosine, sine = np.cos(obliquity), np.sin(obliquity)
         torque = 1.5 * (self.axial * cosine + self.locked * (1 + cosine)) * sine
         return np.asarray(self.node_rate * np.sin(obliquity - self.inclination) - torque)
 
     def curvature(self, obliquity: FloatArray) -> FloatArray:
-        """Derivative of the function `slope` by the obliquity, rad/s."""
+        """Second derivative -d2H/d(eps)2 of the Hamiltonian by the obliquity, rad/s."""
         cosine, double = np.cos(obliquity), np.cos(2 * obliquity)
         torque = 1.5 * (self.axial * double + self.locked * (cosine + double))
         return np.asarray(self.node_rate * np.cos(obliquity - self.inclination) - torque)
@@ -103,7 +103,7 @@ def is_locked(spin_rate: float, motion: float) -> bool:
 def strengths(
     motion: float, spin_rate: float, j2: float, c22: float, polar: float, eccentricity: float
 ) -> tuple[float, float]:
-    """Strengths K0 (by J2) and Kr (by C22, if the spin is locked) of the mean torque, rad/s.
+    """Strengths of the mean torque, rad/s: K0 due to J2, and Kr due to C22 for a locked spin.
 
     Parameters
     ----------
@@ -194,7 +194,7 @@ SLOW = 5 * DAY
 def locked_ratio(
     times: FloatArray, position: FloatArray, axis: FloatArray, spin_rate: float
 ) -> float | None:
-    """Rotations per orbit of a body in spin-orbit resonance, from positions; otherwise None.
+    """Rotations per orbit in spin-orbit resonance, from positions; None without resonance.
 
     Parameters
     ----------
@@ -217,7 +217,7 @@ def locked_ratio(
 
 
 def locked_turns(spin_rate: float, mean_motion: float) -> float | None:
-    """Rotations per orbit of a body in spin-orbit resonance, from rates; otherwise None.
+    """Rotations per orbit in spin-orbit resonance, from two rates; None without resonance.
 
     Parameters
     ----------

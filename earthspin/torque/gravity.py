@@ -196,7 +196,7 @@ _CROSS = np.cross(np.eye(3)[:, np.newaxis], np.eye(3)).reshape(9, 3).T.copy()
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Vector product of two arrays of vectors, shape (3, ...)."""
+    """Vector products of two arrays of vectors, each of shape (3, ...)."""
     # Up to this size a matrix product is faster; the results are equal if all products are finite.
     if np.ndim(a) == np.ndim(b) and np.size(a) + np.size(b) < 3000:
         products = np.asarray(a)[:, np.newaxis] * b
@@ -212,7 +212,7 @@ def cross(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def dot(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Scalar product of two arrays of vectors, shape (3, ...)."""
+    """Scalar products of two arrays of vectors, each of shape (3, ...)."""
     (ax, ay, az), (bx, by, bz) = a, b
     result: FloatArray = ax * bx
     result += ay * by
@@ -246,7 +246,7 @@ def quadrupole_torque(tensor: FloatArray, axis: FloatArray) -> FloatArray:
 def zonal_law(
     coefficients: Mapping[int, float], radius: float, gm: float | FloatArray, position: FloatArray
 ) -> Callable[[FloatArray], FloatArray]:
-    """Make a function of the figure axis that returns the torque on several harmonics J_n.
+    """Return a function of the figure axis that gives the torque on harmonics J_n per M a2.
 
     Parameters
     ----------
@@ -297,7 +297,7 @@ def largest_torque_on_figure(
     zonal: Mapping[int, float],
     triaxiality: float,
 ) -> dict[str, float]:
-    """Largest torques of J3, J4 and triaxiality, which a model with only J2 neglects.
+    """Largest torques on J3, J4 and triaxiality (N m), which a model with only J2 neglects.
 
     Parameters
     ----------

@@ -56,7 +56,7 @@ class Satellites:
     i: FloatArray
 
     def mutual(self) -> FloatArray:
-        """Torque P_ij between each two satellites, m5 s-4, with zeros on the diagonal."""
+        """Torques P_ij between pairs of satellites, m5 s-4, shape (n, n), 0 on the diagonal."""
         torque = np.zeros((self.gm.size, self.gm.size))
         for i in range(self.gm.size):
             for j in range(i):
@@ -69,7 +69,7 @@ class Satellites:
 
 @dataclass(frozen=True)
 class Planet:
-    """One or more planets with different numbers; each attribute has the shape (m, 1).
+    """Parameters of one planet or of m planets, as arrays of shape (m, 1), with one obliquity.
 
     Attributes
     ----------
@@ -117,7 +117,7 @@ def laplace_tilts(planet: Planet, satellites: Satellites) -> FloatArray:
 
 
 def shares(planet: Planet, satellites: Satellites) -> tuple[FloatArray, FloatArray]:
-    """Contributions q and l of satellites to J2 and to C/(M R2) in the precession rate.
+    """Terms q and l that satellites add to J2 and to C/(M R2) in the precession rate.
 
     Returns
     -------
@@ -139,7 +139,7 @@ def shares(planet: Planet, satellites: Satellites) -> tuple[FloatArray, FloatArr
 
 @dataclass(frozen=True)
 class Node:
-    """Regression of the node of a satellite, and the nutation of the planet that it causes.
+    """Rate of a satellite's node, and amplitude of the nutation of the planet due to the node.
 
     Attributes
     ----------
@@ -154,7 +154,7 @@ class Node:
 
 
 def nodes(planet: Planet, satellites: Satellites) -> list[Node]:
-    """Nodes of the satellites, each inclined to its Laplace plane, for one planet (m = 1).
+    """Node rate, and resulting nutation of the planet, for each satellite; one planet (m = 1).
 
     Small inclinations are the normal modes of spin and satellites about their common state, with
     normals displaced in the plane of tilt (x) and across it (y): h x' = Sy y, h y' = -Sx x. Each

@@ -87,9 +87,9 @@ def period(rate: Numeric) -> Numeric:
 
 
 def period_error(rate: Numeric, rate_error: Numeric) -> Numeric:
-    """Half-width of the period of one revolution, to first order, from that of the rate.
+    """Half-width of a period, from a rate and the half-width of the rate, to first order.
 
-    It is infinite for rate zero, and NaN if the error of any other rate is unknown.
+    The result is infinite for rate zero, and NaN if the error of any other rate is unknown.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
         # fmax ignores the NaN of 0/0, so that an infinite period has an infinite half-width
@@ -98,14 +98,14 @@ def period_error(rate: Numeric, rate_error: Numeric) -> Numeric:
 
 
 def rate_ratio(precessing: Numeric) -> Numeric:
-    """Ratio of each precessing torque to that of the first perturber; 1 if both are 0."""
+    """Ratio of each precessing torque to the first perturber's torque; 1 if both are 0."""
     reference = precessing[0]
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(precessing == reference, 1.0, precessing / reference)
 
 
 def total_uncertainty(precessing: Numeric, u_gm: Numeric) -> Numeric:
-    """Relative uncertainties of each precessing torque and their total, due to those of GM.
+    """Relative uncertainties due to GM of each precessing torque and of the total torque.
 
     Parameters
     ----------
