@@ -366,7 +366,7 @@ def _stepped(y: Array, r: float, step: Array) -> tuple[Array, Array]:
 
 
 def _through_liquid(profile: Profile, pair: Array) -> tuple[Array, int]:
-    """Values of potential y5 and gradient y7 at the top of the liquid core, and the next layer."""
+    """Potential y5 and gradient y7 at the top of the liquid core, and index of the next layer."""
     r = profile.inner_core or START
     liquids = (n for n, layer in enumerate(profile.layers) if not layer.vs)
     i = max(next(liquids), profile.first)

@@ -1,4 +1,4 @@
-r"""Sizes of effects that are switched off, to first order, by quadrature along the computed motion.
+r"""First-order sizes of switched-off effects, by quadrature along the computed motion.
 
 An effect adds some rate \delta l' to that of the angular momentum l (in units of C times the spin).
 Along the motion that is computed without it, the rate is a known function of time, and no motion is
@@ -191,7 +191,7 @@ def _rate_and_tide(
 
 
 class _Change:
-    """Change of the attitude of a rigid body by a small additional torque, summed over windows."""
+    """Attitude change of a rigid body due to a small additional torque, summed over windows."""
 
     def __init__(self, body: Rigid, start: State) -> None:
         a, b, c = body.moments[:, 0]

@@ -246,7 +246,7 @@ def carry(
 
 
 def _largest(change: Array, space: Array | None) -> float:
-    """Largest absolute element of `change` outside the space of the columns of `space`."""
+    """Largest absolute change, after components along the columns of `space` are removed."""
     if space is not None:
         change = change - space @ (np.linalg.pinv(space) @ change)
     return float(np.max(abs(change)))

@@ -1,4 +1,4 @@
-"""Unit quaternions (w, x, y, z) whose components are the first array axis, for short arrays.
+"""Unit quaternions (w, x, y, z) with components along the first array axis, for short arrays.
 
 `earthspin.numerics.quaternion` has the component on the last axis. A step-by-step solver uses
 arrays of sixteen quaternions, for which the number of numpy calls determines the run time.

@@ -168,7 +168,7 @@ class PoleSeries:
 
     @property
     def provenance(self) -> dict[str, str]:
-        """SHA-256 hash of the file with the series, as an attribute for results; may be empty."""
+        """SHA-256 hash of the series file, as an attribute for results; empty without a file."""
         return {"table_sha256": self.sha256} if self.sha256 else {}
 
     @property
@@ -538,7 +538,7 @@ def _drop_zeros(rows: FloatArray, repairs: list[str]) -> FloatArray:
 
 
 def _check_model(file: object, rows: FloatArray) -> None:
-    """Refuse celestial pole offsets that differ from the finals2000A table included in astropy.
+    """Refuse celestial pole offsets far from those of finals2000A, which astropy includes.
 
     The size alone does not show the model: offsets from IAU 1980 stay below 20 mas until 1991, and
     the oldest of those from IAU 2006/2000A reach 9 mas.

@@ -187,7 +187,7 @@ class _InAnyOrder(NamedTuple):
 
 
 def _coefficients(series: FloatArray) -> FloatArray:
-    """Reorder Chebyshev coefficients (n, 3 terms) to a contiguous array (terms, 3, n)."""
+    """Reorder Chebyshev coefficients (n, 3 * terms) to a contiguous array (terms, 3, n)."""
     return np.ascontiguousarray(series.reshape(len(series), 3, -1).transpose(2, 1, 0))
 
 

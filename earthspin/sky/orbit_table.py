@@ -117,7 +117,7 @@ class OrbitTable:
     sha256: str = ""
 
     def __post_init__(self) -> None:
-        """Make the arrays read-only, since results are stored for an unchanged table."""
+        """Make the arrays read-only, so that stored results of this table stay valid."""
         for array in (self.edges, self.coefficients, self.axes, self.errors):
             array.setflags(write=False)
 
@@ -131,7 +131,7 @@ class OrbitTable:
 
     @property
     def provenance(self) -> dict[str, str]:
-        """SHA-256 hash of the orbit table file, as an attribute for results; may be empty."""
+        """SHA-256 hash of the orbit table file, as attribute for results; empty without a file."""
         return {"orbit_sha256": self.sha256} if self.sha256 else {}
 
     @property
@@ -290,7 +290,7 @@ def fitted(
 def _left_out(
     table: OrbitTable, times: FloatArray, normal: FloatArray, eccentricity: FloatArray
 ) -> FloatArray:
-    """Error of the fitted orbit table: twice its rms difference from the samples, by window.
+    """Error of a fitted orbit table in each window: twice the rms residual of the samples.
 
     The shape is (2, w), for the normal and the eccentricity vector.
     """

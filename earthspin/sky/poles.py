@@ -514,7 +514,7 @@ def _swing(row: object, where: Where) -> Swing:
 
 
 class Angles:
-    """Kind of input: the pole of a body, as two angles, a name, or a table of a moving pole."""
+    """Input type for the pole of a body: two angles, a name, or a table of a moving pole."""
 
     words, hint = "right ascension and declination", "tuple[float | str, float | str]"
     form = '["... deg", "... deg"]'

@@ -114,7 +114,7 @@ class VectorTrajectory:
 
 
 class _TrajectoryFunction(VectorFunction):  # type: ignore[misc]
-    """Skyfield vector function whose positions are those of a trajectory; no velocities."""
+    """Skyfield vector function with positions from a trajectory, without velocities."""
 
     def __init__(self, trajectory: Trajectory) -> None:
         self.trajectory, self.center, self.target = trajectory, trajectory.centre, self

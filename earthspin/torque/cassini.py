@@ -1,4 +1,4 @@
-"""Cassini states, in which a spin axis precesses with its orbit, and locked rotation.
+"""Cassini states, in which spin axis and orbit precess together, and locked rotation.
 
 The normal k of an orbit precesses about a fixed pole at the inclination i and the rate -nu (nu > 0
 if the node regresses). A spin axis s is in a Cassini state if it precesses together with k, so that

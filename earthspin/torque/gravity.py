@@ -128,7 +128,7 @@ def torque_error(
 
 
 def _refuse_centre(distance: FloatArray) -> None:
-    """Raise an error if a distance is zero or negative; accept NaN."""
+    """Raise an error if a distance is zero, negative or not a number."""
     away = np.asarray(distance) > 0
     if not np.all(away):
         wrong = float(np.asarray(distance)[~away].flat[0])

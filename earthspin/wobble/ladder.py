@@ -183,12 +183,12 @@ FORMULAS = {
 
 
 def turns_rigid(h: Numeric) -> Numeric:
-    """Wobble period in rotations of a rigid axisymmetric body: A/(C - A) (I.6.7)."""
+    """Wobble period of a rigid axisymmetric body, in rotations: A/(C - A) (I.6.7)."""
     return np.abs(over(1.0, ellipticity_from_h(h)))
 
 
 def turns_triaxial(h: Numeric, j2: Numeric, triaxiality: Numeric) -> Numeric:
-    """Wobble period in rotations of a rigid triaxial body, for small wobbles.
+    """Wobble period of a rigid triaxial body, in rotations, for small wobbles.
 
     sqrt(A B/((C - A)(C - B))), linearised Euler equations (I.4.4), from differences only.
 
@@ -226,7 +226,7 @@ def turns_triaxial(h: Numeric, j2: Numeric, triaxiality: Numeric) -> Numeric:
 def rigid_turns(
     flattening: Numeric, h: Numeric, j2: Numeric, triaxiality: Numeric
 ) -> dict[str, Numeric]:
-    """Wobble periods in rotations from the three rigid models of the ladder, by model name."""
+    """Wobble periods, in rotations, from the three rigid models of the ladder, by model name."""
     return {
         "flattening": over(1.0, flattening),  # MacCullagh's formula (I.9.52)
         "rigid": turns_rigid(h),
@@ -235,7 +235,7 @@ def rigid_turns(
 
 
 def factors(turns: Numeric) -> Numeric:
-    """Ratio of each model's wobble period to that of the model before; 1 for the first model."""
+    """Ratio of each model's wobble period to the previous model's; 1 for the first model."""
     values = np.asarray(turns)
     below, above = values[:-1], values[1:]
     with np.errstate(invalid="ignore"):  # a sphere has every rung at infinity

@@ -90,7 +90,7 @@ class StateSpace:
         return StateSpace(transition, noise, self.observed, self.error, self.start)
 
     def propagated(self, covariance: FloatArray) -> FloatArray:
-        """Covariance of the state one step after a state with a given covariance."""
+        """Covariance of the state after one more step, from the present covariance."""
         return np.asarray(self.transition @ covariance @ self.transition.T + self.noise)
 
     def of_observation(self, covariance: FloatArray) -> FloatArray:
