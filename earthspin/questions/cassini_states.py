@@ -70,7 +70,7 @@ class CassiniStates(
 
 @dataclass(frozen=True)
 class Locking:
-    """Mean motion of a body on its orbit, and its rotations per orbit.
+    """Mean motion of a body on its orbit, and number of rotations of the body per orbit.
 
     Attributes
     ----------
@@ -118,7 +118,7 @@ def locking(body: Body, own_orbit: Orbit) -> Locking:
 
 
 def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
-    """Compute the torque strengths and the orbital precession rate that set the Cassini states."""
+    """Compute the torque strengths and orbital precession that determine the Cassini states."""
     axial, locked = cassini.strengths(
         locking.motion,
         body.spin_rate,
@@ -147,7 +147,7 @@ class States(Variables, along=("state",), no_error="true or false"):
 
 @part
 def states(body: Body, own_orbit: Orbit, locking: Locking) -> States:
-    """Compute obliquity, error of the obliquity and stability of every Cassini state."""
+    """Compute obliquity, tilt to the mean orbit normal, and stability of every Cassini state."""
     axis = precessing(body, own_orbit, locking)
     # a locked body turns with its orbit: there the torque of each orbit is the same at any rate
     own = 0.0 if locking.locked else 1.5 * abs(axis.axial)

@@ -1,4 +1,4 @@
-"""Love numbers of any layered body, its compliances and its free modes."""
+"""Love numbers, compliances and free modes of any layered body."""
 
 from __future__ import annotations
 

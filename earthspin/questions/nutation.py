@@ -105,7 +105,7 @@ def models(body: Body, coupling: str, anelastic_exponent: float) -> Prediction:
 
 @part(loads=("scipy.special",))
 def interior_spread(models: Prediction) -> Spread:
-    """Vary the uncertain inputs of the interior, and draw them at random."""
+    """Compute interior models with one input changed each, and weights for random inputs."""
     return spread_of(models.setting, models.rungs, models.uncertainty)
 
 
@@ -118,10 +118,10 @@ def left(
     epochs: Epochs,
     effects: tuple[str, ...],
 ) -> dict[str, FloatArray]:
-    """Compute the residuals of predicted pole minus IAU pole for each model.
+    """Compute the root mean square of predicted pole minus IAU pole, with errors, for each model.
 
-    They are root mean squares of dpsi sin(eps0) and deps after removal of a linear trend, and the
-    half-width of either from the inputs of the interior, H and integration, rad.
+    The angles are dpsi sin(eps0) and deps after removal of a linear trend; the error is the
+    half-width of either from the inputs of the interior, H and integration. All are in rad.
     """
     done = pole_analysis
     days, ends, _, theirs = path.iau_nutation(pulls, epochs)

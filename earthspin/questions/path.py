@@ -76,7 +76,7 @@ def direction_errors(
     pulls: Pulls,
     shift: Shift | None,
 ) -> dict[str, FloatArray]:
-    """95 % half-widths of the directions of the axes along a path: the total, and those by cause.
+    """95 % half-widths of the axis directions along a path, rad: total, and by error source.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
 def continuous_longitude(
     path: AxisPath, first: float, ecliptic: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Start times (s) of the windows of a path, and longitude of the angular momentum then (rad).
+    """Start times of the windows of a path, s, and longitude of the momentum at these times, rad.
 
     The longitude is continuous, and equals the principal value at the time `first`, s.
     """
@@ -290,14 +290,14 @@ def rigid(effects: Sequence[str]) -> list[str]:
 
 
 def same_paths(pulls: Pulls, effects: Sequence[str], **inputs: object) -> Hashable:
-    """Value that is equal if `path_over` gives the same path; None if its inputs may change."""
+    """Cache key: equal if `path_over` would give the same path; None if inputs may change."""
     perturbers = *pulls.gm.items(), *pulls.targets.items(), *pulls.sky.reach.items()
     return pulls.sky.unchanged(pulls.body, also=(perturbers, pulls.limits, *rigid(effects)))
 
 
 @dataclass(frozen=True)
 class IAUPole:
-    """Pole of IAU 2006/2000A over the span that is analysed, and its analysis.
+    """IAU 2006/2000A pole over the analysed days, separated into secular part and circular terms.
 
     Attributes
     ----------
@@ -321,7 +321,7 @@ class IAUPole:
 
 
 def analysed_days(limits: tuple[float, float]) -> tuple[FloatArray, float]:
-    """Days on which nutation is analysed, and their span in days, where positions are known.
+    """Days on which nutation is analysed, within the known positions, and length of the span, d.
 
     Parameters
     ----------
@@ -336,7 +336,7 @@ def analysed_days(limits: tuple[float, float]) -> tuple[FloatArray, float]:
     unless=no_iau_model, same_for=lambda pulls: pulls.limits, loads=("erfa", "scipy.sparse.linalg")
 )
 def iau_pole(pulls: Pulls) -> IAUPole:
-    """Analyse pole and nutation of the IAU over 150 years, as far as positions are known."""
+    """Separate the IAU pole over up to 150 years into a secular part and circular terms."""
     days, covered = analysed_days((pulls.limits[0] / DAY, pulls.limits[1] / DAY))
     if covered < SHORTEST_SPAN:
         years, needed = (days * DAY / JULIAN_YEAR for days in (covered, SHORTEST_SPAN))
@@ -353,7 +353,7 @@ def iau_pole(pulls: Pulls) -> IAUPole:
 
 @part(unless=no_iau_model, same_for=same_paths)
 def pole_analysis(pulls: Pulls, effects: tuple[str, ...], iau_pole: IAUPole) -> PoleComparison:
-    """Separate the computed pole over 150 years into precession and circular terms, as the IAU's.
+    """Separate the computed pole over up to 150 years into precession and circular terms.
 
     The initial axis is corrected so that the mean poles agree at the start.
     """
@@ -387,7 +387,7 @@ def pole_analysis(pulls: Pulls, effects: tuple[str, ...], iau_pole: IAUPole) -> 
 
 
 def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp], dict[str, Any]]:
-    """Largest circular nutations of the computed pole, beside the same ones of IAU 2000A.
+    """Largest circular nutation terms of the computed pole, and the same terms of IAU 2000A.
 
     Returns
     -------

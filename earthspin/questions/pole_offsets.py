@@ -127,7 +127,7 @@ def too_short_for_a_period(span: Span | None) -> str | None:
 
 
 def _length(span: Span | None) -> float:
-    """Length of a time span, d."""
+    """Length of a time span, d; infinite if no span is given."""
     return math.inf if span is None else span.days[1] - span.days[0]
 
 
@@ -168,7 +168,7 @@ class CorePeriod(Variables):
 
 @part(unless=too_short_for_a_period, loads=("earthspin.wobble.observed",))
 def period(offset_table: PoleSeries) -> CorePeriod:
-    """Fit the free core nutation period to offsets since 1984, as a noise-driven oscillator."""
+    """Fit the free core nutation, as a noise-driven oscillator, to the offsets since 1984."""
     from earthspin.wobble.observed import fit
 
     good = offset_table.mjd >= FIRST_MJD

@@ -155,7 +155,7 @@ def _length(vector: FloatArray) -> float:
 
 
 def _spinning(body: Body, start_omega: FloatArray | None) -> Body:
-    """Take the spin rate from the initial angular velocity if the body has none."""
+    """Set the spin rate from the initial angular velocity if the body has no spin period."""
     if body.spin_period is not None or start_omega is None:
         return body
     speed = _length(start_omega)
@@ -163,7 +163,7 @@ def _spinning(body: Body, start_omega: FloatArray | None) -> Body:
 
 
 def _acting(effects: tuple[str, ...]) -> tuple[str, ...]:
-    """Add B - A, which is one of the three moments of the body, to the effects."""
+    """Add triaxiality and second-order effect to the effects, as both are always included."""
     return (*effects, TRIAXIALITY, SECOND_ORDER.name)
 
 
@@ -307,7 +307,10 @@ _CAUSES = {
 
 
 def _errors(units: str, name: str, quantity: str) -> Any:
-    """Declare ``<name>_error`` and its shares, ``<name>_error_<cause>``, each largest so far."""
+    """Declare the variables ``<name>_error`` (total) and ``<name>_error_<cause>`` of a result.
+
+    Each value is the largest error up to its time.
+    """
     endings = {f"_{cause}": f"share of {name}_error from {w}" for cause, w in _CAUSES.items()}
     endings = {"": f"95 % half-width of {quantity}, largest so far", **endings}
     return Variable(units, endings=endings, along=("time",))

@@ -37,7 +37,7 @@ class KernelName(FileName):
     content = "an SPK kernel"
 
     def read(self, value: object, where: Where) -> Any:
-        """Read an ephemeris, given by name, by path, or as a Skyfield kernel."""
+        """Check an ephemeris given as name, path or Skyfield kernel; return its name or path."""
         if hasattr(value, "spk") and hasattr(value, "path"):
             value = value.path
         if sources.is_vector_function(value):
@@ -147,7 +147,7 @@ class Places:
 
 @dataclass(frozen=True)
 class Sky:
-    """Source of positions that has been opened, and the key by which it finds each body.
+    """Opened source of positions, and the key (code or trajectory) of each body in that source.
 
     Attributes
     ----------
@@ -217,7 +217,7 @@ class Sky:
         self.source.check_times(np.array(list(days)), self._all(targets))
 
     def unchanged(self, *bodies: Body, also: Hashable = None) -> Hashable:
-        """Value that is equal for the same positions, bodies and further inputs `also`.
+        """Cache key: equal for equal positions, bodies and further inputs `also`.
 
         None if they contain arrays or objects, which may change.
         """

@@ -1,4 +1,4 @@
-"""Times of a series: dates, or seconds from the start of a motion; numbers side by side."""
+"""Times of a series (dates, or seconds from a start), and numbers broadcast to one shape."""
 
 from __future__ import annotations
 
