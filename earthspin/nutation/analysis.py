@@ -44,7 +44,7 @@ def on_fixed_ecliptic(pole: FloatArray, ecliptic: FloatArray) -> FloatArray:
 
 
 def followed(psi: FloatArray, guide: FloatArray) -> FloatArray:
-    """Add whole turns to longitudes so that each differs least from its guide value, rad."""
+    """Add whole turns to longitudes psi so that they are nearest to the values of `guide`, rad."""
     return np.asarray(psi + 2 * np.pi * np.rint((guide - psi) / (2 * np.pi)))
 
 
@@ -286,7 +286,7 @@ class FrequencyAnalysis:
         return Circles(self._multiples, self._frequency, amplitude, slow)
 
     def _solved(self, both: FloatArray) -> FloatArray:
-        """Solve the least-squares problem for the two parts of the complex nutation, shape (2, t).
+        """Solve the least-squares problem for real and imaginary part of nutation, shape (2, t).
 
         The solution is for rows of unit length. They are nearly orthogonal (condition number 20
         over 150 years), so that the normal equations are accurate enough, and conjugate gradients

@@ -1,4 +1,4 @@
-"""Contributions of all effects to the precession rate, and consequences of the rate of IAU 2006."""
+"""Contributions of effects to the precession rate, and quantities that follow from this rate."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ FIRST_ORDER = "first-order"
 
 
 def contributions(total: float, without: Mapping[str, float]) -> dict[str, float]:
-    """Contribution of each effect to a precession rate: rate with all minus rate without it.
+    """Contribution of each effect to a precession rate: total rate minus rate without the effect.
 
     The remainder is the first-order rate.
 
@@ -204,7 +204,7 @@ class Flattening(NamedTuple):
 
 
 def inferred_h(budget: Budget, h: float) -> tuple[float, float]:
-    """Value of H that makes the computed precession rate equal to the IAU's, and its uncertainty.
+    """Value of H that makes the computed precession rate equal to the IAU rate, and error of H.
 
     The standard uncertainty follows from the root sum square of the differences between computed
     and published effects, and from the error of the same analysis for a pole whose rate is known.

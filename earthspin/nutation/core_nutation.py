@@ -176,7 +176,7 @@ STARTING = 2 * 365
 
 @dataclass(frozen=True)
 class Fits:
-    """Constant and free core nutation, fitted for each day to all earlier days of a series.
+    """Constant and free core nutation, fitted for each day to the offsets up to that day.
 
     Attributes
     ----------

@@ -342,7 +342,7 @@ def changed(
 
 
 def inputs_of(uncertainty: Mapping[str, float]) -> list[str]:
-    """Names of the uncertain inputs, in the order in which they are drawn."""
+    """Names of the uncertain inputs, in the order of the random samples."""
     relative = [name for name in (*_FACTORS, *_NUMBERS) if uncertainty.get(name, 0.0)]
     return [*relative, *_PUBLISHED, "exponent"]
 
@@ -350,7 +350,7 @@ def inputs_of(uncertainty: Mapping[str, float]) -> list[str]:
 def draw(
     uncertainty: Mapping[str, float], draws: int = DRAWS, seed: int = SEED
 ) -> dict[str, FloatArray]:
-    """Draw deviations of all uncertain inputs, in the units of `changed`, shape (draws,) each.
+    """Draw random deviations of all uncertain inputs, in units of `changed`, shape (draws,) each.
 
     Each input takes equally probable values in random order (a Latin hypercube), so that a half-
     width due to a single input has no sampling error.
@@ -386,7 +386,7 @@ class Spread:
     weights: FloatArray
 
     def transfer_changes(self, name: str, frequency: FloatArray) -> ComplexArray:
-        """Change of a model's transfer function at each node, shape (nodes, frequencies).
+        """Change of a model's transfer function for each varied input, (nodes, frequencies).
 
         The frequencies are in space, in rad/s.
         """
@@ -453,12 +453,12 @@ class Spread:
         return max(half_widths)
 
     def _drawn(self, changes: Array) -> Array:
-        """Changes of all draws from those at the nodes, shape (draws, ...)."""
+        """Interpolate the changes at the nodes to all random samples, shape (draws, ...)."""
         return np.asarray(np.einsum("nd,n...->d...", self.weights, changes))
 
 
 def _half_width(changes: Array) -> FloatArray:
-    """Change that 95 % of the draws do not exceed, along the first axis."""
+    """95 % quantile of the absolute changes over the random samples (first axis)."""
     return np.asarray(np.quantile(np.abs(changes), 0.95, axis=0))
 
 
