@@ -167,7 +167,7 @@ def with_error(
 def _squared_changes(
     function: Callable[[Season], FloatArray], season: Season, half_widths: Season, *names: str
 ) -> FloatArray:
-    """Sum of the squared changes of a function due to the half-widths of some elements."""
+    """Sum of the squared changes of a function if each named element varies by its half-width."""
 
     def moved(name: str, by: float) -> FloatArray:
         value = getattr(season, name) + by * getattr(half_widths, name)

@@ -257,7 +257,7 @@ TOO_NEAR = 0.99
 
 @dataclass(frozen=True)
 class Trajectory:
-    """Spin axis, or axes of many members, in time, as polynomials in time windows.
+    """Motion of one or many spin axes, as polynomials in time windows.
 
     Attributes
     ----------
@@ -452,7 +452,7 @@ class _BlockSolver:
         return None
 
     def _pull(self, times: FloatArray, state: FloatArray) -> Pull:
-        """Averaged torque on the spin axis, or on those of all members, at given times."""
+        """Averaged torque on one or many spin axes at given times."""
         normal, eccentricity, turning = (
             broadcast_over_members(state, vector) for vector in self.orbit.at(times)
         )
