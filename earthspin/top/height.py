@@ -105,7 +105,7 @@ class Nutation(NamedTuple):
 
 
 class Place(NamedTuple):
-    """Position of a top's axis in its nutation cycle, from the nearest turning point.
+    """Phase of a top's axis in its nutation cycle, measured from the nearest turning point.
 
     Attributes
     ----------
@@ -129,7 +129,7 @@ class Place(NamedTuple):
 
 
 class AxisHeight(NamedTuple):
-    """Height u = cos(theta) of a top's axis in time, as distances, and its rate u'.
+    """Height u = cos(theta) of a top's axis in time, as distances from poles and start; rate u'.
 
     Attributes
     ----------
@@ -198,7 +198,7 @@ def _phase_of_start(nutation: Nutation) -> FloatArray:
 
 
 def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
-    """Find the position of a top's axis in its nutation cycle at given times.
+    """Find the phase of a top's axis in its nutation cycle at given times.
 
     Parameters
     ----------
