@@ -56,7 +56,7 @@ class PrincipalMoments:
 
 
 def principal_moments(moments: Moments) -> PrincipalMoments:
-    """Read principal moments of inertia; raise an error if no body can have them.
+    """Convert input to principal moments of inertia; raise an error if no body can have them.
 
     Parameters
     ----------

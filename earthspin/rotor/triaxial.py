@@ -316,7 +316,7 @@ def _start_along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _S
 
 
 def _read_start(moments: Moments, omega: Any) -> tuple[PrincipalMoments, FloatArray]:
-    """Read moments and angular velocity, and broadcast them against each other."""
+    """Check moments of inertia and angular velocity, and broadcast the arrays to one shape."""
     body = principal_moments(moments)
     spin = finite(omega, "omega", "rad/s")
     if spin.ndim == 0 or spin.shape[-1] != 3:
