@@ -126,7 +126,7 @@ def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Bod
 def _orbits(
     sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]
 ) -> tuple[FloatArray, int]:
-    """Period of revolution of each perturber about the body, s; index of the strongest one."""
+    """Period of revolution of perturbers about the body, s; index of the strongest perturber."""
     days = np.linspace(stretch.first, stretch.last, ORBIT_SAMPLES)[:-1]
     places, later = sky.positions(days), sky.positions(days + VELOCITY_INTERVAL / DAY)
     periods, strengths = [], []
@@ -160,7 +160,7 @@ def _cases(strength: xr.DataArray | None) -> dict[str, int]:
 
 
 def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: FloatArray) -> None:
-    """Refuse a spin that is locked to an orbit, because averages over orbits do not apply."""
+    """Refuse a body whose spin is locked to an orbit, because orbit averages do not apply."""
     first, last = (DAY * day for day in sky.coverage())
     for spin_period in np.ravel(body.needed("spin_period")):
         if abs(spin_period) < cassini.SLOW:

@@ -1,4 +1,4 @@
-"""Perturbers, effects and custom torques that move the axes of a body, for the solvers."""
+"""Perturbers, effects and custom torques that move a body's axes, prepared for the integrators."""
 
 from __future__ import annotations
 
@@ -283,7 +283,7 @@ PULLS = (places, sky, pulls, epochs)
 def switched_off(
     body: Body, perturbers: tuple[Body, ...], effects: Sequence[str]
 ) -> tuple[str, ...]:
-    """Names of the effects on the rigid body that are switched off although they would act.
+    """Names of effects on a rigid body that are switched off, without effects that would be zero.
 
     An effect does not act if its coefficient is zero or its perturbers are not there.
     """
@@ -353,7 +353,7 @@ _FUNCTION = "live"
 
 @dataclass(frozen=True)
 class CustomTorque:
-    """Torque on a body that the user defines by a Python function.
+    """Custom torque on a body, defined by a Python function of the user.
 
     Attributes
     ----------

@@ -102,7 +102,7 @@ def own_orbit(body: Body, orbit: Orbit | None) -> Orbit:
 
 @part
 def locking(body: Body, own_orbit: Orbit) -> Locking:
-    """Compute the mean motion of a body on its orbit, and its number of rotations per orbit."""
+    """Compute the mean motion of a body on its orbit, and the number of rotations per orbit."""
     about = own_orbit.about or SUN.name
     if about not in BODIES or about == body.known_as:
         others = [name for name in BODIES if name != body.known_as]

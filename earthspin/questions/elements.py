@@ -111,7 +111,7 @@ def _refuse_circles(centres: Mapping[str, str]) -> None:
 
 
 def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
-    """Ellipse of the orbit of `member` about the body `centre`, from its orbital elements."""
+    """Ellipse of the orbit of `member` about the body `centre`, from the orbital elements."""
     orbit: Orbit = member.needed("orbit")
     a, motion = size_and_motion(member, centre)
     refuse_overlap(member, centre, a)
@@ -133,7 +133,7 @@ def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
 
 
 def refuse_overlap(member: Body, centre: Body, a: float, advice: str = "") -> None:
-    """Refuse an orbit with semi-major axis `a` (m) at whose pericentre the bodies overlap.
+    """Refuse an orbit, semi-major axis `a` (m), on which the two bodies overlap at pericentre.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Comparison of the computed pole with that of IAU 2006/2000A."""
+"""Comparison of the computed pole with the pole of IAU 2006/2000A."""
 
 from __future__ import annotations
 

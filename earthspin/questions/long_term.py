@@ -201,7 +201,7 @@ class LongTerm(
 
 
 def _unknown_start(body: Body) -> str:
-    """Reason why errors are missing: the body's pole at J2000.0 has no known uncertainty."""
+    """Text that explains missing errors: the body's pole at J2000.0 has no known uncertainty."""
     return (
         f"how far off the pole of {in_a_sentence(body.name)} is at J2000.0 is not known; give the "
         "body a pole_uncertainty"

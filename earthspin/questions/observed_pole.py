@@ -59,7 +59,7 @@ class GivenTable:
     hint = "xr.Dataset | pd.DataFrame"
 
     def read(self, value: Any, where: Where) -> Any:
-        """Read the two time series, with errors if given, or restore those of a scene file."""
+        """Read the two time series, with errors if given, or restore both from a scene file."""
         if isinstance(value, GivenSeries):
             return value
         if isinstance(value, dict):

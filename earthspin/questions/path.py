@@ -1,4 +1,4 @@
-"""Paths of the angular momentum, rotation and figure axes, their errors, and IAU comparison."""
+"""Paths of angular momentum, rotation and figure axes, with errors and comparison to the IAU."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ SERIES = "coefficients of the adopted series"
 def axis_path(
     pulls: Pulls, epochs: Epochs, effects: tuple[str, ...], interior_shift: Shift | None = None
 ) -> AxisPath:
-    """Integrate the axes of the body from J2000.0 to all dates, by Picard iteration.
+    """Integrate the motion of the body's axes from J2000.0 to all dates, by Picard iteration.
 
     With the response of the interior, the rigid axes start such that their mean pole agrees with
     that of the IAU.
@@ -470,7 +470,7 @@ class ResponseFit:
 def response_apart(
     pole_analysis: PoleComparison, pulls: Pulls, effects: tuple[str, ...]
 ) -> ResponseFit:
-    """Fit the resonance formula to IAU 2000A without its geodesic nutation and added terms."""
+    """Fit the resonance formula to IAU 2000A without geodesic nutation and additive terms."""
     from earthspin.nutation.response import added_to
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles.amplitude
@@ -518,7 +518,7 @@ class Shift:
     residual: float
 
     def apply(self, directions: dict[str, FloatArray], days: FloatArray) -> None:
-        """Move the axes in place by the precession and nutation of the non-rigid interior.
+        """Add the precession and nutation due to the non-rigid interior to the axes, in place.
 
         Nutation does not move the angular momentum.
         """

@@ -243,7 +243,7 @@ class Angles(Dated, along=("time", "axis"), error="direction_error"):
 
 @part(unless=no_longitude)
 def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> tuple[FloatArray, FloatArray]:
-    """Window start times, s, and continuous longitude psi of the momentum at these times, rad."""
+    """Window start times, s, and longitude psi of the angular momentum at these times, rad."""
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     return path.continuous_longitude(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
 

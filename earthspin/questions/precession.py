@@ -1,4 +1,4 @@
-"""Rate and period of precession, and quantities that follow from them."""
+"""Rate and period of precession, and derived quantities such as the tropical year."""
 
 from __future__ import annotations
 
@@ -361,7 +361,7 @@ def standstills(
 
 @part
 def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -> Neglected:
-    """Published contributions to the precession rate of effects that are not modelled."""
+    """Contributions to the precession rate by effects that are not modelled."""
     unknown = reasons.not_the_iaus_earth(body, perturbers)
     published = LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
     nutations = satellites.swings(body, mean_rates.pull, mean_rates.means.obliquity)

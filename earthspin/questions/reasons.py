@@ -87,7 +87,7 @@ def north_note(body: Body, obliquity: float | None = None) -> dict[str, str]:
 
 
 def neglected_rates(modelled: Collection[str] = ()) -> Neglected:
-    """Published contributions to the rate of psi_A of the effects that are not modelled."""
+    """Published contributions to the rate of psi_A by effects that are not modelled."""
     return Neglected(
         {name: size for name, size in published_effects().items() if name not in modelled},
         "arcsec/yr",

@@ -105,7 +105,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
     @property
     def unused(self) -> str:
-        """Satellites that are left out; empty if the size of their effect is listed."""
+        """Names of neglected satellites; empty if the sizes of satellite effects are listed."""
         known = self.perturbers and obliquity_of(self.body) is not None
         return "" if known else super().unused
 
@@ -124,7 +124,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
 @dataclass(frozen=True)
 class Pulling:
-    """Torques of all perturbers, and the relative torque error due to errors of their positions.
+    """Torques of all perturbers, and relative torque error due to errors of perturber positions.
 
     Attributes
     ----------
@@ -144,7 +144,7 @@ class Pulling:
 
 
 def nothing_pulls(perturbers: tuple[Body, ...]) -> str | None:
-    """Return the reason (text) to omit positions if there are no perturbers, else None."""
+    """Return the reason (text) to omit torques if there are no perturbers, else None."""
     return None if perturbers else "nothing pulls on the body"
 
 
@@ -317,7 +317,7 @@ def _errors(units: str, name: str, quantity: str) -> Any:
 
 
 class Attitudes(Dated, along=("time", "component")):
-    """Attitude, spin and angular momentum in time, with their errors in total and by cause."""
+    """Attitude, spin and angular momentum in time, with errors: total and by error source."""
 
     attitude = number(
         "1",
@@ -503,7 +503,7 @@ def neglected(
     effect_changes: dict[str, float] | None = None,
     node_drifts: dict[str, float] | None = None,
 ) -> Neglected:
-    """Sizes of effects on the attitude that are neglected, or their names if sizes are unknown.
+    """Sizes of neglected effects on the attitude, and names of effects of unknown size.
 
     The sizes are for the last date.
     """

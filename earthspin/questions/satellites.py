@@ -47,7 +47,7 @@ class Carried:
 
     @property
     def rate(self) -> Numeric:
-        """Precession rate with satellites, divided by that of the body alone."""
+        """Precession rate with satellites, divided by the rate of the body alone."""
         return self.bulge / self.moment
 
 

@@ -1,4 +1,4 @@
-"""The body of a question, its perturbers, and the source of their positions."""
+"""Body and perturbers of a question, and the source of the positions of these bodies."""
 
 from __future__ import annotations
 
@@ -186,7 +186,7 @@ class Sky:
 
     @property
     def unmeasured(self) -> tuple[str, ...]:
-        """Names of the perturbers whose position error is unknown, as it was not measured."""
+        """Names of perturbers whose position error was not measured and is unknown."""
         return tuple(n for n, place in self.targets.items() if math.isnan(self.error(place)[0]))
 
     @property
@@ -272,7 +272,7 @@ class Sky:
         true: bool = False,
         nutation: Nutation | None = None,
     ) -> dict[str, tuple[FloatArray, FloatArray, FloatArray]]:
-        """Right ascension, declination (rad) and distance (m) of perturbers, equator of date.
+        """Right ascension and declination (rad, equator of date), and distance (m) of perturbers.
 
         Parameters
         ----------

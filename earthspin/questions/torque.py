@@ -185,7 +185,7 @@ def nearest(sky: Sky, epochs: Epochs) -> dict[str, float]:
 def neglected(
     body: Body, perturbers: tuple[Body, ...], nearest: dict[str, float] | None = None
 ) -> Neglected:
-    """Largest neglected torques: on J3, J4 and triaxiality of the body, and of its satellites.
+    """Largest neglected torques: on J3, J4 and triaxiality of the body, and those of satellites.
 
     They are computed at the smallest distance of each perturber.
     """

@@ -1,4 +1,4 @@
-"""Free wobble period from a ladder of models, from rigid to deformable, and its sensitivity.
+"""Free wobble period from models between rigid and deformable, and its sensitivity to inputs.
 
 A rung is a model that adds one effect to the model before.
 """
