@@ -44,7 +44,7 @@ def on_fixed_ecliptic(pole: FloatArray, ecliptic: FloatArray) -> FloatArray:
 
 
 def followed(psi: FloatArray, guide: FloatArray) -> FloatArray:
-    """Add whole turns to longitudes psi so that they are nearest to the values of `guide`, rad."""
+    """Add whole turns to longitudes psi, rad, so that each is nearest to its value in `guide`."""
     return np.asarray(psi + 2 * np.pi * np.rint((guide - psi) / (2 * np.pi)))
 
 
@@ -228,7 +228,7 @@ def responses(
 
 
 class FrequencyAnalysis:
-    """Least-squares fit of the amplitudes of all circular terms together.
+    """Simultaneous least-squares fit of the amplitudes of all circular terms to nutation.
 
     Parameters
     ----------

@@ -123,7 +123,7 @@ def budget_of(
     psi_iau: float,
     u_h: float,
 ) -> Budget:
-    """Compute the budget of precession rates, from solutions with each effect switched off in turn.
+    """Contribution of each effect to the precession rates, from solutions without that effect.
 
     Parameters
     ----------
@@ -181,7 +181,7 @@ COMPARED = ("planets", "j4", "geodesic", "second-order")
 
 
 def prem_polar_moment(radius: Numeric, j2: Numeric) -> Numeric:
-    """Polar moment factor C/(M a2) of the Earth model PREM, for a reference radius a, m, and J2.
+    """Polar moment factor C/(M a2) of the Earth model PREM, for reference radius a (m) and J2.
 
     Its mean moment I = (A + B + C)/3 and C - (A + B)/2 = J2 M a2 give C = I + (2/3) J2 M a2.
     """
@@ -204,7 +204,7 @@ class Flattening(NamedTuple):
 
 
 def inferred_h(budget: Budget, h: float) -> tuple[float, float]:
-    """Value of H that makes the computed precession rate equal to the IAU rate, and error of H.
+    """Value of H that makes computed and IAU precession rates equal, and its standard uncertainty.
 
     The standard uncertainty follows from the root sum square of the differences between computed
     and published effects, and from the error of the same analysis for a pole whose rate is known.

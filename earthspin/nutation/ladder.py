@@ -420,7 +420,7 @@ class Spread:
         products: FloatArray,
         residual: ComplexArray,
     ) -> float:
-        """95 % half-width of the root mean square of a residual, the larger of both angles, rad.
+        """95 % half-width of the rms residual, rad; the larger value of the two nutation angles.
 
         Parameters
         ----------
@@ -463,7 +463,7 @@ def _half_width(changes: Array) -> FloatArray:
 
 
 def spread_of(setting: Setting, rungs: dict[str, Rung], uncertainty: Mapping[str, float]) -> Spread:
-    """Compute models with one input changed each, and weights to interpolate random draws.
+    """Compute models with one input changed each, and weights to interpolate to random inputs.
 
     Parameters
     ----------
