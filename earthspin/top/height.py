@@ -221,7 +221,7 @@ def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
 
 
 def height_at(nutation: Nutation, place: Place) -> AxisHeight:
-    """Compute the height u = cos(theta) of a top's axis at given times, and its rate.
+    """Compute the height u = cos(theta) of a top's axis at given times, and the rate u'.
 
     The height is given as distances from the poles and the start. Those from the poles are sums of
     positive terms.
