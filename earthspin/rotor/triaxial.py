@@ -454,7 +454,7 @@ def free_rotation(moments: Moments, omega: Any, times: Any) -> FreeRotation:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Phase:
-    """Values of the elliptic functions of a free rotation at given times, with their argument.
+    """Values and argument of the elliptic functions of a free rotation at given times.
 
     Attributes
     ----------
