@@ -404,7 +404,7 @@ def circles_of(term: Term) -> tuple[complex, complex]:
 
 
 def amplitude_error(frequency: FloatArray) -> FloatArray:
-    """Error of a fitted nutation amplitude, rad; the error due to close frequencies is excluded.
+    """Error of a fitted nutation amplitude, rad, without the error due to close frequencies.
 
     Measured with the series of IAU 2000A, whose amplitudes are known: 0.042 mas for the 18.6-year
     and 9.3-year terms, 0.038 mas for the semi-annual term, 0.007 mas for periods below 100 days.

@@ -75,7 +75,7 @@ class Rung:
         return float(parts.e_f) if parts.count > 1 else 0.0
 
     def coupled(self, k_cmb: complex, k_icb: complex) -> Rung:
-        """Return the model with additional coupling of the fluid core to mantle and inner core."""
+        """Return this model with additional coupling of the fluid core to mantle and inner core."""
         return replace(
             self, parts=lambda sigma: replace(self.parts(sigma), k_cmb=k_cmb, k_icb=k_icb)
         )
@@ -366,7 +366,7 @@ def draw(
 
 @dataclass(frozen=True)
 class Spread:
-    """Models of the interior with one input changed each, and the weights that combine them.
+    """Models of the interior with one input changed each, and weights to interpolate between them.
 
     Attributes
     ----------

@@ -140,7 +140,7 @@ def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
 def continuous_longitude(
     path: AxisPath, first: float, ecliptic: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Start times of the windows of a path, s, and longitude of the momentum at these times, rad.
+    """Start times of a path's windows, s, and angular momentum longitudes at these times, rad.
 
     The longitude is continuous, and equals the principal value at the time `first`, s.
     """

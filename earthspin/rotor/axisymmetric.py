@@ -97,7 +97,7 @@ class SymmetricRotor:
 
     @property
     def space_cone(self) -> Numeric:
-        """Half-angle of the space cone: from angular momentum to rotation axis, rad (I.6.28)."""
+        """Half-angle of the space cone, from angular momentum to rotation axis, rad (I.6.28)."""
         return np.abs(self.tilt)
 
     @property

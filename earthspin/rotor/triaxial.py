@@ -55,7 +55,7 @@ _LEAST_ENERGY, _LARGEST_ENERGY = -960, 1000
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Precession:
-    """Rotation of a free body about its angular momentum: mean rate and periodic part.
+    """Rotation of a free body about the angular momentum: mean rate and periodic part.
 
     Attributes
     ----------
