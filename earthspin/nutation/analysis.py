@@ -44,7 +44,7 @@ def on_fixed_ecliptic(pole: FloatArray, ecliptic: FloatArray) -> FloatArray:
 
 
 def followed(psi: FloatArray, guide: FloatArray) -> FloatArray:
-    """Add whole turns to longitudes so that each differs least from its guide value, rad."""
+    """Add whole turns to longitudes psi, rad, so that each is nearest to its value in `guide`."""
     return np.asarray(psi + 2 * np.pi * np.rint((guide - psi) / (2 * np.pi)))
 
 
@@ -228,7 +228,7 @@ def responses(
 
 
 class FrequencyAnalysis:
-    """Least-squares fit of the amplitudes of all circular terms together.
+    """Simultaneous least-squares fit of the amplitudes of all circular terms to nutation.
 
     Parameters
     ----------
@@ -286,7 +286,7 @@ class FrequencyAnalysis:
         return Circles(self._multiples, self._frequency, amplitude, slow)
 
     def _solved(self, both: FloatArray) -> FloatArray:
-        """Solve the least-squares problem for the two parts of the complex nutation, shape (2, t).
+        """Solve the least-squares problem for real and imaginary part of nutation, shape (2, t).
 
         The solution is for rows of unit length. They are nearly orthogonal (condition number 20
         over 150 years), so that the normal equations are accurate enough, and conjugate gradients
@@ -404,7 +404,7 @@ def circles_of(term: Term) -> tuple[complex, complex]:
 
 
 def amplitude_error(frequency: FloatArray) -> FloatArray:
-    """Error of a fitted nutation amplitude, rad; the error due to close frequencies is excluded.
+    """Error of a fitted nutation amplitude, rad, without the error due to close frequencies.
 
     Measured with the series of IAU 2000A, whose amplitudes are known: 0.042 mas for the 18.6-year
     and 9.3-year terms, 0.038 mas for the semi-annual term, 0.007 mas for periods below 100 days.

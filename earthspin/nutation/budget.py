@@ -1,4 +1,4 @@
-"""Contributions of all effects to the precession rate, and consequences of the rate of IAU 2006."""
+"""Contributions of effects to the precession rate, and quantities that follow from this rate."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ FIRST_ORDER = "first-order"
 
 
 def contributions(total: float, without: Mapping[str, float]) -> dict[str, float]:
-    """Contribution of each effect to a precession rate: rate with all minus rate without it.
+    """Contribution of each effect to a precession rate: total rate minus rate without the effect.
 
     The remainder is the first-order rate.
 
@@ -123,7 +123,7 @@ def budget_of(
     psi_iau: float,
     u_h: float,
 ) -> Budget:
-    """Compute the budget of precession rates, from solutions with each effect switched off in turn.
+    """Contribution of each effect to the precession rates, from solutions without that effect.
 
     Parameters
     ----------
@@ -181,7 +181,7 @@ COMPARED = ("planets", "j4", "geodesic", "second-order")
 
 
 def prem_polar_moment(radius: Numeric, j2: Numeric) -> Numeric:
-    """Polar moment factor C/(M a2) of the Earth model PREM, for a reference radius a, m, and J2.
+    """Polar moment factor C/(M a2) of the Earth model PREM, for reference radius a (m) and J2.
 
     Its mean moment I = (A + B + C)/3 and C - (A + B)/2 = J2 M a2 give C = I + (2/3) J2 M a2.
     """
@@ -204,7 +204,7 @@ class Flattening(NamedTuple):
 
 
 def inferred_h(budget: Budget, h: float) -> tuple[float, float]:
-    """Value of H that makes the computed precession rate equal to the IAU's, and its uncertainty.
+    """Value of H that makes computed and IAU precession rates equal, and its standard uncertainty.
 
     The standard uncertainty follows from the root sum square of the differences between computed
     and published effects, and from the error of the same analysis for a pole whose rate is known.

@@ -72,7 +72,7 @@ class CoreNutation:
         return np.where(self.detected, np.arcsin(np.minimum(ratio, 1.0)), np.pi)
 
     def at(self, time: FloatArray) -> ComplexArray:
-        """Free core nutation at given days; its amplitude is interpolated between window centres.
+        """Free core nutation at given days; the amplitude is interpolated between window centres.
 
         The amplitude of the first or last window is used before the first or after the last centre.
         """
@@ -176,7 +176,7 @@ STARTING = 2 * 365
 
 @dataclass(frozen=True)
 class Fits:
-    """Constant and free core nutation, fitted for each day to all earlier days of a series.
+    """Constant and free core nutation, fitted for each day to the offsets up to that day.
 
     Attributes
     ----------

@@ -75,7 +75,7 @@ class Rung:
         return float(parts.e_f) if parts.count > 1 else 0.0
 
     def coupled(self, k_cmb: complex, k_icb: complex) -> Rung:
-        """Return the model with additional coupling of the fluid core to mantle and inner core."""
+        """Return this model with additional coupling of the fluid core to mantle and inner core."""
         return replace(
             self, parts=lambda sigma: replace(self.parts(sigma), k_cmb=k_cmb, k_icb=k_icb)
         )
@@ -342,7 +342,7 @@ def changed(
 
 
 def inputs_of(uncertainty: Mapping[str, float]) -> list[str]:
-    """Names of the uncertain inputs, in the order in which they are drawn."""
+    """Names of the uncertain inputs, in the order of the random samples."""
     relative = [name for name in (*_FACTORS, *_NUMBERS) if uncertainty.get(name, 0.0)]
     return [*relative, *_PUBLISHED, "exponent"]
 
@@ -350,7 +350,7 @@ def inputs_of(uncertainty: Mapping[str, float]) -> list[str]:
 def draw(
     uncertainty: Mapping[str, float], draws: int = DRAWS, seed: int = SEED
 ) -> dict[str, FloatArray]:
-    """Draw deviations of all uncertain inputs, in the units of `changed`, shape (draws,) each.
+    """Draw random deviations of all uncertain inputs, in units of `changed`, shape (draws,) each.
 
     Each input takes equally probable values in random order (a Latin hypercube), so that a half-
     width due to a single input has no sampling error.
@@ -366,7 +366,7 @@ def draw(
 
 @dataclass(frozen=True)
 class Spread:
-    """Models of the interior with one input changed each, and the weights that combine them.
+    """Models of the interior with one input changed each, and weights to interpolate between them.
 
     Attributes
     ----------
@@ -386,7 +386,7 @@ class Spread:
     weights: FloatArray
 
     def transfer_changes(self, name: str, frequency: FloatArray) -> ComplexArray:
-        """Change of a model's transfer function at each node, shape (nodes, frequencies).
+        """Change of a model's transfer function for each varied input, (nodes, frequencies).
 
         The frequencies are in space, in rad/s.
         """
@@ -420,7 +420,7 @@ class Spread:
         products: FloatArray,
         residual: ComplexArray,
     ) -> float:
-        """95 % half-width of the root mean square of a residual, the larger of both angles, rad.
+        """95 % half-width of the rms residual, rad; the larger value of the two nutation angles.
 
         Parameters
         ----------
@@ -453,17 +453,17 @@ class Spread:
         return max(half_widths)
 
     def _drawn(self, changes: Array) -> Array:
-        """Changes of all draws from those at the nodes, shape (draws, ...)."""
+        """Interpolate the changes at the nodes to all random samples, shape (draws, ...)."""
         return np.asarray(np.einsum("nd,n...->d...", self.weights, changes))
 
 
 def _half_width(changes: Array) -> FloatArray:
-    """Change that 95 % of the draws do not exceed, along the first axis."""
+    """95 % quantile of the absolute changes over the random samples (first axis)."""
     return np.asarray(np.quantile(np.abs(changes), 0.95, axis=0))
 
 
 def spread_of(setting: Setting, rungs: dict[str, Rung], uncertainty: Mapping[str, float]) -> Spread:
-    """Compute models with one input changed each, and weights to interpolate random draws.
+    """Compute models with one input changed each, and weights to interpolate to random inputs.
 
     Parameters
     ----------

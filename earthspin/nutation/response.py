@@ -111,9 +111,9 @@ def added_half_width(response: Response, frequency: FloatArray, rigid: ComplexAr
 def _form(
     frequency: FloatArray, h: float, spin_rate: float, core_nutation: complex
 ) -> tuple[FloatArray, ComplexArray]:
-    """Non-resonant part of the transfer function, and the factors that multiply the resonances.
+    """Non-resonant part of the transfer function, and terms to be multiplied by the strengths.
 
-    Each factor is multiplied by the strength of its resonance.
+    There is one term for each strength, shape (k, 4).
     """
     in_space = frequency / spin_rate
     sigma = in_space - 1

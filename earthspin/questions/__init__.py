@@ -1,4 +1,4 @@
-"""One module for each question that a user can ask, and modules for what several questions share.
+"""Modules of the questions that users can ask, and modules with code for several questions.
 
 Parts, the functions that answer a question, convert between labelled data and the arrays of the
 physics packages. Modules that load large libraries are imported when they are first used, so that a

@@ -38,7 +38,7 @@ PERIOD_MARGIN = 1.1
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """Torques divided by C - A at equally spaced times, and the weight function for their mean.
+    """Torques divided by C - A at equally spaced times, and the weight function for mean torques.
 
     Attributes
     ----------
@@ -85,7 +85,7 @@ class Samples:
     same_for=lambda sky, stretch, body, perturbers: sky.unchanged(body, *perturbers, also=stretch),
 )
 def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]) -> Samples:
-    """Sample the torques of all perturbers, from their declinations, over the averaging time."""
+    """Compute the torque of each perturber, divided by C - A, at the sample times of the mean."""
     body = without_swings(body)
     pole, orbit = body.needed("pole"), body.orbit_pole
     cycle = max(map(slowest_cycle, perturbers))
@@ -126,7 +126,7 @@ def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Bod
 def _orbits(
     sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]
 ) -> tuple[FloatArray, int]:
-    """Mean period of revolution of each perturber, s, and index of the strongest perturber."""
+    """Period of revolution of perturbers about the body, s; index of the strongest perturber."""
     days = np.linspace(stretch.first, stretch.last, ORBIT_SAMPLES)[:-1]
     places, later = sky.positions(days), sky.positions(days + VELOCITY_INTERVAL / DAY)
     periods, strengths = [], []
@@ -153,14 +153,14 @@ def _varying_masses(body: Body, perturbers: tuple[Body, ...]) -> xr.DataArray | 
 
 
 def _cases(strength: xr.DataArray | None) -> dict[str, int]:
-    """Dimensions of arrays of masses with their lengths; empty without arrays."""
+    """Names and lengths of the dimensions of mass arrays, without `perturber`; may be empty."""
     if strength is None:
         return {}
     return {str(dim): n for dim, n in strength.sizes.items() if dim != "perturber"}
 
 
 def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: FloatArray) -> None:
-    """Refuse a spin that is locked to an orbit, because averages over orbits do not apply."""
+    """Refuse a body whose spin is locked to an orbit, because orbit averages do not apply."""
     first, last = (DAY * day for day in sky.coverage())
     for spin_period in np.ravel(body.needed("spin_period")):
         if abs(spin_period) < cassini.SLOW:
@@ -264,7 +264,7 @@ def window_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> MeanT
 
 @part(unless=no_exact_means)
 def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
-    """Exact mean torques of bodies on precessing ellipses, for the spin axis at J2000.0.
+    """Exact mean torques of perturbers on precessing ellipses, for the spin axis at J2000.0.
 
     Each mean is over the orbit and the precession of its node.
     """
@@ -362,12 +362,12 @@ class MeanRates:
     carried: Carried
 
     def total(self) -> tuple[Numeric, Numeric]:
-        """Total rate of all perturbers and its error, rad/s."""
+        """Total precession rate due to all perturbers, and error of that rate, rad/s."""
         return of_perturber(self.rate.value), of_perturber(self.rate.error)
 
 
 def of_perturber(values: Numeric, index: int = -1) -> Numeric:
-    """Value of one perturber by its index along the dimension `perturber`; the total by default."""
+    """Select the value of one perturber by its index; by default the last value, the total."""
     if hasattr(values, "dims"):
         return values.isel(perturber=index, drop=True)
     return values[index]
@@ -420,7 +420,7 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
 
 
 def _labeller(means: MeanTorques) -> Callable[[FloatArray], xr.DataArray]:
-    """Return a function that labels the arrays of `means` by perturber and by case."""
+    """Return a function that turns arrays of `means` into DataArrays with named dimensions."""
     dims, shape = ("perturber", *means.cases), (len(means.labels), *means.cases.values())
     labels = {"perturber": means.labels}
     return lambda values: xr.DataArray(np.reshape(values, shape), labels, dims)

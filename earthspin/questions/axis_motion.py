@@ -1,4 +1,4 @@
-"""Perturbers, effects and custom torques that move the axes of a body, for the solvers."""
+"""Perturbers, effects and custom torques that move a body's axes, prepared for the integrators."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class EffectNames(Several):
         return f'{super().words}; or "known", "rigid" or "all"'
 
     def read(self, value: object, where: Where) -> tuple[str, ...]:
-        """Return the names of the effects that one word stands for; otherwise check the names."""
+        """Check a word or a list of effect names, and return a tuple; "all" gives all names."""
         if isinstance(value, str):
             word = Word((*EFFECTS, KNOWN, WITHOUT_INTERIOR, "all")).read(value, where)
             return tuple(EFFECTS) if word == "all" else (word,)
@@ -73,7 +73,7 @@ class AxisMotion(Series):
     effects: Effects = key("known", doc=EFFECTS_DOC)
 
     def check(self) -> None:
-        """Replace words by the names of effects; refuse `planets` without a kernel."""
+        """Replace "known" or "rigid" by names of effects; refuse `planets` without a kernel."""
         super().check()
         words = {KNOWN: self.known_effects, WITHOUT_INTERIOR: self.rigid_effects}
         if self.effects and self.effects[0] in words:
@@ -88,7 +88,7 @@ class AxisMotion(Series):
         return self.rigid_effects()
 
     def rigid_effects(self) -> tuple[str, ...]:
-        """Names of the effects on a rigid body, without `planets` if no kernel holds them."""
+        """Names of the effects on a rigid body; `planets` only if a kernel contains the planets."""
         kernel = own_kernel(self.ephemeris)
         no_planets = all_by_elements(self.body, self.perturbers) or (
             kernel is not None and not kernel.holds(BODIES[name].naif for name in bodies.PLANETS)
@@ -97,7 +97,7 @@ class AxisMotion(Series):
 
 
 def own_kernel(ephemeris: str) -> Ephemeris | None:
-    """Open a kernel that is given by its path; None for a named one, and for a faulty file.
+    """Open the kernel file at a given path; None if `ephemeris` is a kernel name or a faulty file.
 
     Named kernels hold all planets for a century and more; a faulty file is refused by the run.
     """
@@ -111,7 +111,7 @@ def own_kernel(ephemeris: str) -> Ephemeris | None:
 
 @dataclass(frozen=True)
 class Pulls:
-    """A body with GM and positions of its perturbers, and the times at which these are known.
+    """Rotating body, GM and positions of its perturbers, and the time limits of the positions.
 
     Attributes
     ----------
@@ -139,7 +139,7 @@ class Pulls:
 
     @property
     def epoch(self) -> float:
-        """Start of the integration: J2000.0, or the nearest time with positions, s from J2000.0."""
+        """Start of the integration, s from J2000.0: 0, or the nearest time with known positions."""
         return min(max(0.0, self.limits[0]), self.limits[1])
 
     @property
@@ -150,7 +150,7 @@ class Pulls:
     def positions(
         self, names: Sequence[str], times: FloatArray, keep: bool
     ) -> dict[str, FloatArray]:
-        """Positions of perturbers from the body, m, at times in s; stored for reuse if `keep`."""
+        """Positions of perturbers relative to the body, m, at times in s; cached if `keep`."""
         at = (float(times[0]), float(times[-1]), times.size)
         known = self._stored.setdefault(at, {}) if keep else {}
         missing = {name: self.targets[name] for name in names if name not in known}
@@ -159,7 +159,7 @@ class Pulls:
         return known
 
     def mean_pull(self) -> float:
-        """Sum of GM <1/r3> of the perturbers over an orbit of the body about J2000.0, s-2.
+        """Sum over perturbers of GM times the mean 1/r3 over an orbit about J2000.0, s-2.
 
         Without an orbital period it is that at J2000.0. The period is cut to the times that are
         covered.
@@ -176,7 +176,7 @@ class Pulls:
 
 @part
 def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]) -> Pulls:
-    """Collect GM and positions of the perturbers; include the planets if that effect is on."""
+    """Collect GM and position sources of the perturbers, and of the planets if `planets` is on."""
     masses = {p.name: float(p.gm_on(body)) for p in perturbers}
     targets = dict(sky.targets)
     if PLANETS.name in effects:
@@ -212,7 +212,7 @@ def forces_of(pulls: Pulls, effects: Sequence[str], keep: bool = False) -> Force
 
 
 def turning(rate: FloatArray) -> Torque:
-    """Make a function that gives a constant angular velocity as an equivalent torque.
+    """Make the torque that turns the angular momentum at a constant angular velocity.
 
     Parameters
     ----------
@@ -228,7 +228,7 @@ def turning(rate: FloatArray) -> Torque:
 
 
 def figure_of(body: Body, spin_rate: float) -> Figure:
-    """Flattening, spin rate and radius of a body, which determine its motion under torque."""
+    """Make a `Figure`: flattening, spin rate, inverse polar moment and radius of a body."""
     h, radius, meridian = map(body.number, ("dynamical_flattening", "radius", "meridian"))
     inverse = inverse_polar_moment(body.number("j2"), h)
     return Figure(
@@ -245,7 +245,7 @@ def switched_on(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:
 
 
 def start_note(body: Body) -> dict[str, str]:
-    """Note for the attributes of a result: its errors do not include that of the initial pole.
+    """Attribute of a result which states that the errors exclude the error of the initial pole.
 
     Empty if the pole follows the models of the IAU.
     """
@@ -258,7 +258,7 @@ def start_note(body: Body) -> dict[str, str]:
 
 
 def idle_note(body: Body, effects: Sequence[str]) -> dict[str, str]:
-    """Note for the attributes of a result: the effects that do nothing, with the reason."""
+    """Attribute of a result that lists effects which do nothing because a coefficient is 0."""
     fields = {name: EFFECTS[name].coefficient for name in effects}
     idle = {name: field for name, field in fields.items() if field and body.number(field) == 0}
     owner = bodies.in_a_sentence(body.name)
@@ -283,7 +283,7 @@ PULLS = (places, sky, pulls, epochs)
 def switched_off(
     body: Body, perturbers: tuple[Body, ...], effects: Sequence[str]
 ) -> tuple[str, ...]:
-    """Names of the effects on the rigid body that are switched off although they would act.
+    """Names of effects on a rigid body that are switched off, without effects that would be zero.
 
     An effect does not act if its coefficient is zero or its perturbers are not there.
     """
@@ -300,7 +300,7 @@ def switched_off(
 def each_added(
     sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: Sequence[str], off: Sequence[str]
 ) -> tuple[Forces, dict[str, Forces]]:
-    """Forces of the given effects, and the same forces with one more effect each.
+    """Build the forces of `effects`, and, by name, the forces with each effect of `off` added.
 
     The planets are omitted if their positions are not known (`drift_by_planets`).
     """
@@ -319,7 +319,7 @@ _SAMPLES = 1000
 
 
 def drift_by_planets(body: Body, seconds: float) -> dict[str, float]:
-    """Displacement of the axis of a planet by the other planets after some time, rad, by effect.
+    """Displacement of a planet's axis by the other planets after a given time (s), rad, by effect.
 
     It follows from their mean torque on circular orbits in one plane, without their positions:
     within 10 % for the Earth and Mars over ten years. Empty for a body that is not a planet of the
@@ -340,7 +340,7 @@ def drift_by_planets(body: Body, seconds: float) -> dict[str, float]:
 
 
 def _orbit_radius(planet: Body) -> float:
-    """Mean radius of the orbit about the Sun, m, from its period."""
+    """Mean radius of a planet's orbit about the Sun, m, from the orbital period."""
     return math.cbrt(SUN.number("gm") * (planet.number("orbital_period") / (2 * math.pi)) ** 2)
 
 
@@ -353,7 +353,7 @@ _FUNCTION = "live"
 
 @dataclass(frozen=True)
 class CustomTorque:
-    """Torque on a body that the user defines by a Python function.
+    """Custom torque on a body, defined by a Python function of the user.
 
     Attributes
     ----------

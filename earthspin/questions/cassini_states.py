@@ -70,7 +70,7 @@ class CassiniStates(
 
 @dataclass(frozen=True)
 class Locking:
-    """Mean motion of a body on its orbit, and its rotations per orbit.
+    """Mean motion of a body on its orbit, and number of rotations of the body per orbit.
 
     Attributes
     ----------
@@ -102,7 +102,7 @@ def own_orbit(body: Body, orbit: Orbit | None) -> Orbit:
 
 @part
 def locking(body: Body, own_orbit: Orbit) -> Locking:
-    """Compute the mean motion of a body on its orbit, and its number of rotations per orbit."""
+    """Compute the mean motion of a body on its orbit, and the number of rotations per orbit."""
     about = own_orbit.about or SUN.name
     if about not in BODIES or about == body.known_as:
         others = [name for name in BODIES if name != body.known_as]
@@ -118,7 +118,7 @@ def locking(body: Body, own_orbit: Orbit) -> Locking:
 
 
 def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
-    """Compute the torque strengths and the orbital precession rate that set the Cassini states."""
+    """Compute the torque strengths and orbital precession that determine the Cassini states."""
     axial, locked = cassini.strengths(
         locking.motion,
         body.spin_rate,
@@ -147,7 +147,7 @@ class States(Variables, along=("state",), no_error="true or false"):
 
 @part
 def states(body: Body, own_orbit: Orbit, locking: Locking) -> States:
-    """Compute obliquity, error of the obliquity and stability of every Cassini state."""
+    """Compute obliquity, tilt to the mean orbit normal, and stability of every Cassini state."""
     axis = precessing(body, own_orbit, locking)
     # a locked body turns with its orbit: there the torque of each orbit is the same at any rate
     own = 0.0 if locking.locked else 1.5 * abs(axis.axial)

@@ -35,7 +35,7 @@ class EllipseChain(NamedTuple):
 def ellipse_chains(
     body: Body, perturbers: tuple[Body, ...], starts_at_body: bool = True
 ) -> dict[str, EllipseChain]:
-    """Chains of ellipses that lead to the bodies with orbital elements, by their names.
+    """Chains of ellipses that lead to the bodies with orbital elements, by name of the body.
 
     With `starts_at_body`, a chain starts from the spinning body if possible, else from a body
     without elements. Otherwise bodies without elements come first, as is needed if only its own
@@ -74,7 +74,7 @@ def _add_chain(
     links: Mapping[str, Mapping[str, tuple[Ellipse, int]]],
     reached: dict[str, EllipseChain],
 ) -> None:
-    """Store the chain of ellipses to one body, then the chains to the bodies linked to it."""
+    """Store in `reached` the chain to the body `end`, then those to all bodies linked to `end`."""
     reached[end] = chain
     for name, link in links[end].items():
         if name not in reached:
@@ -82,7 +82,7 @@ def _add_chain(
 
 
 def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
-    """Name of the body that `member` orbits; an empty text if that body is not in the list."""
+    """Name of the central body of `member`; an empty text if no known body can be the centre."""
     about: str = member.needed("orbit").about
     if about:
         label = about if about in known else label_of(about, known.values())
@@ -111,7 +111,7 @@ def _refuse_circles(centres: Mapping[str, str]) -> None:
 
 
 def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
-    """Ellipse of the orbit of `member` about the body `centre`, from its orbital elements."""
+    """Ellipse of the orbit of `member` about the body `centre`, from the orbital elements."""
     orbit: Orbit = member.needed("orbit")
     a, motion = size_and_motion(member, centre)
     refuse_overlap(member, centre, a)
@@ -133,7 +133,7 @@ def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
 
 
 def refuse_overlap(member: Body, centre: Body, a: float, advice: str = "") -> None:
-    """Refuse an orbit with semi-major axis `a` (m) at whose pericentre the bodies overlap.
+    """Refuse an orbit, semi-major axis `a` (m), on which the two bodies overlap at pericentre.
 
     Raises
     ------
@@ -179,7 +179,7 @@ def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
 
 
 def locked_error(body: Body, perturber: str, turns: float) -> UndefinedError:
-    """Make the error for a spin that is locked to an orbit."""
+    """Build the exception for a body whose spin is locked to its orbit with a perturber."""
     return UndefinedError(
         f"{in_a_sentence(body.name)} is locked to its orbit with '{perturber}' ({turns:g} "
         f"rotation{'' if turns == 1 else 's'} per orbit), so averages over orbits do not apply; "

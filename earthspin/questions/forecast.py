@@ -37,17 +37,17 @@ _MIDNIGHT = 1e-6
 
 
 class Day(Epoch):
-    """Kind of input: a day, which scenes store as a date."""
+    """Kind of input: a calendar day, which a scene file stores as a date."""
 
     words, hint = 'a date, or "today"', "Date | float"
 
     def read(self, value: object, where: Where) -> float:
-        """Read a date as the days from J2000.0 to its midnight; "today" is the present UTC day."""
+        """Convert a date to days from J2000.0 to 0h of that date; "today" is the UTC date."""
         day = today() if isinstance(value, str) and value == "today" else super().read(value, where)
         return float(np.floor(day + 0.5 + _MIDNIGHT)) - 0.5
 
     def write(self, value: float) -> Plain:
-        """Return the day as a date."""
+        """Return days from J2000.0 as the text of a date."""
         return date_text(value)
 
 
@@ -118,7 +118,7 @@ class Forecast(
     )
 
     def check(self) -> None:
-        """Require whole days, and fitted parameters with excitation."""
+        """Require a step of whole days, and fitted parameters if an excitation is given."""
         if self.excitation is not None and self.parameters == "shipped":
             problem = "with an excitation they are fitted; leave parameters out"
             raise SceneError("parameters", self.parameters, problem)
@@ -129,7 +129,7 @@ class Forecast(
 
 @part(unless=no_iau_model)
 def record(file: eop.PoleTable, origin: float | None) -> PoleSeries:
-    """Read the observed polar motion up to the origin; refuse a series that is not daily."""
+    """Read observed polar motion up to the forecast's origin; refuse a series that is not daily."""
     table = eop.read_polar_motion(file)
     if "bridged" in table.repairs or abs(table.step - 1) > _MIDNIGHT:
         steps = table.repairs if "bridged" in table.repairs else f"steps of {table.step:g} d"
@@ -145,7 +145,7 @@ def record(file: eop.PoleTable, origin: float | None) -> PoleSeries:
 
 @part
 def output_days(record: PoleSeries, days: float, step: float, start: float | None) -> slice:
-    """Days of a daily forecast in the answer: every `step` up to `days` after the start."""
+    """Slice that selects the answer from the daily forecast: one day per `step`, up to `days`."""
     newest = float(record.mjd[-1]) - MJD
     gap, every = 0 if start is None else round(start - newest), round(step / DAY)
     if not 0 <= gap <= model.LONGEST - days:
@@ -156,7 +156,7 @@ def output_days(record: PoleSeries, days: float, step: float, start: float | Non
 
 
 def _times(record: PoleSeries, output_days: slice) -> FloatArray:
-    """Days from J2000.0 that a forecast returns."""
+    """Times of the forecast values, days from J2000.0."""
     ahead: FloatArray = np.arange(1.0, output_days.stop + 1)[output_days]
     return ahead + float(record.mjd[-1]) - MJD
 
@@ -176,7 +176,7 @@ def predicted(
 def _from_common_day(
     record: PoleSeries, excitation: GivenSeries
 ) -> tuple[ComplexArray, ComplexArray]:
-    """Return pole and excitation from the first day that both cover, each to its own end.
+    """Cut the series of pole and excitation so that both start on the first common day.
 
     Raises
     ------
@@ -195,7 +195,7 @@ def _from_common_day(
 
 
 class ForecastPole(Daily):
-    """Forecast of polar motion."""
+    """Forecast coordinates x and y of the pole, with half-widths and correlation of errors."""
 
     x = measured("arcsec", "coordinate of the pole towards the prime meridian")
     y = measured("arcsec", "coordinate of the pole towards 90 degrees west")
@@ -251,7 +251,7 @@ def ahead(
 
 
 class Components(Daily):
-    """Parts of the forecast polar motion: Chandler, annual and semiannual wobble, and slow pole."""
+    """Components of the forecast: Chandler, annual and semiannual wobble, slowly moving pole."""
 
     component_x = measured("mas", "part of x", along=("component", "time"))
     component_y = measured("mas", "part of y", along=("component", "time"))
@@ -373,7 +373,7 @@ def predicted_offsets(table: PoleSeries, mjd: FloatArray) -> tuple[FloatArray, F
 def no_offsets(
     file: eop.PoleTable, origin: float | None, start: float | None, days: float
 ) -> str | None:
-    """Return the reason (text) to omit celestial pole offsets without a forecast, else None."""
+    """Return the reason (text) to omit pole offsets if they cannot be forecast, else None."""
     if isinstance(file, GivenSeries):
         return "polar motion has no celestial pole offsets; name a table"
     try:
@@ -485,5 +485,5 @@ def to_iers_table(answer: Answer) -> PoleTable:
 
 
 def _continued(mjd: FloatArray, last: float) -> FloatArray:
-    """Return modified Julian dates with daily dates added up to a last date."""
+    """Extend an array of modified Julian dates day by day up to a last date."""
     return np.concatenate([mjd, np.arange(mjd[-1] + 1, last + 0.5)])

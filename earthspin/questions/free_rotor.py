@@ -167,7 +167,7 @@ def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> 
 
 
 def several_starts(omega: FloatArray) -> str | None:
-    """Return the reason (text) to omit Poinsot's construction for several starts, else None."""
+    """Return the reason (text) to omit Poinsot's construction for several motions, else None."""
     return None if omega.ndim == 1 else "there are several starts"
 
 

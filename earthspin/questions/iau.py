@@ -1,4 +1,4 @@
-"""Comparison of the computed pole with that of IAU 2006/2000A."""
+"""Comparison of the computed pole with the pole of IAU 2006/2000A."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
     page, headline = "pole", "closure"
 
     def check(self) -> None:
-        """Refuse bodies whose position errors are unknown, as the comparison needs them."""
+        """Refuse bodies whose position errors are unknown, as the comparison needs these errors."""
         super().check()
         problem = "the error of its positions is not known, and errors are needed; use pole()"
         for member in (self.body, *self.perturbers):

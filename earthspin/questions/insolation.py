@@ -1,4 +1,4 @@
-"""Daily insolation: a question, and a function for an answer of `long_term`."""
+"""Daily insolation, as a question and as a function of a result of `long_term`."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def _signed(value: Any) -> Any:
 
 
 def _in_radians(value: Any, where: Where, limit: float) -> Any:
-    """Convert latitudes (up to a limit of a right angle) or longitudes to rad; labels are kept."""
+    """Convert latitudes or longitudes to rad with labels; refuse angles above `limit` (rad)."""
     is_latitude = limit < np.pi
     example = "65 deg" if is_latitude else "90 deg"
     angle = quantity(_signed(value) if is_latitude else value, "rad", where, example)
@@ -73,7 +73,7 @@ class Angles(Numbers):
         return super().read(angle, replace(where, typed=False))
 
     def write(self, value: FloatArray) -> Plain:
-        """Form stored in scene files: degrees, or radians if degrees would not be exact."""
+        """Text of an angle for scene files, in degrees, or in radians if degrees are not exact."""
         if value.ndim:
             return [self.write(angle) for angle in value]
         degrees = round(math.degrees(value), 12)
@@ -81,7 +81,7 @@ class Angles(Numbers):
 
 
 def _labelled(angle: Any, name: str, label: Any = None, **attrs: str) -> xr.DataArray:
-    """Label an angle, or angles along the dimension `name`: by default in degrees."""
+    """Make a DataArray of angles (rad) along `name`, labelled by default with values in degrees."""
     dims = (name,) if np.ndim(angle) else ()
     # rounded, because radians are not exact
     label = np.degrees(angle).round(12) if label is None else label
@@ -150,7 +150,7 @@ class Insolation(
     )
 
     def check(self) -> None:
-        """Refuse days that the calendar lacks, and a window of more than a year."""
+        """Refuse days outside the Earth's calendar, and a window of more than a year."""
         super().check()
         is_earth = self.body.known_as == EARTH.known_as
         if self.day is not None and not (is_earth and np.all((self.day >= 0) & (self.day < 367))):
@@ -161,7 +161,7 @@ class Insolation(
 
 
 class InsolationSeries(Variables, along=("epoch",)):
-    """Insolation at every epoch, latitude, and longitude or day."""
+    """Insolation, W/m2, at every epoch, latitude, and solar longitude or day of the year."""
 
     insolation = measured("W m-2", _SUNLIGHT, references=BERGER)
     epoch = labels()
@@ -180,7 +180,7 @@ def daily_means(
     solar_constant: float | None,
     body: Body,
 ) -> InsolationSeries:
-    """Compute the insolation at every epoch, with its error."""
+    """Compute the insolation and its error at every epoch, latitude, and longitude or day."""
     place = _labelled(latitude, "latitude", units="deg", long_name="latitude")
     if day is None:
         words = "true longitude of the Sun from the moving equinox"
@@ -341,7 +341,7 @@ def _place(value: Any, name: str, limit: float, result: xr.Dataset) -> xr.DataAr
 
 
 def _solar_constant(year: float) -> float:
-    """Solar constant at the mean distance from the Sun for a sidereal year in s, W/m2."""
+    """Solar flux at the mean distance of a planet with a given sidereal year (s), W/m2."""
     distance = (SUN.gm * (year / _TURN) ** 2) ** (1 / 3)
     return float(SOLAR_CONSTANT.value * (AU / distance) ** 2)
 
@@ -354,7 +354,7 @@ def _with_error(
     window: float | None,
     is_true: bool,
 ) -> tuple[xr.DataArray, xr.DataArray]:
-    """Insolation from a solution and its 95 % half-width, along all dimensions.
+    """Compute insolation and its 95 % half-width from the obliquity and orbit in `result`.
 
     The half-width is NaN if the solution has no errors.
     """

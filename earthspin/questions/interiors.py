@@ -1,4 +1,4 @@
-"""Interior of the rotating body: its layers, and the response to nutation that they predict."""
+"""Interior of the rotating body: layers, and the nutation response predicted from the layers."""
 
 from __future__ import annotations
 
@@ -145,7 +145,7 @@ class Prediction:
 
 
 def layered(body: Body) -> named.Interior | None:
-    """Return the interior of a body whose layers include an inner core; else None."""
+    """Return the interior of a body if its layers include an inner core; otherwise None."""
     interior = interior_of(body)
     if interior is None or interior.layers is None or not interior.layers.inner_core_radius:
         return None
@@ -185,5 +185,5 @@ def predict(body: Body, coupling: bool, anelastic_exponent: float) -> Prediction
 
 @part(unless=no_layers)
 def prediction(body: Body) -> Prediction:
-    """Predict the response of the interior from its layers."""
+    """Predict the response of a body's interior to nutation torques from the body's layers."""
     return predict(body, False, named.ANELASTIC_EXPONENT.value)

@@ -47,7 +47,7 @@ _ARRAYS = ("edges", "coefficients", "axes", "errors")
 
 
 class OrbitChoice(FileName):
-    """Kind of input: an orbit table, which is the body's own, a file, or an `OrbitTable`."""
+    """Kind of input: an orbit table, given as "own", as a file path, or as an `OrbitTable`."""
 
     words = '"own", the path of a table, or the result of read_orbit'
     hint = "str | PathLike[str] | OrbitTable"
@@ -201,7 +201,7 @@ class LongTerm(
 
 
 def _unknown_start(body: Body) -> str:
-    """Reason why errors are missing: the body's pole at J2000.0 has no known uncertainty."""
+    """Text that explains missing errors: the body's pole at J2000.0 has no known uncertainty."""
     return (
         f"how far off the pole of {in_a_sentence(body.name)} is at J2000.0 is not known; give the "
         "body a pole_uncertainty"
@@ -238,7 +238,7 @@ def wanted(span: YearSpan, step: float, times: YearList | None) -> FloatArray:
 
 @part
 def stretch(sky: Sky) -> Stretch:
-    """Return the first and last day over which torques are averaged: all that the kernel covers."""
+    """Return the first and last day of the torque average: the whole time span of the kernel."""
     return Stretch(*sky.coverage())
 
 
@@ -253,7 +253,7 @@ def numbers(
     obliquity_shift: float,
     longitude_shift: float,
 ) -> SideBySide:
-    """Broadcast to one shape all inputs of the long-term precession that may be arrays."""
+    """Broadcast the inputs of the long-term precession that may be arrays to one shape."""
     (rate, error), j2 = mean_rates.total(), body.needed("j2")
     as_published = 0.0 if not_sun_and_moon(body, perturbers) else body.are_as_named
     return SideBySide.of(
@@ -475,7 +475,7 @@ _ONE_AT_A_TIME = (
 
 
 class Budget(Variables, along=("cause", "epoch"), no_error="a share of an error"):
-    """Contribution of each cause to the errors of obliquity, perihelion and pole."""
+    """Contribution of each error source to the errors of obliquity, perihelion and pole."""
 
     obliquity_share = number("arcsec", "share of the error of the obliquity")
     longitude_share = number("deg", "share of the error of the longitude of perihelion")
@@ -490,7 +490,7 @@ class Budget(Variables, along=("cause", "epoch"), no_error="a share of an error"
 
 @part
 def budget(readings: reading.Readings, numbers: SideBySide, series: xr.Dataset) -> Budget:
-    """Compute the contribution of each cause to the errors of obliquity, perihelion and pole."""
+    """Compute the contribution of each error source to errors of obliquity, perihelion and pole."""
 
     def lay(by_cause: dict[str, FloatArray]) -> xr.DataArray:
         shares = np.broadcast_arrays(*by_cause.values())

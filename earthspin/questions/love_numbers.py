@@ -1,4 +1,4 @@
-"""Love numbers of any layered body, its compliances and its free modes."""
+"""Love numbers, compliances and free modes of any layered body."""
 
 from __future__ import annotations
 
@@ -113,7 +113,7 @@ PERIODS = np.geomspace(200.0, 30 * JULIAN_YEAR, 25)
 
 
 class ByPeriod(Variables, along=("love", "love_period"), no_error=FROM_LAYERS):
-    """Complex Love numbers for several periods of the tide, and those of the elastic body."""
+    """Complex Love numbers for several tidal periods, and Love numbers of the elastic body."""
 
     elastic_love_number = number("1", "Love number of the elastic body", along=("love",))
     love_number_by_period = number("1", "Love number")

@@ -99,13 +99,13 @@ class NutationLadder(
 
 @part
 def models(body: Body, coupling: str, anelastic_exponent: float) -> Prediction:
-    """Compute the response of the Earth's interior to the torques, for each model of the ladder."""
+    """Build the interior models of the Earth that predict the response to nutation torques."""
     return predict(body, coupling == "inferred", anelastic_exponent)
 
 
 @part(loads=("scipy.special",))
 def interior_spread(models: Prediction) -> Spread:
-    """Vary the uncertain inputs of the interior, and draw them at random."""
+    """Compute interior models with one input changed each, and weights for random inputs."""
     return spread_of(models.setting, models.rungs, models.uncertainty)
 
 
@@ -118,10 +118,10 @@ def left(
     epochs: Epochs,
     effects: tuple[str, ...],
 ) -> dict[str, FloatArray]:
-    """Compute the residuals of predicted pole minus IAU pole for each model.
+    """Compute the root mean square of predicted pole minus IAU pole, with errors, for each model.
 
-    They are root mean squares of dpsi sin(eps0) and deps after removal of a linear trend, and the
-    half-width of either from the inputs of the interior, H and integration, rad.
+    The angles are dpsi sin(eps0) and deps after removal of a linear trend; the error is the
+    half-width of either from the inputs of the interior, H and integration. All are in rad.
     """
     done = pole_analysis
     days, ends, _, theirs = path.iau_nutation(pulls, epochs)
@@ -164,7 +164,7 @@ _ADDS = "what the model adds to the one before, or its description"
 
 
 class RungSizes(Variables, along=("rung",), error="rms_error"):
-    """Root mean square of predicted pole minus IAU 2000A, for each model of the ladder."""
+    """Root mean square of predicted pole minus IAU 2000A, for each interior model (rung)."""
 
     rms_dpsi_sineps = number(
         "mas",
@@ -182,7 +182,7 @@ class RungSizes(Variables, along=("rung",), error="rms_error"):
 
 @part
 def rung_sizes(left: dict[str, FloatArray], models: Prediction) -> RungSizes:
-    """Compute the root mean square of predicted pole minus IAU 2000A, for each ladder model."""
+    """Compute the root mean square of predicted pole minus IAU 2000A, for each interior model."""
     names = models.ladder
     longitude, obliquity, error = np.array([left[name] for name in names]).T
     return RungSizes(
@@ -195,7 +195,7 @@ def rung_sizes(left: dict[str, FloatArray], models: Prediction) -> RungSizes:
 
 
 class ModelSizes(Variables, along=("model",), error="model_rms_error"):
-    """Root mean square of predicted pole minus IAU 2000A, for two models outside the ladder."""
+    """Root mean square of predicted pole minus IAU 2000A, for two further interior models."""
 
     model_rms_dpsi_sineps = number(
         "mas", f"{_RMS} {_LONGITUDE}", references=SOURCES, short="dpsi sin(eps)"
@@ -341,7 +341,7 @@ class Transfer(
 
 @part
 def transfer(models: Prediction) -> Transfer:
-    """Compute the transfer function of each model, at frequencies that include its resonances."""
+    """Compute the transfer function of each model, at frequencies that include the resonances."""
     names, e = models.ladder, models.setting.e
     response = np.array([models.rungs[name].transfer(_IN_SPACE - 1, e) for name in names])
     return Transfer(transfer_real=response.real, transfer_imaginary=response.imag, rung=names)

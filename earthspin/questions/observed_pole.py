@@ -1,4 +1,4 @@
-"""Observed pole: tables of the IERS, and models beside the observed celestial pole."""
+"""Observed pole: tables of the IERS, and comparison of models with the observed celestial pole."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ C04 = "c04"
 
 @dataclass(frozen=True)
 class GivenTable:
-    """Kind of input: two numbers along time, in a Dataset or a pandas table.
+    """Kind of input: two time series, such as x and y, in a Dataset or a pandas table.
 
     Attributes
     ----------
@@ -59,7 +59,7 @@ class GivenTable:
     hint = "xr.Dataset | pd.DataFrame"
 
     def read(self, value: Any, where: Where) -> Any:
-        """Read both numbers, with their errors if given, or restore them from a scene."""
+        """Read the two time series, with errors if given, or restore both from a scene file."""
         if isinstance(value, GivenSeries):
             return value
         if isinstance(value, dict):
@@ -75,12 +75,12 @@ class GivenTable:
         return GivenSeries(np.array([time, *np.divide(values, MAS)]))
 
     def write(self, value: Any) -> Plain:
-        """Form stored in scenes: the rows as bytes, or the name or path of a table."""
+        """Form stored in scene files: the rows as bytes, or the name or path of a table."""
         return pack(value.rows) if isinstance(value, GivenSeries) else value
 
 
 class PoleInput(GivenTable, FileName):
-    """Kind of input: a table of the pole that astropy carries, in a file, or as given."""
+    """Kind of input: a table of the pole, by name, by path, or as a Dataset or pandas table."""
 
     words = '"c04", "finals", the path of a file, or a Dataset or pandas table'
     hint = "str | PathLike[str] | xr.Dataset | pd.DataFrame"
@@ -88,7 +88,7 @@ class PoleInput(GivenTable, FileName):
     content = "a table of polar motion"
 
     def read(self, value: Any, where: Where) -> Any:
-        """Read the name or path of a table, or a table."""
+        """Check the name or path of a table of the pole, or convert a table given in Python."""
         by_name = isinstance(value, (str, PathLike))
         return FileName.read(self, value, where) if by_name else super().read(value, where)
 
@@ -109,7 +109,7 @@ class OfTable(Question):
 
 
 class Daily(Variables, along=("time",)):
-    """Base class of results given at days of a table of the observed pole, or after them."""
+    """Base class of daily results: at the days of a table of the observed pole, or later."""
 
     time = labels("time", standard_name="time", comment="0h UTC in daily tables")
 
@@ -183,7 +183,7 @@ def labelled_series(
 
 
 def _labelled(table: Any) -> Any:
-    """Label the columns of a pandas table along `time`; return anything else unchanged.
+    """Convert a pandas table to a Dataset along `time`; return anything else unchanged.
 
     Raises
     ------
@@ -292,7 +292,7 @@ class ObservedSky:
 
 @part(unless=not_observed_then)
 def observed_sky(epochs: Epochs) -> ObservedSky:
-    """Interpolate the observed celestial pole offsets and their free core nutation to the dates."""
+    """Observed celestial pole offsets, and free core nutation fitted to them, at given dates."""
     table = observed_series()
     time = table.mjd - eop.MJD
     days = times.days_of(epochs)

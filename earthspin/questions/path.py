@@ -1,4 +1,4 @@
-"""Paths of the angular momentum, rotation and figure axes, their errors, and IAU comparison."""
+"""Paths of angular momentum, rotation and figure axes, with errors and comparison to the IAU."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ SERIES = "coefficients of the adopted series"
 def axis_path(
     pulls: Pulls, epochs: Epochs, effects: tuple[str, ...], interior_shift: Shift | None = None
 ) -> AxisPath:
-    """Integrate the axes of the body from J2000.0 to all dates, by Picard iteration.
+    """Integrate the motion of the body's axes from J2000.0 to all dates, by Picard iteration.
 
     With the response of the interior, the rigid axes start such that their mean pole agrees with
     that of the IAU.
@@ -76,7 +76,7 @@ def direction_errors(
     pulls: Pulls,
     shift: Shift | None,
 ) -> dict[str, FloatArray]:
-    """95 % half-widths of the directions of the axes along a path: the total, and those by cause.
+    """95 % half-widths of the axis directions along a path, rad: total, and by error source.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
 def continuous_longitude(
     path: AxisPath, first: float, ecliptic: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Start times (s) of the windows of a path, and longitude of the angular momentum then (rad).
+    """Start times of a path's windows, s, and angular momentum longitudes at these times, rad.
 
     The longitude is continuous, and equals the principal value at the time `first`, s.
     """
@@ -290,14 +290,14 @@ def rigid(effects: Sequence[str]) -> list[str]:
 
 
 def same_paths(pulls: Pulls, effects: Sequence[str], **inputs: object) -> Hashable:
-    """Value that is equal if `path_over` gives the same path; None if its inputs may change."""
+    """Cache key: equal if `path_over` would give the same path; None if inputs may change."""
     perturbers = *pulls.gm.items(), *pulls.targets.items(), *pulls.sky.reach.items()
     return pulls.sky.unchanged(pulls.body, also=(perturbers, pulls.limits, *rigid(effects)))
 
 
 @dataclass(frozen=True)
 class IAUPole:
-    """Pole of IAU 2006/2000A over the span that is analysed, and its analysis.
+    """IAU 2006/2000A pole over the analysed days, separated into secular part and circular terms.
 
     Attributes
     ----------
@@ -321,7 +321,7 @@ class IAUPole:
 
 
 def analysed_days(limits: tuple[float, float]) -> tuple[FloatArray, float]:
-    """Days on which nutation is analysed, and their span in days, where positions are known.
+    """Days on which nutation is analysed, within the known positions, and length of the span, d.
 
     Parameters
     ----------
@@ -336,7 +336,7 @@ def analysed_days(limits: tuple[float, float]) -> tuple[FloatArray, float]:
     unless=no_iau_model, same_for=lambda pulls: pulls.limits, loads=("erfa", "scipy.sparse.linalg")
 )
 def iau_pole(pulls: Pulls) -> IAUPole:
-    """Analyse pole and nutation of the IAU over 150 years, as far as positions are known."""
+    """Separate the IAU pole over up to 150 years into a secular part and circular terms."""
     days, covered = analysed_days((pulls.limits[0] / DAY, pulls.limits[1] / DAY))
     if covered < SHORTEST_SPAN:
         years, needed = (days * DAY / JULIAN_YEAR for days in (covered, SHORTEST_SPAN))
@@ -353,7 +353,7 @@ def iau_pole(pulls: Pulls) -> IAUPole:
 
 @part(unless=no_iau_model, same_for=same_paths)
 def pole_analysis(pulls: Pulls, effects: tuple[str, ...], iau_pole: IAUPole) -> PoleComparison:
-    """Separate the computed pole over 150 years into precession and circular terms, as the IAU's.
+    """Separate the computed pole over up to 150 years into precession and circular terms.
 
     The initial axis is corrected so that the mean poles agree at the start.
     """
@@ -387,7 +387,7 @@ def pole_analysis(pulls: Pulls, effects: tuple[str, ...], iau_pole: IAUPole) -> 
 
 
 def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp], dict[str, Any]]:
-    """Largest circular nutations of the computed pole, beside the same ones of IAU 2000A.
+    """Largest circular nutation terms of the computed pole, and the same terms of IAU 2000A.
 
     Returns
     -------
@@ -470,7 +470,7 @@ class ResponseFit:
 def response_apart(
     pole_analysis: PoleComparison, pulls: Pulls, effects: tuple[str, ...]
 ) -> ResponseFit:
-    """Fit the resonance formula to IAU 2000A without its geodesic nutation and added terms."""
+    """Fit the resonance formula to IAU 2000A without geodesic nutation and additive terms."""
     from earthspin.nutation.response import added_to
 
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles.amplitude
@@ -518,7 +518,7 @@ class Shift:
     residual: float
 
     def apply(self, directions: dict[str, FloatArray], days: FloatArray) -> None:
-        """Move the axes in place by the precession and nutation of the non-rigid interior.
+        """Add the precession and nutation due to the non-rigid interior to the axes, in place.
 
         Nutation does not move the angular momentum.
         """

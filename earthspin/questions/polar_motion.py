@@ -1,4 +1,4 @@
-"""Observed polar motion, its free wobble, and their excitation."""
+"""Observed polar motion, the free wobble in it, and the excitation of polar motion."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ class ObservedPole(tables.Daily):
 
 @part(unless=tables.not_observed)
 def pole_table(file: PoleTable, kind: str | None) -> PoleSeries:
-    """Read the polar motion of a whole table of the IERS."""
+    """Read the polar motion of a table of the IERS, for all dates of the table."""
     return read_polar_motion(file, kind)
 
 
@@ -273,7 +273,7 @@ def fit_chandler(
 
 
 def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArray, ComplexArray]:
-    """Return dates, pole and mean excitation over their common span.
+    """Return dates, pole and mean excitation for the days that both series cover.
 
     The excitation is the mean over each step between dates; pole and excitation are in mas.
     """
@@ -319,7 +319,7 @@ class DrivenPole(tables.Daily, no_error="excitation and free wobble are given wi
 def excitation(
     ds: xr.Dataset | pd.DataFrame, *, period: Any = 433.0, quality_factor: Any = 100.0
 ) -> xr.Dataset:
-    """Excitation that produces a given polar motion: exact means over each step.
+    """Excitation that produces a given polar motion, as exact means over each time step.
 
     Parameters
     ----------

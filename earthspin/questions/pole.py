@@ -204,7 +204,7 @@ def response_error(
 
 
 class SatelliteError(Dated):
-    """Error of the axis directions because the nodes of satellites stay at their mean."""
+    """Error of the axis directions due to the neglected nutation by the nodes of satellites."""
 
     direction_error_satellites = number(
         "arcsec",
@@ -243,7 +243,7 @@ class Angles(Dated, along=("time", "axis"), error="direction_error"):
 
 @part(unless=no_longitude)
 def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> tuple[FloatArray, FloatArray]:
-    """Start times of the windows, s, and continuous longitude psi of the momentum then, rad."""
+    """Window start times, s, and longitude psi of the angular momentum at these times, rad."""
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     return path.continuous_longitude(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
 

@@ -113,27 +113,27 @@ class CoreNutation(
 
 
 def shorter_than_a_window(span: Span | None, window: float | None) -> str | None:
-    """Return the reason (text) to omit core nutation if the span is below one window, else None."""
+    """Return the reason (text) to omit core nutation in spans shorter than a window, else None."""
     if _length(span) >= (core.WINDOW if window is None else window):
         return None
     return "the span is shorter than a window, which is three years if not given"
 
 
 def too_short_for_a_period(span: Span | None) -> str | None:
-    """Return the reason (text) to omit core nutation period if the span is too short, else None."""
+    """Return the reason (text) to omit the core nutation period in short spans, else None."""
     needed = 2 * shortest_span()
     years = f"{needed / DAYS_PER_YEAR:.0f} years, which the fit of a period needs"
     return f"the span is shorter than {years}" if _length(span) < needed else None
 
 
 def _length(span: Span | None) -> float:
-    """Length of a time span, d."""
+    """Length of a time span, d; infinite if no span is given."""
     return math.inf if span is None else span.days[1] - span.days[0]
 
 
 @part(unless=shorter_than_a_window)
 def core_nutation(offset_table: PoleSeries, window: float | None) -> CoreNutation:
-    """Fit amplitude and phase of the free core nutation in sliding windows."""
+    """Fit amplitude and phase of the free core nutation to offsets in sliding time windows."""
     time, eta = offset_table.mjd - MJD, offset_table.offsets
     length = core.WINDOW if window is None else window
     fit = core.fit(time, eta, length)
@@ -168,7 +168,7 @@ class CorePeriod(Variables):
 
 @part(unless=too_short_for_a_period, loads=("earthspin.wobble.observed",))
 def period(offset_table: PoleSeries) -> CorePeriod:
-    """Fit the free core nutation period to offsets since 1984, as a noise-driven oscillator."""
+    """Fit the free core nutation, as a noise-driven oscillator, to the offsets since 1984."""
     from earthspin.wobble.observed import fit
 
     good = offset_table.mjd >= FIRST_MJD

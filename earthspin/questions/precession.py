@@ -1,4 +1,4 @@
-"""Rate and period of precession, and quantities that follow from them."""
+"""Rate and period of precession, and derived quantities such as the tropical year."""
 
 from __future__ import annotations
 
@@ -218,7 +218,7 @@ def is_sphere(body: Body) -> str | None:
 
 
 class FreeWobble(Variables, no_error="its relative error is that of free_wobble_period"):
-    """Period of the free wobble of the body, if it is rigid."""
+    """Period of the free wobble of the body, computed as if the body were rigid."""
 
     free_wobble_period = measured("d", "period of the rigid free wobble, A/(C - A)")
     free_wobble_period_sidereal = number(
@@ -228,7 +228,7 @@ class FreeWobble(Variables, no_error="its relative error is that of free_wobble_
 
 @part(unless=is_sphere)
 def free_wobble(body: Body) -> FreeWobble:
-    """Compute the period of the free wobble of the body, as if it is rigid."""
+    """Compute the period of the free wobble of the body, as if the body were rigid."""
     h = body.needed("dynamical_flattening")
     period = free_wobble_period(figure.ellipticity_from_h(h), body.needed("spin_period"))
     u = body.relative_uncertainty.get("dynamical_flattening", 0.0)
@@ -310,7 +310,7 @@ class BesideIAU(Variables):
 
 @part(unless=reasons.not_the_iaus_earth)
 def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> BesideIAU:
-    """Compute the precession rate minus that of IAU 2006, before and after known effects.
+    """Compute precession rate minus IAU 2006 rate, before and after adding published effects.
 
     The observed H contains the observed precession; H = J2 M a2/C with C of PREM does not.
     """
@@ -361,7 +361,7 @@ def standstills(
 
 @part
 def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -> Neglected:
-    """Published contributions to the precession rate of effects that are not modelled."""
+    """Contributions to the precession rate by effects that are not modelled."""
     unknown = reasons.not_the_iaus_earth(body, perturbers)
     published = LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
     nutations = satellites.swings(body, mean_rates.pull, mean_rates.means.obliquity)

@@ -1,4 +1,4 @@
-"""Conditions under which results are left out, and published numbers beside results."""
+"""Reasons to omit results, and published numbers for comparison with results."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def no_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:
 
 
 def _lacking(body: Body, perturbers: tuple[Body, ...], *names: str) -> str | None:
-    """Return the first of these reasons: no model of the IAU, or a perturber that is missing."""
+    """Return the reason (text): no IAU model, or a missing perturber; None if neither applies."""
     missing = (name for name in names if label_of(name, perturbers) is None)
     reasons = (f"the {name} is not among the perturbers" for name in missing)
     return no_iau_model(body) or next(reasons, None)
@@ -66,7 +66,7 @@ def many_pulls(perturbers: tuple[Body, ...]) -> str | None:
 
 
 def north_note(body: Body, obliquity: float | None = None) -> dict[str, str]:
-    """Note for the attributes of an obliquity: which pole it belongs to, if that is not the spin.
+    """Attribute of an obliquity that names its pole, if the body spins backwards about that pole.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def north_note(body: Body, obliquity: float | None = None) -> dict[str, str]:
 
 
 def neglected_rates(modelled: Collection[str] = ()) -> Neglected:
-    """Published contributions to the rate of psi_A of the effects that are not modelled."""
+    """Published contributions to the rate of psi_A by effects that are not modelled."""
     return Neglected(
         {name: size for name, size in published_effects().items() if name not in modelled},
         "arcsec/yr",

@@ -105,7 +105,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
     @property
     def unused(self) -> str:
-        """Satellites that are left out; empty if the size of their effect is listed."""
+        """Names of neglected satellites; empty if the sizes of satellite effects are listed."""
         known = self.perturbers and obliquity_of(self.body) is not None
         return "" if known else super().unused
 
@@ -124,7 +124,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
 @dataclass(frozen=True)
 class Pulling:
-    """Torques of all perturbers, and the relative torque error due to errors of their positions.
+    """Torques of all perturbers, and relative torque error due to errors of perturber positions.
 
     Attributes
     ----------
@@ -144,7 +144,7 @@ class Pulling:
 
 
 def nothing_pulls(perturbers: tuple[Body, ...]) -> str | None:
-    """Return the reason (text) to omit positions if there are no perturbers, else None."""
+    """Return the reason (text) to omit torques if there are no perturbers, else None."""
     return None if perturbers else "nothing pulls on the body"
 
 
@@ -155,7 +155,7 @@ def _length(vector: FloatArray) -> float:
 
 
 def _spinning(body: Body, start_omega: FloatArray | None) -> Body:
-    """Take the spin rate from the initial angular velocity if the body has none."""
+    """Set the spin rate from the initial angular velocity if the body has no spin period."""
     if body.spin_period is not None or start_omega is None:
         return body
     speed = _length(start_omega)
@@ -163,7 +163,7 @@ def _spinning(body: Body, start_omega: FloatArray | None) -> Body:
 
 
 def _acting(effects: tuple[str, ...]) -> tuple[str, ...]:
-    """Add B - A, which is one of the three moments of the body, to the effects."""
+    """Add triaxiality and second-order effect to the effects, as both are always included."""
     return (*effects, TRIAXIALITY, SECOND_ORDER.name)
 
 
@@ -307,14 +307,17 @@ _CAUSES = {
 
 
 def _errors(units: str, name: str, quantity: str) -> Any:
-    """Declare ``<name>_error`` and its shares, ``<name>_error_<cause>``, each largest so far."""
+    """Declare the variables ``<name>_error`` (total) and ``<name>_error_<cause>`` of a result.
+
+    Each value is the largest error up to its time.
+    """
     endings = {f"_{cause}": f"share of {name}_error from {w}" for cause, w in _CAUSES.items()}
     endings = {"": f"95 % half-width of {quantity}, largest so far", **endings}
     return Variable(units, endings=endings, along=("time",))
 
 
 class Attitudes(Dated, along=("time", "component")):
-    """Attitude, spin and angular momentum in time, with their errors in total and by cause."""
+    """Attitude, spin and angular momentum in time, with errors: total and by error source."""
 
     attitude = number(
         "1",
@@ -500,7 +503,7 @@ def neglected(
     effect_changes: dict[str, float] | None = None,
     node_drifts: dict[str, float] | None = None,
 ) -> Neglected:
-    """Sizes of effects on the attitude that are neglected, or their names if sizes are unknown.
+    """Sizes of neglected effects on the attitude, and names of effects of unknown size.
 
     The sizes are for the last date.
     """

@@ -1,4 +1,4 @@
-"""Satellites of a body in its precession: the common rate, and the nutation by their nodes."""
+"""Effect of satellites on precession: common precession rate, and nutation by satellite nodes."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ SWING_SHARE = 0.25
 
 @dataclass(frozen=True)
 class Carried:
-    """Precession of a body with its satellites, relative to that of the body alone.
+    """Factors by which satellites change torque, polar moment and precession rate of a body.
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ class Carried:
 
     @property
     def rate(self) -> Numeric:
-        """Factor on the precession rate."""
+        """Precession rate with satellites, divided by the rate of the body alone."""
         return self.bulge / self.moment
 
 
@@ -94,7 +94,7 @@ def describe_pole(body: Body) -> str:
 
 
 def carried(body: Body, pull: Numeric, obliquity: float) -> Carried:
-    """Compute how satellites change the precession of a body; without satellites, not at all.
+    """Compute the factors by which satellites change torque, moment and precession of a body.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def carried(body: Body, pull: Numeric, obliquity: float) -> Carried:
 
 @dataclass(frozen=True)
 class Swing:
-    """Nutation of a body by the node of one of its satellites.
+    """Nutation of a body caused by the moving node of one of its satellites.
 
     Attributes
     ----------
@@ -162,12 +162,12 @@ class Swing:
 
     @property
     def years(self) -> str:
-        """Period of the node in words."""
+        """Period of the satellite's node in years, as text."""
         return f"{float(f'{2 * np.pi / self.node_rate / JULIAN_YEAR:.3g}'):,g} years"
 
 
 def swings(body: Body, pull: Numeric, obliquity: float) -> dict[str, Swing]:
-    """Nutations of a body, by the name of the satellite whose turning orbit causes each.
+    """Nutations of a body caused by the moving nodes of satellites, by name of the node.
 
     An orbit that is tilted to the Laplace plane turns, so its node goes round, and the torque on
     the body changes with the period of the node. Parameters are those of `carried`; of arrays with
@@ -267,7 +267,7 @@ def _satellites(body: Body) -> Satellites:
 
 
 def _refuse_sphere(body: Body) -> None:
-    """Raise an error if the polar moment of a body with satellites is not known."""
+    """Raise an error if H = 0, because C of a body with satellites must follow from J2 and H."""
     if not all_of(body.needed("dynamical_flattening") != 0):
         allowed = "with satellites C must follow from J2 and H; give another H, or satellites = []"
         raise BodyError(body.name, "dynamical_flattening", 0.0, allowed)

@@ -1,4 +1,4 @@
-"""The body of a question, its perturbers, and the source of their positions."""
+"""Body and perturbers of a question, and the source of the positions of these bodies."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class KernelName(FileName):
     content = "an SPK kernel"
 
     def read(self, value: object, where: Where) -> Any:
-        """Read an ephemeris, given by name, by path, or as a Skyfield kernel."""
+        """Check an ephemeris given as name, path or Skyfield kernel; return its name or path."""
         if hasattr(value, "spk") and hasattr(value, "path"):
             value = value.path
         if sources.is_vector_function(value):
@@ -147,7 +147,7 @@ class Places:
 
 @dataclass(frozen=True)
 class Sky:
-    """Source of positions that has been opened, and the key by which it finds each body.
+    """Opened source of positions, and the key (code or trajectory) of each body in that source.
 
     Attributes
     ----------
@@ -186,7 +186,7 @@ class Sky:
 
     @property
     def unmeasured(self) -> tuple[str, ...]:
-        """Names of the perturbers whose position error is unknown, as it was not measured."""
+        """Names of perturbers whose position error was not measured and is unknown."""
         return tuple(n for n, place in self.targets.items() if math.isnan(self.error(place)[0]))
 
     @property
@@ -217,7 +217,7 @@ class Sky:
         self.source.check_times(np.array(list(days)), self._all(targets))
 
     def unchanged(self, *bodies: Body, also: Hashable = None) -> Hashable:
-        """Value that is equal for the same positions, bodies and further inputs `also`.
+        """Cache key: equal for equal positions, bodies and further inputs `also`.
 
         None if they contain arrays or objects, which may change.
         """
@@ -272,7 +272,7 @@ class Sky:
         true: bool = False,
         nutation: Nutation | None = None,
     ) -> dict[str, tuple[FloatArray, FloatArray, FloatArray]]:
-        """Right ascension, declination (rad) and distance (m) of perturbers, equator of date.
+        """Right ascension and declination (rad, equator of date), and distance (m) of perturbers.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""Times of a series: dates, or seconds from the start of a motion; numbers side by side."""
+"""Times of a series (dates, or seconds from a start), and numbers broadcast to one shape."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Dated(Variables, along=("time",)):
 
 
 class FromStart(Variables, along=("time",)):
-    """Base class of results given at times from the start of a motion, in axes of the body."""
+    """Base class of results at times from the start of a motion, with components x, y, z."""
 
     time = labels("time from the start", "s")
     component = labels(default=["x", "y", "z"])
@@ -59,7 +59,7 @@ def epochs(span: Span, step: float, times: TimeList | None) -> Epochs:
 
 @part
 def instants(duration: float, points: int, times: FloatArray | None) -> FloatArray:
-    """Times at which a motion is computed, s from its start."""
+    """Times at which a motion is computed, s from the start of the motion."""
     return np.linspace(0.0, duration, points) if times is None else times
 
 

@@ -179,7 +179,7 @@ class Turning(
     along=("turning",),
     no_error="same closed form as the motion, so its relative_error holds",
 ):
-    """Smallest and largest inclination theta of the top's axis, where its nutation turns back."""
+    """Smallest and largest inclination theta of the top's axis, the limits of the nutation."""
 
     turning_angle = number("rad", "smallest and largest theta")
     turning = labels(default=["upper", "lower"])

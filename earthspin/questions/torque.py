@@ -75,7 +75,7 @@ def source_has_equator(source: SourceName) -> str | None:
 
 @part(unless=(on_mean_equator, source_has_equator))
 def nutation(epochs: Epochs) -> Nutation:
-    """Interpolated IAU nutation for the true equator."""
+    """IAU nutation for the true equator of date, over the time span of the series."""
     start, end = epochs.span()
     return Nutation(start, end, epochs.size)
 
@@ -166,7 +166,7 @@ _SEARCHED = 1 << 16
 
 
 def one_body(body: Body) -> str | None:
-    """Return the reason (text) to omit sizes if the body has labelled arrays, else None."""
+    """Return the reason (text) to omit effect sizes if the body has labelled arrays, else None."""
     return "the sizes are given for one body at a time" if body.labelled else None
 
 
@@ -185,7 +185,7 @@ def nearest(sky: Sky, epochs: Epochs) -> dict[str, float]:
 def neglected(
     body: Body, perturbers: tuple[Body, ...], nearest: dict[str, float] | None = None
 ) -> Neglected:
-    """Largest neglected torques, which act on J3, J4 and the triaxiality of the body.
+    """Largest neglected torques: on J3, J4 and triaxiality of the body, and those of satellites.
 
     They are computed at the smallest distance of each perturber.
     """

@@ -1,4 +1,4 @@
-"""Free wobble period from a ladder of models, from rigid to deformable, and its sensitivity.
+"""Free wobble period from models between rigid and deformable, and its sensitivity to inputs.
 
 A rung is a model that adds one effect to the model before.
 """
@@ -95,7 +95,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
             raise self.error("ocean_love_number", self.ocean_love_number, "the body has no ocean")
 
     def published_inputs(self) -> Mapping[str, tuple[str, tuple[float, float]]]:
-        """Published distributions of the interior parameters, from which ensembles draw."""
+        """Published distributions of the interior parameters, from which ensembles take samples."""
         if why_rigid(self.body) or self.body.labelled:
             return {}
         ranges: dict[str, tuple[str, tuple[float, float]]] = {}
@@ -152,7 +152,7 @@ class Inside:
         return self.spin, self.interior, self.ocean
 
     def label(self, value: Numeric) -> xr.DataArray:
-        """Convert an array with one value per body to a DataArray like those of the inputs."""
+        """Convert an array with one value per body to a DataArray with dimensions of the inputs."""
         array = np.asarray(value)
         return xr.DataArray(array, dims=self.dims[len(self.dims) - array.ndim :])
 

@@ -67,7 +67,7 @@ class SymmetricRotor:
 
     @property
     def wobble_rate(self) -> Numeric:
-        """Rate of the angular velocity's motion about the figure axis in the body, rad/s (I.6.7).
+        """Rate at which the angular velocity circles the figure axis in the body, rad/s (I.6.7).
 
         It is omega cos(alpha) (I3 - I1)/I1.
         """
@@ -97,7 +97,7 @@ class SymmetricRotor:
 
     @property
     def space_cone(self) -> Numeric:
-        """Half-angle of the space cone: from angular momentum to rotation axis, rad (I.6.28)."""
+        """Half-angle of the space cone, from angular momentum to rotation axis, rad (I.6.28)."""
         return np.abs(self.tilt)
 
     @property
@@ -224,7 +224,7 @@ class SymmetricRotor:
         return np.stack([w, x, y, z], axis=-1)
 
     def _in_node_plane(self, length: Numeric, angle: Numeric, times: Numeric) -> FloatArray:
-        """Vector at an angle from the angular momentum towards the figure axis, inertial axes."""
+        """Vector along inertial axes, tilted from the angular momentum towards the figure axis."""
         phi = np.multiply.outer(self.precession_rate, times)
         across, along = (np.asarray(length * f(angle))[..., np.newaxis] for f in (np.sin, np.cos))
         return np.stack(
@@ -281,7 +281,7 @@ def speed_and_cone(
 
 
 def wobble_rate_of_cones(speed: Numeric, alpha: Numeric, theta: Numeric) -> Numeric:
-    """Wobble rate from spin rate and half-angles of body and space cone, rad/s (I.6.27).
+    """Wobble rate from spin rate and angles of figure axis to spin and momentum, rad/s (I.6.27).
 
     It is Omega' = omega sin(alpha - theta)/sin(theta), with the spin rate omega.
 

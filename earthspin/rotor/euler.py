@@ -56,7 +56,7 @@ class PrincipalMoments:
 
 
 def principal_moments(moments: Moments) -> PrincipalMoments:
-    """Read principal moments of inertia; raise an error if no body can have them.
+    """Convert input to principal moments of inertia; raise an error if no body can have them.
 
     Parameters
     ----------
@@ -205,7 +205,7 @@ class IntegratedRotation:
 
 
 def euler_rates(moments: Moments, omega: Any, torque: Any = 0.0) -> FloatArray:
-    """Rate of change of the angular velocity along the principal axes, rad/s2 (I.4.3).
+    """Angular acceleration along the principal axes from Euler's equations, rad/s2 (I.4.3).
 
     Parameters
     ----------

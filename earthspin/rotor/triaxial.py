@@ -55,7 +55,7 @@ _LEAST_ENERGY, _LARGEST_ENERGY = -960, 1000
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Precession:
-    """Rotation of a free body about its angular momentum: mean rate and periodic part.
+    """Rotation of a free body about the angular momentum: mean rate and periodic part.
 
     Attributes
     ----------
@@ -316,7 +316,7 @@ def _start_along(unit: PrincipalMoments, spin: FloatArray, axes: IntArray) -> _S
 
 
 def _read_start(moments: Moments, omega: Any) -> tuple[PrincipalMoments, FloatArray]:
-    """Read moments and angular velocity, and broadcast them against each other."""
+    """Check moments of inertia and angular velocity, and broadcast the arrays to one shape."""
     body = principal_moments(moments)
     spin = finite(omega, "omega", "rad/s")
     if spin.ndim == 0 or spin.shape[-1] != 3:
@@ -454,7 +454,7 @@ def free_rotation(moments: Moments, omega: Any, times: Any) -> FreeRotation:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Phase:
-    """Values of the elliptic functions of a free rotation at given times, with their argument.
+    """Values and argument of the elliptic functions of a free rotation at given times.
 
     Attributes
     ----------

@@ -39,7 +39,7 @@ PROBABILITY = 0.95
 
 
 def draws(causes: int) -> FloatArray:
-    """Random changes of all error sources in each member, in half-widths, (MEMBERS, causes).
+    """Random changes of all error sources, in half-widths, one row per sample, (MEMBERS, causes).
 
     They are normally distributed, and reproducible.
     """
@@ -52,7 +52,7 @@ def draws(causes: int) -> FloatArray:
 
 
 class Quantiles:
-    """Quantiles of the deviations of random solutions, which are added one at a time.
+    """Quantile of the deviations from the nominal solution; random solutions are added in turn.
 
     Only the largest deviations are stored.
 
@@ -78,7 +78,7 @@ class Quantiles:
                 rest = np.fmin(row_before, rest)  # NaN counts as the largest
 
     def at_probability(self) -> dict[str, FloatArray]:
-        """Return the quantile of the deviations of each quantity, for `PROBABILITY`."""
+        """Return the quantile at `PROBABILITY` of the deviations of each quantity, by name."""
         return {
             name: largest[-1] + self._share * (largest[-2] - largest[-1])
             for name, largest in self._largest.items()

@@ -92,7 +92,7 @@ def true_longitude(season: Season, mean: FloatArray) -> FloatArray:
 
 
 def mean_longitude(season: Season, true: FloatArray) -> FloatArray:
-    """Mean longitude of the Sun from its true longitude, rad; equal at the March equinox."""
+    """Mean longitude of the Sun, rad, from the true one, which equals it at the March equinox."""
     e, opposite = season.eccentricity, season.perihelion + np.pi
     return np.asarray(mean_anomaly(true - opposite, e) - mean_anomaly(-opposite, e))
 
@@ -100,7 +100,7 @@ def mean_longitude(season: Season, true: FloatArray) -> FloatArray:
 def over_days(
     season: Season, latitude: FloatArray, longitude: FloatArray, days: float
 ) -> FloatArray:
-    """Mean insolation over some days, centred on the day of a true longitude of the Sun.
+    """Mean insolation over a time window centred on the day of a true longitude of the Sun.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def with_error(
     is_true: bool = True,
     days: float | None = None,
 ) -> tuple[FloatArray, FloatArray]:
-    """Mean insolation and its 95 % half-width, as fractions of the solar constant.
+    """Daily (or longer) mean insolation and 95 % half-width, as fractions of the solar constant.
 
     Parameters
     ----------
@@ -167,7 +167,7 @@ def with_error(
 def _squared_changes(
     function: Callable[[Season], FloatArray], season: Season, half_widths: Season, *names: str
 ) -> FloatArray:
-    """Sum of the squared changes of a function due to the half-widths of some elements."""
+    """Sum of the squared changes of a function if each named element varies by its half-width."""
 
     def moved(name: str, by: float) -> FloatArray:
         value = getattr(season, name) + by * getattr(half_widths, name)

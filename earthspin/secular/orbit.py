@@ -169,7 +169,7 @@ def geodesic_precession(gm: float, motion: float, eccentricity: float) -> float:
 
 
 def faded(times: FloatArray) -> FloatArray:
-    """Change of J2 divided by its present rate, s.
+    """Change of J2 since J2000.0, divided by the present rate of J2, s.
 
     It is t up to `FADES_FROM` and 0 beyond `FADES_TO`.
 
@@ -317,5 +317,5 @@ def moons_height(shape: Shape, axis: FloatArray, node_rate: float) -> FloatArray
 
 
 def broadcast_over_members(axis: FloatArray, vector: FloatArray) -> FloatArray:
-    """Reshape a vector of the orbit from (3, n) to broadcast with the axes of many members."""
+    """Reshape a vector of the orbit from (3, n) to broadcast with many spin axes, (3, ..., n)."""
     return vector.reshape(3, *(1,) * (axis.ndim - 2), -1)

@@ -91,7 +91,7 @@ def equator_and_equinox(axis: FloatArray, normal: FloatArray) -> FloatArray:
 
 
 def equinox_error(pole: FloatArray, normal: Numeric, sine: FloatArray) -> FloatArray:
-    """95 % half-width of the directions of equinox and pole together, rad.
+    """Combined 95 % half-width of the directions of equinox and pole, rad.
 
     A displacement d of the pole can turn the equinox by d/tan(obliquity) along the equator; a
     displacement d of the orbit's normal can turn it by d/sin(obliquity).
@@ -180,7 +180,7 @@ class Read:
 
 @dataclass(frozen=True)
 class Readings:
-    """Angles and rates of the nominal trajectory, and of those with an error source varied.
+    """Angles and rates of the nominal trajectory, and of trajectories with a varied error source.
 
     Attributes
     ----------
@@ -243,7 +243,7 @@ def angle(varied: FloatArray, nominal: FloatArray) -> FloatArray:
 
 
 def _by_cause(shares: Iterable[tuple[str, FloatArray]]) -> dict[str, FloatArray]:
-    """Sum the changes of each error source in quadrature, over its independent directions."""
+    """Root sum square of the changes due to each error source over its independent directions."""
     totals: dict[str, FloatArray] = {}
     for cause, share in shares:
         totals[cause] = np.hypot(totals.get(cause, 0.0), share)

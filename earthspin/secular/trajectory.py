@@ -47,7 +47,7 @@ TINY = 1e-300
 
 
 class Turn(NamedTuple):
-    """Averaged torque on a spin axis at the nodes: axis m, constant a and an additional rotation g.
+    """Averaged torque on a spin axis at the time nodes: axis m, constant a and added rotation g.
 
     Vectors are resolved along a reference axis N; components perpendicular to N are complex.
 
@@ -81,7 +81,7 @@ class Turn(NamedTuple):
 
 
 class Slope(NamedTuple):
-    """Rates of a spin axis's longitude and of its component along N at the nodes, with derivatives.
+    """Rates of a spin axis's longitude and component along N at the time nodes, with derivatives.
 
     The shape is (..., w, n) for w windows of n nodes.
 
@@ -147,7 +147,7 @@ def advance(
 def step(
     windows: Windows, torque: Turn, values: FloatArray, state: FloatArray, left: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Make one Newton step for a spin axis's longitude and component along N; return also its size.
+    """New longitude and component along N of a spin axis after one Newton step; largest change.
 
     With S the integral from the start of a window to its nodes, the values y of a window that
     starts at b solve y = b + S f(y). Linearised about the current values, the change is d = c + S J
@@ -257,7 +257,7 @@ TOO_NEAR = 0.99
 
 @dataclass(frozen=True)
 class Trajectory:
-    """Spin axis, or axes of many members, in time, as polynomials in time windows.
+    """Motion of one or many spin axes, as polynomials in time windows.
 
     Attributes
     ----------
@@ -277,9 +277,9 @@ class Trajectory:
     steps: int
 
     def about(self, times: FloatArray) -> FloatArray:
-        """Spin axis at times: longitude about the reference axis (rad), component along it.
+        """Longitude about the reference axis (rad) and component along that axis, at given times.
 
-        The height is the component along the reference axis. The shape is (2, ..., n).
+        The component along the reference axis is called height. The shape is (2, ..., n).
         """
         series = self.coefficients
         rows = series.reshape(-1, *series.shape[-2:])
@@ -452,7 +452,7 @@ class _BlockSolver:
         return None
 
     def _pull(self, times: FloatArray, state: FloatArray) -> Pull:
-        """Averaged torque on the spin axis, or on those of all members, at given times."""
+        """Averaged torque on one or many spin axes at given times."""
         normal, eccentricity, turning = (
             broadcast_over_members(state, vector) for vector in self.orbit.at(times)
         )

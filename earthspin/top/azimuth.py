@@ -202,10 +202,10 @@ def _sum_over_root(
 
 
 def _lower_pole_rate(nutation: Nutation) -> FloatArray:
-    """Rate (a + b)/sqrt(1 + cos theta) of passing the lower pole, at largest inclination.
+    """Value of (a + b)/sqrt(1 + cos theta) at the largest inclination, finite at the lower pole.
 
-    Here a and b are the axial and vertical angular momentum over I1, and theta is the largest
-    inclination. The rate is finite also if the axis reaches the pole.
+    Here a and b are the axial and vertical angular momentum over I1. The value is the rate at which
+    the axis passes the pole.
     """
     start, gaps = nutation.start, nutation.gaps
     size = np.sqrt(nutation.height * (2 * start.beta + gaps.outer))
@@ -213,11 +213,10 @@ def _lower_pole_rate(nutation: Nutation) -> FloatArray:
 
 
 def _upper_pole_rate(nutation: Nutation) -> FloatArray:
-    """Rate (b - a)/sqrt(1 - cos theta) of passing the upper pole, at smallest inclination.
+    """Value of (b - a)/sqrt(1 - cos theta) at the smallest inclination, finite at the upper pole.
 
     Here a and b are the axial and vertical angular momentum over I1, in the rate unit of the
-    nutation, and theta is the smallest inclination. The rate is finite also if the axis reaches
-    the pole.
+    nutation. The value is the rate at which the axis passes the pole.
     """
     size = np.sqrt(nutation.depth * nutation.gaps.outer)
     sense = np.sign(nutation.start.b_minus_a)
@@ -272,7 +271,7 @@ def _integral(
     arc: BoolArray,
     regular_shape: FloatArray,
 ) -> _Integral:
-    """Coefficients of the elliptic integral for the rate total/2/(u - pole), u = cos(theta).
+    """Coefficients of the elliptic integral of (total/2)/(u - pole) over time, u = cos(theta).
 
     If the arctangent is separate, only the regular part is returned.
 

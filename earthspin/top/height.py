@@ -105,7 +105,7 @@ class Nutation(NamedTuple):
 
 
 class Place(NamedTuple):
-    """Position of a top's axis in its nutation cycle, from the nearest turning point.
+    """Phase of a top's axis in its nutation cycle, measured from the nearest turning point.
 
     Attributes
     ----------
@@ -129,7 +129,7 @@ class Place(NamedTuple):
 
 
 class AxisHeight(NamedTuple):
-    """Height u = cos(theta) of a top's axis in time, as distances, and its rate u'.
+    """Height u = cos(theta) of a top's axis in time, as distances from poles and start; rate u'.
 
     Attributes
     ----------
@@ -198,7 +198,7 @@ def _phase_of_start(nutation: Nutation) -> FloatArray:
 
 
 def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
-    """Find the position of a top's axis in its nutation cycle at given times.
+    """Find the phase of a top's axis in its nutation cycle at given times.
 
     Parameters
     ----------
@@ -221,7 +221,7 @@ def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
 
 
 def height_at(nutation: Nutation, place: Place) -> AxisHeight:
-    """Compute the height u = cos(theta) of a top's axis at given times, and its rate.
+    """Compute the height u = cos(theta) of a top's axis at given times, and the rate u'.
 
     The height is given as distances from the poles and the start. Those from the poles are sums of
     positive terms.

@@ -33,7 +33,7 @@ _EIGHTHS = np.exp(0.25j * np.pi * np.arange(8))
 
 @dataclass(frozen=True, eq=False)
 class HeavyTopMotion:
-    """Motion of a heavy top; arrays have the shape of the tops, then that of the times.
+    """Motion of one or more heavy tops; arrays have the shape of the tops, then of the times.
 
     Attributes
     ----------
@@ -97,7 +97,7 @@ class Angle(NamedTuple):
         return Angle(self.quarters, self.rest + other)
 
     def replaced(self, where: BoolArray, other: FloatArray) -> Angle:
-        """Return this angle with the elements where `where` is True replaced, rad."""
+        """Return this angle, but with the values of `other` (rad) where `where` is True."""
         return Angle(np.where(where, 0.0, self.quarters), np.where(where, other, self.rest))
 
 

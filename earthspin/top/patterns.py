@@ -123,7 +123,7 @@ def minimum_spin(top: HeavyTop) -> FloatArray:
 
 
 def steady_precession(top: HeavyTop) -> SteadyPrecession:
-    """Compute the slow and the fast rate of steady precession for inclination and spin.
+    """Compute the slow and fast steady precession rates of a top for its inclination and spin.
 
     Parameters
     ----------

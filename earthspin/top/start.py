@@ -165,7 +165,7 @@ def _broadcast(names: list[str], values: list[FloatArray]) -> list[FloatArray]:
 
 
 def _require(holds: Any, field: str, value: Any, allowed: str) -> None:
-    """Raise an error if any value of a field does not meet its condition."""
+    """Raise an error if `holds` is False for any value of a field."""
     holds, value = np.broadcast_arrays(holds, value)
     if not np.all(holds):
         raise BodyError(_NAME, field, float(value[~holds].flat[0]), allowed)
@@ -193,7 +193,7 @@ _SLOWEST, _NEGLIGIBLE = 1e-100, 1e-60
 
 
 class AxisStart(NamedTuple):
-    """Initial state of a top's axis; upside down if the weight moment is negative.
+    """Initial state of a top's axis, or of the opposite end for a negative weight moment.
 
     A top with a negative weight moment is described by the opposite end of its axis: theta is
     replaced by pi - theta, and spin and weight change sign. Rates are in units of `rate_unit`.
@@ -278,7 +278,7 @@ class Gaps(NamedTuple):
 
 
 def axis_start(top: HeavyTop) -> AxisStart:
-    """Compute the initial state of a top's axis, upside down for a negative weight moment."""
+    """Compute the initial state of a top's axis; its opposite end if weight moment < 0."""
     below, above, cosine = axis_heights(top.theta)
     a = top.axial_moment / top.transverse_moment * top.spin
     beta = 2 * top.weight_moment / top.transverse_moment
@@ -377,7 +377,7 @@ def _pair_about_pole(
 
 
 def _largest_root(c2: FloatArray, c1: FloatArray, c0: FloatArray, wanted: BoolArray) -> FloatArray:
-    """Largest root of x^3 + c2 x^2 + c1 x + c0, well separated, by Newton's method.
+    """Largest root of x^3 + c2 x^2 + c1 x + c0, if well separated, by Newton's method.
 
     Newton's method converges monotonically from above.
     """
