@@ -296,8 +296,9 @@ def test_the_ellipse_holds_as_many_draws_as_it_claims(ahead: xr.Dataset) -> None
     from matplotlib.patches import Ellipse
 
     ax = views.plot_path(ahead)
+    assert ax.texts[-1].get_text() == str(ahead.time.values[-1].astype("M8[D]"))
     ellipse = [patch for patch in ax.patches if isinstance(patch, Ellipse)][1]
-    row = ahead.isel(time=89)
+    row = ahead.isel(time=90)
     sx, sy = (1e3 * float(row[f"{name}_error"]) / 1.959964 for name in ("x", "y"))
     across = float(row.correlation_xy) * sx * sy
     draws = np.random.default_rng(0).multivariate_normal(
