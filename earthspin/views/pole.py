@@ -88,7 +88,7 @@ def budget(tree: Result) -> Table:
         rate("omega_rate", "omega_A, mas/cy"),
     )
     total, iau, omega = rates.psi_rate_total, rates.psi_rate_iau, rates.omega_rate_total
-    closure = f"{float(rates.closure):+.3f}", "", f"{float(rates.omega_closure):+.3f}"
+    closure = f"{float(rates.closure):+z.3f}", "", f"{float(rates.omega_closure):+z.3f}"
     more = [
         ("sum", f"{float(total):.3f}", f"{float(iau):.3f}", f"{float(omega):+.3f}"),
         ("closure (sum + non-linear term - IAU)", *closure),
@@ -206,8 +206,7 @@ def plot_pole_residuals(result: Result, *, ax: Axes | None = None) -> Axes:
         panel.set_ylabel("dX, dY (mas)" if ax else f"{name} (mas)")
         panel.legend(loc="lower left", ncols=3)
     earth = "" if NONRIGID.name in result.attrs["effects"] else " of a rigid Earth"
-    title = f"computed pole{earth} minus IAU 2006/2000A"
-    panels[0].set_title(title, loc="left", fontsize=9)
+    panels[0].set_title(f"computed pole{earth} minus IAU 2006/2000A", loc="left", fontsize=9)
     panels[1].set_xlabel("time (TDB)")
     return panels[0]
 
