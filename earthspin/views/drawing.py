@@ -249,13 +249,13 @@ def band(
 ) -> None:
     """Draw a line and, as a band, its 95 % half-width; the band is cut below `lowest`.
 
-    Bands that are wider than the line share one entry of the legend.
+    Bands that are clearly wider than the line share one entry of the legend.
     """
     low, high = np.maximum(value - error, lowest), value + error
     ax.plot(x, value, color=colour, **how)
     filled = ax.fill_between(x, low, high, color=colour, alpha=alpha, lw=0)
     pixels = np.nan_to_num(high - low).max() / np.ptp(ax.get_ylim()) * ax.bbox.height
-    if pixels > 2 and INTERVAL not in ax.get_legend_handles_labels()[1]:
+    if pixels > 4 and INTERVAL not in ax.get_legend_handles_labels()[1]:
         filled.set_label(INTERVAL)
 
 

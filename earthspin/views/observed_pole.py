@@ -368,8 +368,8 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
     answer = answer_of(result)
     x, y = answer.x.values * 1e3, answer.y.values * 1e3
     clear = {"fc": "white", "ec": "none", "alpha": 0.7, "pad": 0.5}
-    ax.plot(y, x, color=drawing.BLUE, lw=1.4, label="forecast", marker="o", markevery=[0], ms=4)
-    note(ax, date(answer.time[0]), (y[0], x[0]), (6, 5), color=drawing.BLUE, bbox=clear)
+    words = f"forecast from {date(answer.time[0])}"
+    ax.plot(y, x, color=drawing.BLUE, lw=1.4, label=words, marker="o", markevery=[0], ms=4)
     days = (answer.time.values - answer.time.values[0]) / np.timedelta64(1, "D")
     marked = [day for day in ELLIPSES if day < 0.7 * days[-1]]
     for number in (*np.searchsorted(days, marked).tolist(), -1):

@@ -21,6 +21,7 @@ from earthspin import dates
 from earthspin.constants import ARCSEC, MAS
 from earthspin.sky import eop
 from earthspin.views import observed_pole as views
+from earthspin.views.drawing import INTERVAL
 from earthspin.views.reading import closing_line
 from earthspin.wobble.forecast import SKILL
 
@@ -314,6 +315,7 @@ def test_figures_of_a_hindcast_and_skill_as_measured(ahead: xr.Dataset) -> None:
     assert len(ahead.earthspin.plot()) == 3
     figure = views.plot_coordinates(ahead.isel(time=slice(0, 30)))
     figure.draw_without_rendering()
+    assert INTERVAL in [text.get_text() for text in figure.axes[0].get_legend().texts]
     boxes = [label.get_window_extent() for label in figure.axes[-1].get_xticklabels()]
     assert not any(left.overlaps(right) for left, right in pairwise(boxes))
     table = json.loads(SKILL.read_text(encoding="utf-8"))
