@@ -89,8 +89,8 @@ def _plot_curves(
         if kyr.size > 1:
             row.set_xlim(kyr[0], kyr[-1])
         row.set_ylabel(label)
-        if drawing.INTERVAL in row.get_legend_handles_labels()[1]:
-            row.legend()
+    if drawing.INTERVAL in rows[0].get_legend_handles_labels()[1]:
+        drawing.legend_above(rows[0])
     rows[-1].set_xlabel("time from J2000.0 (1000 years)")
     return rows[0]
 

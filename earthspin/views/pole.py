@@ -181,7 +181,8 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.set_xscale("symlog", linthresh=LINEAR)
     reach = 2 * float(abs(answer[["psi_rate", "psi_rate_published"]]).to_array().max())
     ax.set_xlim(-reach * tables.MAS_PER_CENTURY, reach * tables.MAS_PER_CENTURY)
-    ax.set_xlabel(r"contribution to the rate of $\psi_A$ besides the first order (mas per century)")
+    words = "contribution to the rate of $\\psi_A$\nbesides the first order (mas per century)"
+    ax.set_xlabel(words)
     drawing.legend_above(ax)
     return ax
 
@@ -236,7 +237,7 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
     ax.set_xscale("symlog", linthresh=0.1)
     ticks = (-27, -2, -0.2, 0, 0.2, 2, 27)
     ax.set_xticks(ticks, [drawing.minus(f"{tick:g}") for tick in ticks])
-    words = "frequency in space, negative if retrograde; logarithmic beyond ±0.1 (cycles per year)"
+    words = "frequency in space, negative if retrograde;\nlogarithmic beyond ±0.1 (cycles per year)"
     ax.set_xlabel(words)
     ax.set_ylabel("amplitude over that of a rigid body")
     ax.legend(loc="upper right")
