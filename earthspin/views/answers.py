@@ -279,8 +279,8 @@ def what_ran(*trees: Result) -> list[Table]:
 def _explained(tree: Result) -> str:
     """Sentence that names the documentation pages on the method and the errors of a result."""
     page = question.page if (question := question_of(tree)) else ""
-    method = f'the method under "{PAGES[page]}" (docs/{page}.md), ' if page else ""
-    return f'In the documentation: {method}the errors under "{ERRORS[1]}" (docs/{ERRORS[0]}.md).'
+    method = f'the method under "{PAGES[page]}", ' if page else ""
+    return f'In the documentation: {method}the errors under "{ERRORS[1]}".'
 
 
 def _footer(answer: xr.Dataset) -> str:

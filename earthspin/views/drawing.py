@@ -55,6 +55,8 @@ STYLE: Any = {
 }
 
 
+#: Entry of legends for the bands.
+INTERVAL = "95 % interval"
 #: Width of figures on a phone, inches: 9 points are then 10 pixels of 390.
 NARROW = 4.4
 
@@ -245,10 +247,16 @@ def band(
     lowest: float = -np.inf,
     **how: Any,
 ) -> None:
-    """Draw a line and, as a band, its 95 % half-width; the band is cut below `lowest`."""
-    low = np.maximum(value - error, lowest)
-    ax.fill_between(x, low, value + error, color=colour, alpha=alpha, lw=0)
+    """Draw a line and, as a band, its 95 % half-width; the band is cut below `lowest`.
+
+    Bands that are clearly wider than the line share one entry of the legend.
+    """
+    low, high = np.maximum(value - error, lowest), value + error
     ax.plot(x, value, color=colour, **how)
+    filled = ax.fill_between(x, low, high, color=colour, alpha=alpha, lw=0)
+    pixels = np.nan_to_num(high - low).max() / np.ptp(ax.get_ylim()) * ax.bbox.height
+    if pixels > 4 and INTERVAL not in ax.get_legend_handles_labels()[1]:
+        filled.set_label(INTERVAL)
 
 
 def lines(ax: Axes, x: Any, values: xr.DataArray, **how: Any) -> None:
@@ -292,6 +300,11 @@ def axes(ax: Axes | None, width: float = 8.0, height: float = 3.8) -> Axes:
         return ax
     with style():
         return empty(width, height).add_subplot()
+
+
+def minus(text: str) -> str:
+    """Write the hyphens of numbers in a text as minus signs."""
+    return text.replace("-", "\u2212")
 
 
 #: Superscript characters, which stay powers if a text is copied.

@@ -16,6 +16,9 @@ from earthspin.views.drawing import Axes, PageFigure, Views, axes
 from earthspin.views.reading import Result, answer_of, needed
 from earthspin.views.stars import YEARS, on_the_chart, plot_path, year_labels
 
+#: Sentence at the end of captions.
+BANDS = "Bands are 95 % half-widths; where none is seen, it is thinner than the line."
+
 
 def _caption_of_climate(tree: Result) -> str:
     first, last = in_order(answer_of(tree)).epoch.values[[0, -1]] / 1000
@@ -23,7 +26,7 @@ def _caption_of_climate(tree: Result) -> str:
         f"From {first:g} to {last:g} kyr from J2000.0. Climatic precession is the eccentricity "
         "times the sine of the longitude of perihelion from the moving equinox: where it is "
         "positive, northern summer falls in the half of the orbit that is far from the Sun; where "
-        "it is negative, in the near half. Bands are 95 % half-widths."
+        f"it is negative, in the near half. {BANDS}"
     )
 
 
@@ -86,6 +89,8 @@ def _plot_curves(
         if kyr.size > 1:
             row.set_xlim(kyr[0], kyr[-1])
         row.set_ylabel(label)
+    if drawing.INTERVAL in rows[0].get_legend_handles_labels()[1]:
+        drawing.legend_above(rows[0])
     rows[-1].set_xlabel("time from J2000.0 (1000 years)")
     return rows[0]
 
@@ -232,7 +237,8 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     away, share = away[order], shares.longitude_share.isel(epoch=order).transpose("epoch", "cause")
     share = share.copy(data=np.maximum.accumulate(share.values))
     together = np.sqrt(np.sum(share.values**2, axis=1))
-    ax.plot(away, together, color="black", lw=2.0, label="together")
+    ax.plot(away, together, color="0.75", lw=4.0, label="together")
+    ax.set_prop_cycle(linestyle=("-", "--", "-.", ":"))  # some lines lie upon others
     drawing.lines(ax, away, share, lw=1.2)
     ax.set(xscale="log", yscale="log")
     if away.size > 1:
@@ -261,7 +267,7 @@ FIGURES = [
     PageFigure(
         "Period of precession",
         "Period of precession at the rate of each epoch, in total and for each perturber alone. "
-        "Bands are 95 % half-widths.",
+        + BANDS,
         plot_periods,
     ),
     PageFigure(
@@ -278,7 +284,7 @@ FIGURES = [
 INSOLATION = PageFigure(
     "Insolation",
     "Sunlight at the top of the atmosphere, averaged over a day or the given window. The true "
-    "longitude of the Sun is 90° at the June solstice. Bands are 95 % half-widths.",
+    f"longitude of the Sun is 90° at the June solstice. {BANDS}",
     plot_insolation,
 )
 

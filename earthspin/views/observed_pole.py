@@ -241,8 +241,8 @@ def plot_offsets(result: Result, *, figure: Figure | None = None) -> Figure:
     figure, panels = drawing.stacked(2, 4.8, figure, width=7.5, sharey=True)
     for ax, name, colour in zip(panels, ("dX", "dY"), (drawing.BLUE, drawing.RED), strict=True):
         value, error = answer[name].values, answer[f"{name}_error"].values
-        ax.fill_between(answer.time.values, value - error, value + error, color="0.85", lw=0)
-        ax.plot(answer.time.values, value, color=colour, lw=0.5)
+        drawing.band(ax, answer.time.values, value, error, colour, lw=0.5)
+        ax.legend(loc="upper right")
         ax.set(ylabel=f"{name} (mas)", ylim=(-LARGEST_OFFSET, LARGEST_OFFSET))
     panels[-1].set_xlabel("time (UTC)")
     return figure
@@ -301,7 +301,7 @@ OFFSET_FIGURES = [
     PageFigure(
         "Observed offsets in time",
         "Observed celestial pole minus that of IAU 2006/2000A, with the 95 % half-widths of the "
-        "table in grey.",
+        "table as bands.",
         plot_offsets,
     ),
     PageFigure(
@@ -313,7 +313,8 @@ OFFSET_FIGURES = [
 # --- forecast ------------------------------------------------------------------------------------
 
 
-#: Days after the origin that the axis of the skill names, and at which the path has an ellipse.
+#: Days after the origin that the axis of the skill names, and days after the first at which the
+#: path has an ellipse, unless they are close to the last.
 TICKS, ELLIPSES = (1, 3, 10, 30, 90, 180, 365, 730), (30, 90, 365)
 #: Half-width of an interval over the standard deviation, and the same of an ellipse of 95 %.
 ONE_COORDINATE, BOTH = 1.959964, float(np.sqrt(-2 * np.log(0.05)))
@@ -341,7 +342,7 @@ def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
     figure, panels = drawing.stacked(2, 5.2, figure, width=7.5)
     for ax, name, colour in zip(panels, ("x", "y"), (drawing.BLUE, drawing.GREEN), strict=True):
         value, error = answer[name].values * 1e3, answer[f"{name}_error"].values * 1e3
-        drawing.band(ax, answer.time.values, value, error, colour, label=f"{name}, 95 %")
+        drawing.band(ax, answer.time.values, value, error, colour, label="forecast")
         if bulletin is not None:
             how: dict[str, Any] = {"color": drawing.RED, "lw": 1, "ls": "--", "label": "Bulletin A"}
             ax.plot(bulletin.time, bulletin[f"bulletin_a_{name}"] * 1e3, **how)
@@ -353,7 +354,7 @@ def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
 
 
 def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the forecast path of the pole, with 95 % ellipses after 30, 90 and 365 days.
+    """Draw the forecast path of the pole, with 95 % ellipses on some days and on the last.
 
     Parameters
     ----------
@@ -366,24 +367,24 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
     ax = axes(ax, 6.0, 6.0)
     answer = answer_of(result)
     x, y = answer.x.values * 1e3, answer.y.values * 1e3
-    ax.plot(y, x, color=drawing.BLUE, lw=1.4)
-    ax.plot(y[0], x[0], "o", color=drawing.BLUE, ms=4, label=date(answer.time[0]))
-    days = (answer.time.values - np.datetime64(answer.x.attrs["origin"])) / np.timedelta64(1, "D")
-    for day in ELLIPSES:
-        near = np.flatnonzero(abs(days - day) < 0.5)
-        if near.size == 0:
-            continue
-        row = answer.isel(time=int(near[0]))
+    clear = {"fc": "white", "ec": "none", "alpha": 0.7, "pad": 0.5}
+    words = f"forecast from {date(answer.time[0])}"
+    ax.plot(y, x, color=drawing.BLUE, lw=1.4, label=words, marker="o", markevery=[0], ms=4)
+    days = (answer.time.values - answer.time.values[0]) / np.timedelta64(1, "D")
+    marked = [day for day in ELLIPSES if day < 0.7 * days[-1]]
+    for number in (*np.searchsorted(days, marked).tolist(), -1):
+        row = answer.isel(time=number)
         sx, sy = (1e3 * float(row[name]) / ONE_COORDINATE for name in ("x_error", "y_error"))
         across = float(row.correlation_xy) * sx * sy
         values, vectors = np.linalg.eigh([[sy**2, across], [across, sx**2]])
         width, height = 2 * BOTH * np.sqrt(values)
         turn = np.degrees(np.arctan2(vectors[1, 0], vectors[0, 0]))
         centre = float(row.y) * 1e3, float(row.x) * 1e3
-        ax.add_patch(Ellipse(centre, width, height, angle=turn, fc="none", ec=drawing.RED, lw=1))
+        words = "95 % ellipse" if number == -1 else ""
+        ellipse = Ellipse(centre, width, height, angle=turn, fc="none", ec=drawing.RED, label=words)
+        ax.add_patch(ellipse)
         ax.plot(*centre, "o", color=drawing.RED, ms=4)
-        clear = {"fc": "white", "ec": "none", "alpha": 0.7, "pad": 0.5}
-        note(ax, f"{day} d", centre, (6, 5), color=drawing.RED, bbox=clear)
+        note(ax, date(row.time), centre, (6, 5), color=drawing.RED, bbox=clear)
     ax.set(aspect="equal", ylabel="x, towards the prime meridian (mas)")
     ax.set_xlabel("y, towards 90° west (mas)")
     ax.legend(loc="best")
@@ -431,7 +432,8 @@ FORECAST_FIGURES = [
     ),
     PageFigure(
         "Path of the pole",
-        "Forecast path of the pole over the ground; ellipses contain it in 95 % of cases.",
+        "Forecast path of the pole over the ground; the ellipse of a day contains the pole of that "
+        "day in 95 % of cases.",
         plot_path,
     ),
     PageFigure(

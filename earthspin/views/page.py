@@ -13,7 +13,7 @@ from markupsafe import Markup
 
 from earthspin.views.drawing import RAISED, Drawing
 from earthspin.views.solids import Solid
-from earthspin.views.tables import Table
+from earthspin.views.tables import SHORT, Table
 
 
 def page(
@@ -55,6 +55,7 @@ def page(
         solids=solids,
         contents=[part.title for parts in (drawings, solids, tables, last) for part in parts],
         last=last,
+        short=SHORT,
         figure_on_page=figure_on_page,
         script=source("touch.js") + source("solid.js"),
         **{"lead": "", "note": "", "links": (), "footer": ""} | words,
@@ -119,7 +120,7 @@ def typeset(words: str) -> Markup:
     text = _DIFFERENCE.sub("C\\1\u2212\\2A", text)
     text = _SQUARE.sub(lambda match: match[0].translate(RAISED), text)
     text = _SUBSCRIPT.sub(lambda match: f"{_GREEK[match[1]]}<sub>A</sub>", text)
-    text = re.sub(r"\buas\b", "\u00b5as", text)
+    text = re.sub(r"\buas\b", "\u00b5as", text).replace("W m-2", "W/m\u00b2")
     return Markup(text)  # escaped above  # nosec B704
 
 

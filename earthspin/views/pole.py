@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
 
 from earthspin.bodies import MOON
 from earthspin.constants import DAY, DAYS_PER_YEAR
@@ -80,16 +79,16 @@ def budget(tree: Result) -> Table:
     """Table of the contributions to the precession rate, their sum, and the difference from IAU."""
     rates = answer_of(tree).map(lambda rate: rate * tables.MAS_PER_CENTURY)
 
-    def published(row: xr.Dataset) -> str:
-        return f"{float(row.psi_rate_published):+.3f}" if row.psi_rate_published else ""
+    def rate(name: str, head: str) -> Column:
+        return Column(name, lambda row: f"{float(row[name]):+z.3f}" if row[name] else "", head)
 
     columns = (
-        Column("psi_rate", "+.3f", "psi_A, mas/cy"),
-        Column("psi_rate_published", published, "published"),
-        Column("omega_rate", "+.3f", "omega_A, mas/cy"),
+        rate("psi_rate", "psi_A, mas/cy"),
+        rate("psi_rate_published", "published"),
+        rate("omega_rate", "omega_A, mas/cy"),
     )
     total, iau, omega = rates.psi_rate_total, rates.psi_rate_iau, rates.omega_rate_total
-    closure = f"{float(rates.closure):+.3f}", "", f"{float(rates.omega_closure):+.3f}"
+    closure = f"{float(rates.closure):+z.3f}", "", f"{float(rates.omega_closure):+z.3f}"
     more = [
         ("sum", f"{float(total):.3f}", f"{float(iau):.3f}", f"{float(omega):+.3f}"),
         ("closure (sum + non-linear term - IAU)", *closure),
@@ -165,21 +164,25 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     answer = answer.sel(effect=answer.effect != "first-order")
     place = np.arange(answer.effect.size)
     for by, name, colour, marker, words in (
-        (0.14, "psi_rate", drawing.BLUE, "o", "measured by switching"),
+        (0.14, "psi_rate", drawing.BLUE, "o", "computed"),
         (-0.14, "psi_rate_published", drawing.ORANGE, "D", "published"),
     ):
-        sizes = answer[name].values * tables.MAS_PER_CENTURY
-        ax.hlines(place + by, 0, sizes, color=colour, lw=0.8, alpha=0.6)
-        ax.plot(sizes, place + by, marker, color=colour, ms=5, label=words)
+        # exactly zero if an effect leaves the rate as it is, or has no published value
+        drawn = answer[name].values != 0
+        sizes, at = answer[name].values[drawn] * tables.MAS_PER_CENTURY, place[drawn] + by
+        ax.hlines(at, 0, sizes, color=colour, lw=0.8, alpha=0.6)
+        ax.plot(sizes, at, marker, color=colour, ms=5, label=words)
     closure = float(answer.closure) * tables.MAS_PER_CENTURY
     ax.axvline(0, color="0.4", lw=0.8, zorder=0)
-    ax.axvline(closure, color=drawing.RED, lw=1, ls="--", label=f"closure, {closure:+.1f}")
+    words = drawing.minus(f"closure, {closure:+.1f} mas per century")
+    ax.axvline(closure, color=drawing.RED, lw=1, ls="--", label=words)
     ax.set_yticks(place, answer.effect.values)
     ax.invert_yaxis()
     ax.set_xscale("symlog", linthresh=LINEAR)
     reach = 2 * float(abs(answer[["psi_rate", "psi_rate_published"]]).to_array().max())
     ax.set_xlim(-reach * tables.MAS_PER_CENTURY, reach * tables.MAS_PER_CENTURY)
-    ax.set_xlabel("contribution to the rate of psi_A (mas per century)")
+    words = "contribution to the rate of $\\psi_A$\nbesides the first order (mas per century)"
+    ax.set_xlabel(words)
     drawing.legend_above(ax)
     return ax
 
@@ -192,20 +195,21 @@ def plot_pole_residuals(result: Result, *, ax: Axes | None = None) -> Axes:
     result : Dataset or DataTree
         Answer to the question ``iau``; computed again if the section ``residuals`` is missing.
     ax : Axes, optional
+        Axes to draw both on; two panels of a new figure by default, of which the first is returned.
     """
     series = needed(result, "residuals")
-    ax = axes(ax, 7.5, 3)
-    sizes = []
-    for name, colour in (("dX", drawing.BLUE), ("dY", drawing.RED)):
-        error = series[f"{name}_error"]
-        drawing.band(ax, series.time, series[name], error, colour, lw=0.6, label=name)
-        sizes.append(f"{float(np.sqrt(np.mean(series[name] ** 2))):.2f}")
+    # the bands of both are almost alike, and would mix in one panel
+    panels = [ax, ax] if ax else drawing.stacked(2, 4.8, width=7.5, sharey=True)[1]
+    for panel, name, colour in zip(panels, ("dX", "dY"), (drawing.BLUE, drawing.RED), strict=True):
+        value, error = series[name], series[f"{name}_error"]
+        words = f"{name}, rms {float(np.sqrt(np.mean(value**2))):.2f} mas"
+        drawing.band(panel, series.time, value, error, colour, lw=0.6, label=words)
+        panel.set_ylabel("dX, dY (mas)" if ax else f"{name} (mas)")
+        panel.legend(loc="lower left", ncols=3)
     earth = "" if NONRIGID.name in result.attrs["effects"] else " of a rigid Earth"
-    title = f"computed pole{earth} minus IAU 2006/2000A; rms {' and '.join(sizes)} mas"
-    ax.set_title(title, loc="left", fontsize=9)
-    ax.set(xlabel="time (TDB)", ylabel="dX, dY (mas)")
-    ax.legend(loc="best", ncols=2)
-    return ax
+    panels[0].set_title(f"computed pole{earth} minus IAU 2006/2000A", loc="left", fontsize=9)
+    panels[1].set_xlabel("time (TDB)")
+    return panels[0]
 
 
 def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -222,19 +226,20 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
     terms = terms.assign(frequency=DAYS_PER_YEAR / terms.period).sortby("frequency")
     ax = axes(ax, 7.2, 4.2)
     ax.axvline(DAYS_PER_YEAR / period, color="0.6", lw=0.8, ls="--", zorder=0)
-    words = f"free core nutation\n{period:.1f} d"
+    words = drawing.minus(f"free core nutation\n{period:.1f} d")
     note(ax, words, (DAYS_PER_YEAR / period, 1.25), (8, 0), ha="left", color="0.4")
     ax.axhline(1, color="0.8", lw=0.8, zorder=0)
     size = 10 + 25 * np.log10(1 + abs(terms.rigid_in_phase.values))
-    words = "IAU 2000A / rigid"
+    words = "IAU 2000A (larger dots: larger terms)"
     ax.scatter(terms.frequency, terms.ratio_in_phase, size, drawing.BLUE, label=words, zorder=3)
     words, fitted = "fitted response", terms.transfer_in_phase
     ax.plot(terms.frequency, fitted, "x", color=drawing.RED, ms=5, label=words, zorder=4)
     ax.set_xscale("symlog", linthresh=0.1)
     ticks = (-27, -2, -0.2, 0, 0.2, 2, 27)
-    ax.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
-    ax.set_xlabel("frequency in space, negative if retrograde (cycles per year)")
-    ax.set_ylabel("amplitude of IAU 2000A over the model")
+    ax.set_xticks(ticks, [drawing.minus(f"{tick:g}") for tick in ticks])
+    words = "frequency in space, negative if retrograde;\nlogarithmic beyond ±0.1 (cycles per year)"
+    ax.set_xlabel(words)
+    ax.set_ylabel("amplitude over that of a rigid body")
     ax.legend(loc="upper right")
     return ax
 
@@ -242,8 +247,8 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
 IAU_FIGURES = [
     PageFigure(
         "Residuals in time",
-        "X and Y of the computed pole minus those of the IAU; nothing is fitted or removed. Bands: "
-        "95 % half-widths.",
+        "X and Y of the computed pole minus those of the IAU; nothing is fitted or removed. "
+        "Bands: 95 % intervals.",
         plot_pole_residuals,
         section="residuals",
     ),
@@ -251,14 +256,16 @@ IAU_FIGURES = [
         "The budget",
         "Contribution of each effect to the rate of psi_A, measured by switching the effect off, "
         "and the published contribution; the axis is logarithmic to both sides of zero. To see: "
-        "the two dots of a pair coincide if the computed and the published contribution agree. "
-        "Dashed: the closure, the unexplained rest.",
+        "the two dots of a pair coincide if the computed and the published contribution agree. An "
+        "effect without a dot leaves the computed rate as it is, or has no published value; the "
+        "first order, thousands of times larger, is in the table. Dashed: the closure, the "
+        "unexplained rest.",
         plot_budget,
     ),
     PageFigure(
         "Response of the deformable body",
         "Amplitudes of IAU 2000A divided by the rigid amplitudes computed here, and the fitted "
-        "resonance formula.",
+        "resonance formula. The area of a dot grows with the logarithm of its amplitude.",
         plot_nutation_ratio,
         section="nutation",
         uses=["core"],
@@ -330,7 +337,7 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     ratio = (main.iau_in_phase / main.predicted_in_phase.sel(rung="rigid")).values
     at = DAYS_PER_YEAR / main.period.values
     inside = np.abs(at) < SHOWN
-    ax.plot(at[inside], ratio[inside], "o", color=drawing.ORANGE, ms=5, label="IAU 2000A / rigid")
+    ax.plot(at[inside], ratio[inside], "o", color=drawing.ORANGE, ms=5, label="IAU 2000A")
     note(ax, "free core nutation", (DAYS_PER_YEAR / CORE_NUTATION.value, 0.9), (-8, 0), ha="right")
     ax.set(ylim=(0.85, 1.45), ylabel="amplitude over that of a rigid body")
     ax.set_xlabel("frequency in space, negative if retrograde (cycles per year)")

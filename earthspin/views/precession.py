@@ -97,6 +97,8 @@ def rates(tree: Result) -> Table:
     largest = largest_of(neglected)
     size = "size unknown" if largest is None else f"{largest[1]:g} ({largest[0]})"
     size += ", others unknown" if largest and "unknown size" in neglected else ""
+    if largest and len(size) > tables.SHORT:
+        size = f"{largest[1]:g} (see below)"
 
     def left_out(row: xr.Dataset) -> str:
         return size if row.perturber == last else ""

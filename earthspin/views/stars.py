@@ -18,8 +18,9 @@ YEARS = (*range(-11999, 1, 2000), 1, *range(2000, 14001, 2000))
 REACH = 34.0
 #: Size of the text, in points; width of a letter and height of a line in parts of it.
 TEXT, LETTER, LINE = 8.0, 0.6, 1.15
-#: Distance of a label from its dot, points; what a point of the path under a label counts for.
-GAP, CROSSED = 7.0, 60.0
+#: Distance of a label from its dot, and from other labels, points; what a point of the path under a
+#: label counts for.
+GAP, CLEAR, CROSSED = 7.0, 4.0, 60.0
 #: Where a label may stand about its dot, what is liked best first.
 SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, 1), (1, -1), (-1, -1))
 
@@ -143,7 +144,8 @@ def _cost(
 ) -> float:
     """Measure of the overlap of a label with other labels, the edge of the chart, and the path."""
     low, high = np.array(boxes).transpose(1, 0, 2)
-    shared = np.clip(np.minimum(middle + half, high) - np.maximum(middle - half, low), 0, None)
+    wide = half + CLEAR
+    shared = np.clip(np.minimum(middle + wide, high) - np.maximum(middle - wide, low), 0, None)
     beyond = np.clip(np.abs(middle) + half - edge, 0, None)
     crossed = np.all(np.abs(line - middle) < half + 1, axis=1)
     area = shared.prod(axis=1).sum() + 10 * (beyond @ (2 * half[::-1]))

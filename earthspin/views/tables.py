@@ -16,8 +16,8 @@ from earthspin.engine.variables import error_of, from_si
 from earthspin.views.reading import Result, answer_of, needed
 
 MAS_PER_CENTURY = 1e5  # of an arcsec/yr
-#: From here on, numbers are written with a power of ten.
-LARGE = 1e9
+#: Below and from here on, numbers are written with a power of ten.
+SMALL, LARGE = 1e-6, 1e9
 #: Text of a cell up to this length stands on one line.
 SHORT = 32
 #: Characters between two columns on the terminal.
@@ -27,6 +27,10 @@ BRACKETS = (
     "Every error is the half-width of a 95 % interval; digits in brackets give it in units of the "
     "last digits."
 )
+
+#: Words in names of variables and sections, as text spells them.
+SPELLING = {"iau": "IAU", "bulletin a": "Bulletin A", "dpsi sineps": "dpsi sin(eps)"}
+SPELLING |= {word: word.capitalize() for word in ("chandler", "gregorian", "lyapunov", "love")}
 
 #: Note beside a half-width that includes the uncertainty of the inputs, but no neglected effects.
 NUMBERS_ONLY = "error from inputs only"
@@ -87,7 +91,7 @@ class Column:
         if callable(self.shown):
             return self.shown(row)
         if row[self.name].dtype.kind in "UO":
-            return str(row[self.name].values).replace("_", " ")
+            return in_words(row[self.name].values)
         if not self.shown:
             return measured(row, self.name)
         return short_exponents(f"{float(row[self.name]):{self.shown}}")
@@ -96,8 +100,16 @@ class Column:
 def label(variable: xr.DataArray) -> str:
     """Label of a variable for tables: its short label or its name, followed by the unit."""
     words, unit = variable.attrs.get("short", ""), variable.attrs.get("units", "")
-    words = words or str(variable.name).replace("_", " ")
+    words = words or in_words(variable.name)
     return words if unit in ("", "1") else f"{words}, {unit}"
+
+
+def in_words(name: object) -> str:
+    """Write the name of a variable or a section as text; angles such as psi_A remain symbols."""
+    words = re.sub("_(?!A$)", " ", str(name))
+    for word, spelled in SPELLING.items():
+        words = re.sub(rf"\b{word}\b", spelled, words)
+    return words
 
 
 def table_along(
@@ -173,7 +185,7 @@ def with_error(value: SupportsFloat, error: SupportsFloat, unit: str = "") -> st
         return "none (no motion)"
     if error <= 0 or not math.isfinite(error):
         text = short_exponents(f"{value:.6g}")
-    elif (size := max(abs(value), error)) < LARGE:
+    elif SMALL <= (size := max(abs(value), error)) < LARGE:
         text = _in_brackets(value, error)
     else:
         power = math.floor(math.log10(size))
@@ -185,7 +197,7 @@ def _in_brackets(value: float, error: float) -> str:
     """Format a value followed by two digits of its error in brackets, like ``50.40(33)``."""
     digits = max(0, 1 - math.floor(math.log10(error)))
     half = f"{error:.{digits}f}"
-    return f"{value:.{digits}f}({half.removeprefix('0.').lstrip('0') if error < 1 else half})"
+    return f"{value:z.{digits}f}({half.removeprefix('0.').lstrip('0') if error < 1 else half})"
 
 
 def short_exponents(text: str) -> str:
@@ -290,7 +302,8 @@ class _DataColumn:
             whole_days = (values == values.astype("M8[D]")).all()
             return [date(value, "D" if whole_days else "s") for value in values]
         if self.errors is None:
-            return [_text(value) for value in values.tolist()]
+            digits = 3 if re.search("correlation|share", self.name) else 7
+            return [_text(value, digits) for value in values.tolist()]
         pairs = zip(values.tolist(), np.atleast_1d(self.errors.values[rows]).tolist(), strict=True)
         return [with_error(v, e) if np.isfinite(v) else _text(v) for v, e in pairs]
 
@@ -314,7 +327,8 @@ def tables(tree: Result, without: Iterable[str] = ()) -> list[Table]:
     for name in (name for name in names if name not in {"plan", *without}):
         data = needed(tree, name)
         if any(array.size for array in data.values()):
-            nodes[name.replace("_", " ").capitalize()] = data
+            title = in_words(name)
+            nodes[title[0].upper() + title[1:]] = data
     return [table for title, data in nodes.items() for table in tables_of(data, title)]
 
 
@@ -460,12 +474,12 @@ def _notes(data: xr.Dataset, columns: Iterable[_DataColumn], said: set[str]) -> 
     return "\n".join(lines)
 
 
-def _text(value: Any) -> str:
-    """Text of a single value: to seven digits, words without underscores, yes or no."""
+def _text(value: Any, digits: int = 7) -> str:
+    """Text of a single value: to some digits, words without underscores, yes or no."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
         if np.isfinite(value):
-            return short_exponents(f"{value or 0.0:.7g}")
+            return short_exponents(f"{value or 0.0:.{digits}g}")
         return "" if np.isnan(value) else "infinite" if value > 0 else "-infinite"
-    return str(value).replace("_", " ")
+    return in_words(value)

@@ -21,6 +21,7 @@ from earthspin import dates
 from earthspin.constants import ARCSEC, MAS
 from earthspin.sky import eop
 from earthspin.views import observed_pole as views
+from earthspin.views.drawing import INTERVAL
 from earthspin.wobble.forecast import SKILL
 
 ORIGIN = "2018-06-01"
@@ -297,8 +298,9 @@ def test_the_ellipse_holds_as_many_draws_as_it_claims(ahead: xr.Dataset) -> None
     from matplotlib.patches import Ellipse
 
     ax = views.plot_path(ahead)
+    assert ax.texts[-1].get_text() == str(ahead.time.values[-1].astype("M8[D]"))
     ellipse = [patch for patch in ax.patches if isinstance(patch, Ellipse)][1]
-    row = ahead.isel(time=89)
+    row = ahead.isel(time=90)
     sx, sy = (1e3 * float(row[f"{name}_error"]) / 1.959964 for name in ("x", "y"))
     across = float(row.correlation_xy) * sx * sy
     draws = np.random.default_rng(0).multivariate_normal(
@@ -314,6 +316,7 @@ def test_figures_of_a_hindcast_and_skill_as_measured(ahead: xr.Dataset) -> None:
     assert len(ahead.earthspin.plot()) == 3
     figure = views.plot_coordinates(ahead.isel(time=slice(0, 30)))
     figure.draw_without_rendering()
+    assert INTERVAL in [text.get_text() for text in figure.axes[0].get_legend().texts]
     boxes = [label.get_window_extent() for label in figure.axes[-1].get_xticklabels()]
     assert not any(left.overlaps(right) for left, right in pairwise(boxes))
     table = json.loads(SKILL.read_text(encoding="utf-8"))

@@ -13,7 +13,7 @@ from matplotlib.transforms import Bbox
 
 import earthspin
 from earthspin.errors import UndefinedError
-from earthspin.views import long_term, precession
+from earthspin.views import drawing, long_term, precession
 from earthspin.views.answers import drawings_for, tables_for
 from earthspin.views.stars import year_words
 from tests import shipped
@@ -91,6 +91,7 @@ def test_insolation_names_hemisphere_and_season(keys: Any, title: str) -> None:
     """Seasons are named for the Earth alone."""
     ax = long_term.plot_insolation(earthspin.insolation(times=["-9 kyr", "0 kyr"], **keys))
     assert ax.get_title() == title
+    assert drawing.INTERVAL not in ax.get_legend_handles_labels()[1]  # thinner than the line
 
 
 def test_the_line_of_the_path_is_the_path(about_now: xr.Dataset) -> None:

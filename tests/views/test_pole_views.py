@@ -50,6 +50,7 @@ def test_figures_draw_what_is_there(pole: xr.Dataset, iau: xr.DataTree) -> None:
 
     ratio = of_iau.plot_nutation_ratio(iau)
     budget = of_iau.plot_budget(iau)
+    assert 0 not in np.concatenate([line.get_xdata() for line in budget.lines[:2]])
     for ax in (path, ratio, budget):
         FigureCanvasAgg(ax.figure)
         ax.figure.draw_without_rendering()

@@ -35,6 +35,8 @@ from tests import shipped
         (0.0, 0.02, "0.000(20)"),
         (0.0, 5.2e17, "0.0(5.2)e17"),
         (-3e16, 5.2e17, "-0.3(5.2)e17"),
+        (0.0, 1e-13, "0.0(1.0)e-13"),
+        (-0.004, 0.2, "0.00(20)"),
     ],
 )
 def test_digits(value: float, error: float, text: str) -> None:
@@ -112,12 +114,12 @@ def test_headers_are_the_declared_labels_with_their_units() -> None:
         {
             "rate": ("planet", [1.0, 2.0], {"units": "arcsec/yr", "short": "rate of the axis"}),
             "rate_error": ("planet", [0.1, 0.2], {"units": "arcsec/yr"}),
-            "mean_ratio": ("planet", [1e-5, 2e-5], {"units": "1"}),
+            "iau_ratio": ("planet", [1e-5, 2e-5], {"units": "1"}),
         },
         {"planet": ["earth", "mars"]},
     )
-    table = table_along(data, "planet", "Rates", ["rate", "mean_ratio:.1e"])
-    assert table.headers == ("planet", "rate of the axis, arcsec/yr", "mean ratio")
+    table = table_along(data, "planet", "Rates", ["rate", "iau_ratio:.1e"])
+    assert table.headers == ("planet", "rate of the axis, arcsec/yr", "IAU ratio")
     assert table.rows == [("earth", "1.00(10)", "1.0e-5"), ("mars", "2.00(20)", "2.0e-5")]
     assert quantities(data.isel(planet=0), "rate") == [("rate of the axis, arcsec/yr", "1.00(10)")]
 

@@ -23,6 +23,7 @@ SHEET = source("page.css")
         ("0.330698 M a2", "0.330698 M a²"),
         ("psi_A, mas/cy", "ψ<sub>A</sub>, mas/cy"),
         ("12.3 uas", "12.3 µas"),
+        ("insolation, W m-2", "insolation, W/m²"),
         ("sin4 taper over a < b & 5 cycles", "sin4 taper over a &lt; b &amp; 5 cycles"),
         ("earth2e3 de421", "earth2e3 de421"),
     ],

@@ -215,10 +215,8 @@ def test_the_modelled_amplitude_follows_the_observed(
     assert np.sqrt(np.mean(off**2)) < 0.35 * np.sqrt(np.mean(size**2))
     seen, modelled = earthspin.fit_chandler(pole), earthspin.fit_chandler(model)
     ax = plot_modelled(seen, modelled)
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == [
-        "observed",
-        "driven by a synthetic excitation",
-    ]
+    words = {text.get_text() for text in ax.get_legend().get_texts()}
+    assert words > {"observed", "driven by a synthetic excitation"}
     assert np.array_equal(ax.lines[1].get_ydata(), modelled.chandler_amplitude)
     assert np.corrcoef(ax.lines[0].get_ydata(), ax.lines[1].get_ydata())[0, 1] > 0.9
 

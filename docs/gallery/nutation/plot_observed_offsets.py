@@ -14,7 +14,7 @@ from earthspin.views.observed_pole import plot_core_nutation, plot_offsets
 # Celestial pole offsets since 1984
 # ---------------------------------
 # Observed offsets dX, dY of the celestial pole from IAU 2006/2000A: the daily series C04 of the
-# IERS, from very long baseline interferometry, with half-widths in grey. The errors have
+# IERS, from very long baseline interferometry, with half-widths as bands. The errors have
 # fallen tenfold since the first years. The oscillation with a period of fourteen months is the
 # free core nutation, which the model leaves out because it cannot be predicted for long (Mathews,
 # Herring & Buffett 2002).

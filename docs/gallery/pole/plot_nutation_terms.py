@@ -27,7 +27,7 @@ rows = np.arange(terms.term.size)
 fig, ax = plt.subplots(figsize=(6.4, 4.4))
 ax.barh(rows - 0.2, np.abs(terms.rigid_in_phase), 0.38, label="ours, rigid")
 ax.barh(rows + 0.2, np.abs(terms.iau_in_phase), 0.38, color="C4", label="IAU 2000A")
-ax.set_yticks(rows, [f"{period:+.2f} d" for period in terms.period.values])
+ax.set_yticks(rows, [f"{period:+.2f} d".replace("-", "−") for period in terms.period.values])
 ax.set(xscale="log", xlabel="amplitude in phase (mas)", ylabel="period, negative if retrograde")
 ax.invert_yaxis()
 ax.legend(loc="lower right")
@@ -48,7 +48,6 @@ tree = earthspin.run_tree(earthspin.load_scene("iau"), sections=["nutation", "co
 
 fig, ax = plt.subplots(figsize=(6.8, 4.2))
 plot_nutation_ratio(tree, ax=ax)
-ax.set_ylabel("amplitude of IAU 2000A over the model")
 
 # %%
 # Three axes, milliarcseconds apart

@@ -39,14 +39,17 @@
       const node = [Math.cos(phi), Math.sin(phi), 0], axis = [st * Math.sin(phi), -st * Math.cos(phi), ct];
       const beside = [axis[1] * node[2] - axis[2] * node[1], axis[2] * node[0] - axis[0] * node[2], axis[0] * node[1] - axis[1] * node[0]];
       const [s, c] = [Math.sin(psi), Math.cos(psi)];
-      // The point stands on a table below the middle of the picture; a top that falls hangs on a point in the middle.
-      const falls = Math.max(...m.turning) > 100 * degrees;
+      // The point stands on a floor below the middle of the picture; if the disc does not clear the floor, the point
+      // is on a stand in the middle. The lowest point of the disc is on the rim of its lower face.
+      const rim = 0.13 * values.radius + 0.05, lowest = Math.max(...m.turning);
+      const falls = 0.58 * Math.cos(lowest) < rim * Math.sin(lowest);
       const columns = [node.map((n, i) => c * n + s * beside[i]), node.map((n, i) => -s * n + c * beside[i]), axis];
-      const rows = play.revolved(outline(0.13 * values.radius + 0.05)), shift = falls ? 0 : 0.55;
+      const rows = play.revolved(outline(rim)), shift = falls ? 0 : 0.55;
       // In the body, down is the third row of the turn.
       const down = columns.map((column) => -shift * column[2]);
       scene.surface(rows.map((row) => row.map((p) => p.map((x, i) => x + down[i]))), columns, (i, j) => (i > 7 ? "#8a6a48" : Math.floor(j / 6) % 2 ? "#c7502c" : "#e2b24a"));
       for (let r = 0.3; r < 1 && !falls; r += 0.3) scene.line(circle(r, -0.555), ink("line"), 1);
+      if (falls) for (const line of [[[0, 0, 0], [0, 0, -1.1]], circle(0.25, -1.1)]) scene.line(line, ink("soft"), 2);
       for (const angle of m.turning) scene.line(circle(1.18 * Math.sin(angle), 1.18 * Math.cos(angle) - shift), ink("soft"), 1, [3, 4]);
       const until = time > 0 ? time : 6 * m.period, begin = Math.max(0, until - 12 * m.period);
       const trail = Array.from({ length: 361 }, (_, i) => {
