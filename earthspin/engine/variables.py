@@ -96,7 +96,7 @@ _SHARES = {
 
 @dataclass(frozen=True)
 class Variable:
-    """Declaration of a variable of a result, or of a field that defines several variables.
+    """Declaration of one variable of a result, or of a value with its error (several variables).
 
     Attributes
     ----------
