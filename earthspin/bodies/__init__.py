@@ -1,4 +1,4 @@
-"""The class `Body` and the built-in bodies; modules with cited numbers for groups of bodies."""
+"""The class `Body`, the built-in bodies, and modules with the cited numbers of these bodies."""
 
 from earthspin.bodies.body import BODIES, NUMBERS, Body, body, label_of
 from earthspin.bodies.checks import all_of

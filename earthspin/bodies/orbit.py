@@ -194,7 +194,7 @@ def _checked(elements: Mapping[str, Any], where: Where) -> dict[str, Any]:
 
 @dataclass(frozen=True, kw_only=True)
 class Satellite:
-    """Satellite of a planet; its mean orbital plane precesses together with the planet's equator.
+    """Satellite of a planet, with a mean orbital plane that precesses with the planet's equator.
 
     Numbers carry their units as text or Quantities; plain ones are SI and radians.
 

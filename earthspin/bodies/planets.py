@@ -1,4 +1,4 @@
-"""Default perturbers, mean orbits and neglected effects of the built-in bodies; lists as text."""
+"""Default perturbers, mean orbits, neglected effects and text lists of the built-in bodies."""
 
 from __future__ import annotations
 

@@ -255,7 +255,7 @@ class Answer:
         return coordinates
 
     def quantiles(self, shares: Sequence[float] = (0.025, 0.5, 0.975)) -> xr.Dataset:
-        """Return quantiles over the ensemble of every number that differs between members.
+        """Return quantiles of each number that depends on the ensemble member, over all members.
 
         Parameters
         ----------

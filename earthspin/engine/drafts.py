@@ -204,7 +204,7 @@ def claimed(box: Path, target: Path) -> Iterator[None]:
 
 
 def put_in_place(draft: Path, target: Path, box: Path) -> None:
-    """Move a complete draft to the target path; if this fails, the old file stays in place.
+    """Move a complete draft to the target path; if this fails, the old target is restored.
 
     Parameters
     ----------

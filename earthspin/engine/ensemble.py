@@ -413,7 +413,7 @@ def _concatenated(pieces: list[xr.Dataset]) -> xr.Dataset:
 
 
 def _joined(attributes: Mapping[Names, Mapping[str, Any]]) -> dict[str, Any]:
-    """Combine the attributes of all groups: keep equal values, and list texts that differ.
+    """Combine the attributes of all groups of members: keep equal values, list differing texts.
 
     Other differing attributes are dropped.
     """

@@ -140,7 +140,7 @@ def names_in(value: str | Iterable[str], key: str) -> list[str]:
 
 
 def plain_words(value: Any) -> str:
-    """Convert a value to text on one line, with bodies by name."""
+    """Convert a value to text on one line; bodies are replaced by their names."""
     if isinstance(value, (tuple, list)):
         return ", ".join(plain_words(item) for item in value)
     return str(getattr(value, "name", value))
@@ -608,7 +608,7 @@ def _parameters(function: Callable[..., Any], default: object) -> tuple[str, ...
 
 @dataclass(frozen=True)
 class Graph:
-    """Parts (functions) behind a question, and names of those that make its answer and sections.
+    """Functions (parts) that answer a question, and their names for the answer and each section.
 
     Attributes
     ----------

@@ -227,7 +227,7 @@ class Run:
         return union
 
     def plan(self, sections: str | Iterable[str] = ()) -> Plan:
-        """Plan of the run for the answer and given sections: functions run, and functions left out.
+        """Plan of the run for the answer and given sections: functions used, functions left out.
 
         Parameters
         ----------

@@ -299,7 +299,7 @@ def maccullagh_potential_axisymmetric(
 
 
 def maccullagh_torque(gm: ArrayLike, tensor: ArrayLike, position: ArrayLike) -> FloatArray:
-    """Torque of a distant mass on a body of any shape, to order 1/r3 (I.9.32), N m.
+    """Torque by a distant mass on a body of any shape, to order 1/r3 (I.9.32), N m.
 
     Parameters
     ----------

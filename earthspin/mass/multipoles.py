@@ -293,7 +293,7 @@ def exterior_multipoles(
 def _near_and_far(
     position: ArrayLike, source: ArrayLike
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Sort two points by distance from the origin.
+    """Sort two points by distance from the origin, the nearer point first.
 
     Return also the larger distance and the difference of the distances.
     """

@@ -114,7 +114,7 @@ def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the amplitude of the free wobble with its 95 % band, and that of the annual wobble.
+    """Draw the amplitudes of the free wobble, with a 95 % band, and of the annual wobble.
 
     Parameters
     ----------

@@ -292,7 +292,7 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
 
 
 def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw averaged minus adopted precession rate over the length of the averaging window.
+    """Draw the difference of averaged and adopted precession rate over the window length.
 
     Parameters
     ----------

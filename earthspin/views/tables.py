@@ -363,7 +363,7 @@ def _names(data: xr.Dataset) -> list[str]:
 
 
 def _half_width(data: xr.Dataset, name: str) -> str:
-    """Name of the variable with half-widths of variable `name` in the same unit, or empty."""
+    """Name of the variable with the half-widths of `name`; empty if units or dimensions differ."""
     error = error_of(data, name)
     if error == name or "_error" not in error or error not in data:
         return ""

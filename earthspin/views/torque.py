@@ -56,7 +56,7 @@ def _caption_of_torque(tree: Result, smooth_days: float | None = None) -> str:
 def plot_declination(
     result: Result, *, smooth_days: float | None = None, ax: Axes | None = None
 ) -> Axes:
-    """Draw the declination of each perturber in time.
+    """Draw the declination of each perturber over time.
 
     Parameters
     ----------
