@@ -7,7 +7,7 @@ __all__ = ["erfa", "submodule", "xr"]
 
 
 class _Library:
-    """Library that is imported when one of its names is used, as importing it takes long."""
+    """Stand-in for a library that is imported only on first use, because the import is slow."""
 
     def __init__(self, name: str) -> None:
         self.__name__ = name

@@ -184,7 +184,7 @@ def _parser() -> ArgumentParser:
 
 
 def _check_command(word: str, parser: ArgumentParser) -> None:
-    """Raise an error for a word that is no command; name the scene that it may stand for."""
+    """Raise an error if a word is not a command; the message suggests a scene or a command."""
     commands = parser.get_default("commands")
     if not word or word in commands:
         return
@@ -410,7 +410,7 @@ def _open(page: Path) -> None:
 
 @contextmanager
 def _note_of_results(data: str | Path | None) -> Iterator[None]:
-    """If an error occurs while figures are made, add to it the path of the stored results."""
+    """Add the path of stored results to any error that is raised inside a `with` block."""
     try:
         yield
     except BaseException as error:
@@ -420,7 +420,7 @@ def _note_of_results(data: str | Path | None) -> Iterator[None]:
 
 
 def _listed(names: str | None) -> str | list[str] | None:
-    """Return the names that an option lists; "all" as it is, and None if the option is absent."""
+    """Split the comma-separated names of an option into a list; "all" and None stay unchanged."""
     if names is None or names.strip() == "all":
         return names and "all"
     return [name.strip() for name in names.split(",") if name.strip()]

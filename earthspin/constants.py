@@ -55,7 +55,7 @@ class Constant:
 
     @property
     def relative_uncertainty(self) -> float:
-        """Standard deviation of the constant divided by its value; 0 if it is not known."""
+        """Relative standard deviation of the constant; 0 if the uncertainty is not known."""
         return abs((self.uncertainty or 0.0) / self.value)
 
 
@@ -129,7 +129,7 @@ EPSILON_0 = Constant(84381.406, "arcsec", 0.001, P03 + ": obliquity at J2000.0",
 
 
 def _rate(value: float, source: str, read_in: str) -> Constant:
-    """Build the constant for a rate in arcseconds per year that has no published uncertainty."""
+    """Make a `Constant` from a rate in arcsec/yr without published uncertainty."""
     return Constant(value, "arcsec yr-1", None, source, read_in)
 
 

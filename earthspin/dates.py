@@ -52,7 +52,7 @@ _DATE = re.compile(
 
 
 def two_parts(value: Any, where: Where) -> tuple[Any, Any]:
-    """Read one date, or an array or list of dates, as days from J2000.0 TDB in two parts.
+    """Read one or more dates as days from J2000.0 TDB, split into two floats to keep all digits.
 
     Parameters
     ----------
@@ -162,7 +162,10 @@ def _from_datetime64(stamps: Any, where: Where) -> tuple[Any, Any]:
 
 
 def _from_cftime(date: Any, where: Where) -> tuple[float, float]:
-    """Convert a date of cftime, of which the integer `toordinal` is the Julian date of noon."""
+    """Convert a cftime date to days from J2000.0 TDB: last midnight, and fraction of the day.
+
+    The integer `toordinal` of cftime is the Julian date of noon.
+    """
     if date.calendar not in ("standard", "gregorian", "proleptic_gregorian"):
         problem = f"its calendar '{date.calendar}' is neither 'standard' nor 'proleptic_gregorian'"
         raise where.error(str(date), f"{problem}; convert it to one of them")
@@ -171,7 +174,7 @@ def _from_cftime(date: Any, where: Where) -> tuple[float, float]:
 
 
 def _from_astropy(value: Any, where: Where, given: object) -> tuple[Any, Any]:
-    """Convert an astropy Time, or UTC as text or datetime64, without loss of digits.
+    """Convert an astropy Time, or UTC as text or datetime64, to days from J2000.0 TDB in two parts.
 
     UTC and UT1 are known from 1960 to a few years from now; outside they are refused.
     """
@@ -202,7 +205,7 @@ def _from_astropy(value: Any, where: Where, given: object) -> tuple[Any, Any]:
 
 
 def _with_tdb_minus_tt(time: Any) -> Any:
-    """Return a time in TT with TDB - TT at the centre of the Earth, if its scale is uniform.
+    """Convert TT, TAI or TCG to TT with the geocentric TDB - TT set; return other times unchanged.
 
     astropy computes TDB - TT by way of UTC, and refuses or warns where UTC is not known.
     """
@@ -241,7 +244,7 @@ def datetime64(days_tdb: FloatArray) -> NDArray[np.datetime64]:
 
 
 def date_text(day: float, unit: Literal["D", "s", "us"] = "D") -> str:
-    """Date as text, cut to a unit, of a time in days from J2000.0 TDB."""
+    """Convert days from J2000.0 TDB to a date as text, truncated to the given unit."""
     if not abs(day) <= FARTHEST_DATE:
         return f"{day:g} d from J2000.0"
     count = np.timedelta64(round(float(day) * MICROSECONDS_PER_DAY), "us")
@@ -269,7 +272,7 @@ def _check_reach(days: Any, given: object, where: Where) -> None:
 
 
 def _epochs(value: Any, where: Where) -> Any:
-    """Read durations from J2000.0 or dates, one or several, as seconds from J2000.0 TDB.
+    """Convert one or more times (durations from J2000.0, or dates) to seconds from J2000.0 TDB.
 
     Raises
     ------
@@ -294,7 +297,7 @@ def _epochs(value: Any, where: Where) -> Any:
 
 
 def seconds(value: Any, where: Where) -> float:
-    """Read one duration from J2000.0, or one date, as seconds from J2000.0 TDB."""
+    """Convert one time (a duration from J2000.0, or a date) to seconds from J2000.0 TDB."""
     if isinstance(value, (int, float, list, tuple)) and not hasattr(value, "to_value"):
         raise where.error(value, f"give it with its unit, like '{DURATION}', or a date")
     time = _epochs(value, where)
@@ -413,7 +416,7 @@ class TimeGrid:
 
     @classmethod
     def over(cls, span: Span, step: float) -> TimeGrid:
-        """Make times from the start of a span to at most its end, `step` seconds apart.
+        """Make a grid of times within a span, from its start and `step` seconds apart.
 
         The last time is the end, or the last step before it.
         """
@@ -425,7 +428,7 @@ class TimeGrid:
         return float(self.days(0, 1)[0]), float(self.days(self.size - 1)[0])
 
     def days(self, first: int = 0, last: int | None = None, every: int = 1) -> FloatArray:
-        """Days from J2000.0 TDB of every n-th time of the grid, from `first` to `last` - 1."""
+        """Times of the grid with indices range(first, last, every), days from J2000.0 TDB."""
         index = np.arange(first, self.size if last is None else last, every, dtype=np.int64)
         whole, rest = np.divmod(self.start + self.step * index, MICROSECONDS_PER_DAY)
         return np.asarray(whole + rest / MICROSECONDS_PER_DAY)
@@ -433,7 +436,7 @@ class TimeGrid:
 
 @dataclass(frozen=True, eq=False)
 class Listed:
-    """List of times in any order.
+    """Base class of lists of times in any order.
 
     Attributes
     ----------
@@ -445,7 +448,7 @@ class Listed:
 
     @classmethod
     def times(cls, value: Any, where: Where) -> FloatArray:
-        """Read a list of times in any form that the function `days` takes."""
+        """Convert a list of dates, in any form that `days` reads, to days from J2000.0 TDB."""
         listed = days(value, where)
         _check_reach(listed, value, where)
         return listed
@@ -480,7 +483,7 @@ class TimeList(Listed):
         return float(self.listed.min()), float(self.listed.max())
 
     def days(self, first: int = 0, last: int | None = None, every: int = 1) -> FloatArray:
-        """Days from J2000.0 TDB of every n-th time of the list, from `first` to `last` - 1."""
+        """Times of the list with indices range(first, last, every), days from J2000.0 TDB."""
         return self.listed[first:last:every]
 
 
@@ -491,7 +494,7 @@ class YearList(Listed):
 
     @classmethod
     def times(cls, value: Any, where: Where) -> FloatArray:
-        """Read a list of durations from J2000.0 or of dates; return seconds from J2000.0 TDB."""
+        """Convert durations from J2000.0, or dates, to seconds from J2000.0 TDB, shape (n,)."""
         return np.atleast_1d(_epochs(value, where))
 
 
@@ -512,7 +515,7 @@ YearStep = Annotated[
 
 
 def grid(span: YearSpan, step: float, where: Where) -> FloatArray:
-    """Evenly spaced times that start at the beginning of a span and end within it.
+    """Evenly spaced times within a span, from its start, in seconds from J2000.0 TDB.
 
     Raises
     ------

@@ -53,7 +53,7 @@ class EarthspinError(Exception):
         return _rebuild, (type(self), self.args, self.__dict__)
 
     def _render_traceback_(self) -> list[str]:
-        """Return the traceback down to the user's last line, and the message, for IPython."""
+        """Return the traceback without lines of this package, and the message, for IPython."""
         frames = traceback.extract_tb(self.__traceback__)[1:]  # the first is that of IPython
         inside = [frame.filename.startswith(os.path.dirname(__file__)) for frame in frames]
         end = inside.index(True) if True in inside else len(frames)
@@ -283,7 +283,7 @@ class UndefinedError(EarthspinError, ValueError):
 
 
 class ApartError(UndefinedError):
-    """Error raised if bodies cannot be computed together, but possibly one at a time.
+    """Error raised if several bodies cannot be computed at once, but perhaps one by one.
 
     Examples
     --------
@@ -397,7 +397,7 @@ class MissingExtraError(EarthspinError, ImportError):
 def _rebuild(
     kind: type[EarthspinError], args: tuple[Any, ...], facts: dict[str, Any]
 ) -> EarthspinError:
-    """Build an error again from its class, message and data, as pickle requires."""
+    """Restore an error from its class, message and data, as pickle requires."""
     error = kind.__new__(kind)
     error.args = args  # OSError takes them in __init__ alone if a class has one of its own
     error.__dict__.update(facts)
@@ -426,7 +426,7 @@ def nearest(word: object, allowed: Iterable[str]) -> str:
 
 
 def checked(function: Callable[_P, _T]) -> Callable[_P, _T]:
-    """Make a function raise an `ArgumentError` with a corrected call if its arguments are wrong."""
+    """Decorate a function: wrong arguments raise an `ArgumentError` that shows a corrected call."""
     signature, name = inspect.signature(function), function.__name__
 
     def problem(error: TypeError, args: tuple[Any, ...], keywords: Mapping[str, Any]) -> str:
@@ -460,14 +460,14 @@ def checked(function: Callable[_P, _T]) -> Callable[_P, _T]:
 
 
 def _example(function: Callable[..., Any]) -> str:
-    """Return the example of a docstring up to the call of the function, on one line."""
+    """Return the example code in a function's docstring, up to the call, on one line."""
     lines = re.findall(r">>> (.*(?:\n *\.\.\. .*)*)", function.__doc__ or "")
     end = next((n for n, line in enumerate(lines) if f"{function.__name__}(" in line), 0) + 1
     return re.sub(r"\s*\n *\.\.\. *", " ", "; ".join(n for n in lines[:end] if "import " not in n))
 
 
 def _rounded_up(value: float) -> str:
-    """Round an accuracy up to three digits, so that a request of the printed value is met."""
+    """Format an accuracy with three digits, rounded up so that the printed value is attainable."""
     digits = f"{value:.3g}"
     return digits if float(digits) >= value else f"{value * (1 + 5e-3):.3g}"
 
@@ -507,7 +507,7 @@ def no_plain_file(path: object) -> str:
 
 
 def _shown(given: object) -> str:
-    """Show any input as one short line of text; this function never raises an error.
+    """Convert any input to one short line of text for a message, without raising an error.
 
     A long list is cut before it is converted to text. An object that cannot be converted is shown
     as its type.
@@ -522,7 +522,7 @@ def _shown(given: object) -> str:
 
 
 def _brief(word: object) -> str:
-    """Show a word of the user's input in a message, shortened and without quotes."""
+    """Convert a word of the user's input to short text for a message, without quotes."""
     return _cut(printable(word)) if isinstance(word, str) else _shown(word)
 
 
@@ -531,7 +531,7 @@ def _cut(text: str) -> str:
 
 
 def _named(path: object) -> str:
-    """Show a file path in a message; only the end of a very long path is shown."""
+    """Convert a file path to text for a message; only the end of a very long path remains."""
     text = printable(str(path))
     return text if len(text) <= LONGEST_PATH else f"...{text[-LONGEST_PATH:]}"
 

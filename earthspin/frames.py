@@ -1,4 +1,4 @@
-"""Frames for astropy and Skyfield whose axes were computed by this package.
+"""Reference frames for astropy and Skyfield, with axes from results of this package.
 
 The frames rotate directions: no light time, aberration or light deflection is applied, unlike in
 astropy's GCRS and CIRS. The question of an answer is solved again at the very time of the frame,
@@ -40,13 +40,13 @@ __all__ = ["BodyFixed", "EquatorOfDate", "SkyfieldFrame", "rotations"]
 
 
 def _give(words: tuple[str, ...]) -> str:
-    """Advice for error messages: the questions whose answers are accepted."""
+    """Advice for an error message: give an answer to one of the questions `words`."""
     return f"give an answer to {' or '.join(map(repr, words))}"
 
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """Question and inputs of a result, with which it is computed again at other times.
+    """Question and inputs of a result, from which the axes are computed at other times.
 
     Attributes
     ----------
@@ -132,7 +132,7 @@ class Solved(NamedTuple):
 
 @lru_cache(maxsize=16)
 def _solved(model: Model, times: tuple[float, ...]) -> Solved:
-    """Compute the axes of a model; the arrays are shared by all callers and cannot be changed."""
+    """Compute the axes of a model at given times, days from J2000.0 TDB, as read-only arrays."""
     solvers = {"long-term": _long_term, "pole": _pole, "rotation": _rotation}
     solved = solvers[model.question.word](model, np.array(times))
     for array in (solved.matrix, solved.error):
@@ -203,10 +203,10 @@ def _at(model: Model, time: Any, where: Where) -> tuple[FloatArray, FloatArray]:
 
 
 class _DateAttribute(coord.TimeAttribute):  # type: ignore[misc]
-    """Attribute of an astropy frame that holds dates, read as in the questions."""
+    """Frame attribute (astropy) for dates, in all forms that the questions accept."""
 
     def convert_input(self, value: Any) -> tuple[Any, bool]:
-        """Convert dates to a Time, which keeps its scale if it is one already."""
+        """Convert dates to an astropy Time (TDB); leave an astropy Time unchanged."""
         if value is None or isinstance(value, Time):
             return super().convert_input(value)  # type: ignore[no-any-return]
         whole, rest = two_parts(value, Where("obstime"))
@@ -214,7 +214,7 @@ class _DateAttribute(coord.TimeAttribute):  # type: ignore[misc]
 
 
 class _ModelAttribute(coord.Attribute):  # type: ignore[misc]
-    """Attribute of an astropy frame that holds a result of this package.
+    """Frame attribute (astropy) for a result of this package, stored as a `Model`.
 
     astropy hands the attributes of one frame on to others by their names, so that each frame checks
     the question itself.
@@ -226,7 +226,7 @@ class _ModelAttribute(coord.Attribute):  # type: ignore[misc]
 
 
 class _Computed:
-    """Properties of a frame of astropy whose axes are computed by this package."""
+    """Properties of astropy frames with axes that this package computes."""
 
     obstime: Time
     model: Model | None
@@ -348,7 +348,7 @@ for _frame in (EquatorOfDate, BodyFixed):
 
 
 class SkyfieldFrame:
-    """Frame of Skyfield, for `frame_xyz` and `frame_latlon`, whose axes are those of a result.
+    """Skyfield frame, for `frame_xyz` and `frame_latlon`, with axes from a result.
 
     Vectors are rotated only: a velocity remains the velocity relative to the ICRF.
 

@@ -140,7 +140,7 @@ def _check_streams() -> None:
 
 @contextmanager
 def _endings() -> Iterator[None]:
-    """Turn signals that end the process into KeyboardInterrupt, so that files are removed first."""
+    """Turn termination signals into KeyboardInterrupt, so that temporary files are removed."""
 
     def end(number: int, frame: FrameType | None) -> None:
         signal.signal(number, signal.SIG_DFL)  # the second one ends it at once

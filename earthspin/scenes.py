@@ -1,4 +1,4 @@
-"""Read and run scenes, tables of inputs for one computation (question), also for many members."""
+"""Read and run scenes: tables of inputs for one computation (question) or for an ensemble."""
 
 from __future__ import annotations
 
@@ -155,7 +155,7 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
 
 
 def typed_scene(scene: str, changes: Mapping[str, Any]) -> Question:
-    """Read a question from a scene; in the changes, numbers must be given with units.
+    """Read a question from a scene, with changes in which numbers must have units.
 
     Parameters
     ----------
@@ -238,7 +238,7 @@ def _changed(
 
 
 def _leaves(key: str, value: Any) -> Iterator[str]:
-    """Yield the dotted names of all values in a table, or the key itself if it holds no table."""
+    """Yield dotted names of all values in a nested table, or `key` itself for any other value."""
     if not isinstance(value, Mapping):
         yield key
         return
@@ -357,7 +357,7 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
 
 
 def _attributes(scene: Any) -> Mapping[str, Any]:
-    """Attributes of a stored result, or of the file that contains it; empty for other scenes."""
+    """Attributes of a result or of a result file; empty for any other scene."""
     if isinstance(scene, (str, Path)) and Path(str(scene)).suffix in (".nc", ".zarr"):
         scene = open_file(scene)
     attributes: Mapping[str, Any] = getattr(scene, "attrs", {})
@@ -422,7 +422,7 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
 
 
 def _series(question: Question) -> Series:
-    """Describe how a time series of torques, pole or rotation is divided into blocks.
+    """Return a time series of torques, pole or rotation, divided into blocks, as a `Series`.
 
     Refuse all other questions.
     """
@@ -470,7 +470,7 @@ def ensemble(
     block: int | None = None,
     impossible: Literal["refuse", "drop"] | None = None,
 ) -> xr.Dataset:
-    """Answer one question (computation) for many members, which differ in their inputs.
+    """Answer one question (computation) for many sets of inputs, the members of an ensemble.
 
     The random numbers of a member depend only on the seed and on the number of the member, not on
     blocks or workers.
@@ -539,7 +539,7 @@ def ensemble(
 
 
 def _with_members(question: Question, members: object, settings: dict[str, Any]) -> Question:
-    """Return a question with another ensemble; an integer `members` changes only its size."""
+    """Return a question with another ensemble; an integer changes only the number of members."""
     own, where = question.members, question.where("members")
     request: Members | None = own if members is None else Members.read(members, where)
     if request is None:
@@ -596,7 +596,7 @@ def _read(scene: str | Path) -> tuple[str, str, str]:
 
 
 def toml(text: str) -> dict[str, Any]:
-    """Parse a text in TOML; refuse keys with too many parts.
+    """Parse a TOML text; refuse keys with more than `MOST_PARTS` parts between dots.
 
     Raises
     ------
@@ -637,7 +637,7 @@ _HEAD = 1 << 16
 
 
 def _check_kind(key: str, path: Path, kind: FileName, source: str) -> None:
-    """Refuse a file, named in a stored scene, whose content does not fit its key.
+    """Raise an error if a file named in a stored scene is not of the kind that its key requires.
 
     Raises
     ------

@@ -45,7 +45,7 @@ _WHERE = Where("columns", "read_solution")
 
 
 def read_solution(path: str | PathLike[str], *, columns: str | None = None) -> xr.Dataset:
-    """Read a published solution into a Dataset like that of `long_term`, to compare the two.
+    """Read a published solution into a Dataset with the names and units of `long_term`.
 
     Files of La2004, La93, La2010 (eccentricity), ZB18a, Berger & Loutre (1991, ``orbit91``) and
     AstroGeo22 are recognised by their columns, and CSV files of `long_term` by their first line.
@@ -125,7 +125,7 @@ def read_solution(path: str | PathLike[str], *, columns: str | None = None) -> x
 
 
 def _converted(columns: str, values: FloatArray) -> dict[str, FloatArray]:
-    """Columns by name, in the units of `long_term`."""
+    """Columns of a solution file by variable name, converted to the units of `long_term`."""
     data = {}
     for header, column in zip(columns.split(","), values.T, strict=False):
         name, _, unit = header.strip().removesuffix(")").partition(" (")
@@ -148,7 +148,7 @@ def _converted(columns: str, values: FloatArray) -> dict[str, FloatArray]:
 
 
 def _layout(file: Path, values: FloatArray) -> str:
-    """Columns of a file without names, by their number and the size of their values."""
+    """Names and units of unnamed columns, inferred from their number and the size of the values."""
     fitting = [c for c in LAYOUTS if c.count(",") + 1 == values.shape[1] and _fits(c, values)]
     if len(fitting) == 1:
         return fitting[0]
@@ -158,7 +158,7 @@ def _layout(file: Path, values: FloatArray) -> str:
 
 
 def _fits(columns: str, values: FloatArray) -> bool:
-    """Return True if values have the size that their units suggest, and rows are close in time."""
+    """Return True if the values are plausible for the assumed columns, and rows close in time."""
     data = _converted(columns, values)
     small = [data[name] for name in ("eccentricity", "climatic_precession") if name in data]
     close = np.abs(np.diff(data["epoch"])).max(initial=0.0) <= FARTHEST or not small

@@ -17,7 +17,7 @@ from earthspin.units import Whole
 
 
 class NearestStars(Variables, along=("nearest", "epoch")):
-    """Stars of the list that are nearest to the celestial pole at each epoch."""
+    """Variables of the result of `pole_stars`: the nearest listed stars at each epoch."""
 
     star = words("star")
     separation = measured("deg", "distance from the celestial pole")

@@ -58,11 +58,11 @@ _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s
 
 
 class Kind(Protocol[T]):
-    """Protocol of a kind of input: it reads the user's input, describes it, and writes it."""
+    """Protocol of a kind of input, which reads, describes and writes values of one type."""
 
     @property
     def words(self) -> str:
-        """Text for error messages that describes the input which is allowed."""
+        """Description of the allowed input, for error messages."""
 
     @property
     def hint(self) -> str:
@@ -143,7 +143,7 @@ class _Target:
         return UnitsError(str(self.where), value, self.unit or "a pure number", self.example)
 
     def factor(self, value: object, unit: str) -> float:
-        """Factor that converts a value from a given unit to the unit that the input must have."""
+        """Factor from a given unit to the unit of this input; refuse units of other dimensions."""
         import astropy.units as u
 
         try:
@@ -157,7 +157,7 @@ class _Target:
 
 
 def unit_factor(unit: str, target: str, where: Where, example: str) -> float:
-    """Return the factor that converts numbers from a unit to the one that the program uses.
+    """Return the factor that converts numbers from `unit` to `target`.
 
     Raises
     ------
@@ -262,7 +262,7 @@ def _length_of_time(value: dt.timedelta | np.timedelta64, target: _Target) -> fl
 
 
 def _plain(value: Any, target: _Target) -> Any:
-    """Convert numbers without units to floats; refuse values of any other type."""
+    """Convert plain numbers, or timedelta64 (to s), to floats; refuse values of any other type."""
     try:
         array = np.asarray(value)
         if array.dtype.kind == "m" and target.unit == "s" and not np.isnat(array).any():
@@ -421,7 +421,7 @@ def _with_unit(values: Any, unit: str) -> Any:
 
 
 def _in_order(value: Any, where: Where) -> Any:
-    """Sort the components x, y, z of a labelled array along its last axis; refuse other labels."""
+    """Order the components of a labelled array as x, y, z on the last axis; refuse other labels."""
     if hasattr(value, "iloc"):
         labels = getattr(value, "columns", value.index)
         if labels.dtype.kind not in "iu":

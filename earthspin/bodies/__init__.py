@@ -1,4 +1,4 @@
-"""The class `Body` and the built-in bodies, with one module of cited numbers for each group."""
+"""The class `Body`, the built-in bodies, and modules with the cited numbers of these bodies."""
 
 from earthspin.bodies.body import BODIES, NUMBERS, Body, body, label_of
 from earthspin.bodies.checks import all_of
@@ -20,10 +20,10 @@ _WITH_ARTICLE = (EARTH.name, MOON.name, SUN.name)
 
 
 def proper(name: str) -> str:
-    """Write a built-in body's name with a capital letter: ``"Earth"``; leave others unchanged."""
+    """Capitalize the name of a built-in body, as in ``"Earth"``; return other names unchanged."""
     return name.capitalize() if name in BODIES else name
 
 
 def in_a_sentence(name: str) -> str:
-    """Return a body's name with its article, if it takes one: ``"Mars"``, but ``"the Moon"``."""
+    """Return the name of a body as used in a sentence: ``"Mars"``, but ``"the Moon"``."""
     return f"the {proper(name)}" if name in _WITH_ARTICLE else proper(name)

@@ -168,7 +168,7 @@ class Body(FromMass):
     LABELLED: ClassVar[frozenset[str]]
 
     def __new__(cls, *places: object, **fields: object) -> Body:
-        """Raise an error for positional arguments and for names that are no fields of a body."""
+        """Refuse positional arguments, and keyword arguments that are not fields of a body."""
         if places:
             raise TypeError("Body() takes its arguments by name: Body(name='x', gm=1e14)")
         for key in fields.keys() - cls.KINDS.keys() - {"obliquity"}:
@@ -202,7 +202,7 @@ class Body(FromMass):
             object.__setattr__(self, "pole", self._pole_at(obliquity))
 
     def _pole_at(self, value: object) -> Pole:
-        """Return a fixed spin axis with the given obliquity and this body's equinox direction."""
+        """Fixed spin axis with a given obliquity and the equinox direction of this body."""
         angle = _READ_AS["obliquity"].read(value, Where(f"{self.name}.obliquity"))
         if hasattr(angle, "dims") or np.ndim(angle) or not 0 <= angle <= math.pi:
             raise BodyError(self.name, "obliquity", value, "give one angle from 0 to 180 deg")
@@ -220,7 +220,7 @@ class Body(FromMass):
         return {f.name: getattr(self, f.name) for f in fields(self)}
 
     def _read_units(self) -> None:
-        """Convert text, tables and Quantities to SI values; plain numbers need no conversion."""
+        """Replace fields given as text, tables or Quantities by their SI values."""
         for name in (*self.UNITS, "pole", "orbit_pole", "interior"):
             value = getattr(self, name)
             pair = isinstance(value, (tuple, list)) and str in map(type, value)
@@ -247,7 +247,7 @@ class Body(FromMass):
             object.__setattr__(self, "orbit_pole", normal)
 
     def __eq__(self, other: object) -> bool:
-        """Test whether all fields are identical, including the labels of arrays."""
+        """Return True if all fields of two bodies are identical, including the labels of arrays."""
         if not isinstance(other, Body):
             return NotImplemented
         return all(is_same(getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
@@ -264,14 +264,14 @@ class Body(FromMass):
         return card(self.name, rows)
 
     def _source(self, name: str) -> str:
-        """Literature source of the value of a field; empty if a user changed the built-in value."""
+        """Literature source of the value of a field; empty if no source is known."""
         value, cited = getattr(self, name), NUMBERS.get(self.known_as, {}).get(name)
         if isinstance(value, c.Constant):
             return value.source
         return cited.source if cited is not None and is_same(cited.value, value) else ""
 
     def _in_words(self) -> list[tuple[str, str]]:
-        """Return the name, and the value with its unit as text, of every field that is set."""
+        """Return pairs of field name and value with unit, as text, for the fields that are set."""
         rows = []
         for name in self.KINDS:
             value, unit = getattr(self, name), self.UNITS.get(name, "")
@@ -379,7 +379,7 @@ class Body(FromMass):
 
     @property
     def changes(self) -> str:
-        """Describe the differences from the built-in body with its codes; empty if none."""
+        """Describe changes from the built-in body with the same NAIF code or name, if any."""
         start = BODIES.get(self.known_as)
         if start is None or start is self:
             return ""
@@ -406,7 +406,7 @@ class Body(FromMass):
         return self.gm / c.G.value
 
     def gm_on(self, other: Body) -> Numeric:
-        """Gravitational parameter that pulls on another body, m3 s-2.
+        """GM of this body and its satellites, as it acts on another body, m3 s-2.
 
         It includes the satellites of this body, except the other body itself.
         """
@@ -440,14 +440,14 @@ class Body(FromMass):
         return scale * moments_of(self.number("j2"), h, self.number("triaxiality"))
 
     def relative_uncertainty_of_bulge(self) -> float:
-        """Relative standard deviation of C - A = J2 M a2, dominated by that of G."""
+        """Relative standard deviation of C - A = J2 M a2, mainly due to that of G."""
         u = self.relative_uncertainty
         return math.hypot(
             u.get("j2", 0.0), u.get("gm", 0.0), 2 * u.get("radius", 0.0), c.G.relative_uncertainty
         )
 
     def needed(self, name: str) -> Numeric:
-        """Return the value of a field by its name; raise an error if the field is not set.
+        """Return the value of a field by field name; raise an error if the field is not set.
 
         Raises
         ------
@@ -458,7 +458,7 @@ class Body(FromMass):
         return getattr(self, name)
 
     def require(self, names: Iterable[str]) -> None:
-        """Raise one error that lists all given field names without a value, with example values.
+        """Raise an error if any of the given fields is not set; the message shows example values.
 
         Parameters
         ----------
@@ -488,13 +488,13 @@ class Body(FromMass):
         return float(value)
 
     def magnitudes(self) -> dict[str, Magnitude]:
-        """Converters between text and SI values for the mass and each numerical field set."""
+        """Converters between text and SI values, by field, for the mass and all numbers set."""
         numbers = {n: self.KINDS[n] for n in self.UNITS if getattr(self, n) is not None}
         return numbers | {"mass": _READ_AS["mass"]}
 
     @property
     def labelled(self) -> bool:
-        """True if some field is an array with named dimensions: the body is an ensemble."""
+        """True if some field is an array with named dimensions (one body stands for many)."""
         return self.labelled_field is not None
 
     @property
@@ -503,7 +503,7 @@ class Body(FromMass):
         return next((name for name in self.UNITS if hasattr(getattr(self, name), "dims")), None)
 
     def replace(self, **changes: Any) -> Body:
-        """Return a copy of the body with some fields changed, and dependent fields updated.
+        """Return a copy of the body with changed fields; fields that depend on them are updated.
 
         Parameters
         ----------
@@ -558,7 +558,7 @@ class Body(FromMass):
         return _replace(changed, observed_wobble=None)
 
     def _tilted(self, obliquity: object) -> Body:
-        """Return a copy of the body with another obliquity; its orbit normal stays the same."""
+        """Return a copy of the body with another obliquity and the same orbit normal."""
         if self.pole is None:
             return _replace(self, obliquity=obliquity)
         fixed = self
@@ -572,7 +572,7 @@ class Body(FromMass):
         return _replace(fixed, pole=fixed._pole_at(obliquity), pole_uncertainty=None)
 
     def _figure(self, changes: dict[str, Any]) -> dict[str, Numeric]:
-        """Return J2, H and triaxiality that follow from changed moments of inertia or a changed J2.
+        """Return J2, H and triaxiality from new moments of inertia, or only H from a new J2.
 
         Remove `moments` from the changes.
         """
@@ -594,7 +594,7 @@ class Body(FromMass):
         return {"dynamical_flattening": self.needed("dynamical_flattening") * j2 / self.j2}
 
     def _is_another(self, changes: Mapping[str, Any]) -> bool:
-        """Return True if the changes are so large that the observed wobble no longer applies.
+        """Return True if the changes are too large for the observed wobble to apply to the body.
 
         This is so if a field that affects the wobble differs by more than 1 % from this body.
         """
@@ -676,7 +676,7 @@ def body(name: object, where: Where | None = None) -> Body:
 
 
 def _placed(function: Any, where: Where) -> Body:
-    """Return the built-in body whose positions a Skyfield vector function gives.
+    """Return the built-in body whose position a Skyfield function gives, with this function set.
 
     The function becomes the position source of the body.
     """
@@ -688,12 +688,12 @@ def _placed(function: Any, where: Where) -> Body:
 
 
 def label_of(name: str, bodies: Iterable[Body]) -> str | None:
-    """Return the name of the first of some bodies that is known as a built-in body, or None."""
+    """Return the label of the first body that is known as the built-in body `name`, or None."""
     return next((world.name for world in bodies if world.known_as == name), None)
 
 
 def members(bodies: Iterable[Body]) -> int:
-    """Number of ensemble members: product of the lengths of all array dimensions of the bodies.
+    """Number of ensemble members: product of the lengths of all named dimensions of body fields.
 
     Parameters
     ----------

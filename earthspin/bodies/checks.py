@@ -1,4 +1,4 @@
-"""Checks of the numbers of a body: valid, consistent, and within the limits of the questions."""
+"""Check that the properties of a body are valid, consistent and physically possible."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def is_finite(value: Numeric) -> Numeric:
 
 
 def are_close(value: Numeric | None, other: Numeric | None) -> Numeric:
-    """Test element-wise whether two values agree to within the relative tolerance `SAME_BODY`."""
+    """Test element-wise if two values agree within `SAME_BODY` (relative), or if both are None."""
     if value is None or other is None:
         return value is other
     return abs(value - other) <= SAME_BODY * abs(other)
@@ -84,7 +84,7 @@ _HOLDS: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
 
 
 def check_kinds(body: Fields, numbers: Iterable[str]) -> None:
-    """Raise an error if a field has a wrong type: number, name, integer code or array labels.
+    """Raise an error if a field of a body has a wrong type, is not finite, or its labels disagree.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ def check_kinds(body: Fields, numbers: Iterable[str]) -> None:
 
 
 def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
-    """Raise an error if a number is out of range, or J2, H and the moments are inconsistent.
+    """Raise an error if a number is out of range, or J2, H and triaxiality contradict each other.
 
     Parameters
     ----------
@@ -154,7 +154,7 @@ def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
 
 
 def _check_density(name: str, gm: Numeric, radius: Numeric) -> None:
-    """Refuse a density that no body has, and that is usual once km are read instead of m."""
+    """Refuse an impossible mean density that is plausible if radius or GM was meant in km units."""
     density = gm / (4 / 3 * math.pi * G.value) / radius / radius / radius
     not_dense = (density <= NO_STAR[0]) | (density >= NO_STAR[1]) | (gm >= LARGEST_STAR)
     not_thin = (density >= 1) | (gm >= LEAST_STAR)
@@ -169,7 +169,7 @@ def _check_density(name: str, gm: Numeric, radius: Numeric) -> None:
 
 
 def _check_polar_moment(name: str, j2: Numeric, h: Numeric, triaxiality: Numeric) -> None:
-    """Check that C/(M a2) = J2/H is in 0 to 1, and that no difference of moments exceeds C.
+    """Check that J2 and H give C/(M a2) between 0 and 1, and that B - A does not exceed C.
 
     With H = 0 the polar moment does not follow from J2 and is not checked.
     """
@@ -186,7 +186,7 @@ def _check_polar_moment(name: str, j2: Numeric, h: Numeric, triaxiality: Numeric
 
 
 def _check_words(body: Fields) -> None:
-    """Raise an error if a name is not text, a code no integer, or an uncertainty no number."""
+    """Raise an error if name, codes, interior or uncertainties of a body have a wrong type."""
     name = body["name"]
     for field in ("name", "reference"):
         if not isinstance(body[field], str):
@@ -229,7 +229,7 @@ def _check_labels(name: str, numbers: Fields) -> None:
 
 
 def as_direction(name: str, field: str, value: Any, read: Callable[[Any], Any]) -> Any:
-    """Convert a spin axis or orbit normal from a name, two angles or a direction.
+    """Convert a spin axis or orbit normal (name, angles or direction) with the function `read`.
 
     Parameters
     ----------
@@ -274,7 +274,7 @@ def largest(value: Numeric) -> float:
 
 
 def extent(body: Any) -> float:
-    """Radius inside which a body cannot be treated as a Newtonian point mass, m.
+    """Radius of a body, or its Schwarzschild radius if that is larger, m.
 
     Parameters
     ----------
@@ -286,7 +286,7 @@ def extent(body: Any) -> float:
 
 
 def overlap(distance: float, reach: float, name: str, centre: str) -> str | None:
-    """Return an error message if two bodies overlap at a given distance, otherwise None.
+    """Return an error message (text) if two bodies overlap at a given distance, else None.
 
     Parameters
     ----------
@@ -332,7 +332,7 @@ def refuse_break_up(body: Any) -> None:
 
 
 def refuse_fast_axis(by_orbit: Numeric, by_spin: Numeric) -> None:
-    """Raise an error if an axis precesses too fast for averages over orbits and rotations.
+    """Raise an error if a spin axis precesses too fast for averaging over orbits and rotations.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Numbers of Earth, Moon and Sun with sources and uncertainties, and these built-in bodies."""
+"""Earth, Moon and Sun as built-in bodies, from numbers with sources and uncertainties."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ _POLE_TERMS = {
 
 
 def _pole_terms(sizes: dict[int, float]) -> list[tuple[float, float, float]]:
-    """Amplitude (deg), phase (deg), rate (deg/century) of periodic terms of the Moon's pole."""
+    """Periodic terms of the Moon's pole: (amplitude in deg, phase in deg, rate in deg/century)."""
     return [(s, _POLE_TERMS[n][0], _POLE_TERMS[n][1] * DAYS_PER_CENTURY) for n, s in sizes.items()]
 
 

@@ -1,4 +1,4 @@
-"""Numbers of Jupiter, Saturn, Uranus and Neptune with sources, and these built-in bodies.
+"""Jupiter, Saturn, Uranus and Neptune as built-in bodies, from numbers with sources.
 
 Numbers are those of the planets alone; their large satellites, which contribute more to the
 precession than the planet's own bulge, are a field of the bodies. The polar moments of Uranus and
@@ -55,7 +55,7 @@ def _moon(
     inclination: tuple[str, str] | None = None,
     u: float = 0.0,
 ) -> dict[str, Constant]:
-    """Numbers of a satellite from GM (km3 s-2), a (km) and i (deg), with sources of a and i."""
+    """Return a satellite's GM, a and i as constants with source; arguments in km3 s-2, km, deg."""
     return {
         "gm": Constant(gm * 1e9, "m3 s-2", u * 1e9 or None, _GM, _GM_READ),
         "a": Constant(a * 1e3, "m", None, *elements),
@@ -94,7 +94,7 @@ SATELLITES = {
 
 
 def _satellites(planet: str) -> tuple[Satellite, ...]:
-    """Return the satellites of a planet as the field of a body."""
+    """Return the satellites of a planet as `Satellite` objects, for the field `satellites`."""
     return tuple(
         Satellite(
             name=name,
@@ -175,7 +175,7 @@ ORBITS = {
 
 
 def _normal(planet: str) -> Direction:
-    """Return the direction normal to a planet's mean orbit."""
+    """Return the unit normal of the mean orbit of a planet."""
     return Direction.across(ORBITS[planet].i, ORBITS[planet].node)
 
 

@@ -1,4 +1,4 @@
-"""Numbers of Mercury, Venus and Mars with sources, and these built-in bodies."""
+"""Mercury, Venus and Mars as built-in bodies, from numbers with sources."""
 
 from __future__ import annotations
 

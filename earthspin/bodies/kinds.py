@@ -1,4 +1,4 @@
-"""Classes that convert each field of a body from text, tables and Quantities, and back exactly."""
+"""Converters between the fields of a body and their forms in scene files (text, tables)."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from earthspin.units import Plain, Text, is_whole, pack, quantity, real_numbers,
 
 @dataclass(frozen=True)
 class Magnitude:
-    """Converter of a field that is a number with a unit, or an array of such numbers.
+    """Converter of a field that is a number with a unit, or an array with named dimensions.
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ class Magnitude:
 
     @property
     def form(self) -> str:
-        """Example of how to write the value in a scene file, as text with a unit or as a ratio."""
+        """Pattern for writing the value in a scene file: text with a unit, or a quotient."""
         return f'"... {self.text.partition(" ")[2]}"' if self.unit else self.ratio
 
     def read(self, value: object, where: Where) -> Any:
@@ -139,14 +139,14 @@ class CitedPeriod:
 
 
 def kinds_of(record: type) -> dict[str, Any]:
-    """Return the converters in the annotations of a class, by field."""
+    """Return the converter of each field of a class, by field name, from the type annotations."""
     hints = get_type_hints(record, include_extras=True)
     annotated = {name: hint for name, hint in hints.items() if hasattr(hint, "__metadata__")}
     return {name: hint.__metadata__[0] for name, hint in annotated.items()}
 
 
 class OwnPlace:
-    """Converter of the source of a body's position: a Skyfield function or kernel segments."""
+    """Converter of the field `position`: a Skyfield function, a trajectory or kernel segments."""
 
     words = "a vector function of Skyfield's, or segments like {kernel, centre, target}"
     hint = "VectorFunction | Trajectory | Mapping[str, Any]"
@@ -253,7 +253,7 @@ class Layers:
 
 
 def _layer(table: Any, where: Where) -> Layer:
-    """Make one layer of a body from a table; a single number means a value constant with radius."""
+    """Make one layer of a body from a table; a single number is constant within the layer."""
     if not isinstance(table, Mapping) or not {"top", "density", "vp"} <= set(table):
         raise where.error(table, "give top, density, vp, and vs and shear_q if it is solid")
     if unknown := set(table) - {"top", "density", "vp", "vs", "shear_q"}:
@@ -276,7 +276,7 @@ def _layer(table: Any, where: Where) -> Layer:
 
 
 def _sampled(table: Any, name: str, reference: str, where: Where) -> LayeredBody:
-    """Read a layered body from samples along its radius: a table with the columns `COLUMNS`."""
+    """Make a layered body from a table of samples along the radius, with the columns `COLUMNS`."""
     try:
         columns = {
             column: real_numbers(table[column]).tolist()
@@ -292,7 +292,7 @@ def _sampled(table: Any, name: str, reference: str, where: Where) -> LayeredBody
 
 
 class UnderTheSurface:
-    """Converter of the interior of a body: either a name or a `LayeredBody`."""
+    """Converter of the field `interior` of a body: a name or a `LayeredBody`."""
 
     words = (
         'a name, like "prem", or a table: name, and either layers (top, density, vp, vs, '

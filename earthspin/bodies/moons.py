@@ -1,4 +1,4 @@
-"""Moons of other planets whose spin is locked to their orbit: Phobos, Titan, Iapetus, Triton.
+"""Built-in moons in synchronous rotation, except the Moon: Phobos, Titan, Iapetus, Triton.
 
 They occupy Cassini states. J2 and the moments of Iapetus and Triton have not been measured; a
 question that needs these numbers requests them from the user.
@@ -46,7 +46,7 @@ TITAN_OBLIQUITY_IF_SOLID = Constant(0.113, "deg", None, _BALAND, c.UNVERIFIED)
 
 
 def _days(days: float, source: str, read_in: str) -> Constant:
-    """Return a sidereal period, given in days, as a `Constant` in seconds with its source."""
+    """Convert a sidereal period from days to a `Constant` in seconds, with source."""
     return Constant(days * DAY, "s", None, source, read_in)
 
 

@@ -27,7 +27,7 @@ class Epoch:
     words, hint = 'a date, like "2000-01-01T12:00"', "Date | float"
 
     def read(self, value: object, where: Where) -> float:
-        """Read a date, or a number of days from J2000.0 TDB."""
+        """Convert a date, or a number of days from J2000.0 TDB, to days from J2000.0 TDB."""
         if isinstance(value, (int, float)) and not isinstance(value, bool):
             if not abs(value) <= _LARGEST:
                 raise where.error(value, f"give a date, or at most {_LARGEST:g} days from J2000.0")
@@ -194,7 +194,7 @@ def _checked(elements: Mapping[str, Any], where: Where) -> dict[str, Any]:
 
 @dataclass(frozen=True, kw_only=True)
 class Satellite:
-    """A satellite that precesses together with the equator of its planet.
+    """Satellite of a planet, with a mean orbital plane that precesses with the planet's equator.
 
     Numbers carry their units as text or Quantities; plain ones are SI and radians.
 
@@ -295,13 +295,13 @@ _APART = 1e-3
 
 
 class SatelliteList:
-    """Converter of the satellites of a body: a list of tables, each with one satellite."""
+    """Converter of the field `satellites` of a body: a list with one table for each satellite."""
 
     words = f"a list of satellites, each {Satellite.words}"
     hint = "Sequence[Satellite | Mapping[str, Any]]"
 
     def read(self, value: object, where: Where) -> tuple[Satellite, ...]:
-        """Read a list of satellites; refuse two of one name."""
+        """Read a list of satellites; refuse equal names, and orbits of almost equal size."""
         if not isinstance(value, (list, tuple)):
             raise where.error(value, f"give {self.words}")
         satellites = tuple(Satellite.read(entry, where) for entry in value)

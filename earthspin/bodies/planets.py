@@ -1,4 +1,4 @@
-"""The built-in bodies together: default perturbers, mean orbits, neglected effects and lists."""
+"""Default perturbers, mean orbits, neglected effects and text lists of the built-in bodies."""
 
 from __future__ import annotations
 
@@ -43,12 +43,12 @@ _OTHERS = (
 
 
 def pulled_by(body: Body) -> tuple[Body, ...]:
-    """Default perturbers of a body: the Sun and the Moon, or the Sun and the body's planet."""
+    """Default perturbers: Sun and Moon (Earth), Sun (other planets), planet and Sun (moons)."""
     return tuple(BODIES[name] for name in _OTHERS.get(body.known_as, _SUN_AND_MOON))
 
 
 def on_its_orbit(body: Body) -> Body:
-    """Set the mean orbit of a giant planet that has neither an orbit nor a position source."""
+    """Set the mean orbit of a giant planet without orbit and position; return others unchanged."""
     placed = body.orbit is not None or body.position is not None
     if placed or body.known_as not in ORBITS:
         return body
@@ -152,7 +152,7 @@ DAYS = (1.0, 10.0, 30.0, 100.0, 365.0, 1000.0, 3650.0, 14000.0)
 
 @dataclass(frozen=True)
 class BeyondRigid:
-    """Sizes of the effects on the attitude of a body that the rigid-body model neglects.
+    """Sizes of effects on a body's attitude that the rigid-body model neglects.
 
     Attributes
     ----------
@@ -214,7 +214,7 @@ _ASKED = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
 
 
 def all_in_words() -> str:
-    """Table of all built-in bodies as text: what each can do, and which numbers it lacks."""
+    """List all built-in bodies as text: perturber, spinning body or both, and unknown numbers."""
     width = max(map(len, BODIES))
     lines = []
     for name, world in BODIES.items():

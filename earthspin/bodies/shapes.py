@@ -1,4 +1,4 @@
-"""Figure of a body from moments of inertia, point masses, a density on a grid, a mesh or layers."""
+"""Figure (J2, H, ...) of a body from moments, point masses, a density grid, a mesh or layers."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def moments_of(j2: float, h: float, triaxiality: float) -> FloatArray:
 def figure_of(
     name: str, moments: tuple[Numeric, Numeric, Numeric], scale: Numeric
 ) -> dict[str, Numeric]:
-    """J2, H and triaxiality from three moments of inertia, as a dict with these field names.
+    """J2, H and triaxiality from three principal moments of inertia, as a dict by field of `Body`.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def figure_of(
 
 
 def _numbers_of(shape: Shape) -> dict[str, Any]:
-    """Mass, radius and figure of a shape, by field of `Body`."""
+    """GM, radius, J2 to J4, H and triaxiality of a `Shape`, as a dict by field of `Body`."""
     return {
         "gm": G.value * shape.mass,
         "radius": shape.radius,
@@ -167,10 +167,10 @@ class FromMass:
     """
 
     def __init__(self, **fields: Any) -> None:
-        """Accept the fields of a body as keyword arguments; `Body` implements this."""
+        """Make a body from its fields as keyword arguments; the class `Body` implements this."""
 
     def replace(self, **changes: Any) -> Self:
-        """Return a copy with some fields changed; `Body` implements this."""
+        """Return a copy of the body with some fields changed; the class `Body` implements this."""
         raise NotImplementedError
 
     @classmethod
@@ -233,7 +233,7 @@ class FromMass:
         radius: Any = None,
         **fields: Any,
     ) -> Self:
-        """Make a body from a density that is constant in each cell of a grid; exact for such cells.
+        """Make a body from a density on a grid, constant in each cell; the moments are then exact.
 
         Parameters
         ----------
@@ -326,7 +326,7 @@ class FromMass:
     def from_layers(
         cls, layers: Any, *, spin_period: Any, name: str = "layers", **fields: Any
     ) -> Self:
-        """Make a body from layers in hydrostatic equilibrium, to first order in its flattening.
+        """Make a body in hydrostatic equilibrium from layers, to first order in the flattening.
 
         The layers are also stored as the body's `interior`.
 

@@ -1,4 +1,4 @@
-"""Questions, parts, runs, ensembles and files.
+"""Machinery of all computations: questions, their functions, runs, ensembles and result files.
 
 Functions of the packages above the engine that answers call are registered here by their names, by
 ``earthspin/__init__.py``. A module is imported when its function is first called.
@@ -16,5 +16,5 @@ METHODS: dict[str, str] = {}
 
 
 def registered(name: str) -> Any:
-    """Return the function, or the function behind the method, that is registered by a name."""
+    """Import and return the function with a name in `FUNCTIONS` or `METHODS`."""
     return getattr(import_module((FUNCTIONS | METHODS)[name]), name)

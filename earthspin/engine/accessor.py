@@ -1,4 +1,4 @@
-"""Accessor `ds.earthspin` of result Datasets; it is registered when the first result is made.
+"""Accessor `ds.earthspin` of result Datasets, available once a first result exists.
 
 ``import earthspin.engine.accessor`` registers it without an answer.
 """
@@ -67,13 +67,13 @@ class Answer:
         self._sections = answer.children if isinstance(answer, xr.DataTree) else {}
 
     def __getattr__(self, name: str) -> Any:
-        """Return a registered method by its name."""
+        """Return a method that another module defines; the module is imported on first use."""
         if name not in METHODS:
             raise AttributeError(f"'{type(self).__name__}' object has no attribute '{name}'")
         return MethodType(registered(name), self)
 
     def __dir__(self) -> list[str]:
-        """List the attributes, with the registered methods."""
+        """List the names of all attributes, including the methods that other modules define."""
         return [*super().__dir__(), *METHODS]
 
     @property
@@ -88,7 +88,7 @@ class Answer:
         return registered("plan")(self.scene)
 
     def section(self, name: str) -> xr.Dataset:
-        """Return a section of a tree that `run_tree` returned, as a Dataset.
+        """Return one section of a DataTree made by `run_tree`, as a Dataset.
 
         A node of a tree inherits the coordinates of the root, by which a table of it would repeat
         each row. The Dataset has only those along its own dimensions.
@@ -255,7 +255,7 @@ class Answer:
         return coordinates
 
     def quantiles(self, shares: Sequence[float] = (0.025, 0.5, 0.975)) -> xr.Dataset:
-        """Return quantiles over the ensemble members of every result that depends on them.
+        """Return quantiles of each number that depends on the ensemble member, over all members.
 
         Parameters
         ----------
@@ -355,13 +355,13 @@ class Answer:
 
 
 def _without_inherited(node: xr.DataTree) -> xr.Dataset:
-    """Return the Dataset of a node without the coordinates along dimensions that it lacks."""
+    """Return the Dataset of a tree node, without dimensions inherited from the root of the tree."""
     data = node.to_dataset()
     return data.drop_dims(data.sizes.keys() - node.to_dataset(inherit=False).sizes.keys())
 
 
 def _spread(dataset: xr.Dataset) -> xr.Dataset:
-    """Give all variables of a Dataset the same dimensions, which the columns of a table need.
+    """Split variables of a Dataset until all have the same dimensions, as table columns need.
 
     A variable with further dimensions becomes one variable for each of their labels.
     """
@@ -412,7 +412,7 @@ def members_needed(answer: xr.Dataset) -> int:
 
 
 def _members(answer: xr.Dataset, what: str) -> dict[str, xr.DataArray]:
-    """Select the numerical variables that differ between members, with `member` first."""
+    """Numerical variables of an ensemble that depend on `member`, their first dimension."""
     if not is_ensemble(answer):
         problem = "it is not an ensemble; earthspin.ensemble makes one"
         raise SceneError(what, answer.attrs.get("title", "a Dataset"), problem)

@@ -1,4 +1,4 @@
-"""Answer a question, once or for each ensemble member, by its public function or as a tree."""
+"""Answer a question as a Dataset or DataTree, and make the public function of a question."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
 
 
 def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
-    """Add to a result the errors that follow from a random sample of its inputs.
+    """Add errors to a result that are estimated from a random sample of the question's inputs.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
 
 
 def _linear_error(answer: xr.Dataset, name: str) -> xr.DataArray | None:
-    """Linear error of a number: from its inputs, its own, or one shared with other numbers."""
+    """Error of a variable: due to inputs if known, else total or shared; None if there is none."""
     shared = str(answer[name].attrs.get("ancillary_variables", "")).split()
     names = (f"{name}_error_input", f"{name}_error", *shared)
     return next((answer[error] for error in names if error in answer), None)
@@ -161,7 +161,7 @@ ENDS = {
 
 
 def public_call(question: type[Question], **parts: Any) -> Callable[..., xr.Dataset]:
-    """Make the public Python function that answers a question of the given class by its parts.
+    """Make the public function for a question class, from the functions that compute the answer.
 
     Parameters
     ----------
@@ -215,7 +215,7 @@ def signature_of(question: type[Question]) -> inspect.Signature:
 
 
 def _as_written(value: Any) -> Any:
-    """Convert a default value to the form that a user would type, with bodies by name."""
+    """Convert a default value to the form that a user would type: bodies are replaced by names."""
     if isinstance(value, tuple):
         return tuple(_as_written(item) for item in value)
     return getattr(value, "name", value)

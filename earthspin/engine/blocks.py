@@ -1,4 +1,4 @@
-"""Long series and ensembles, computed in blocks: in this process or on several workers.
+"""Compute long time series and ensembles block by block, in this process or on several workers.
 
 A `Work` holds the request, the division of the result into blocks, and a method that makes a block.
 Blocks are independent. Without a client, they are made one after the other; with a client of
@@ -73,7 +73,7 @@ class Layout:
         return -(-self.size // self.block)
 
     def bounds(self, number: int) -> tuple[int, int]:
-        """Index at which a block begins, and index after its end, along the divided dimension."""
+        """Index of the first element of a block, and index after its last element."""
         return number * self.block, min((number + 1) * self.block, self.size)
 
     def length(self, number: int) -> int:
@@ -83,7 +83,7 @@ class Layout:
 
 
 def missing_blocks(folder: Path, layout: Layout) -> list[int]:
-    """Return the numbers of the blocks that are not done, and remove their damaged chunks.
+    """Return the numbers of missing or damaged blocks of a store, and remove damaged chunks.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def missing_blocks(folder: Path, layout: Layout) -> list[int]:
 
 
 def finish(folder: Path, layout: Layout, target: Path) -> None:
-    """Verify a complete store, and move it to its target.
+    """Check that a Zarr store has all its blocks undamaged, and move the store to its target path.
 
     Raises
     ------
@@ -151,7 +151,7 @@ def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) ->
 
 @contextmanager
 def claimed(target: Path) -> Iterator[Path]:
-    """Lock and yield the folder of an unfinished store; remove it at the end if none was begun.
+    """Lock and yield the folder for an unfinished store; finally remove a folder without a store.
 
     Parameters
     ----------
@@ -173,12 +173,12 @@ def claimed(target: Path) -> Iterator[Path]:
 
 
 def _is_begun(folder: Path) -> bool:
-    """Return True if a folder holds more than the lock and the draft of a store."""
+    """Return True if a folder holds files other than the lock file and the draft of a store."""
     return folder.exists() and not {path.name for path in folder.iterdir()} <= {drafts.LOCK, _DRAFT}
 
 
 def refuse_another(folder: Path, request: Mapping[str, str]) -> None:
-    """Raise an error if a store was begun for another question, version or layout.
+    """Raise an error if an unfinished store belongs to another question, version or layout.
 
     Raises
     ------
@@ -236,7 +236,7 @@ def begin(folder: Path, request: Mapping[str, str], layout: Layout, first: xr.Da
 
 
 def digest(request: Mapping[str, str]) -> str:
-    """SHA-256 of the texts that identify a run; a complete store holds it as an attribute."""
+    """SHA-256 of the texts that identify a run; a complete store has this hash as an attribute."""
     return hashlib.sha256(json.dumps(dict(request), sort_keys=True).encode()).hexdigest()
 
 
@@ -255,7 +255,7 @@ class Work(Protocol):
 
     @property
     def what(self) -> str:
-        """Name of what is computed, for the progress bar."""
+        """Name of the computation, for the progress bar."""
 
     @property
     def layout(self) -> Layout:
@@ -263,10 +263,10 @@ class Work(Protocol):
 
     @property
     def request(self) -> Mapping[str, str]:
-        """Texts that determine the result: the question and the software versions, by name."""
+        """Texts that identify the result, by name: question, versions and file checksums."""
 
     def make(self, number: int) -> xr.Dataset:
-        """Compute one block of the result, given the number of the block.
+        """Compute and return one block of the result, by block number.
 
         The dimension of the layout is the first dimension of every variable that has it. Block 0
         has the attributes of the whole result.
@@ -350,7 +350,7 @@ def hold(work: Work, *, client: object = None) -> xr.Dataset:
 
 
 def _complete(work: Work, folder: Path, target: Path, client: object) -> None:
-    """Compute the missing blocks of an unfinished store; then finish the store."""
+    """Compute the missing blocks of an unfinished store; then move the store to its target path."""
     layout, done = work.layout, 0
     try:
         missing = missing_blocks(folder, layout)
@@ -371,7 +371,7 @@ def _complete(work: Work, folder: Path, target: Path, client: object) -> None:
 def _blocks(
     work: Work, numbers: list[int], client: object, folder: Path | None = None
 ) -> Iterator[tuple[int, Any]]:
-    """Compute blocks; yield each number with its data, or None if there is a folder for them."""
+    """Compute blocks; yield pairs of block number and data (None for data written to a folder)."""
     if client is None:
         yield from (_make_block(work, number, folder) for number in numbers)
     elif numbers:
@@ -380,7 +380,7 @@ def _blocks(
 
 
 def _make_block(work: Work, number: int, folder: Path | None) -> tuple[int, Any]:
-    """Compute one block of the result, and write it if a folder is given."""
+    """Compute a block; return its number and data (data are None if written to a folder)."""
     block = work.make(number)
     if folder is None:
         return number, block
@@ -439,7 +439,7 @@ def _cluster(client: object) -> Iterator[Client]:
 
 
 def _checked(client: object) -> object:
-    """Return a client, or a number of workers as an int, before anything is computed.
+    """Check and return a Dask client, a scheduler address or a number of workers.
 
     Raises
     ------
@@ -456,7 +456,7 @@ def _checked(client: object) -> object:
 
 
 def _digest_of_store(target: Path) -> str | None:
-    """Hash that identifies the computation in a complete store; None without a store."""
+    """Hash of the computation that a complete store holds; None if there is no store."""
     if not target.exists():
         return None
     try:
@@ -470,7 +470,7 @@ def _digest_of_store(target: Path) -> str | None:
 
 @dataclass(frozen=True)
 class Series:
-    """A question with so many times that its answer is computed in blocks.
+    """Question about a long time series, whose answer is computed in blocks of consecutive times.
 
     Attributes
     ----------
@@ -496,7 +496,7 @@ class Series:
 
     @cached_property
     def _run(self) -> Run:
-        """Run that keeps the results which all blocks share."""
+        """Run of the question for the first block; other blocks reuse its unchanged results."""
         return Run(self.question, block=Block(*self.layout.bounds(0)))
 
     def __getstate__(self) -> dict[str, Any]:
@@ -509,12 +509,12 @@ class Series:
         return request_of(self.question, self._run.provenance(ends, but=[BLOCK]))
 
     def make(self, number: int) -> xr.Dataset:
-        """Compute one block of consecutive times, by its number."""
+        """Compute and return one block of consecutive times, by block number."""
         return self._run.again(block=Block(*self.layout.bounds(number))).answer()
 
 
 def request_of(question: Question, provenance: Mapping[str, str]) -> dict[str, str]:
-    """Texts that identify a run: the question and versions; an unfinished store must match.
+    """Texts that identify a run: question, versions, file checksums; a resumed store must match.
 
     Parameters
     ----------

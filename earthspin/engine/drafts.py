@@ -1,4 +1,4 @@
-"""Atomic writes: a result is written to a draft, which then replaces the target.
+"""Atomic writes: a result is written to a draft (temporary path), which replaces the target.
 
 The draft is in a hidden folder next to the target, ``.<name>.draft``, together with a lock. A
 second writer of the same target is refused while the first one runs. The system releases the lock
@@ -74,7 +74,7 @@ def _exists(path: Path) -> bool:
 
 
 def refuse_what_does_not_fit(path: Path, size: float, what: str) -> None:
-    """Raise an error if a result is too large for the free space on the disk.
+    """Raise an error if a result is larger than the free space on the disk.
 
     Parameters
     ----------
@@ -169,7 +169,7 @@ def output_errors(path: str | Path, remedy: str = "") -> Iterator[None]:
 
 @contextmanager
 def claimed(box: Path, target: Path) -> Iterator[None]:
-    """Create the folder of a draft and lock it; a context manager.
+    """Create and lock the folder in which a result is drafted; a context manager.
 
     On a file system without locks, two writers are not detected. Folders that are created for it
     are removed at the end if they are empty.
@@ -204,7 +204,7 @@ def claimed(box: Path, target: Path) -> Iterator[None]:
 
 
 def put_in_place(draft: Path, target: Path, box: Path) -> None:
-    """Move a complete draft to its target; if this fails, the old target stays.
+    """Move a complete draft to the target path; if this fails, the old target is restored.
 
     Parameters
     ----------
@@ -236,7 +236,7 @@ def remove(path: Path) -> None:
 
 
 def identity(path: Path) -> tuple[int, int, int] | None:
-    """Device, inode and modification time, which identify a file; None if it does not exist."""
+    """Device, inode and modification time (ns), which identify a file; None if there is no file."""
     try:
         status = path.stat()
     except OSError:
@@ -245,7 +245,7 @@ def identity(path: Path) -> tuple[int, int, int] | None:
 
 
 def check_identity(path: Path, opened: tuple[int, int, int] | None) -> None:
-    """Raise an error if a file or folder was replaced since it was opened.
+    """Raise an error if a file or folder was replaced after it was opened.
 
     Raises
     ------

@@ -51,7 +51,7 @@ _WHOLE, _SOURCES = "/", "/sources"
 
 
 class Ensemble:
-    """A question with many ensemble members, whose answers are computed in blocks.
+    """Question with many sets of inputs (members), whose answers are computed block by block.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ class Ensemble:
     # --- size and run time -----------------------------------------------------------------------
 
     def _refuse_what_does_not_fit(self, members: Members) -> None:
-        """Raise an error if the answers are too large or take too long, judged from one of them."""
+        """Raise an error if all answers need too much memory or time, judging from the first."""
         first = replace(members, only=tuple(self.which[:ROW].tolist()))
         try:
             few = Ensemble(self.full_question.replace(members=first), block=1)
@@ -136,7 +136,7 @@ class Ensemble:
             raise self.question.error("members", self.which.size, problem)
 
     def _refuse_size(self, member: int) -> None:
-        """Raise an error if the answers, each of so many bytes, are too large for memory."""
+        """Raise an error if the answers, of `member` bytes per member, are too large for memory."""
         size = 2 * member * self.which.size  # of all blocks, and of the whole made of them
         if size > LARGEST_IN_MEMORY:
             needed, allowed = f"{size / 1e9:.3g} GB of memory", f"{LARGEST_IN_MEMORY / 1e9:g}"
@@ -146,7 +146,7 @@ class Ensemble:
     # --- members that cannot exist ---------------------------------------------------------------
 
     def _drop_impossible_members(self, drop: bool, n: int) -> None:
-        """Omit members with impossible inputs if the user allowed it; else raise an error."""
+        """Omit members with impossible inputs if `drop` is true; otherwise raise an error."""
         impossible = dict(self._impossible_members())
         if not impossible:
             return
@@ -187,7 +187,7 @@ class Ensemble:
                     yield index, error
 
     def _check_ranges(self, indices: IntArray) -> None:
-        """Raise an error if a number of the question itself is out of range in some members."""
+        """Raise an error if a numerical key of the question is out of range in some member."""
         for name, entry in self.numbers.items():
             values = self.values[name][indices]
             for extreme in () if entry.field else (values.min(), values.max()):
@@ -197,7 +197,7 @@ class Ensemble:
 
     @cached_property
     def groups(self) -> dict[Names, IntArray]:
-        """Indices of members with equal inputs by name (such as files), by the tuple of names."""
+        """Indices of members with equal text inputs (such as file names), by the tuple of texts."""
         if not self.named:
             return {(): np.arange(len(self.which))}
         indices: dict[Names, list[int]] = {}
@@ -219,22 +219,22 @@ class Ensemble:
 
     @cached_property
     def run(self) -> Callable[[Names], Run]:
-        """Run of the question with the given names and its own numbers, kept for its results."""
+        """Function that returns the cached run for given text inputs and the nominal numbers."""
         return lru_cache(LARGEST_NUMBER_OF_RUNS)(lambda names: Run(self.variant(names)))
 
     @property
     def nominal_run(self) -> Run:
-        """Run for the nominal numbers; inputs given by name are those of the first member."""
+        """Run for nominal numbers; text inputs (such as files) are those of the first member."""
         return self.run(next(iter(self.groups)))
 
     @cached_property
     def nominal(self) -> xr.Dataset:
-        """Answer for the nominal numbers; inputs given by name are those of the first member."""
+        """Answer for nominal numbers; text inputs (such as files) are those of the first member."""
         return self.nominal_run.answer()
 
     @cached_property
     def descriptions(self) -> dict[str, dict[Names, Mapping[str, Any]]]:
-        """Attributes of variables, attributes of the whole, and sources: by names of the groups."""
+        """Attributes of variables and of the answer, and sources, for each group of text inputs."""
         descriptions: dict[str, dict[Names, Mapping[str, Any]]] = {}
         for names in self.groups:
             run = self.run(names)
@@ -297,7 +297,7 @@ class Ensemble:
         return blocks.hold(self, client=client)
 
     def _with_attributes(self, block: xr.Dataset) -> xr.Dataset:
-        """Give the first block the attributes of the whole ensemble.
+        """Return the first block with the attributes that describe the whole ensemble.
 
         Texts that differ between names are listed with the names.
         """
@@ -314,7 +314,7 @@ class Ensemble:
         return block.assign_attrs(attrs)
 
     def make(self, number: int) -> xr.Dataset:
-        """Compute one block of members, by its number."""
+        """Compute and return one block of members, by block number."""
         first, last = self.layout.bounds(number)
         pieces: list[tuple[IntArray, xr.Dataset]] = []
         for names, group in self.groups.items():
@@ -331,7 +331,7 @@ class Ensemble:
     # --- members of a block ----------------------------------------------------------------------
 
     def _pieces(self, names: Names, indices: IntArray) -> list[tuple[IntArray, xr.Dataset]]:
-        """Compute members with equal names, together if possible; return indices and answers."""
+        """Compute members with equal text inputs; return pairs of member indices and answer."""
         if self.width > 1:
             with suppress(ApartError):
                 filled = np.pad(indices, (0, -indices.size % ROW), mode="edge")
@@ -345,16 +345,16 @@ class Ensemble:
         ]
 
     def _together(self, indices: IntArray) -> dict[str, xr.DataArray]:
-        """Values of the inputs that are numbers, as arrays along `member`."""
+        """Values of the numerical inputs for several members, as arrays along `member`."""
         return {name: along_members(self.values[name][indices]) for name in self.numbers}
 
     def _alone(self, index: int) -> dict[str, Any]:
-        """Values of the inputs that are numbers, of one member."""
+        """Values of the numerical inputs for one member."""
         values = {name: self.values[name][index] for name in self.numbers}
         return {name: value if np.ndim(value) else value.item() for name, value in values.items()}
 
     def _answer(self, names: Names, values: Mapping[str, Any], indices: IntArray) -> xr.Dataset:
-        """Compute the answer for one member, or for several members with equal names."""
+        """Compute the answer for one member, or for several members with equal text inputs."""
         which = _list_of_numbers(self.which[indices].tolist())
         run = self.run(names)
         try:  # only what depends on the values is computed again
@@ -391,7 +391,7 @@ def _list_of_numbers(numbers: list[int]) -> str:
 
 
 def _along_all_members(answer: xr.Dataset, count: int) -> xr.Dataset:
-    """Repeat variables without the dimension `member` once for each of `count` members."""
+    """Add the dimension `member`, of length `count`, to numbers and dates without it."""
     repeated = {
         name: variable.expand_dims({MEMBER: count})
         for name, variable in answer.data_vars.items()
@@ -401,7 +401,7 @@ def _along_all_members(answer: xr.Dataset, count: int) -> xr.Dataset:
 
 
 def _concatenated(pieces: list[xr.Dataset]) -> xr.Dataset:
-    """Join the Datasets of successive members along `member`."""
+    """Join Datasets, each for some successive members, into one Dataset along `member`."""
     variables: dict[Any, Any] = {}
     for name, variable in pieces[0].data_vars.items():
         variables[name] = variable.variable
@@ -413,7 +413,7 @@ def _concatenated(pieces: list[xr.Dataset]) -> xr.Dataset:
 
 
 def _joined(attributes: Mapping[Names, Mapping[str, Any]]) -> dict[str, Any]:
-    """Combine the attributes of all groups: keep equal values, and list texts that differ.
+    """Combine the attributes of all groups of members: keep equal values, list differing texts.
 
     Other differing attributes are dropped.
     """

@@ -25,7 +25,7 @@ _SYMBOLS = {"H": "body.dynamical_flattening", "J2": "body.j2", "J3": "body.j3", 
 
 
 class Input(NamedTuple):
-    """One input that may differ between ensemble members: a number, or a name such as a file.
+    """One input that may differ between ensemble members: a number, or a text such as a file name.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class Input(NamedTuple):
 
     @property
     def named(self) -> bool:
-        """Return True if this input takes names, such as that of a model, instead of numbers."""
+        """Return True if this input is a text, such as a model or file name, not a number."""
         return not self.field and self.element is None and by_name(self.kind)
 
 
@@ -90,7 +90,7 @@ def inputs_of(question: Question, names: Iterable[str], where: Where) -> dict[st
 
 
 def _all_inputs(question: Question) -> Iterator[tuple[str, Input]]:
-    """Yield the names and all inputs of a question: numbers that are set, and keys with names."""
+    """Yield name and `Input` of each number that is set and each text key of a question."""
     for key, entry in keys_of(type(question)).items():
         value, kind = getattr(question, key), entry.kind
         if by_name(kind) and key not in keys_of(Question):
@@ -172,7 +172,7 @@ def _with_item(items: tuple[Any, ...], index: int, item: Any) -> tuple[Any, ...]
 
 
 def _with_number(sequence: Any, index: int | None, value: Any) -> Any:
-    """Return a list with one number replaced, by a number or by one value for each member.
+    """Return an array with one element replaced by a number, or by an array along `member`.
 
     Without an index, the value takes the place of the whole.
     """
@@ -190,5 +190,5 @@ def _with_number(sequence: Any, index: int | None, value: Any) -> Any:
 
 
 def along_members(values: NDArray[Any]) -> xr.DataArray:
-    """Make an array of member values with named dimensions, of which the first is `member`."""
+    """Make a DataArray from values of all members; the first dimension is `member`."""
     return xr.DataArray(values, dims=(MEMBER, *(f"{MEMBER}_{k}" for k in range(values.ndim - 1))))

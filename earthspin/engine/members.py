@@ -1,4 +1,4 @@
-"""Members of an ensemble: how they are described, read and drawn.
+"""Specification of an ensemble: read distributions or values of inputs, and draw random values.
 
 An input that varies is a number of a question, or a name in it: an orbit table, a kernel, a model.
 Its values are drawn from a distribution, taken from a grid, or listed for each member.
@@ -77,7 +77,7 @@ class Distribution:
         return cls(shape, tuple(map(_scene_value, numbers)))
 
     def checked(self, kind: Any, where: Where) -> Distribution:
-        """Return the distribution in SI units; raise an error if the input cannot have it."""
+        """Return the distribution in SI units; raise an error if the input does not allow it."""
         if by_name(kind):
             if self.shape not in ("choice", "grid"):
                 problem = f"{self.shape} applies to numbers; for names give choice or grid"
@@ -119,7 +119,7 @@ class Distribution:
 
 
 def checked_names(values: Iterable[Any], kind: Any, where: Where) -> tuple[str, ...]:
-    """Return the names, such as files, given for an input; raise an error if one is invalid.
+    """Check the text values (such as file names) of an input, and return them as a tuple.
 
     Raises
     ------
@@ -183,7 +183,7 @@ class Listed(NamedTuple):
         return cls(values.astype(float), unit if unit is None else str(unit))
 
     def checked(self, kind: Any, where: Where) -> NDArray[Any]:
-        """Return the values in the unit of an input of this kind.
+        """Return the values for all members, converted to the unit of the given kind of input.
 
         Raises
         ------
@@ -296,7 +296,7 @@ class Members:
     # --- drawing ---------------------------------------------------------------------------------
 
     def count(self, where: Where) -> int:
-        """Number of members of the ensemble, from `n`, from its grids or from its listed values.
+        """Number of ensemble members: given as `n`, or implied by the grids or the listed values.
 
         Nothing is drawn, however large the number is.
 
@@ -355,7 +355,7 @@ def _read_file(path: Path) -> xr.Dataset:
 
 
 def _values_of(dataset: Any, where: Where) -> dict[str, Listed]:
-    """Return the values of the inputs in a Dataset; those of the members if it is an answer."""
+    """Return values of ensemble inputs from a Dataset: a table, or an earlier ensemble."""
     variables = {name: array for name, array in dataset.coords.items() if "input" in array.attrs}
     values = {
         name: Listed.of(array, where.at(name))
@@ -368,7 +368,7 @@ def _values_of(dataset: Any, where: Where) -> dict[str, Listed]:
 
 
 def _names(values: NDArray[Any], where: Where) -> NDArray[Any]:
-    """Return the values of one input for all members as text; refuse all but names."""
+    """Return one text for each member as an array; refuse values that are not text."""
     if values.ndim != 1 or not values.size:
         raise where.error(f"shape {values.shape}", "give one name for each member")
     for index, name in enumerate(values):

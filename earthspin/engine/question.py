@@ -1,4 +1,4 @@
-"""Questions, and the parts that compute their answers.
+"""Base classes of questions (computations with inputs), and of functions that compute answers.
 
 A question is a class that declares the inputs (keys) of a computation, with their types. The fields
 define the keys of a scene file, the names that ``--set`` takes, the signature and docstring of the
@@ -95,7 +95,7 @@ class Key:
 
 
 def _read(kind: Kind[Any], value: object, where: Where) -> Any:
-    """Convert a value to the type of a key; turn any failure into an `EarthspinError`.
+    """Convert a user's value to the type of a key; turn any failure into an `EarthspinError`.
 
     The value may be any object. Errors from libraries or from its own class would not help a user.
     """
@@ -108,7 +108,7 @@ def _read(kind: Kind[Any], value: object, where: Where) -> Any:
 
 
 def _from_default(value: object, default: Any) -> object:
-    """Let a table of a body without another name and "from" start from the default body."""
+    """Make a table of body properties start from the default body, unless it names another body."""
     name = getattr(default, "name", None)
     if name and isinstance(value, Mapping) and str(value.get("name", name)).lower() == name:
         return {"from": name, **value}
@@ -116,13 +116,13 @@ def _from_default(value: object, default: Any) -> object:
 
 
 def _shown(value: Any, kind: Kind[Any]) -> Any:
-    """Convert a value to the form in which a user would write it, with bodies by name."""
+    """Convert a value to the form that a user would write: bodies are replaced by their names."""
     bodies = value if isinstance(value, tuple) else (value,)
     return plain_words(value) if hasattr(bodies[0], "reference") else kind.write(value)
 
 
 def names_in(value: str | Iterable[str], key: str) -> list[str]:
-    """Return a list of the given names: one name, several names, or the word `ALL`.
+    """Convert one name, or several names, to a list; refuse anything that is not text.
 
     Raises
     ------
@@ -140,7 +140,7 @@ def names_in(value: str | Iterable[str], key: str) -> list[str]:
 
 
 def plain_words(value: Any) -> str:
-    """Convert a value to text on one line, with bodies by name."""
+    """Convert a value to text on one line; bodies are replaced by their names."""
     if isinstance(value, (tuple, list)):
         return ", ".join(plain_words(item) for item in value)
     return str(getattr(value, "name", value))
@@ -200,7 +200,7 @@ class Question:
     def __init_subclass__(
         cls, word: str = "", call: str = "", table: str = "", positional: tuple[str, ...] = ()
     ) -> None:
-        """Set the names of a subclass of `Question` in scene files and in Python.
+        """Store the names that a question class has in scene files and in Python.
 
         A subclass without `word` is no question itself: it holds keys for several questions.
         """
@@ -218,7 +218,7 @@ class Question:
         in_scene: bool = False,
         typed: Collection[str] = (),
     ) -> Self:
-        """Convert the values of all keys, refuse unknown keys, and check their combination.
+        """Set all keys of the question: convert values, refuse unknown keys, check combinations.
 
         Values in `known` were read before and are not read again.
         """
@@ -258,7 +258,7 @@ class Question:
         return self
 
     def check(self) -> None:
-        """Raise an error if the values of the keys do not fit together; subclasses override it."""
+        """Raise an error if values of keys contradict each other; subclasses override this."""
 
     def where(self, name: str) -> Where:
         """Return the name of a key with the path of the scene file, for error messages."""
@@ -273,7 +273,7 @@ class Question:
 
     @property
     def unused(self) -> str:
-        """Satellites of the question's body that the answer leaves out, in words; may be empty."""
+        """Satellites of the body that the answer neglects, as text; empty if there are none."""
         satellites = getattr(getattr(self, "body", None), "satellites", ())
         names = ", ".join(satellite.name for satellite in satellites)
         return f"the satellites {names}" if names and not self.with_satellites else ""
@@ -427,7 +427,7 @@ def scene_text(question: Question) -> str:
 
 
 def _shortened(value: Any, arrays: dict[str, str]) -> Any:
-    """Copy a table with marks for packed arrays, since tomli_w writes long text slowly."""
+    """Copy a table with short placeholders for packed arrays, which are stored in `arrays`."""
     if isinstance(value, list):
         return [_shortened(item, arrays) for item in value]
     if not isinstance(value, dict):
@@ -461,7 +461,7 @@ class Block(NamedTuple):
 
 
 class Part(Generic[P, R]):
-    """A typed function that computes one piece of an answer; it can be called as usual.
+    """Function that computes one piece of an answer, with its inputs and outputs; it is callable.
 
     Attributes
     ----------
@@ -583,12 +583,12 @@ def part(function: Callable[P, R] | None = None, /, **options: Any) -> Any:
 
 
 def _arguments(function: Callable[..., Any], keys: dict[str, Any]) -> dict[str, Any]:
-    """Select, from the inputs of a question, those that a function takes as arguments."""
+    """Select the inputs of a question that a function requires, as a dict by name."""
     return {name: keys[name] for name in _parameters(function, inspect.Parameter.empty)}
 
 
 def _returned(function: Callable[..., Any]) -> type[Variables]:
-    """Class of variables that a function returns; the base class, which has none, by default."""
+    """`Variables` subclass in the return annotation of a function; without one, `Variables`."""
     returned = function.__annotations__.get("return")
     if isinstance(returned, str):
         returned = function.__globals__.get(returned)
@@ -608,7 +608,7 @@ def _parameters(function: Callable[..., Any], default: object) -> tuple[str, ...
 
 @dataclass(frozen=True)
 class Graph:
-    """Parts (functions) behind a question, and names of those that make its answer and sections.
+    """Functions (parts) that answer a question, and their names for the answer and each section.
 
     Attributes
     ----------
@@ -633,7 +633,7 @@ class Graph:
 
     @cached_property
     def labels(self) -> set[str]:
-        """Names of all variables of results, and of their dimensions."""
+        """Names of all variables and dimensions that the results of the question may have."""
         parts = self.parts.values()
         dims = {name for part in parts for entry in part.gives.values() for name in entry.dims}
         return dims.union(*(part.fields | part.gives.keys() for part in parts))
@@ -651,7 +651,7 @@ def define_parts(
     together: tuple[str, ...] = (),
     widest: int = 1,
 ) -> None:
-    """Define the parts (functions) that answer a question, and check that they fit together.
+    """Define the functions (parts) that answer a question, and check their names and parameters.
 
     Parameters
     ----------

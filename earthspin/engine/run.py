@@ -1,4 +1,4 @@
-"""Run a question: each part is computed when its result is first asked for.
+"""Run a question: each function (part) of the computation is called when its result is needed.
 
 Other parts are not computed. The plan that users read comes from the same walk through the parts,
 without the calls.
@@ -85,7 +85,7 @@ class Plan:
 
     @property
     def rows(self) -> list[Row]:
-        """Rows of the plan's table: imports and the parts that run, then those left out."""
+        """Rows of the plan's table: imports, functions (parts) that run, and functions left out."""
         status, keys = "ran" if self.seconds else "runs", self.question.keys()
         note = "modules loaded on first use, once in each process"
         cost = self.seconds.get(IMPORTS)
@@ -139,7 +139,7 @@ class Plan:
 
 
 class Run:
-    """Results of the parts behind a question, each computed when it is first asked for.
+    """Run of a question: inputs and results of its functions (parts), computed when needed.
 
     Parameters
     ----------
@@ -170,7 +170,7 @@ class Run:
             raise question.error("compute", question.word, f"nothing to do: {why}")
 
     def __getitem__(self, name: str) -> Any:
-        """Result of a part, or value of an input, by name; it is computed at the first time."""
+        """Return the result of a part (function) or an input by name; compute it if necessary."""
         if name not in self.values:
             part = self.graph.parts[name]
             inputs = {other: self[other] for other in self.inputs(name)}
@@ -186,7 +186,7 @@ class Run:
     # --- the walk --------------------------------------------------------------------------------
 
     def why_not(self, name: str) -> str:
-        """Return the reason why a part is left out; empty if it can run."""
+        """Return the reason (text) why a part (function) is left out; empty if the part can run."""
         if name in self._reasons:
             return self._reasons[name]
         part, parts = self.graph.parts[name], self.graph.parts
@@ -203,7 +203,7 @@ class Run:
         return why
 
     def inputs(self, name: str) -> list[str]:
-        """Names of the inputs and results that a part takes in this run; empty for an input."""
+        """Names of the arguments that a part (function) takes in this run; empty for an input."""
         part, parts = self.graph.parts.get(name), self.graph.parts
         if part is None:
             return []
@@ -213,7 +213,7 @@ class Run:
         return [*part.needs, *offered]
 
     def behind(self, names: Iterable[str]) -> dict[str, None]:
-        """Names of the inputs and parts behind some parts, themselves included, in order.
+        """Names of given parts and of all inputs and parts they depend on, in order of computation.
 
         Parts that are left out are omitted.
         """
@@ -227,7 +227,7 @@ class Run:
         return union
 
     def plan(self, sections: str | Iterable[str] = ()) -> Plan:
-        """Plan of this run: parts that it needs for the answer and some sections, and the others.
+        """Plan of the run for the answer and given sections: functions used, functions left out.
 
         Parameters
         ----------
@@ -263,7 +263,7 @@ class Run:
         return [name for name in known if name in wanted]
 
     def again(self, question: Question | None = None, **values: Any) -> Self:
-        """Return a run with changed inputs, which has the results of this run that stay the same.
+        """Return a new run with changed inputs that reuses the results the changes do not affect.
 
         Parameters
         ----------
@@ -286,7 +286,7 @@ class Run:
     # --- answers ---------------------------------------------------------------------------------
 
     def numbers(self, names: Iterable[str] = (), effects: Sequence[str] = ()) -> xr.Dataset:
-        """Merge the results of some parts into a Dataset without attributes.
+        """Merge the results of given parts (functions) into a Dataset without global attributes.
 
         Parameters
         ----------
@@ -339,7 +339,7 @@ class Run:
         return neglected.also(self.question.unused)
 
     def provenance(self, names: Iterable[str], but: Iterable[str] = ()) -> dict[str, str]:
-        """Software versions, and checksums of data files, behind the results of some parts.
+        """Software versions and checksums of data files on which the results of given parts depend.
 
         Parameters
         ----------
@@ -355,7 +355,7 @@ class Run:
         return sources
 
     def _load_modules(self, names: Iterable[str]) -> None:
-        """Import what some parts need before they run, so that their run times are of the work."""
+        """Import the modules that given parts need, so that run times of parts exclude imports."""
         begun = time.perf_counter()
         _load_xarray()
         for name in self.behind(names):
@@ -365,7 +365,7 @@ class Run:
         self._seconds[IMPORTS] = self._seconds.get(IMPORTS, 0.0) + time.perf_counter() - begun
 
     def _refuse_taken_dimensions(self) -> None:
-        """Raise an error if an array of a body uses a dimension name that results also use."""
+        """Raise an error if an input array has a dimension whose name the results already use."""
         for name, value in self.keys.items():
             for inner, number in getattr(value, "__dict__", {}).items():
                 own = {*getattr(number, "dims", ()), *getattr(number, "coords", ())}
@@ -405,7 +405,7 @@ def in_range(what: str) -> Iterator[None]:
 
 
 def _is_same(old: object, new: object) -> bool:
-    """Return True if two values of an input are one object, or tuples of the same objects."""
+    """Return True if two values of an input are the same object, or equal tuples."""
     return old is new or (isinstance(old, tuple) and isinstance(new, tuple) and old == new)
 
 
@@ -413,7 +413,7 @@ def _is_same(old: object, new: object) -> bool:
 
 
 def _described(question: Question, parts: Iterable[object]) -> dict[str, str]:
-    """Attributes of a result: title, references of inputs and of parts, bodies, versions."""
+    """Attributes of a result as texts: title, references, names of bodies, and versions."""
     references: list[str] = []
     bodies: dict[str, str] = {}
     for name, value in question.keys().items():

@@ -54,7 +54,7 @@ TIME_ENCODING = {
 
 
 def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
-    """Write a result, alone or with its sections, to a netCDF file or Zarr store.
+    """Write a result (a Dataset, or a DataTree with sections) to a netCDF file or Zarr store.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
 
 
 def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
-    """Write a result directly to a netCDF file, without the protection against interruptions.
+    """Write a result directly to a netCDF file; if interrupted, the file remains incomplete.
 
     Raises
     ------
@@ -125,7 +125,7 @@ _NUMBERS = {"i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8"}
 
 
 def _refuse_attributes(result: xr.Dataset | xr.DataTree, path: Path) -> None:
-    """Raise an error if an attribute is no text, real number or plain list of these."""
+    """Raise an error if an attribute of a result is not text, a real number or a list of these."""
     for node in getattr(result, "subtree", (result,)):
         owners = {f"'{name}'": variable.attrs for name, variable in node.variables.items()}
         for owner, attrs in ({"the answer": node.attrs} | owners).items():
@@ -151,7 +151,7 @@ def _is_storable(value: object) -> bool:
 
 
 def _raise_system_error(path: Path, size: int) -> None:
-    """Write `size` zero bytes to a file, only to raise the system's error if this fails.
+    """Raise the operating system's error, if any, for writing `size` bytes to a file.
 
     Raises
     ------
@@ -169,7 +169,7 @@ def _raise_system_error(path: Path, size: int) -> None:
 
 
 def _groups(result: xr.Dataset | xr.DataTree) -> dict[str, xr.Dataset]:
-    """Datasets of a result and of its sections, by the path of their group in the file.
+    """Datasets of a result and its sections as they are written, by group path in the file.
 
     The root has the version of the format, and the date in the attribute `history`.
     """
@@ -191,7 +191,7 @@ UNITS, SHOWN = "units", "units_shown"
 
 
 def spelled(node: xr.Dataset) -> xr.Dataset:
-    """Return a Dataset with units spelled as in files; `units_shown` has the screen spelling."""
+    """Return a copy with units in file spelling; `units_shown` holds the original spelling."""
     node = node.copy()
     for name, variable in node.variables.items():
         unit = variable.attrs.get(UNITS)
@@ -224,7 +224,7 @@ def zarr_of() -> ModuleType:
 
 
 def open(path: str | Path) -> xr.Dataset | xr.DataTree:
-    """Read a result, alone or with its sections, exactly as it was written.
+    """Read a result (a Dataset, or a DataTree with sections) from a netCDF file or Zarr store.
 
     Parameters
     ----------
@@ -315,7 +315,7 @@ def verify(path: str | Path) -> Path:
 
 
 def _format_of(path: Path, attrs: Mapping[str, Any]) -> int:
-    """Version of the format of a file; 1 for files that do not state it, such as those of others.
+    """Format version of a result file; 1 if the file states none (another program's file).
 
     Raises
     ------
@@ -349,13 +349,13 @@ def _reading(path: Path) -> Iterator[None]:
 
 
 def _read(path: Path) -> dict[str, xr.Dataset]:
-    """Read all groups of a file by their paths; units stay in the spelling of files."""
+    """Read all groups of a file as Datasets, by group path; units are spelled as in files."""
     with _reading(path):
         return _read_zarr(path) if path.suffix == ".zarr" else _read_netcdf(path)
 
 
 def _read_zarr(path: Path) -> dict[str, xr.Dataset]:
-    """Open the groups of a Zarr store; those of this format have metadata with a checksum."""
+    """Open the groups of a Zarr store; check the metadata if this package wrote the store."""
     zarr_folder = zarr_of()
     sealed = _format_of(path, zarr_folder.attributes(path)) == VERSION
     (zarr_folder.metadata_of if sealed else zarr_folder.check_nodes)(path)
@@ -384,12 +384,12 @@ def _read_netcdf(path: Path) -> dict[str, xr.Dataset]:
 
 
 def _open_groups(store: Any, **options: Any) -> dict[str, xr.Dataset]:
-    """Open all groups of a file by their paths; times are in microseconds, as they were written."""
+    """Open all groups of a file as Datasets, by group path, with times as ``datetime64[us]``."""
     return xr.open_groups(store, decode_times=xr.coders.CFDatetimeCoder(time_unit="us"), **options)
 
 
 def _unreadable(path: Path, error: Exception) -> EarthspinError:
-    """Make the error for a file that cannot be read, or return the `EarthspinError` behind it."""
+    """Return the `EarthspinError` that caused a read error, or else make an `OutputError`."""
     cause: BaseException | None = error
     while cause is not None:
         if isinstance(cause, EarthspinError):
@@ -409,7 +409,7 @@ read = open
 
 
 def encoding_of(node: xr.Dataset, *, zarr: bool = True) -> dict[str, dict[str, Any]]:
-    """Return, by variable name, the encoding with which each variable is stored in a file.
+    """Return the netCDF or Zarr encoding of each variable of a Dataset, by variable name.
 
     The CF conventions require that coordinate variables are numeric, so text labels are stored as
     arrays of characters, which xarray reads back as text. The scene is stored as characters too,
@@ -444,7 +444,7 @@ def encoding_of(node: xr.Dataset, *, zarr: bool = True) -> dict[str, dict[str, A
 
 
 def content_hash(groups: Mapping[str, xr.Dataset]) -> str:
-    """SHA-256 of a result, the same before writing and after reading.
+    """SHA-256 of the contents of a result, which writing to a file and reading does not change.
 
     Parameters
     ----------
@@ -463,13 +463,13 @@ def content_hash(groups: Mapping[str, xr.Dataset]) -> str:
 
 
 def _listed(attrs: Mapping[Any, Any]) -> list[tuple[str, list[Any]]]:
-    """List attributes by name. netCDF reads a list of one number as the number."""
+    """Sorted attributes with values as lists, as netCDF reads a list of one number as a number."""
     values = {k: [v] if isinstance(v, str) else np.ravel(v).tolist() for k, v in attrs.items()}
     return sorted((name, value) for name, value in values.items() if name != CONTENT)
 
 
 def _bytes(values: np.ndarray[Any, Any]) -> tuple[str, bytes]:
-    """Type of an array, and its values as bytes that depend on neither machine nor file format."""
+    """Type and bytes of an array, in a form that does not depend on machine or file format."""
     kind = values.dtype.kind
     if kind in "OUST":
         words = [

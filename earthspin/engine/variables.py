@@ -96,7 +96,7 @@ _SHARES = {
 
 @dataclass(frozen=True)
 class Variable:
-    """Declaration of a variable of a result, or of a field that defines several variables.
+    """Declaration of one variable of a result, or of several, such as a value and its error.
 
     Attributes
     ----------
@@ -269,7 +269,7 @@ class Variables:
         self._no_error = ""
 
     def with_attributes(self, *, no_error: str = "", **attributes: Mapping[str, object]) -> Self:
-        """Add attributes to variables that are known only after the computation.
+        """Add attributes, known only after the computation, to variables of this result.
 
         Parameters
         ----------
@@ -349,7 +349,7 @@ class Variables:
 def variable_of(
     dims: Iterable[Hashable], values: object, attrs: Mapping[str, object] | None = None
 ) -> xr.Variable:
-    """Make a Variable of an array of NumPy.
+    """Make an xarray Variable from a NumPy array, faster than the usual constructor.
 
     Without `fastpath`, xarray looks for arrays of dask and pint, and imports both if they are
     installed (0.4 s). Objects need that search, as it also converts them.
@@ -359,7 +359,7 @@ def variable_of(
 
 
 def labels_of(name: str, values: object, attrs: Mapping[str, object] | None = None) -> xr.Variable:
-    """Make the coordinate along a dimension of the same name, like `variable_of`."""
+    """Make a coordinate variable from an array, with an index along the dimension of this name."""
     import pandas as pd
     from xarray.indexes import PandasIndex
 

@@ -81,7 +81,7 @@ def write_region(node: xr.Dataset, store: Path, region: Mapping[str, slice]) -> 
 
 
 def lengthen(store: Path, along: str, size: int) -> None:
-    """Give all arrays along a dimension their full length; no chunk is written."""
+    """Resize all arrays of a store that have a given first dimension; no chunk is written."""
     group = zarr.open_group(store, mode="r+")
     for _, array in group.arrays():
         dimensions: Any = array.attrs[DIMENSIONS]
@@ -90,7 +90,7 @@ def lengthen(store: Path, along: str, size: int) -> None:
 
 
 def seal(store: Path) -> None:
-    """Write the hash of the metadata of a store, and all metadata together."""
+    """Store a hash of the metadata of a Zarr store, and write all metadata into one file."""
     files = sorted(path.relative_to(store).as_posix() for path in store.rglob(".z*"))
     metadata = {name: json.loads((store / name).read_bytes()) for name in files}
     metadata[".zattrs"][METADATA] = _digest(metadata)
@@ -100,7 +100,7 @@ def seal(store: Path) -> None:
 
 
 def close(store: Path) -> None:
-    """Write the hash of all chunks of a store whose chunks are complete.
+    """Store a hash of all chunks of a Zarr store, once all chunks are written.
 
     The checksum of a chunk shows damage, but not that the chunk stands in another place.
     """
@@ -131,7 +131,7 @@ def _chunk_digest(store: Path, metadata: Mapping[str, Any]) -> str:
 
 
 def _digest(metadata: Mapping[str, Any]) -> str:
-    """SHA-256 of all metadata except the attribute that holds it."""
+    """SHA-256 of all metadata of a store, without the attribute that stores this hash."""
     root = {name: value for name, value in metadata[".zattrs"].items() if name != METADATA}
     return hashlib.sha256(_text({**metadata, ".zattrs": root}).encode()).hexdigest()
 
@@ -144,7 +144,7 @@ def _text(metadata: Mapping[str, Any]) -> str:
 
 
 def attributes(store: Path) -> dict[str, Any]:
-    """Attributes of the root of a store; empty if another program wrote none that are read here."""
+    """Attributes of the root group of a Zarr store, as a dict; empty if there are none."""
     if (store / ".zmetadata").exists():
         return dict(json.loads((store / ".zmetadata").read_bytes())["metadata"].get(".zattrs", {}))
     store.stat()  # raises an error if there is no store
@@ -153,7 +153,7 @@ def attributes(store: Path) -> dict[str, Any]:
 
 
 def check_nodes(store: Path) -> None:
-    """Open all groups and arrays of a store without a hash, one after the other.
+    """Open each group and array of a store that has no hash, so that a damaged one raises an error.
 
     Zarr opens them at the same time, reports the error of one, and logs those of others later.
     """
@@ -163,7 +163,7 @@ def check_nodes(store: Path) -> None:
 
 
 def metadata_of(store: Path) -> dict[str, Any]:
-    """Read the metadata of a store, by file, and compare them with their hash.
+    """Read the metadata of a store as a dict by file name, and compare them with the stored hash.
 
     Raises
     ------
@@ -197,7 +197,7 @@ def verify(store: Path) -> None:
 
 
 def missing_blocks(store: Path, along: str) -> set[int]:
-    """Find the blocks of an unfinished store that are not complete; remove their damaged chunks.
+    """Return the numbers of missing or damaged blocks of a store, and remove damaged chunks.
 
     Parameters
     ----------
@@ -269,7 +269,7 @@ def _missing(store: Path, chunk: str) -> OutputError:
 
 
 class ZarrFolder(LocalStore):
-    """A read-only store that refuses a missing chunk, and to read on after it was replaced.
+    """Read-only Zarr store that raises an error if a chunk is missing or the store was replaced.
 
     Parameters
     ----------

@@ -81,7 +81,7 @@ def eccentricity_squared(flattening: ArrayLike) -> FloatArray:
 
 
 def perimeter(radius: ArrayLike, flattening: ArrayLike, colatitude: ArrayLike) -> FloatArray:
-    """Exact radius of a spheroid's surface at a given colatitude (I.9.36), m.
+    """Exact distance from the centre of a spheroid to its surface at a colatitude (I.9.36), m.
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ def perimeter(radius: ArrayLike, flattening: ArrayLike, colatitude: ArrayLike) -
 def perimeter_about_mean(
     mean_radius: ArrayLike, flattening: ArrayLike, colatitude: ArrayLike
 ) -> FloatArray:
-    """Radius of a spheroid's surface from the mean radius, to first order in f (I.9.43), m.
+    """Distance from the centre of a spheroid to its surface, to first order in f (I.9.43), m.
 
     The formula is of first order in the flattening.
 
@@ -181,7 +181,7 @@ def j2_from_moment_difference(difference: Numeric, mass: Numeric, radius: Numeri
 
 
 def ellipticity_from_h(h: Numeric) -> Numeric:
-    """Dynamical ellipticity e = (C - A)/A (of wobble) from H = (C - A)/C (of precession)."""
+    """Dynamical ellipticity e = (C - A)/A, used for wobble, from H = (C - A)/C, for precession."""
     return h / (1 - h)
 
 
@@ -199,7 +199,7 @@ def h_homogeneous(j2: Numeric) -> Numeric:
 
 
 def homogeneous_ellipsoid(a: float, b: float, c: float) -> tuple[float, float, float]:
-    """J2, H and triaxiality (B - A)/(M a2) of a homogeneous ellipsoid with longest semi-axis a.
+    """J2, H and triaxiality (B - A)/(M a2) of a homogeneous ellipsoid, from the semi-axes.
 
     J2 has a as reference radius. The moments are M (b2 + c2)/5, M (a2 + c2)/5 and M (a2 + b2)/5.
 
@@ -299,7 +299,7 @@ def maccullagh_potential_axisymmetric(
 
 
 def maccullagh_torque(gm: ArrayLike, tensor: ArrayLike, position: ArrayLike) -> FloatArray:
-    """Torque of a distant mass on a body of any shape, to order 1/r3 (I.9.32), N m.
+    """Torque by a distant mass on a body of any shape, to order 1/r3 (I.9.32), N m.
 
     Parameters
     ----------

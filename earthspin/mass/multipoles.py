@@ -260,7 +260,7 @@ class Multipoles:
 def exterior_multipoles(
     masses: ArrayLike, positions: ArrayLike, n_max: int, radius: float | None = None
 ) -> Multipoles:
-    """Compute multipole moments for the potential outside a body (I.9.20).
+    """Multipole moments of point masses, for the potential outside the body (I.9.20).
 
     Parameters
     ----------
@@ -293,7 +293,7 @@ def exterior_multipoles(
 def _near_and_far(
     position: ArrayLike, source: ArrayLike
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Sort two points by distance from the origin.
+    """Sort two points by distance from the origin, the nearer point first.
 
     Return also the larger distance and the difference of the distances.
     """
@@ -403,7 +403,7 @@ def moments_of_density(
 
 
 def zonal_moments(integrals: ArrayLike, radius: float) -> FloatArray:
-    """Zonal moments J_n of a potential as defined in (I.9.23), m^(n+3) s-2.
+    """Zonal moments J_n of the potential with dimension, as defined in (I.9.23), m^(n+3) s-2.
 
     They are -G s^n Z_n, with the reference radius s and the zonal integrals Z_n.
     J0 = -GM and J2 = G (C - A).
@@ -458,7 +458,7 @@ def _integrate(
     integrand: Callable[[FloatArray, FloatArray], FloatArray],
     accuracy: float,
 ) -> FloatArray:
-    """Integrals over a body of the density times each integrand, by Gauss quadrature."""
+    """Integrate density times each integrand over a body of revolution, by Gauss quadrature."""
     previous, error, size = None, np.inf, np.inf
     for points in _POINTS:
         node, weight = np.polynomial.legendre.leggauss(points)

@@ -22,7 +22,7 @@ from earthspin.numerics.arrays import FloatArray
 def torque_on_masses(
     gm: float, position: ArrayLike, masses: ArrayLike, positions: ArrayLike
 ) -> FloatArray:
-    """Exact torque of a mass on rigidly connected point masses about their mass centre, N m.
+    """Exact torque by a distant mass on rigidly connected masses, about their mass centre, N m.
 
     With s from the centre of mass to a mass m, and d to the distant mass,
     N = sum of GM m (s x d)/|d - s|^3. As the sum of m s is zero, 1/|d - s|^3 may be replaced by its
@@ -83,7 +83,7 @@ def ring_positions(count: int, radius: float, angle: float = 0.0) -> FloatArray:
 def ellipse_positions(
     count: int, long_axis: float, short_axis: float, tilt: float = 0.0, start: float = 0.0
 ) -> FloatArray:
-    """Positions of masses on an ellipse in the xy plane, at even eccentric angles (I.8.4), m.
+    """Positions of masses on an ellipse in the xy plane, even in eccentric angle (I.8.4), m.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ def ring_torque(
     count: int,
     angle: ArrayLike,
 ) -> FloatArray:
-    """Torque of a distant mass on N masses on a circle, to leading order (I.8.2, I.8.3), N m.
+    """Torque by a distant mass on N equal masses on a circle, to leading order (I.8.2, I.8.3), N m.
 
     The leading torque comes from the potential of degree N, P_N(cos x) = 2 (2N)!/(2^N N!)^2 cos N x
     + ..., and is
@@ -163,7 +163,7 @@ def ellipse_torque(
     count: int,
     tilt: ArrayLike,
 ) -> FloatArray:
-    """Torque of a distant mass on N masses on an ellipse, to leading order, N m.
+    """Torque by a distant mass on N equal masses on an ellipse, to leading order, N m.
 
     The sum over the dumbbells of (I.8.5) is -(3/2) N GM m (p2 - q2)/b3 sin(tilt) cos(tilt), for
     semi-axes p and q. It turns the long axis towards the distant mass.
@@ -188,13 +188,13 @@ def ellipse_torque(
 
 
 def _pull(gm: ArrayLike, mass: ArrayLike) -> FloatArray:
-    """Product of the distant mass's GM and the mass m of one point, N m2."""
+    """Product GM m of the distant mass's GM and the mass m of one ring point, N m2."""
     mu = positive("point mass", "gm", gm)
     return np.asarray(mu * positive("point masses", "mass", mass))
 
 
 def _inverse_cube_excess(s: FloatArray, d: FloatArray, apart: FloatArray) -> FloatArray:
-    """Difference 1/|d - s|^3 - 1/|d|^3 of two vectors d and s, without cancellation for small s.
+    """Difference 1/|d - s|^3 - 1/|d|^3 for vectors d and s, without cancellation for small s.
 
     The result is zero where d is zero.
     """

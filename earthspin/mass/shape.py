@@ -34,7 +34,7 @@ _BODY = "mesh"
 
 
 def closed_mesh(vertices: ArrayLike, faces: ArrayLike) -> tuple[FloatArray, NDArray[np.int64]]:
-    """Return vertices and faces of a mesh; refuse it unless it is closed and oriented outwards.
+    """Check that a mesh is closed and oriented outwards; return vertices (m) and faces as arrays.
 
     Parameters
     ----------
@@ -226,7 +226,7 @@ class Shape:
         z: ArrayLike,
         radius: float | None = None,
     ) -> Self:
-        """Compute mass, centre of mass and figure of a body from grid cells of uniform density.
+        """Compute mass, centre of mass and figure of a body from its density in grid cells.
 
         The result is exact for a density that is constant in each cell.
 
@@ -295,7 +295,7 @@ class Shape:
 
     @classmethod
     def _of(cls, pieces: Pieces, outline: FloatArray, radius: float | None) -> Self:
-        """Make a `Shape` from weighted points; raise an error if numbers overflow.
+        """Make a `Shape` from masses and positions of points; raise an error if numbers overflow.
 
         `outline` holds the points among which the farthest from the centre is found.
         """
@@ -308,7 +308,7 @@ class Shape:
 
     @classmethod
     def _summed(cls, pieces: Pieces, outline: FloatArray, radius: float | None) -> Self:
-        """Make a `Shape` from sums over weighted points of the body."""
+        """Make a `Shape` by summation over masses and positions of points."""
         mass = sum(float(np.sum(m)) for m, _ in pieces(0))
         centre = np.sum([m @ r for m, r in pieces(1)], axis=0) / mass
         second = np.zeros((3, 3))

@@ -47,7 +47,7 @@ CLOSED_FORM_ERROR = 5e-14
 
 
 class AttractionIntegrals(NamedTuple):
-    """Integrals in the closed forms of potential, attraction and torque of a spheroid.
+    """Integrals I0, A1 and A3 that give the potential, attraction and torque of a spheroid.
 
     Attributes
     ----------
@@ -108,7 +108,7 @@ def _quadratic(f: FloatArray, square: FloatArray) -> tuple[FloatArray, FloatArra
 
 
 def error_bound(flattening: ArrayLike, position: ArrayLike) -> FloatArray:
-    """Bound on the relative error of a spheroid's potential, attraction and torque (rounding).
+    """Bound on the relative rounding error of a spheroid's potential, attraction and torque.
 
     Near the focal ring (the rim of a thin disc, the tips of a needle) the confocal coordinate
     amplifies the rounding error of the position, which limits every method. One unit in the last
@@ -140,7 +140,7 @@ def error_bound(flattening: ArrayLike, position: ArrayLike) -> FloatArray:
 def attraction_integrals(
     radius: ArrayLike, flattening: ArrayLike, position: ArrayLike
 ) -> AttractionIntegrals:
-    """Integrals I0, A1, A3 and A3 - A1 of a spheroid's field at points inside or outside it.
+    """Integrals I0, A1, A3 and A3 - A1 of a spheroid, at points inside or outside the spheroid.
 
     Parameters
     ----------
@@ -237,7 +237,7 @@ def spheroid_torque(
     point_mass: ArrayLike,
     position: ArrayLike,
 ) -> FloatArray:
-    """Exact torque of a point mass on a homogeneous spheroid, about its centre, N m.
+    """Exact torque by a point mass on a homogeneous spheroid, about the spheroid's centre, N m.
 
     At large distance it tends to 3 G m (C - A) z (r x k)/r5 (I.9.34). It is exactly zero for a mass
     on the axis or in the plane of the equator, and for a sphere.

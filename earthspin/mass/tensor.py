@@ -114,7 +114,7 @@ def centre_of_mass(masses: ArrayLike, positions: ArrayLike) -> FloatArray:
 def grid_masses(
     density: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike, points: int = 2
 ) -> tuple[FloatArray, FloatArray]:
-    """Point masses, with positions, that represent a density on a Cartesian grid.
+    """Point masses (kg) and positions (m) that represent a density on a Cartesian grid.
 
     Parameters
     ----------
@@ -211,7 +211,7 @@ def inertia_tensor(
 
 
 def tensor_about_point(tensor: ArrayLike, mass: ArrayLike, offset: ArrayLike) -> FloatArray:
-    """Inertia tensor about a point, from that about the centre of mass (parallel axis theorem).
+    """Inertia tensor about a point, from the tensor about the centre of mass (parallel axes).
 
     Parameters
     ----------
@@ -334,7 +334,7 @@ def check_inertia_tensor(tensor: ArrayLike) -> FloatArray:
 
 
 def _refuse(wrong: FloatArray, field: str, value: FloatArray, allowed: str) -> None:
-    """Raise an error that shows the first value marked in `wrong`, if any is marked."""
+    """Raise an error with the first element of `value` where `wrong` is true, if there is one."""
     if np.any(wrong):
         raise BodyError(_BODY, field, value[wrong][0].tolist(), allowed)
 
@@ -448,7 +448,7 @@ def principal_axes(tensor: ArrayLike, equal: float = EQUAL) -> PrincipalAxes:
 def _choose(
     axes: FloatArray, same_ab: bool, same_bc: bool
 ) -> tuple[FloatArray, str, tuple[bool, bool, bool]]:
-    """Choose the signs of principal axes, and axes that are arbitrary because moments are equal.
+    """Choose signs of principal axes, and directions of axes that equal moments leave arbitrary.
 
     Return also the kind of body, and which axes are arbitrary.
     """
@@ -476,7 +476,7 @@ def _signed(axis: FloatArray) -> FloatArray:
 
 
 def _across(pole: FloatArray) -> FloatArray:
-    """Choose a unit vector perpendicular to a given axis, for axes that are arbitrary."""
+    """Unit vector perpendicular to a given axis, chosen by a fixed rule."""
     coordinate = np.eye(3)[np.argmax(np.abs(pole) < 0.6)]
     across = coordinate - pole * np.dot(coordinate, pole)
     return np.asarray(across / np.linalg.norm(across))

@@ -1,4 +1,4 @@
-"""Tables, figures, pages and JSON text of a result, with what its question adds to the usual."""
+"""Make tables, figures, HTML pages and JSON text of a result, by the views of its question."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def tables_for(tree: Result) -> list[Table]:
 
 
 def _tables(tree: Result) -> list[Table]:
-    """Special tables of the question, and those of the sections that these do not show."""
+    """Tables that the question defines, then general tables of the other sections."""
     special = _views(tree).tables
     shown = {name for sections, _ in special for name in sections.split() or [""]}
     made = [table for table in _made(tree, special) if table.rows]
@@ -96,12 +96,12 @@ def drawings_for(tree: Result) -> list[Drawing]:
 
 
 def solids_for(tree: Result) -> list[Solid]:
-    """Three-dimensional pictures of a result, some of which are animated."""
+    """Three-dimensional pictures (still or animated) that the question defines for a result."""
     return _made(tree, _views(tree).solids)
 
 
 def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> list[T]:
-    """Make those tables or pictures for which the result has all required sections."""
+    """Make tables or pictures of a result; omit those whose required sections are missing."""
     return [
         make(tree)
         for sections, make in makers
@@ -110,13 +110,13 @@ def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> 
 
 
 def _views(tree: Result) -> Views:
-    """Figures, pictures and special tables of a result, or of an ensemble."""
+    """Return the `Views` (definitions of figures, pictures, tables) for a result's question."""
     return ensemble.VIEWS if is_ensemble(tree) else VIEWS.get(tree.attrs["compute"], Views())
 
 
 @progress("figures")
 def figures_of(answer: xr.Dataset) -> list[Figure]:
-    """Draw the figures of a result, as the views of its question define them.
+    """Draw all figures that the question defines for a result, and return them as a list.
 
     Parameters
     ----------
@@ -186,7 +186,7 @@ def plot(answer: Answer) -> list[Figure]:
 
 
 def print_tables(tree: Result, *, with_plan: bool = False) -> None:
-    """Print the tables of a result and, if `with_plan`, its computations."""
+    """Print the tables of a result and, if `with_plan`, a table of the computations that ran."""
     from earthspin.views.terminal import Terminal
 
     console = Terminal()
@@ -214,7 +214,7 @@ def page_of(
     drawings: Sequence[Drawing] | None = None,
     links: Sequence[tuple[str, str]] = (),
 ) -> str:
-    """HTML page of one or more results.
+    """HTML page with tables, figures and 3-D pictures of one or more results.
 
     Parameters
     ----------
@@ -321,7 +321,7 @@ def write_json(tree: xr.DataTree, stream: TextIO) -> None:
 def _write_members(
     title: str, members: Mapping[Any, T], write: Callable[[T, TextIO], None], stream: TextIO
 ) -> None:
-    """Write several named items as one JSON object; `write` writes each of the items."""
+    """Write a dict as a member of a JSON object; `write` writes values without closing brace."""
     stream.write(f',\n"{title}": {{')
     for number, (name, member) in enumerate(members.items()):
         stream.write(f"{',' if number else ''}\n{json.dumps(str(name))}: ")

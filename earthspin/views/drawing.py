@@ -93,7 +93,7 @@ def _matplotlib() -> Any:
 
 @dataclass(frozen=True)
 class Drawing:
-    """Finished figure with title and caption, for use on an HTML page.
+    """Figure, already drawn, with title and caption, for an HTML page.
 
     Attributes
     ----------
@@ -118,7 +118,7 @@ class Drawing:
 
     @property
     def narrow(self) -> str:
-        """SVG text of the figure's version for phones; empty if the figure is narrow already."""
+        """SVG text of a narrow version of the figure, for phones; empty if not needed."""
         if self.phone is not None:
             return _saved(self.phone)
         width, height = self.figure.get_size_inches()
@@ -183,13 +183,13 @@ class PageFigure:
     phone: float = 0.0
 
     def is_there(self, tree: Result) -> bool:
-        """Return True if a result has the main section of the figure and meets its conditions."""
+        """Return True if a result has the section and meets the condition of this figure."""
         there = not self.section or section(tree, self.section) is not None
         return there and (self.applies is None or self.applies(tree))
 
     @style()
     def drawn(self, tree: Result) -> Drawing:
-        """Draw the figure for a result, with its caption and, if required, a version for phones."""
+        """Draw the figure for a result; return it with caption and, if needed, a phone version."""
         caption = self.caption(tree) if callable(self.caption) else self.caption
         figure, phone = figure_of(self.plot(tree)), None
         if self.phone:
@@ -203,7 +203,7 @@ Makers: TypeAlias = Sequence[tuple[str, Callable[[Result], T]]]
 
 @dataclass(frozen=True)
 class Views:
-    """Figures, solids and tables of the answers to one question, besides the general tables.
+    """Definitions of figures, 3-D pictures and special tables for the answers to one question.
 
     Attributes
     ----------
@@ -247,7 +247,7 @@ def band(
     lowest: float = -np.inf,
     **how: Any,
 ) -> None:
-    """Draw a line and, as a band, its 95 % half-width; the band is cut below `lowest`.
+    """Draw a line with its 95 % half-width as a band, clipped below the value `lowest`.
 
     Bands that are clearly wider than the line share one entry of the legend.
     """
@@ -260,7 +260,7 @@ def band(
 
 
 def lines(ax: Axes, x: Any, values: xr.DataArray, **how: Any) -> None:
-    """Draw one line for each label of the array's last dimension, in different colours."""
+    """Draw one line for each label along the last dimension of `values`, in different colours."""
     labels = values[values.dims[-1]].values
     for colour, label, value in zip((*CYCLE, GREY), labels, values.values.T, strict=False):
         ax.plot(x, value, color=colour, label=literal(label), **how)
@@ -271,7 +271,7 @@ _LONGEST = 40
 
 
 def literal(words: object) -> str:
-    """Spell a name so that matplotlib shows it as it is, cut if it is very long.
+    """Escape a text so that matplotlib shows every character; shorten a very long text.
 
     A dollar sign would begin a formula, and a legend leaves out what begins with an underscore.
     """
@@ -312,7 +312,7 @@ RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def power_of_ten(value: float, _: object = None) -> str:
-    """Label of a logarithmic axis, such as 10⁻³; typesetting it as a formula takes 0.1 s."""
+    """Label of a logarithmic axis, such as 10⁻³, as plain text, which is faster than a formula."""
     power = round(np.log10(value)) if value > 0 else 0
     if not np.isclose(value, 10.0**power, rtol=1e-9, atol=0):
         return f"{value:g}"  # under the pointer

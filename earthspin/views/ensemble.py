@@ -1,4 +1,4 @@
-"""Tables and figures of the spread of an ensemble's results, and of each input's share of it."""
+"""Tables and figures of an ensemble: spread of the results, and contribution of each input."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SMALL = 5e-4
 
 
 class Number(NamedTuple):
-    """Name, coordinates and unit of one number that differs among the members of an ensemble."""
+    """Name, coordinate labels and unit of one number that differs among the ensemble members."""
 
     name: str
     labels: dict[str, Any]
@@ -33,7 +33,7 @@ class Number(NamedTuple):
 
     @property
     def words(self) -> str:
-        """Describe one number of a result in words: its name and its coordinates."""
+        """Name and coordinate labels of the number, as text."""
         labels = (
             str(label.astype("M8[m]") if isinstance(label, np.datetime64) else label)
             for label in self.labels.values()
@@ -42,7 +42,7 @@ class Number(NamedTuple):
 
 
 def tables(tree: Result) -> list[Table]:
-    """Tables of an ensemble: medians of the members, and shares of the inputs in the variance.
+    """Tables of an ensemble: median and spread of results, and each input's share of the variance.
 
     The brackets behind a median hold half the width of the interval with the central 95 % of the
     members. If no number differs among the members, the tables are those of the first.
@@ -64,7 +64,7 @@ def tables(tree: Result) -> list[Table]:
 
 
 def _spread(answer: xr.Dataset) -> xr.Dataset:
-    """Median of each quantity that differs among the members, and half of its central 95 %."""
+    """Median and half-width of the central 95 % of each quantity that differs among the members."""
     names = [*dict.fromkeys(number.name for number in _numbers(answer))]
     spread = answer.earthspin.quantiles()[names]
     low, middle, high = (spread.isel(quantile=k, drop=True) for k in range(3))
@@ -77,7 +77,7 @@ def _spread(answer: xr.Dataset) -> xr.Dataset:
 
 
 def _percentages(answer: xr.Dataset) -> xr.Dataset:
-    """Share of each input in the variance of the main quantities, and the unexplained part, %."""
+    """Share of each input in the variance of main quantities, %; last row: unexplained part."""
     result, shares = answer.earthspin.sensitivity(), xr.Dataset()
     labels = ("input", [*map(str, result["input"].values), "rest"], result["input"].attrs)
     result = result.drop_vars("input")  # xarray 2025.6 cannot concatenate labels that are words
@@ -101,7 +101,7 @@ def _percentages(answer: xr.Dataset) -> xr.Dataset:
 
 
 def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray]:
-    """Main quantities of an ensemble, and the share of each input in their variance."""
+    """List of main quantities, and share of each input in the variance of each quantity."""
     result, chiefs = answer.earthspin.sensitivity(), _chiefs(answer)
     rows = [number for number in _numbers(answer) if number.name in chiefs]
     return rows, np.array([result[f"{n.name}_share"].sel(n.labels).values for n in rows])
@@ -242,7 +242,7 @@ def _numbers(answer: xr.Dataset) -> list[Number]:
 
 
 def _alike(answer: xr.Dataset) -> str:
-    """Sentence to print if all members of an ensemble give the same numbers."""
+    """Sentence that says that all members of an ensemble give the same numbers."""
     count, inputs = answer.sizes[MEMBER], ", ".join(inputs_of(answer))
     return f"No finite number differs among the members: {count} members, inputs {inputs}."
 
@@ -259,7 +259,7 @@ def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
 
 
 def _chief(answer: xr.Dataset, name: str = "") -> Number:
-    """Main quantity of an ensemble: the last element of the main variable.
+    """Main quantity of an ensemble: last number that differs, in the main variable or in `name`.
 
     It is for example the total, or the value at the last time.
     """
@@ -272,7 +272,7 @@ def _chief(answer: xr.Dataset, name: str = "") -> Number:
 
 
 def _digits(value: float, other: float) -> str:
-    """Format a number with so many digits that it differs visibly from another number."""
+    """Format a number with enough digits to distinguish it from another number."""
     apart = abs(other - value) / max(abs(value), abs(other), 1e-300)
     digits = int(np.clip(2 - np.floor(np.log10(max(apart, 1e-15))), 3, 16))
     return short_exponents(f"{value:.{digits}g}")

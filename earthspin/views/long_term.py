@@ -77,7 +77,7 @@ def plot_periods(result: Result, *, ax: Axes | None = None) -> Axes:
 def _plot_curves(
     ax: Axes | None, curves: list[tuple[str, xr.DataArray, xr.DataArray]], height: float
 ) -> Axes:
-    """Draw curves with error bands, one panel each, or only the first curve on given axes."""
+    """Draw curves with error bands, one panel for each; if axes are given, only the first curve."""
     if ax is None:
         figure, rows = drawing.stacked(len(curves), height)
         figure.align_ylabels(rows)
@@ -107,7 +107,7 @@ _AXES = {
 
 
 def _words(line: xr.Dataset, name: str) -> str:
-    """Latitude with its hemisphere, season of the Earth, or another value of a coordinate."""
+    """Value of a coordinate as text: a latitude with N or S, a solar longitude as season, ..."""
     value = line[name].item()
     if name == "longitude" and value % 90 == 0 and line.attrs.get("body") == "earth":
         return _SEASONS[int(value // 90) % 4]
@@ -117,7 +117,7 @@ def _words(line: xr.Dataset, name: str) -> str:
 
 
 def plot_insolation(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the insolation over time with its error, or a map of it instead of many lines.
+    """Draw the insolation over time as lines with error bands, or as a map if lines are too many.
 
     For a single epoch, the horizontal axis is the longest of the other dimensions.
 
@@ -219,7 +219,7 @@ LEAST = 1e-6
 
 
 def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the error of the longitude of perihelion by cause, over the time from J2000.0.
+    """Draw the error of the longitude of perihelion over time from J2000.0, for each cause.
 
     Drawn is the largest up to that distance, past or future: a share that passes through zero is
     not known better there.

@@ -18,7 +18,7 @@ from earthspin.wobble.record import NEAR, YEAR
 
 
 def _metres(answer: xr.Dataset) -> float:
-    """Distance on the ground, m, that corresponds to 1 mas of polar motion; 0 if not known."""
+    """Distance on the surface, m, for 1 mas of polar motion; 0 if the polar radius is not known."""
     return float(answer.polar_radius) * MAS if "polar_radius" in answer else 0.0
 
 
@@ -114,7 +114,7 @@ def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_amplitude(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the amplitude of the free wobble with its 95 % band, and that of the annual wobble.
+    """Draw the amplitudes of the free wobble, with a 95 % band, and of the annual wobble.
 
     Parameters
     ----------
@@ -176,7 +176,7 @@ def plot_phase(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def _fit(result: Result) -> tuple[xr.Dataset, FloatArray]:
-    """Return the Dataset of the fitted free wobble, and the mid-times of the sliding windows."""
+    """Return the Dataset of the free wobble fitted in sliding windows, and the window mid-times."""
     fit = result if "chandler_amplitude" in result else needed(result, "chandler")
     assert isinstance(fit, xr.Dataset)
     return fit, fit[fit.chandler_amplitude.dims[0]].values
@@ -193,7 +193,7 @@ def _plot_free_wobble(
 
 
 def _scaling(factor: float) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
-    """Return functions that multiply and divide by a factor, for a second axis in other units."""
+    """Return functions that multiply and divide by `factor`, for a second axis in other units."""
     return lambda v: v * factor, lambda v: v / factor
 
 

@@ -25,7 +25,7 @@ def page(
     last: Sequence[Table] = (),
     **words: object,
 ) -> str:
-    """HTML text of a page with figures, three-dimensional pictures and tables, in this order.
+    """HTML text of a page that shows figures, three-dimensional pictures and tables, in this order.
 
     Parameters
     ----------
@@ -162,7 +162,7 @@ def figure_on_page(svg: str, name: str, words: str, width: str) -> Markup:
 
 
 def _on_page(tag: str, name: str) -> str:
-    """Tag of a figure with its parts named after the figure, and the colours of the page."""
+    """SVG text of a figure with unique element names, and with colours from the page's style."""
     tag = re.sub(r'\bid="', f'id="{name}-', tag)
     tag = re.sub(r'(xlink:href="#|url\(#)', rf"\1{name}-", tag)
     tag = _GREYS.sub(_mixture, tag)

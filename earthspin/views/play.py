@@ -31,7 +31,7 @@ EARTH_TURNS = float(np.asarray(EARTH.spin_period))
 
 
 def _sky() -> dict[str, object]:
-    """Data of Earth, Sun and Moon for the interactive page on precession.
+    """Constants of Earth, Sun and Moon (SI, rad) for the interactive page on precession.
 
     The distances are such that the page's formula gives the computed precession rates.
     """
@@ -56,7 +56,7 @@ def _sky() -> dict[str, object]:
 
 
 def _interior() -> dict[str, object]:
-    """Interior of the Earth and observed wobble period, as data for the page on the wobble."""
+    """Constants of the Earth's interior, and observed wobble period, for the page on the wobble."""
     interior = INTERIORS["prem"]
     spin = Spin(gm=EARTH.gm, radius=EARTH.radius, period=EARTH.spin_period)
     figure = {"dynamical_flattening": EARTH.dynamical_flattening, "j2": EARTH.j2}

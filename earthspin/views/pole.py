@@ -76,7 +76,7 @@ MODELS = {
 
 
 def budget(tree: Result) -> Table:
-    """Table of the contributions to the precession rate, their sum, and the difference from IAU."""
+    """Table of contributions to the precession rate, with their sum and its difference from IAU."""
     rates = answer_of(tree).map(lambda rate: rate * tables.MAS_PER_CENTURY)
 
     def rate(name: str, head: str) -> Column:
@@ -107,12 +107,12 @@ def budget(tree: Result) -> Table:
 
 
 def _both_angles(name: str) -> Column:
-    """Column with the values of a variable in longitude and in obliquity."""
+    """Table column that shows a variable's two values: in longitude / in obliquity."""
     return Column(name, lambda row: " / ".join(f"{value:.3f}" for value in row[name].values))
 
 
 def residuals(tree: Result) -> Table:
-    """Table of the rms and maximum of computed minus IAU pole, for different sets of effects."""
+    """Table of rms and maximum of the computed pole minus the IAU pole, for each set of effects."""
     columns = (
         Column("model", lambda row: MODELS[row.model.item()]),
         *map(_both_angles, ("residual_rms", "residual_maximum", "residual_rms_unfitted")),
@@ -127,7 +127,7 @@ def residuals(tree: Result) -> Table:
 
 
 def observed(tree: Result) -> Table:
-    """Table of the root mean square of computed minus observed pole, for each set of effects."""
+    """Table of the rms of the computed pole minus the observed pole, for each set of effects."""
     sizes = needed(tree, "observed")
     columns = (
         Column("model", lambda row: MODELS.get(row.model.item(), row.model.item())),
@@ -188,7 +188,7 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_pole_residuals(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the computed pole minus the IAU pole over time, with nothing removed: dX and dY.
+    """Draw dX and dY of the computed pole minus the IAU pole over time, without removing a fit.
 
     Parameters
     ----------
@@ -213,7 +213,7 @@ def plot_pole_residuals(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the ratio of IAU 2000A to rigid nutation amplitudes over frequency, and its fit.
+    """Draw the ratio of IAU 2000A to rigid-body nutation amplitudes, and a fit, over frequency.
 
     Parameters
     ----------
@@ -283,7 +283,7 @@ BEYOND = 0.6
 
 
 def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the rms of predicted pole minus IAU 2000A for each model, on a logarithmic axis.
+    """Draw the rms of predicted minus IAU 2000A nutation for each model, on a logarithmic axis.
 
     Parameters
     ----------
@@ -311,7 +311,7 @@ def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the transfer function of nutation near the resonance of the core, and the main terms.
+    """Draw the nutation transfer function near the core resonance, and IAU 2000A over rigid terms.
 
     Parameters
     ----------

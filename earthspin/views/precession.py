@@ -24,7 +24,7 @@ PASSED = 2.0
 
 
 def lead(tree: Result) -> str:
-    """First sentence of the page on precession, with the period of precession."""
+    """First sentence on the precession page: period of precession, and which torques cause it."""
     answer, known = answer_of(tree), section(tree, "iau_2006")
     alone = measured(answer.isel(perturber=-1), "precession_period", "years")
     pull = f"the pull of {reading.perturbers_of(answer)} on the equatorial bulge"
@@ -50,7 +50,7 @@ def _with_known_effects(known: xr.Dataset) -> tuple[float, float]:
 
 
 def periods(tree: Result) -> Table:
-    """Table of the precession period in three definitions, and the use of each."""
+    """Table of the precession period by three definitions, and the use of each definition."""
     answer, known, seasons = answer_of(tree), needed(tree, "iau_2006"), needed(tree, "seasons")
     total, iau = answer.isel(perturber=-1), FULL_TURN / float(known.iau_rate)
     period, error = _with_known_effects(known)
@@ -122,7 +122,7 @@ def rates(tree: Result) -> Table:
 
 
 def sky_and_calendar(tree: Result) -> Table:
-    """Table of the general precession and of the drift of the calendar."""
+    """Table of general precession, tropical year and calendar drift, with values for comparison."""
     computed = tables.quantities(
         needed(tree, "seasons"),
         "general_precession",
@@ -159,7 +159,7 @@ _MODELS = {
 
 
 def models(tree: Result) -> Table:
-    """Table of precession and free wobble for three models of the dynamical flattening H."""
+    """Table of H, precession period and wobble period for three models of the Earth's figure."""
     figure = needed(tree, "figure_models")
     columns = (
         Column("earth_model", lambda row: _MODELS[row.earth_model.item()], "model"),
@@ -294,7 +294,7 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
 
 
 def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw averaged minus adopted precession rate over the length of the averaging window.
+    """Draw the difference of averaged and adopted precession rate over the window length.
 
     Parameters
     ----------
@@ -321,7 +321,7 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def _caption_of_circle(tree: Result) -> str:
-    """Caption for the figure of the pole's circle; it names bright stars near the path."""
+    """Caption for the figure of the pole's path; the caption names bright stars near the path."""
     total = answer_of(tree).isel(perturber=-1)
     years = np.arange(-9900, 14001, 100)
     path = _circle(total, years)
@@ -341,7 +341,7 @@ def _caption_of_circle(tree: Result) -> str:
 
 
 def _circle(total: xr.Dataset, years: ArrayLike) -> FloatArray:
-    """Positions of the celestial pole on the star chart in given years, at a constant rate."""
+    """Positions (deg) of the celestial pole on the star chart in given years, at constant rate."""
     radius, rate = float(total.obliquity), float(si(total.precession_rate))
     back = rate * (np.asarray(years) - 2000) * JULIAN_YEAR  # its longitude falls: to the left
     return np.stack([-radius * np.sin(back), radius * np.cos(back)], axis=-1)

@@ -1,4 +1,4 @@
-"""Read the parts and the words of a result, and write the line that closes the output."""
+"""Read sections and attributes of a result, and describe its error and run time in one line."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ Result = xr.Dataset | xr.DataTree
 
 
 def answer_of(result: Result) -> xr.Dataset:
-    """Return the main Dataset of a result; for many bodies or starts, select the first."""
+    """Return the main Dataset of a result; of many bodies or initial states, only the first."""
     whole = result.to_dataset() if isinstance(result, xr.DataTree) else result
     return _first_case(whole, whole.attrs)
 
 
 def question_of(result: Result) -> type[Question] | None:
-    """Return the class of the question that gave a result; None if it is not in this package."""
+    """Return the class of the question that a result answers; None for an unknown question."""
     return QUESTIONS.get(result.attrs["compute"])
 
 
@@ -68,7 +68,7 @@ def perturbers_of(answer: xr.Dataset) -> str:
 
 
 def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:
-    """Sentences that list which properties of the body and the perturbers the user changed.
+    """Sentences that list the properties of the body and the perturbers that the user changed.
 
     Parameters
     ----------
@@ -134,7 +134,7 @@ def closing_line(result: Result, seconds: float | None = None) -> str:
 
 
 def _error(answer: xr.Dataset) -> str:
-    """Largest 95 % error of the headline number, with its shares, or why there is none."""
+    """Text with the largest 95 % error of the headline number, by source, or why there is none."""
     question = question_of(answer)
     if question is None or question.headline not in answer:
         return ""
@@ -173,7 +173,7 @@ def _error(answer: xr.Dataset) -> str:
 
 
 def _label(point: xr.DataArray, dim: Hashable, index: int) -> str:
-    """Label of one place along a dimension, as text; its index if the dimension has no labels."""
+    """Coordinate label of a point along a dimension, as text; the index if there are no labels."""
     if dim not in point.coords:
         return f"{dim} {index}"
     label = point[dim]

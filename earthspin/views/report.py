@@ -98,7 +98,7 @@ def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]
 
 
 def gallery() -> list[Solid]:
-    """List of the three-dimensional pictures for the page of rotors and tops."""
+    """Three-dimensional pictures for the report's page on rotors and tops, as a list."""
     prolate = SymmetricRotor(equatorial=1.0, difference=-0.6, speed=1.0, alpha=0.35)
     oblate = SymmetricRotor(equatorial=1.0, difference=0.8, speed=1.0, alpha=0.6)
     tops = ("top-wave", "top-cusp", "top-loop")
@@ -111,7 +111,7 @@ def gallery() -> list[Solid]:
 
 
 def gallery_page() -> str:
-    """HTML page with three-dimensional pictures of rotors and tops, a part of the report."""
+    """HTML page of the precession report, with three-dimensional pictures of rotors and tops."""
     return page(
         "Rotors and tops",
         solids=gallery(),
@@ -160,7 +160,7 @@ def write_wobble_report(
 
 
 def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
-    """Sentence that compares the computed and the observed period of the free wobble."""
+    """Sentence with the rigid, computed and observed periods of the free wobble."""
     answer = answer_of(ladder)
     rigid, top = measured(answer.sel(rung="rigid"), "period_solar", "days"), answer.isel(rung=-1)
     period, error = top.period_solar, top.period_solar_error
@@ -174,7 +174,7 @@ def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
 
 
 def _write(files: Mapping[Path, str | xr.DataTree]) -> list[Path]:
-    """Write pages and data; return their paths. If one cannot be written, none is."""
+    """Write pages and data files, and return the paths; if one file fails, none is replaced."""
     with ExitStack() as together:
         for path, content in files.items():
             draft = together.enter_context(drafts.replacing(path))

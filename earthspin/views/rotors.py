@@ -201,7 +201,7 @@ def rolling_cones(rotor: SymmetricRotor, title: str, points: int = 241) -> Solid
 
 
 def _turn_to_z(vector: FloatArray) -> FloatArray:
-    """Quaternion of the smallest rotation that makes a vector parallel to the third axis."""
+    """Quaternion of the smallest rotation that turns a given vector to the third axis."""
     unit = vector / np.linalg.norm(vector)
     half = np.array([1 + unit[2], unit[1], -unit[0], 0.0])
     return np.asarray(half / np.linalg.norm(half))
@@ -323,7 +323,7 @@ def plot_spin(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the error of the attitude in time, by cause.
+    """Draw the error of the attitude over time, for each cause (method, inputs, kernel).
 
     Parameters
     ----------
@@ -343,7 +343,7 @@ def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the logarithm of a small, growing change of the rotation, and its mean growth rate.
+    """Draw the logarithm of the distance of two neighbouring rotations, and its mean growth.
 
     Parameters
     ----------
@@ -389,7 +389,7 @@ SHAPE = (1.0, 0.8, 0.6)
 
 
 def turning_body(tree: Result) -> Solid:
-    """Animated three-dimensional ellipsoid with the principal moments of the body."""
+    """Animated three-dimensional picture of the rotation of a body, drawn as an ellipsoid."""
     few = answer_of(tree).isel(time=slice(0, POSES))
     attitude, momentum = few.attitude.values, few.angular_momentum.values
     omega = rotate(attitude, few.omega.values)

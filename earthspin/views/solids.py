@@ -114,7 +114,7 @@ def _arrow(name: str, points: FloatArray, colour: str, label: str) -> Item:
 
 
 def ellipsoid(semi_axes: Sequence[float], rows: int = 17, columns: int = 33) -> FloatArray:
-    """Points on an ellipsoid along its principal axes, shape (rows, columns, 3)."""
+    """Points on an ellipsoid with semi-axes along x, y and z, shape (rows, columns, 3)."""
     angles = np.linspace(0, np.pi, rows), np.linspace(0, 2 * np.pi, columns)
     polar, azimuth = np.meshgrid(*angles, indexing="ij")
     unit = [np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)]

@@ -47,7 +47,7 @@ def year_labels(years: Iterable[int], places: FloatArray) -> list[Label]:
 
 
 def star_vectors() -> FloatArray:
-    """Unit vectors of the stars at J2000.0 in the ICRF, shape (n, 3)."""
+    """Unit vectors in the ICRF, at J2000.0, of the stars on the chart, shape (n, 3)."""
     return directions(np.zeros(1))[:, 0]
 
 
@@ -75,7 +75,7 @@ def on_the_chart(vectors: FloatArray, obliquity: float) -> FloatArray:
 def plot_path(
     path: FloatArray, dates: list[Label], obliquity: float, ax: Axes | None = None
 ) -> Axes:
-    """Draw a path of the celestial pole among the stars, with labels that hardly overlap.
+    """Draw a path of the celestial pole on the star chart, with labels placed to overlap little.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ def plot_path(
 
 
 def _place_labels(ax: Axes, labels: list[Label], path: FloatArray) -> None:
-    """Place labels on the chart one after another, each where it overlaps least."""
+    """Place labels on the chart one after another, each at the side with the least overlap."""
     window = ax.get_window_extent()
     points = min(window.width, window.height) * 72 / ax.figure.dpi / (2 * REACH)
     line, dots = _resampled(path * points), np.array([label.at for label in labels]) * points
@@ -126,7 +126,7 @@ def _place_labels(ax: Axes, labels: list[Label], path: FloatArray) -> None:
 
 
 def _resampled(path: FloatArray) -> FloatArray:
-    """Resample a path at steps of about two typographic points.
+    """Resample a path (in typographic points) at equal steps of two points.
 
     The path's overlap with a label can then be counted.
     """
@@ -142,7 +142,7 @@ def _cost(
     line: FloatArray,
     edge: float,
 ) -> float:
-    """Measure of the overlap of a label with other labels, the edge of the chart, and the path."""
+    """Penalty for a label that overlaps other labels, the edge of the chart or the path."""
     low, high = np.array(boxes).transpose(1, 0, 2)
     wide = half + CLEAR
     shared = np.clip(np.minimum(middle + wide, high) - np.maximum(middle - wide, low), 0, None)

@@ -1,4 +1,4 @@
-"""Tables of text for the terminal and for pages, and tables of any answer from its labels."""
+"""Text tables for terminal and HTML pages, and general tables of any result."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ class Column:
     head: str = ""
 
     def header(self, data: xr.Dataset) -> str:
-        """Header of the column; in a table of quantities, this text is the label of the row."""
+        """Header of the column (or label of the row, if each row is one quantity)."""
         return self.head or label(data[self.name])
 
     def text(self, row: xr.Dataset) -> str:
@@ -98,7 +98,7 @@ class Column:
 
 
 def label(variable: xr.DataArray) -> str:
-    """Label of a variable for tables: its short label or its name, followed by the unit."""
+    """Label of a variable for tables: short label or name of the variable, then the unit."""
     words, unit = variable.attrs.get("short", ""), variable.attrs.get("units", "")
     words = words or in_words(variable.name)
     return words if unit in ("", "1") else f"{words}, {unit}"
@@ -149,7 +149,7 @@ def table_along(
 
 
 def least_width(head: str, cells: Sequence[str]) -> int:
-    """Characters that a column needs so that no number, word or short text is broken.
+    """Smallest width of a column, in characters, that breaks no number, word or short text.
 
     Headers take at most three lines, or more if their longest word is short.
     """
@@ -159,7 +159,7 @@ def least_width(head: str, cells: Sequence[str]) -> int:
 
 
 def quantities(data: xr.Dataset, *rows: Column | str) -> list[tuple[str, str]]:
-    """Rows of a table with one quantity in each row: its label, and its value as text."""
+    """Table rows with one quantity in each row: label and value as text."""
     return [(row.header(data), row.text(data)) for row in map(_column, rows)]
 
 
@@ -169,7 +169,7 @@ def _column(column: Column | str) -> Column:
 
 
 def with_error(value: SupportsFloat, error: SupportsFloat, unit: str = "") -> str:
-    """Format a value with two digits of its half-width in brackets.
+    """Format a value with its error (95 % half-width) to two digits in brackets.
 
     The digits in brackets belong to the last ones before them, as journals write it:
     ``50.404315(33)`` is 50.404315 ± 0.000033, and ``430.9(1.4)`` is 430.9 ± 1.4.
@@ -194,7 +194,7 @@ def with_error(value: SupportsFloat, error: SupportsFloat, unit: str = "") -> st
 
 
 def _in_brackets(value: float, error: float) -> str:
-    """Format a value followed by two digits of its error in brackets, like ``50.40(33)``."""
+    """Format a value and two digits of a nonzero error without exponent, like ``50.40(33)``."""
     digits = max(0, 1 - math.floor(math.log10(error)))
     half = f"{error:.{digits}f}"
     return f"{value:z.{digits}f}({half.removeprefix('0.').lstrip('0') if error < 1 else half})"
@@ -213,7 +213,7 @@ def two_digits(value: SupportsFloat) -> str:
 def beside_observed(
     value: SupportsFloat, error: SupportsFloat, left_out: xr.Dataset | None, unit: str = ""
 ) -> str:
-    """Format a computed value with all its known errors, for comparison with an observation.
+    """Format a computed value with an error that includes neglected effects of known size.
 
     Parameters
     ----------
@@ -233,7 +233,7 @@ def beside_observed(
 
 
 def systematic_size(left_out: xr.Dataset) -> float:
-    """Sum of the sizes of neglected effects; NaN if there are none, or one of unknown size.
+    """Sum of the sizes of neglected effects; NaN if there are no sizes or any size is unknown.
 
     Periodic effects vanish in the mean and are excluded.
     """
@@ -245,7 +245,7 @@ def systematic_size(left_out: xr.Dataset) -> float:
 
 
 def measured(data: xr.Dataset, name: str, unit: str = "") -> str:
-    """Format a variable of a Dataset, with two digits of its half-width in brackets."""
+    """Format a number of a Dataset with its 95 % half-width in brackets."""
     return with_error(data[name], data[f"{name}_error"], unit)
 
 
@@ -255,7 +255,7 @@ def date(time: xr.DataArray | np.datetime64, to: Literal["Y", "D", "m", "s"] = "
 
 
 def along(data: xr.Dataset, dim: str) -> Iterator[tuple[str, xr.Dataset]]:
-    """For each label of a dimension, yield its text and the data at that label."""
+    """Yield each label of a dimension as text, with the data at this label."""
     for number, label in enumerate(data[dim].values):
         yield str(label), data.isel({dim: number})
 
@@ -277,7 +277,7 @@ NOTED = "long_name", "comment", "frame"
 
 @dataclass(frozen=True, eq=False)
 class _DataColumn:
-    """Values of one column of a table, with half-widths if they have any of their own.
+    """Values of one table column, with 95 % half-widths if known.
 
     Attributes
     ----------
@@ -309,7 +309,7 @@ class _DataColumn:
 
 
 def tables(tree: Result, without: Iterable[str] = ()) -> list[Table]:
-    """Tables of an answer and of its sections.
+    """General tables of a result and its sections, made from the variables and dimensions.
 
     A table has a row for each label of a dimension, or for each single number. Values are
     followed by their half-widths in brackets.
@@ -333,7 +333,7 @@ def tables(tree: Result, without: Iterable[str] = ()) -> list[Table]:
 
 
 def tables_of(data: xr.Dataset, title: str) -> Iterator[Table]:
-    """Tables of one Dataset: first its single numbers, then one or more for each dimension.
+    """Tables of one Dataset: first of single numbers, then one or more along each dimension.
 
     The first table that shows a variable says what it means.
     """
@@ -358,7 +358,7 @@ def tables_of(data: xr.Dataset, title: str) -> Iterator[Table]:
 
 
 def numbered(tables: Iterable[Table]) -> list[Table]:
-    """Add a number to each title that a table before has, so that all titles differ."""
+    """Return the tables with different titles: a number is added to a repeated title."""
     unique: dict[str, Table] = {}
     for table in tables:
         title, number = table.title, 1
@@ -377,7 +377,7 @@ def _names(data: xr.Dataset) -> list[str]:
 
 
 def _half_width(data: xr.Dataset, name: str) -> str:
-    """Name of the variable with the half-widths of another; empty if it has none in its unit."""
+    """Name of the variable with the half-widths of `name`; empty if units or dimensions differ."""
     error = error_of(data, name)
     if error == name or "_error" not in error or error not in data:
         return ""
@@ -388,7 +388,7 @@ def _half_width(data: xr.Dataset, name: str) -> str:
 
 
 def _columns(data: xr.Dataset, name: str) -> Iterator[tuple[str, _DataColumn]]:
-    """Columns of one variable, each with the dimension of its rows.
+    """Yield the table columns of one variable, each with the dimension along which the rows are.
 
     The rows are along the longest dimension; each label of the others has a column.
     """
@@ -415,7 +415,7 @@ def _columns(data: xr.Dataset, name: str) -> Iterator[tuple[str, _DataColumn]]:
 def _tables_along(
     data: xr.Dataset, dim: str, columns: list[_DataColumn], title: str, said: set[str]
 ) -> Iterator[Table]:
-    """Tables with a row for each label of a dimension; several if the columns are many."""
+    """Yield tables with a row for each label of a dimension; more than one if columns are many."""
     labels, count = _DataColumn(dim, label(data[dim]), data[dim]), data.sizes[dim]
     rows, part = np.arange(count), ""
     if count > MOST_ROWS and data[dim].dtype.kind in "UO":
@@ -437,7 +437,7 @@ def _tables_along(
 def _side_by_side(
     texts: Mapping[_DataColumn, list[str]], labels: _DataColumn
 ) -> Iterator[list[_DataColumn]]:
-    """Groups of columns that fit beside the labels; columns without any text are left out."""
+    """Yield groups of columns that fit, with the labels, into the table width; omit empty ones."""
     widths = {column: SPACE + least_width(column.head, cells) for column, cells in texts.items()}
     group, room = [labels], WIDTH - widths[labels]
     for column, cells in texts.items():
@@ -453,7 +453,7 @@ def _side_by_side(
 
 
 def _notes(data: xr.Dataset, columns: Iterable[_DataColumn], said: set[str]) -> str:
-    """Lines with meaning, comment, frame and sources of variables that are not in `said` yet."""
+    """Note below a table: meaning, frame, sources of variables that no earlier note explains."""
     lines: list[str] = []
     left_out: dict[str, None] = {}
     for name in dict.fromkeys(column.name for column in columns):
@@ -475,7 +475,7 @@ def _notes(data: xr.Dataset, columns: Iterable[_DataColumn], said: set[str]) -> 
 
 
 def _text(value: Any, digits: int = 7) -> str:
-    """Text of a single value: to some digits, words without underscores, yes or no."""
+    """Text of a table cell: number to some digits, text without underscores, or yes and no."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):

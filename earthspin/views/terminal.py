@@ -1,4 +1,4 @@
-"""Print tables to the terminal; stop quietly if the reader of the output has ended."""
+"""Print tables to the terminal; raise BrokenPipeError if the reading program has ended."""
 
 from __future__ import annotations
 
@@ -51,5 +51,5 @@ class Terminal(Console):
 
 
 def _plain(words: str) -> Text:
-    """Convert text for the terminal: markup is not interpreted, control characters are escaped."""
+    """Convert text to a rich `Text` that ignores markup and escapes control characters."""
     return Text("\n".join(map(printable, words.split("\n"))))

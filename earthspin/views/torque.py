@@ -18,7 +18,7 @@ MANY_SWINGS = 200
 
 
 def through(tree: Result, title: str, smooth_days: float) -> drawing.Drawing:
-    """Figure of declination and torque over time; fast oscillations are drawn as bands."""
+    """Figure, for an HTML page, of declination and torque over time; fast oscillations as bands."""
     plot = partial(_plot_both, smooth_days=smooth_days)
     return PageFigure(title, _caption_of_torque(tree, smooth_days), plot).drawn(tree)
 
@@ -56,7 +56,7 @@ def _caption_of_torque(tree: Result, smooth_days: float | None = None) -> str:
 def plot_declination(
     result: Result, *, smooth_days: float | None = None, ax: Axes | None = None
 ) -> Axes:
-    """Draw the declination of each perturber in time.
+    """Draw the declination of each perturber over time.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def plot_declination(
 def plot_torque(
     result: Result, *, smooth_days: float | None = None, ax: Axes | None = None
 ) -> Axes:
-    """Draw the torque component towards the equinox, which causes precession, over time.
+    """Draw the component of the torque towards the equinox over time (the cause of precession).
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ def plot_torque(
 def _line_or_band(
     ax: Axes, series: xr.DataArray, label: str, number: int, colour: str, smooth_days: float | None
 ) -> None:
-    """Draw a time series as a line; if it oscillates fast, as a band between its extremes."""
+    """Draw a time series as a line, or as a band between its extremes if it oscillates fast."""
     swings = int((np.diff(np.sign(np.diff(series.values))) != 0).sum())
     if not smooth_days or swings < MANY_SWINGS:
         ax.plot(series.time, series, color=colour, lw=0.8, zorder=3 - 0.1 * number, label=label)
@@ -148,7 +148,7 @@ def _caption_of_states(tree: Result) -> str:
 
 
 def plot_states(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the spin axes of the Cassini states in the plane in which all of them lie.
+    """Draw the spin axes of all Cassini states, which lie in one plane with the orbit normal.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Table and figure of the ladder of the free wobble, and figure of the Love numbers."""
+"""Table and figure of the free wobble period by Earth model, and figure of Love numbers."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from earthspin.views.tables import Column, Table, along, table_along
 
 
 def ladder(tree: Result) -> Table:
-    """Table of the free wobble period for each model of the ladder, from rigid to deformable."""
+    """Table of the free wobble period for successive models, from rigid to deformable."""
     answer, observed = answer_of(tree), section(tree, "observed")
 
     def period(row: xr.Dataset) -> str:
@@ -114,7 +114,7 @@ MARKS = {"a day": 1.0, "14 months": 430.0, "the node": 6798.4}
 
 @drawing.style()
 def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Draw how much the Love numbers exceed the elastic ones, and their phase lag, by period.
+    """Draw the excess (%) over the elastic Love numbers, and the phase lag (deg), over period.
 
     Parameters
     ----------
