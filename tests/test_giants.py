@@ -1,6 +1,7 @@
 """Precession of the giant planets together with their satellites."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -16,6 +17,8 @@ from earthspin.questions.precession import Precession
 from earthspin.questions.satellites import carried, largest_drifts, mean_pole_error, swings
 from earthspin.torque.laplace import Planet, Satellites, laplace_tilts
 from earthspin.views.answers import tables_for
+from earthspin.views.precession import lead
+from earthspin.views.reading import closing_line
 from tests.reference import gyroscopes
 
 #: Pull of the Sun, GM/(a3 (1 - e2)^1.5), s-2, and obliquity to the orbit, deg.
@@ -117,10 +120,13 @@ def test_the_pole_holds_the_uncertain_masses_of_satellites() -> None:
     assert claimed == pytest.approx(moved, rel=0.05, abs=0)
 
 
-def test_the_table_of_uranus_names_its_satellites_and_what_is_left_out() -> None:
-    table, *_ = tables_for(earthspin.precession(body=URANUS.replace(dynamical_flattening=0.0156)))
-    assert all(moon.name in table.note for moon in URANUS.satellites)
-    assert "node of Miranda" in str(table.rows)
+def test_the_texts_on_uranus_name_its_satellites_and_what_is_left_out() -> None:
+    answer = earthspin.precession(body=URANUS.replace(dynamical_flattening=0.0156))
+    table, *_ = tables_for(answer)
+    for text in (table.note, lead(answer)):
+        assert all(moon.name in text for moon in URANUS.satellites)
+    for text in (str(table.rows), closing_line(answer)):
+        assert re.search("node of Miranda.* zero in the mean", text)
     assert "zero in the mean" in table.note
     assert "with the all" not in table.note
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import datetime as dt
-from collections.abc import Hashable, Mapping
+from collections.abc import Hashable, Mapping, Sequence
 
 import numpy as np
 import xarray as xr
@@ -64,7 +64,13 @@ def body_of(answer: xr.Dataset) -> str:
 
 def perturbers_of(answer: xr.Dataset) -> str:
     """List the perturbers of a result in words: ``"the Sun, the Moon and Jupiter"``."""
-    *others, last = map(in_a_sentence, answer.attrs["perturbers"].split())
+    names = [in_a_sentence(name) for name in answer.perturber.values.tolist()]
+    return listed(names[:-1] or names)  # the last of several is their total
+
+
+def listed(names: Sequence[str]) -> str:
+    """Join names in a sentence: ``"Io, Europa and Callisto"``."""
+    *others, last = names
     return f"{', '.join(others)} and {last}" if others else last
 
 
