@@ -164,6 +164,8 @@ class Body(FromMass):
     by_name: ClassVar[bool] = True
     #: Converter of each field; unit of each numeric field; and the numeric fields that may be
     #: labelled arrays, for an ensemble of bodies.
+    #:
+    #: :meta hide-value:
     KINDS: ClassVar[dict[str, Any]]
     UNITS: ClassVar[dict[str, str]]
     LABELLED: ClassVar[frozenset[str]]
