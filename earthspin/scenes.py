@@ -207,9 +207,8 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
     question = _changed(table, changes, source, title, with_units)
     for key, path, kind in files_of(question, changes) if stored else ():
         _check_kind(key, path, kind, source)
-    body = getattr(question, "body", None)
-    shipped = source.startswith("scene '")
-    if shipped and isinstance(body, Body) and body.name != own_body and "title" not in changes:
+    body = getattr(question, "body", None) if source.startswith("scene '") else None
+    if isinstance(body, Body) and body.name != own_body and "title" not in changes:
         # the titles of shipped scenes name their own body
         name = in_a_sentence(body.name)
         renamed = re.sub("(?i)the equinoxes|the earth|the moon", lambda _: name, question.title)

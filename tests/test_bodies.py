@@ -50,6 +50,8 @@ def test_a_name_that_is_nearly_right() -> None:
         ({"moments": (8e37, 8e37, -8e37)}, "moments"),
         ({"moments": (1e37, 8e37, 1e37)}, "moments"),
         ({"moments": (8e37, 8e37, 17e37)}, "dynamical_flattening"),
+        ({"j2": 2e-3, "dynamical_flattening": 2.05e-3}, "dynamical_flattening"),
+        ({"moments": (1.65e38, 1.65e38, 1.651e38)}, "dynamical_flattening"),
         ({"moments": (8e37, 8e37, 8.1e37), "j2": 1e-3}, "moments"),
         ({"colour": "blue"}, "colour"),
         ({"mass": 6e24, "gm": 4e14}, "mass"),
@@ -60,6 +62,12 @@ def test_impossible_bodies_name_the_field(change: dict, field: str) -> None:
     with pytest.raises(BodyError) as error:
         EARTH.replace(**change)
     assert error.value.field == field
+
+
+def test_a_hollow_sphere_is_the_limit_of_round_bodies() -> None:
+    """It has 2/3 M a2 about each axis, 1.620e38 kg m2 with mass and radius of the Earth."""
+    shell = EARTH.replace(moments=(1.62e38, 1.62e38, 1.621e38))
+    assert shell.moments[2] == pytest.approx(1.621e38, rel=1e-9, abs=0)
 
 
 def test_the_thin_disc_is_the_limit() -> None:

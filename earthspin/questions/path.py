@@ -136,7 +136,8 @@ def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
     total = np.sum([*satellites.drifts(nutations, since).values(), np.zeros(since.size)], axis=0)
     published = LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
     rate = sum(abs(rate.value) * ARCSEC_PER_YEAR for rate in published.values())
-    rate += satellites.rate_half_width(body, pull, obliquity)
+    common = satellites.common_turn(body, pull)
+    rate += common[1] if common else 0.0
     return np.asarray(total + rate * math.sin(obliquity) * np.abs(since))
 
 

@@ -242,8 +242,10 @@ def obliquity_of(body: Body) -> float | None:
     return angle(axis, pole.orbit_normal(body.orbit_pole))
 
 
-def common_turn(body: Body, pull: float) -> FloatArray | None:
+def common_turn(body: Body, pull: float) -> tuple[FloatArray, float] | None:
     """Angular velocity that satellites add to the precession of their planet, rad/s, shape (3,).
+
+    The second number is the 95 % half-width of the common rate due to the satellites, rad/s.
 
     The torque of the perturbers on the bulge turns the planet as if it were alone. Its satellites,
     each near its Laplace plane, make planet and satellites precess together about the normal of
@@ -252,20 +254,10 @@ def common_turn(body: Body, pull: float) -> FloatArray | None:
     obliquity = obliquity_of(body) if body.satellites else None
     if obliquity is None:
         return None
-    more = _rate_alone(body, pull, obliquity) * (carried(body, pull, obliquity).rate - 1)
-    return np.asarray(-more * body.needed("pole").orbit_normal(body.orbit_pole))
-
-
-def rate_half_width(body: Body, pull: float, obliquity: float) -> float:
-    """95 % half-width of the precession rate due to the satellites, rad/s (see `carried`)."""
+    alone = 1.5 * pull * math.cos(obliquity) * body.number("dynamical_flattening") / body.spin_rate
     moons = carried(body, pull, obliquity)
-    rate = moons.rate * _rate_alone(body, pull, obliquity)
-    return float(abs(NORMAL_95 * moons.uncertainty * rate))
-
-
-def _rate_alone(body: Body, pull: float, obliquity: float) -> Numeric:
-    """Precession rate of a planet without its satellites, rad/s."""
-    return 1.5 * pull * math.cos(obliquity) * body.number("dynamical_flattening") / body.spin_rate
+    turn = -alone * (moons.rate - 1) * body.needed("pole").orbit_normal(body.orbit_pole)
+    return np.asarray(turn), float(NORMAL_95 * moons.uncertainty * abs(alone * moons.rate))
 
 
 def _planet(columns: list[Any], obliquity: float) -> Planet:

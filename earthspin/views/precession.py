@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
 from earthspin.engine.variables import largest_of, si
+from earthspin.errors import listed
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing, reading, stars, tables, torque
 from earthspin.views.drawing import Axes, Figure, PageFigure, Views, axes, note
@@ -45,7 +46,7 @@ def lead(tree: Result) -> str:
 def _satellites(answer: xr.Dataset) -> str:
     """Names of the satellites that precess with the body; empty if there are none."""
     _, _, names = answer.precession_rate.attrs["pole"].partition("mean over the nodes of ")
-    return reading.listed(names.split(", ")) if names else ""
+    return listed(names.split(", ")) if names else ""
 
 
 def _with_known_effects(known: xr.Dataset) -> tuple[float, float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import datetime as dt
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Mapping
 
 import numpy as np
 import xarray as xr
@@ -13,6 +13,7 @@ from earthspin.engine.accessor import Answer
 from earthspin.engine.question import Question
 from earthspin.engine.run import IMPORTS
 from earthspin.engine.variables import error_of, from_si, largest_of
+from earthspin.errors import listed
 from earthspin.rounded import plain, shown_unit
 from earthspin.scenes import QUESTIONS, run_tree
 
@@ -66,12 +67,6 @@ def perturbers_of(answer: xr.Dataset) -> str:
     """List the perturbers of a result in words: ``"the Sun, the Moon and Jupiter"``."""
     names = [in_a_sentence(name) for name in answer.perturber.values.tolist()]
     return listed(names[:-1] or names)  # the last of several is their total
-
-
-def listed(names: Sequence[str]) -> str:
-    """Join names in a sentence: ``"Io, Europa and Callisto"``."""
-    *others, last = names
-    return f"{', '.join(others)} and {last}" if others else last
 
 
 def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:
