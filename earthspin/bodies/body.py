@@ -117,7 +117,8 @@ class Body(FromMass):
     UnitsError
         If a unit is unknown, or has the wrong dimension.
     BodyError
-        If a field is not finite, a mass is negative, C exceeds A + B, or j2 and H differ in sign.
+        If a field is not finite, a mass is negative, C exceeds A + B, j2 and H differ in sign, or a
+        nearly round body has larger moments than a hollow sphere.
 
     Examples
     --------
@@ -266,7 +267,7 @@ class Body(FromMass):
 
     def _repr_html_(self) -> str:
         rows = [(name, words, self._source(name)) for name, words in self._in_words()]
-        return card(self.name, rows)
+        return card(f"{self.name}; ± is one standard deviation", rows)
 
     def _source(self, name: str) -> str:
         """Literature source of the value of a field; empty if a user changed the built-in value."""
