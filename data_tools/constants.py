@@ -19,7 +19,7 @@ HEAD = """# Constants and where they were read
 code in which a value was read; the source is the publication of the value. {count} entries,
 {missing} of them **not verified**: no public copy was found. These words are in the source of such
 a number, and so in each answer that names the source. Where a copy confirms a number less closely
-than the source states it, the uncertainty contains the difference.
+than the source states it, the uncertainty contains the difference. "±" is one standard deviation.
 
 | number | value | unit | source | read in |
 |---|---:|---|---|---|

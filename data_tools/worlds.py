@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +17,7 @@ from earthspin.bodies.earth_moon_sun import MOON_OBLIQUITY
 from earthspin.bodies.giants import JUPITER_CONSTANT, SATURN_CONSTANT
 from earthspin.bodies.inner import MARS_PRECESSION, MERCURY_OBLIQUITY, VENUS_PRECESSION
 from earthspin.bodies.moons import TITAN_OBLIQUITY, TITAN_OBLIQUITY_IF_SOLID
-from earthspin.constants import NORMAL_95, PSI_A_RATE
+from earthspin.constants import NORMAL_95, PSI_A_RATE, UNVERIFIED, Constant
 from earthspin.errors import EarthspinError
 from earthspin.questions.cassini_states import CassiniStates
 from earthspin.questions.precession import Precession
@@ -198,10 +199,11 @@ def table(rows: list[World]) -> str:
     for row in rows:
         if not row.refused:
             known = PUBLISHED[row.name]
+            source = _short(known.number)
             lines.append(
                 f"| {proper(row.name)} | {row.obliquity:.2f} | {_to(row.error, row.rate)} "
                 f"| {row.error:.2g} | {row.in_all()} | {_to(row.period_error, row.period)} "
-                f"| {row.published:.4g} | {known.half_width} | {known.number.source} |"
+                f"| {row.published:.4g} | {known.half_width} | {source} |"
             )
     return "\n".join([*lines, *_reasons("world", "rate", PUBLISHED, PUBLISHED, rows), ""])
 
@@ -231,6 +233,13 @@ def table_of_locked(rows: list[World]) -> str:
         )
     names = [row.name for row in rows]
     return "\n".join([*lines, *_reasons("locked spin", "state", OBSERVED, names, rows), ""])
+
+
+def _short(number: Constant) -> str:
+    """Authors and year of the source of a number, with a mark if it is not verified."""
+    cited = re.match(r".*?\b\d{4}", number.source)
+    authors = number.source if cited is None else cited[0]
+    return authors if number.verified else f"{authors} ({UNVERIFIED})"
 
 
 def _reasons(

@@ -177,8 +177,7 @@ class BodyError(EarthspinError, ValueError):
         forms : mapping of str to str
             Example, unit or definition of a missing property, by field.
         """
-        *most, last = forms
-        names = f"{', '.join(most)} and {last}" if most else last
+        names, last = listed(forms), [*forms][-1]
         given = ", ".join(f"{name} = {form}" for name, form in forms.items())
         error = cls(body, last, None, f"this question needs {names}")
         words = f"has no {names}, which this question needs; give {given}"
@@ -402,6 +401,12 @@ def _rebuild(
     error.args = args  # OSError takes them in __init__ alone if a class has one of its own
     error.__dict__.update(facts)
     return error
+
+
+def listed(names: Iterable[str]) -> str:
+    """Join names in a sentence: ``"Io, Europa and Callisto"``."""
+    *others, last = names
+    return f"{', '.join(others)} and {last}" if others else last
 
 
 def nearest(word: object, allowed: Iterable[str]) -> str:

@@ -15,7 +15,7 @@ from typing import Any, Literal
 import numpy as np
 
 from earthspin._lazy import xr
-from earthspin.bodies import Body
+from earthspin.bodies import Body, in_a_sentence
 from earthspin.bodies.body import members
 from earthspin.engine import answers, blocks
 from earthspin.engine.blocks import Series
@@ -197,6 +197,7 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
         raise SceneError(named, source, f"it is not TOML: {error}") from None
     except (ValueError, RecursionError) as error:
         raise SceneError(named, source, f"it cannot be read: {error}") from None
+    own_body = table.get("body", "earth")
     with_units = set() if stored else _names(table)
     changed = _names(changes) | {part for key in changes for part in str(key).split(".")[:2]}
     with_units = with_units | changed if typed else with_units - changed
@@ -206,6 +207,12 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
     question = _changed(table, changes, source, title, with_units)
     for key, path, kind in files_of(question, changes) if stored else ():
         _check_kind(key, path, kind, source)
+    body = getattr(question, "body", None) if source.startswith("scene '") else None
+    if isinstance(body, Body) and body.name != own_body and "title" not in changes:
+        # the titles of shipped scenes name their own body
+        name = in_a_sentence(body.name)
+        renamed = re.sub("(?i)the equinoxes|the earth|the moon", lambda _: name, question.title)
+        return question.replace(title=renamed[:1].upper() + renamed[1:])
     return question
 
 

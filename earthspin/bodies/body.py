@@ -24,7 +24,7 @@ from earthspin.bodies.kinds import Magnitude
 from earthspin.bodies.orbit import Orbit, Satellite, SatelliteList
 from earthspin.bodies.shapes import FromMass, figure_of, moments_of
 from earthspin.card import card
-from earthspin.errors import BodyError, EarthspinError, Where, nearest
+from earthspin.errors import ArgumentError, BodyError, EarthspinError, Where, nearest
 from earthspin.interior.layers import LayeredBody
 from earthspin.numerics.arrays import Numeric
 from earthspin.sky.elements import Plane
@@ -35,6 +35,7 @@ from earthspin.units import Text
 #: Values of the key "from" in a table of a body: all numbers are in the table, or the figure
 #: follows from its layers.
 NOTHING, LAYERS = "nothing", "layers"
+_H = "(C - A)/C = j2/(C/(M radius2))"
 _ONE_AXIS = "the pole already gives it; set one of pole and obliquity"
 
 
@@ -116,7 +117,8 @@ class Body(FromMass):
     UnitsError
         If a unit is unknown, or has the wrong dimension.
     BodyError
-        If a field is not finite, a mass is negative, C exceeds A + B, or j2 and H differ in sign.
+        If a field is not finite, a mass is negative, C exceeds A + B, j2 and H differ in sign, or a
+        nearly round body has larger moments than a hollow sphere.
 
     Examples
     --------
@@ -132,7 +134,7 @@ class Body(FromMass):
     naif: Annotated[tuple[int, ...], kinds.Codes()] = ()
     radius: Annotated[Numeric | None, Magnitude("m", "6378 km")] = None
     j2: Annotated[Numeric | None, Magnitude("", "1.08e-3", "(C - A)/(M a2)")] = None
-    dynamical_flattening: Annotated[Numeric | None, Magnitude("", "3.27e-3", "(C - A)/C")] = None
+    dynamical_flattening: Annotated[Numeric | None, Magnitude("", "3.27e-3", _H)] = None
     triaxiality: Annotated[Numeric, Magnitude("", "7.26e-6")] = 0.0
     j3: Annotated[Numeric, Magnitude("", "-2.53e-6")] = 0.0
     j4: Annotated[Numeric, Magnitude("", "-1.62e-6")] = 0.0
@@ -163,6 +165,8 @@ class Body(FromMass):
     by_name: ClassVar[bool] = True
     #: Converter of each field; unit of each numeric field; and the numeric fields that may be
     #: labelled arrays, for an ensemble of bodies.
+    #:
+    #: :meta hide-value:
     KINDS: ClassVar[dict[str, Any]]
     UNITS: ClassVar[dict[str, str]]
     LABELLED: ClassVar[frozenset[str]]
@@ -172,9 +176,11 @@ class Body(FromMass):
         if places:
             raise TypeError("Body() takes its arguments by name: Body(name='x', gm=1e14)")
         for key in fields.keys() - cls.KINDS.keys() - {"obliquity"}:
-            use = f"use Body(...).replace({key}=...)"
-            problem = use if key in _READ_AS else nearest(key, cls.KINDS)
+            use = f"use Body(...).replace({key}=...)" if key in _READ_AS else ""
+            problem = _ANOTHER.get(key) or use or nearest(key, cls.KINDS)
             raise BodyError(str(fields.get("name", "")), key, fields[key], problem)
+        if fields and (lacks := _lacking(NOTHING, fields)):  # a copy begins without fields
+            raise ArgumentError(f"Body() {lacks}")
         return super().__new__(cls)
 
     def __post_init__(self, obliquity: Any) -> None:
@@ -261,7 +267,7 @@ class Body(FromMass):
 
     def _repr_html_(self) -> str:
         rows = [(name, words, self._source(name)) for name, words in self._in_words()]
-        return card(self.name, rows)
+        return card(f"{self.name}; ± is one standard deviation", rows)
 
     def _source(self, name: str) -> str:
         """Literature source of the value of a field; empty if no source is known."""
@@ -338,15 +344,8 @@ class Body(FromMass):
             raise where.error(dict(table), allowed)
         try:
             if start in _LEAST:
-                missing = [
-                    f"{name} = {e}" for name, e in _LEAST[start].items() if name not in changes
-                ]
-                if missing:
-                    allowed = f"a body from {start} needs more, like {', '.join(missing)}"
-                    spin = [n for n in _OF_SPIN if not {n, _INSTEAD.get(n)} & changes.keys()]
-                    if start == NOTHING and spin:
-                        allowed += f"; a spinning one also needs {', '.join(spin)}"
-                    raise where.error(dict(table), allowed)
+                if lacks := _lacking(start, changes):
+                    raise where.error(dict(table), f"a body from {start} {lacks}")
                 if start == LAYERS:
                     return cls.from_layers(changes.pop("interior"), **changes)
                 derived = {key: changes.pop(key) for key in _DERIVED & changes.keys()}
@@ -530,7 +529,8 @@ class Body(FromMass):
         """
         for key, value in changes.items():
             if key not in _READ_AS:
-                raise BodyError(self.name, key, value, nearest(key, _READ_AS))
+                problem = _ANOTHER.get(key) or nearest(key, _READ_AS)
+                raise BodyError(self.name, key, value, problem)
             if value is None and key not in self.KINDS:
                 raise BodyError(self.name, key, value, f"give {_READ_AS[key].words}")
             if type(value) is not float and value is not None:
@@ -640,6 +640,23 @@ _LEAST = {
 #: Fields that most questions about a spinning body need, and keys that replace some of them.
 _OF_SPIN = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
 _INSTEAD = {"j2": "moments", "dynamical_flattening": "moments", "pole": "obliquity"}
+
+
+def _lacking(start: str, given: Mapping[str, Any]) -> str:
+    """List the fields that a table or call lacks, by its "from"; empty if it has all."""
+    missing = [f"{name} = {e}" for name, e in _LEAST[start].items() if name not in given]
+    if not missing:
+        return ""
+    spin = [name for name in _OF_SPIN if not {name, _INSTEAD.get(name)} & given.keys()]
+    spins = f"; a spinning one also needs {', '.join(spin)}" if start == NOTHING and spin else ""
+    return f"needs more, like {', '.join(missing)}{spins}"
+
+
+#: Advice for quantities that are no fields where they were given.
+_ANOTHER = {
+    "mass": f"give gm = {c.G.value:g} m3 kg-1 s-2 * mass",
+    "polar_moment_factor": "set dynamical_flattening = j2/polar_moment_factor",
+}
 
 #: Fields omitted from the body's card, and fields shown in its repr.
 _NOT_TOLD = {"name", "relative_uncertainty"}

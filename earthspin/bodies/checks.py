@@ -65,6 +65,10 @@ NO_STAR, LEAST_STAR = (1e11, 1e16), 1e18
 #: Largest GM of a star, of 500 solar masses, m3 s-2. Black holes are larger, and of any density.
 LARGEST_STAR = 6.6e22
 
+#: Bound on the mean moment of a nearly round body: that of a hollow sphere, and 1 %; and bound on
+#: the J2 and the triaxiality of such a body.
+HOLLOW, ROUND = 1.01 * 2 / 3, 0.05
+
 _THIN_DISC = "C cannot exceed A + B, so H = (C - A)/C is at most 0.5 (the thin disc)"
 #: Conditions on single numbers, in the order of the checks, with the text of the message.
 _HOLDS: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
@@ -183,6 +187,11 @@ def _check_polar_moment(name: str, j2: Numeric, h: Numeric, triaxiality: Numeric
         raise BodyError(name, "triaxiality", triaxiality, "give a number, 0 for a round body")
     if not all_of((triaxiality * abs(h) <= abs(j2)) | (h == 0)):
         raise BodyError(name, "triaxiality", triaxiality, "B - A cannot exceed C")
+    # (A + B + C)/3 = 2/3 M <r2>, and no mass of a nearly round body is far outside its radius
+    solid = abs(j2) - 2 / 3 * j2 * abs(h) <= HOLLOW * abs(h)
+    if not all_of(solid | (abs(j2) >= ROUND) | (triaxiality >= ROUND) | (h == 0)):
+        allowed = "C = (j2/H) M a2 exceeds 2/3 M a2 of a hollow sphere; increase H or reduce j2"
+        raise BodyError(name, "dynamical_flattening", h, allowed)
 
 
 def _check_words(body: Fields) -> None:

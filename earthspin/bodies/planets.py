@@ -239,7 +239,7 @@ def in_words(name: str) -> str:
         If there is no such body.
     """
     world = body(name, Where("bodies"))
-    lines = [f"{world.name}: {world.reference}"]
+    lines = [f"{world.name}: {world.reference}", "  ± is one standard deviation"]
     for field, number in NUMBERS.get(world.name, {}).items():
         error = f" ± {number.uncertainty:.2g}" if number.uncertainty else ""
         lines.append(f"  {field} = {number.value:.9g}{error} {number.unit}".rstrip())

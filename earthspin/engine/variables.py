@@ -376,10 +376,13 @@ def labels_of(name: str, values: object, attrs: Mapping[str, object] | None = No
 def largest_of(text: str) -> tuple[str, float, str] | None:
     """Read name, size and unit of the largest effect from the text that `Neglected.largest` writes.
 
-    The result is None if the text gives no size.
+    The name says if the effect is zero in the mean. The result is None if the text gives no size.
     """
     written = re.match(r"([^:]+): ([-+.e\d]+) ([^(]+) \(", text)
-    return None if written is None else (written[1], float(written[2]), written[3])
+    if written is None:
+        return None
+    name = f"{written[1]}, zero in the mean" if PERIODIC in text else written[1]
+    return name, float(written[2]), written[3]
 
 
 def error_of(answer: xr.Dataset, headline: str) -> str:
@@ -389,6 +392,7 @@ def error_of(answer: xr.Dataset, headline: str) -> str:
     return str(answer[headline].attrs.get("ancillary_variables", "")).split(" ")[0]
 
 
+PERIODIC = "; zero in the mean over its period"
 BOUND = "this is a bound on a neglected effect, or its published size"
 
 
@@ -444,7 +448,7 @@ class Neglected:
             return unknown or self.what
         name = max(self.sizes, key=lambda effect: abs(self.sizes[effect]))
         shown = self.sizes[name] * from_si(self.unit)
-        mean = "; zero in the mean over its period" if name in self.periodic else ""
+        mean = PERIODIC if name in self.periodic else ""
         known = f"{name}: {shown:.3g} {self.unit} ({self.what}{mean})"
         return f"{known}; {unknown}" if unknown else known
 

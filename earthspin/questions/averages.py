@@ -406,7 +406,7 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         along(np.linalg.norm(means.torque_error, axis=1)),
         moment_difference(body.needed("j2"), body.mass, body.needed("radius")) * moons.bulge,
         body.relative_uncertainty_of_bulge(),
-        u_gm,
+        np.hypot(u_gm, moons.bulge_uncertainty),
     )
     return MeanRates(
         means=means,

@@ -206,7 +206,7 @@ def forces_of(pulls: Pulls, effects: Sequence[str], keep: bool = False) -> Force
     forces = switched_on(forces, body, effects)
     turn = common_turn(body, pulls.mean_pull()) if body.satellites else None
     if turn is not None:
-        forces = replace(forces, torques=(*forces.torques, turning(turn)))
+        forces = replace(forces, torques=(*forces.torques, turning(turn[0])))
     names = tuple(forces.gm)
     return replace(forces, positions=lambda times: pulls.positions(names, times, keep))
 

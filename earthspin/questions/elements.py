@@ -88,7 +88,8 @@ def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
         label = about if about in known else label_of(about, known.values())
         if label is None or label == member.name:
             others = [name for name in known if name != member.name]
-            raise SceneError(f"{member.name}.orbit.about", about, nearest(about, others))
+            problem = f"add it to the perturbers, or leave `about` out; {nearest(about, others)}"
+            raise SceneError(f"{member.name}.orbit.about", about, problem)
         return label
     if member is not body:
         return body.name

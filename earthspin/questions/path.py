@@ -117,7 +117,9 @@ def direction_errors(
 
 
 def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
-    """Largest displacement of the axis by the nodes of satellites and by published effects, rad.
+    """Largest displacement of the axis by satellites and by published effects, rad.
+
+    Satellites displace it by their nodes, and by the uncertainty of the rate that they add.
 
     Parameters
     ----------
@@ -129,12 +131,14 @@ def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
     obliquity = satellites.obliquity_of(body) if body.satellites else None
     if obliquity is None:
         return np.zeros(since.size)
-    nutations = satellites.swings(body, pulls.mean_pull(), obliquity)
+    pull = pulls.mean_pull()
+    nutations = satellites.swings(body, pull, obliquity)
     total = np.sum([*satellites.drifts(nutations, since).values(), np.zeros(since.size)], axis=0)
     published = LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
-    for rate in published.values():
-        total += abs(rate.value) * ARCSEC_PER_YEAR * math.sin(obliquity) * np.abs(since)
-    return np.asarray(total)
+    rate = sum(abs(rate.value) * ARCSEC_PER_YEAR for rate in published.values())
+    common = satellites.common_turn(body, pull)
+    rate += common[1] if common else 0.0
+    return np.asarray(total + rate * math.sin(obliquity) * np.abs(since))
 
 
 def continuous_longitude(

@@ -204,12 +204,12 @@ def response_error(
 
 
 class SatelliteError(Dated):
-    """Error of the axis directions due to the neglected nutation by the nodes of satellites."""
+    """Error of the axis directions from neglected nodes and uncertain masses of satellites."""
 
     direction_error_satellites = number(
         "arcsec",
-        "share of direction_error from the nodes of the satellites, whose nutation of the planet "
-        "is left out",
+        "share of direction_error from the satellites: the nutation by their nodes, which is left "
+        "out, and the uncertainty of the rate that they add",
     )
 
 
@@ -217,7 +217,7 @@ class SatelliteError(Dated):
 def satellite_error(
     axes: xr.Dataset, pulls: Pulls, epochs: Epochs, block: Block | None = None
 ) -> SatelliteError:
-    """Compute the error of the axis directions that is due to the nodes of satellites."""
+    """Compute the error of the axis directions that is due to the satellites."""
     since = days_of(epochs, block, "pole.zarr") * DAY - pulls.epoch
     drift = path.drift_of_nodes(pulls, since)
     return SatelliteError(time=axes.time, direction_error_satellites=drift)

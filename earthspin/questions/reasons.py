@@ -20,7 +20,11 @@ def no_iau_model(body: Body) -> str | None:
     The model is that of its precession.
     """
     described = body.pole is not None and body.pole.of_the_iau
-    return None if described else f"the IAU has no precession model for {in_a_sentence(body.name)}"
+    if described:
+        return None
+    if body.naif:
+        return f"the IAU has no precession model for {in_a_sentence(body.name)}"
+    return "the precession model of the IAU is for the real Earth only"
 
 
 def not_sun_and_moon(body: Body, perturbers: tuple[Body, ...]) -> str | None:

@@ -36,14 +36,15 @@ class Carried:
         J2'/J2: factor on the torque.
     moment : float or DataArray
         C'/C.
-    uncertainty : float or DataArray
-        Relative standard uncertainty of the rate, due to the masses of the satellites and to what
-        the model leaves out.
+    uncertainty, bulge_uncertainty : float or DataArray
+        Relative standard uncertainties of the rate and of `bulge`, due to the masses of the
+        satellites and to what the model leaves out.
     """
 
     bulge: Numeric = 1.0
     moment: Numeric = 1.0
     uncertainty: Numeric = 0.0
+    bulge_uncertainty: Numeric = 0.0
 
     @property
     def rate(self) -> Numeric:
@@ -127,19 +128,21 @@ def carried(body: Body, pull: Numeric, obliquity: float) -> Carried:
     satellites = _satellites(body)
     bulge, moment = factors(satellites)
     variance = (UNMODELLED / NORMAL_95 * (1 - 1 / bulge)) ** 2
+    bulge_variance = variance.copy()
     for place, satellite in enumerate(body.satellites):
         if satellite.gm_uncertainty:
             gm = satellites.gm.copy()
             gm[place] += satellite.gm_uncertainty
             heavier, more = factors(replace(satellites, gm=gm))
             variance += (heavier / more * (moment / bulge) - 1) ** 2
+            bulge_variance += (heavier / bulge - 1) ** 2
 
     def labelled(values: FloatArray) -> Numeric:
         if not template.dims:
             return float(values[0])
         return xr.DataArray(values.reshape(template.shape), template.coords, template.dims)
 
-    return Carried(labelled(bulge), labelled(moment), labelled(np.sqrt(variance)))
+    return Carried(*map(labelled, (bulge, moment, np.sqrt(variance), np.sqrt(bulge_variance))))
 
 
 @dataclass(frozen=True)
@@ -239,8 +242,10 @@ def obliquity_of(body: Body) -> float | None:
     return angle(axis, pole.orbit_normal(body.orbit_pole))
 
 
-def common_turn(body: Body, pull: float) -> FloatArray | None:
+def common_turn(body: Body, pull: float) -> tuple[FloatArray, float] | None:
     """Angular velocity that satellites add to the precession of their planet, rad/s, shape (3,).
+
+    The second number is the 95 % half-width of the common rate due to the satellites, rad/s.
 
     The torque of the perturbers on the bulge turns the planet as if it were alone. Its satellites,
     each near its Laplace plane, make planet and satellites precess together about the normal of
@@ -250,8 +255,9 @@ def common_turn(body: Body, pull: float) -> FloatArray | None:
     if obliquity is None:
         return None
     alone = 1.5 * pull * math.cos(obliquity) * body.number("dynamical_flattening") / body.spin_rate
-    more = alone * (carried(body, pull, obliquity).rate - 1)
-    return np.asarray(-more * body.needed("pole").orbit_normal(body.orbit_pole))
+    moons = carried(body, pull, obliquity)
+    turn = -alone * (moons.rate - 1) * body.needed("pole").orbit_normal(body.orbit_pole)
+    return np.asarray(turn), float(NORMAL_95 * moons.uncertainty * abs(alone * moons.rate))
 
 
 def _planet(columns: list[Any], obliquity: float) -> Planet:

@@ -179,9 +179,8 @@ def plot(answer: Answer) -> list[Figure]:
         raise SceneError("plot", selection, remedy) from None
     if not figures:
         needed = {figure.section.replace("_", "-") for figure in _views(data).figures}
-        left_out = plan(data, "all").left_out.items()
-        why = "; ".join(dict.fromkeys(reason for title, reason in left_out if title in needed))
-        raise SceneError("plot", question.word, f"no figure: {why or 'none is defined'}")
+        reasons = (why for title, why in plan(data, "all").left_out.items() if title in needed)
+        raise SceneError("plot", question.word, f"no figure: {next(reasons, 'none is defined')}")
     return figures
 
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
 from earthspin.engine.variables import largest_of, si
+from earthspin.errors import listed
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing, reading, stars, tables, torque
 from earthspin.views.drawing import Axes, Figure, PageFigure, Views, axes, note
@@ -28,6 +29,8 @@ def lead(tree: Result) -> str:
     answer, known = answer_of(tree), section(tree, "iau_2006")
     alone = measured(answer.isel(perturber=-1), "precession_period", "years")
     pull = f"the pull of {reading.perturbers_of(answer)} on the equatorial bulge"
+    if moons := _satellites(answer):
+        pull += f" and on the orbits of its satellites {moons}, which precess with it"
     once = f"The axis of {reading.body_of(answer)} goes once round in"
     if known is None:
         return f"{once} {alone} in this model: {pull}, and nothing else."
@@ -38,6 +41,12 @@ def lead(tree: Result) -> str:
         f"The model of this page, {pull}, gives {alone} by itself: it leaves out effects that add "
         f"{period - float(answer.precession_period[-1]):.2f} years."
     )
+
+
+def _satellites(answer: xr.Dataset) -> str:
+    """Names of the satellites that precess with the body; empty if there are none."""
+    _, _, names = answer.precession_rate.attrs["pole"].partition("mean over the nodes of ")
+    return listed(names.split(", ")) if names else ""
 
 
 def _with_known_effects(known: xr.Dataset) -> tuple[float, float]:
@@ -116,8 +125,9 @@ def rates(tree: Result) -> Table:
         f"({answer.precession_rate.attrs['window']}). In the error of the last rate, {method} "
         f"arcsec/yr are due to averaging and {given} arcsec/yr to the given numbers."
     )
-    if (pole := answer.precession_rate.attrs["pole"]).startswith("mean over the nodes of "):
-        note += f" The rate includes the satellites, which precess with the body; it is the {pole}."
+    if moons := _satellites(answer):
+        note += " The rate includes the satellites, which precess with the body; it is the mean "
+        note += f"over the nodes of {moons}."
     return table_along(answer, "perturber", "Precession", columns, note, first="pulled by")
 
 

@@ -12,6 +12,7 @@ from earthspin.engine.accessor import Answer
 from earthspin.engine.question import Question
 from earthspin.engine.run import IMPORTS
 from earthspin.engine.variables import error_of, from_si, largest_of
+from earthspin.errors import listed
 from earthspin.rounded import plain, shown_unit
 from earthspin.scenes import QUESTIONS, run_tree
 
@@ -63,8 +64,8 @@ def body_of(answer: xr.Dataset) -> str:
 
 def perturbers_of(answer: xr.Dataset) -> str:
     """List the perturbers of a result in words: ``"the Sun, the Moon and Jupiter"``."""
-    *others, last = map(in_a_sentence, answer.attrs["perturbers"].split())
-    return f"{', '.join(others)} and {last}" if others else last
+    names = [in_a_sentence(name) for name in answer.perturber.values.tolist()]
+    return listed(names[:-1] or names)  # the last of several is their total
 
 
 def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:

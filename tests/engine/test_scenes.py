@@ -67,6 +67,7 @@ def test_files(tmp_path: Path) -> None:
     binary.write_bytes(b"\xff\xfe\x00")
     assert load_scene(good).step == 3600.0
     assert load_scene(good).title == "good"
+    assert load_scene(good, {"body": "mars"}).title == "good"
     for path, words in (
         (bad, "not TOML"),
         (binary, "cannot be read"),
@@ -208,3 +209,18 @@ def test_a_number_in_two_spellings_is_refused(changes: dict) -> None:
 def test_a_table_before_a_number_in_it_is_a_start(mars: object) -> None:
     question = load_scene("precession", {"body": mars, "body.j2": 1.9e-3})
     assert (question.body.name, question.body.j2) == ("mars", 1.9e-3)
+
+
+@pytest.mark.parametrize(
+    ("scene", "changes", "title"),
+    [
+        ("precession", {"body": "mars"}, "Precession of Mars"),
+        ("precession", {"body": "mars", "title": "own"}, "own"),
+        ("precession", {"body.spin_period": "12 h"}, "Precession of the equinoxes"),
+        ("rotation", {"body": "mars"}, "Mars turns"),
+        ("cassini-states", {"body": "titan"}, "Cassini states of Titan"),
+        ("cassini-states", {"body": "moon"}, "Cassini states of the Moon"),
+    ],
+)
+def test_the_title_of_a_shipped_scene_names_the_body(scene: str, changes: dict, title: str) -> None:
+    assert load_scene(scene, changes).title == title

@@ -82,11 +82,13 @@ def test_sections_may_be_any_sequence_of_names() -> None:
         assert earthspin.plan("precession", sections).sections == one.sections == ("seasons",)
 
 
+POLE = ["10 deg", "60 deg"]
 NOT_HERE = [
     ("sun-only", {}, "standstills", "the moon is not among the perturbers"),
     ("sun-only", {}, "seasons", "the moon is not among the perturbers"),
     ("precession", {"body.spin_period": "12 h"}, "iau_2006", "a modified Earth"),
     ("precession", {"body": "mars", "perturbers": "sun"}, "iau_2006", "no precession model"),
+    ("precession", {"body.naif": [], "body.pole": POLE}, "iau_2006", "real Earth only"),
     ("precession", {"body.j2": 0.0, "body.dynamical_flattening": 0.0}, "free_wobble", "sphere"),
     ("wobble", {"body.interior": "none"}, "sensitivity", "no interior of the Earth is known"),
     ("poinsot", {"rotor.omega": [["1 rad/s"] * 3] * 2}, "poinsot", "there are several starts"),
