@@ -1,4 +1,4 @@
-"""Read dates, and times over millennia, in every form that the questions accept.
+"""Read dates ("3000 BC"), and times far from J2000.0 ("-65 kyr"), in all accepted forms.
 
 A date is read as days from J2000.0 TDB in two parts. Their sum is exact to a third of a microsecond
 over a century; a single Julian date is exact to 40 microseconds. Regular grids are counted in whole

@@ -113,7 +113,7 @@ class Model:
 
 
 class Solved(NamedTuple):
-    """Axes at given times, computed anew from the question of a result.
+    """Rotation matrices of the axes at given times, with errors and software versions.
 
     Attributes
     ----------
@@ -192,7 +192,7 @@ def _tdb(times: FloatArray) -> Time:
 
 
 def _at(model: Model, time: Any, where: Where) -> tuple[FloatArray, FloatArray]:
-    """Rotation matrices from the ICRS, at times of astropy or Skyfield, and their errors, rad."""
+    """Rotation matrices from the ICRS at given times, and 95 % half-widths of the axes, rad."""
     times = np.add(*two_parts(time, where))
     if times.size == 0:
         return np.empty((*times.shape, 3, 3)), np.empty(times.shape)

@@ -592,7 +592,7 @@ class Several:
 
     @property
     def hint(self) -> str:
-        """Type hint of the allowed list, as code editors show it."""
+        """Type hint for code editors: one value of the kind `of`, or a sequence of such values."""
         return f"{self.of.hint} | Sequence[{self.of.hint}]"
 
     @property

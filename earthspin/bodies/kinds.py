@@ -89,7 +89,7 @@ class Codes:
 
 
 class Uncertainties:
-    """Converter of a table of relative standard deviations of the fields of a body."""
+    """Converter of relative standard deviations of a body, given as a table by field name."""
 
     words, hint = "standard deviation divided by value, by field", "Mapping[str, float]"
 
@@ -146,7 +146,7 @@ def kinds_of(record: type) -> dict[str, Any]:
 
 
 class OwnPlace:
-    """Converter of the field `position`: a Skyfield function, a trajectory or kernel segments."""
+    """Converter of the input `position`: a Skyfield function, `Trajectory` or kernel segments."""
 
     words = "a vector function of Skyfield's, or segments like {kernel, centre, target}"
     hint = "VectorFunction | Trajectory | Mapping[str, Any]"

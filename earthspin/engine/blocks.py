@@ -470,7 +470,7 @@ def _digest_of_store(target: Path) -> str | None:
 
 @dataclass(frozen=True)
 class Series:
-    """Question about a long time series, whose answer is computed in blocks of consecutive times.
+    """Long time series, the answer to one question, computed in blocks of consecutive times.
 
     Attributes
     ----------

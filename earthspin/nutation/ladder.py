@@ -350,7 +350,7 @@ def inputs_of(uncertainty: Mapping[str, float]) -> list[str]:
 def draw(
     uncertainty: Mapping[str, float], draws: int = DRAWS, seed: int = SEED
 ) -> dict[str, FloatArray]:
-    """Draw random deviations of all uncertain inputs, in units of `changed`, shape (draws,) each.
+    """Draw random inputs: deviations in standard uncertainties, and values of the exponent.
 
     Each input takes equally probable values in random order (a Latin hypercube), so that a half-
     width due to a single input has no sampling error.

@@ -191,7 +191,7 @@ ADDITIONS = {
 
 
 def added_to(multiples: NDArray[np.int64]) -> ComplexArray:
-    """Amplitudes that IAU 2000A adds to given circular nutation terms; zero for most terms.
+    """Amplitudes of circular terms that IAU 2000A adds to the resonance formula; mostly zero.
 
     Parameters
     ----------

@@ -419,7 +419,7 @@ def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp
 
 @part
 def core_response(pole_analysis: PoleComparison, body: Body) -> Response:
-    """Fit the resonance formula to the ratios of IAU 2000A amplitudes to computed rigid ones."""
+    """Fit the resonance formula T so that T times rigid amplitudes matches those of IAU 2000A."""
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
     return _response_between(ours, ours.amplitude, theirs.amplitude, body)
 

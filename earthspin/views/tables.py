@@ -213,7 +213,7 @@ def two_digits(value: SupportsFloat) -> str:
 def beside_observed(
     value: SupportsFloat, error: SupportsFloat, left_out: xr.Dataset | None, unit: str = ""
 ) -> str:
-    """Format a computed value with an error that includes neglected effects of known size.
+    """Format a computed value; its error includes neglected effects if all sizes are known.
 
     Parameters
     ----------

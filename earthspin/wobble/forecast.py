@@ -195,7 +195,7 @@ class FastExcitation:
 
     @property
     def density(self) -> FloatArray:
-        """Covariance of the x and y noise that enters the fast excitation, mas2/d, shape (2, 2)."""
+        """Spectral density of the x and -y noise that drives the first filter, mas2/d, (2, 2)."""
         across = -self.correlation * self.x * self.y
         return np.array([[self.x**2, across], [across, self.y**2]])
 
