@@ -270,7 +270,7 @@ def at_observed_period(rung: Rung, setting: Setting) -> Rung:
 
 
 def quality(mode: complex) -> float:
-    """Quality factor of a free mode with complex frequency s, Re s/(2 Im s); it may be infinite."""
+    """Quality factor |Re s/(2 Im s)| of a free mode with complex frequency s; may be infinite."""
     if abs(mode.imag) < 1e-12 * abs(mode):
         return float("inf")
     return abs(mode.real / (2 * mode.imag))
@@ -350,7 +350,7 @@ def inputs_of(uncertainty: Mapping[str, float]) -> list[str]:
 def draw(
     uncertainty: Mapping[str, float], draws: int = DRAWS, seed: int = SEED
 ) -> dict[str, FloatArray]:
-    """Draw random inputs: deviations in standard uncertainties, and values of the exponent.
+    """Draw random model inputs: deviations in standard uncertainties, or values of the exponent.
 
     Each input takes equally probable values in random order (a Latin hypercube), so that a half-
     width due to a single input has no sampling error.
@@ -366,7 +366,7 @@ def draw(
 
 @dataclass(frozen=True)
 class Spread:
-    """Models of the interior with one input changed each, and weights to interpolate between them.
+    """Interior models, each with one input changed, and weights to combine their changes.
 
     Attributes
     ----------
@@ -386,7 +386,7 @@ class Spread:
     weights: FloatArray
 
     def transfer_changes(self, name: str, frequency: FloatArray) -> ComplexArray:
-        """Change of a model's transfer function for each varied input, (nodes, frequencies).
+        """Change of a model's transfer function for each changed input, shape (nodes, frequencies).
 
         The frequencies are in space, in rad/s.
         """
@@ -453,7 +453,7 @@ class Spread:
         return max(half_widths)
 
     def _drawn(self, changes: Array) -> Array:
-        """Interpolate the changes at the nodes to all random samples, shape (draws, ...)."""
+        """Interpolate the changes of the models to all random samples, shape (samples, ...)."""
         return np.asarray(np.einsum("nd,n...->d...", self.weights, changes))
 
 
@@ -463,7 +463,7 @@ def _half_width(changes: Array) -> FloatArray:
 
 
 def spread_of(setting: Setting, rungs: dict[str, Rung], uncertainty: Mapping[str, float]) -> Spread:
-    """Compute models with one input changed each, and weights to interpolate to random inputs.
+    """Compute interior models, each with one input changed, and weights for random inputs.
 
     Parameters
     ----------

@@ -111,7 +111,7 @@ def added_half_width(response: Response, frequency: FloatArray, rigid: ComplexAr
 def _form(
     frequency: FloatArray, h: float, spin_rate: float, core_nutation: complex
 ) -> tuple[FloatArray, ComplexArray]:
-    """Non-resonant part of the transfer function, and terms to be multiplied by the strengths.
+    """Non-resonant part of the transfer function, and factors of the fitted resonance strengths.
 
     There is one term for each strength, shape (k, 4).
     """
