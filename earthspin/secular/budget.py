@@ -39,7 +39,7 @@ PROBABILITY = 0.95
 
 
 def draws(causes: int) -> FloatArray:
-    """Random changes of all error sources, in half-widths, one row per sample, (MEMBERS, causes).
+    """Random changes of all error sources, in units of their half-widths, shape (MEMBERS, causes).
 
     They are normally distributed, and reproducible.
     """
@@ -52,7 +52,7 @@ def draws(causes: int) -> FloatArray:
 
 
 class Quantiles:
-    """Quantile of the deviations from the nominal solution; random solutions are added in turn.
+    """Quantile of the deviations of random solutions, added one by one, from the nominal solution.
 
     Only the largest deviations are stored.
 

@@ -58,7 +58,7 @@ class Seasons(NamedTuple):
 
 
 def seasons(axis: FloatArray, normal: FloatArray, eccentricity: FloatArray) -> Seasons:
-    """Compute obliquity, eccentricity, climatic precession and coprecession from vectors.
+    """Compute obliquity, e, e sin(w), e cos(w) from spin axis, orbit normal, eccentricity vector.
 
     Parameters
     ----------
@@ -213,7 +213,7 @@ class Readings:
         return linear + self.weight * (self.sampled[name] - linear)
 
     def apart(self, name: str) -> dict[str, FloatArray]:
-        """Change of a derived quantity due to each error source, by name of the source."""
+        """Size of the change of a derived quantity due to each error source, by source name."""
         return _by_cause((cause, moved_by(varied, self.mine, name)) for cause, varied in self.moved)
 
     def poles_apart(self, which: Literal["pole", "normal"]) -> dict[str, FloatArray]:
@@ -243,7 +243,7 @@ def angle(varied: FloatArray, nominal: FloatArray) -> FloatArray:
 
 
 def _by_cause(shares: Iterable[tuple[str, FloatArray]]) -> dict[str, FloatArray]:
-    """Root sum square of the changes due to each error source over its independent directions."""
+    """Combine the changes due to each error source in one or two directions, by root sum square."""
     totals: dict[str, FloatArray] = {}
     for cause, share in shares:
         totals[cause] = np.hypot(totals.get(cause, 0.0), share)

@@ -47,7 +47,7 @@ TINY = 1e-300
 
 
 class Turn(NamedTuple):
-    """Averaged torque on a spin axis at the time nodes: axis m, constant a and added rotation g.
+    """Averaged torque on a spin axis at integration nodes: axis m, constant a, added rotation g.
 
     Vectors are resolved along a reference axis N; components perpendicular to N are complex.
 
@@ -69,7 +69,7 @@ class Turn(NamedTuple):
 
     @classmethod
     def of(cls, torque: Pull, axes: FloatArray, windows: Windows) -> Turn:
-        """Resolve an averaged torque into components along and perpendicular to the axis N."""
+        """Resolve an averaged torque along and perpendicular to the reference axis N."""
         shape = windows.times.shape
 
         def components(vector: FloatArray) -> tuple[ComplexArray, FloatArray]:
@@ -81,7 +81,7 @@ class Turn(NamedTuple):
 
 
 class Slope(NamedTuple):
-    """Rates of a spin axis's longitude and component along N at the time nodes, with derivatives.
+    """Rates of a spin axis's longitude and component along the reference axis, with derivatives.
 
     The shape is (..., w, n) for w windows of n nodes.
 
@@ -102,9 +102,10 @@ class Slope(NamedTuple):
 
 
 def slope(torque: Turn, phi: FloatArray, z: FloatArray) -> Slope:
-    """Compute the rates of a spin axis's longitude (rad/s) and height (1/s), with derivatives.
+    """Compute the rates of a spin axis's longitude (rad/s) and reference-axis component (1/s).
 
-    The height is the component along the reference axis.
+    The component along the reference axis is called height. The derivatives of both rates by
+    longitude and height are included.
     """
     rotation = np.empty(phi.shape, dtype=complex)
     np.cos(phi, out=rotation.real)
@@ -134,7 +135,7 @@ def slope(torque: Turn, phi: FloatArray, z: FloatArray) -> Slope:
 def advance(
     windows: Windows, rates: FloatArray, state: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Integrate the rates of a spin axis's longitude and component along N over time windows.
+    """Integrate the rates of a spin axis's longitude and reference-axis component in time.
 
     Return the integrals from window starts to nodes, the states at window starts, and the final
     state. The shapes are (2, ..., w, n), (2, ..., w) and (2, ...).
@@ -147,7 +148,7 @@ def advance(
 def step(
     windows: Windows, torque: Turn, values: FloatArray, state: FloatArray, left: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """New longitude and component along N of a spin axis after one Newton step; largest change.
+    """Longitude and reference-axis component of a spin axis after one Newton step; largest change.
 
     With S the integral from the start of a window to its nodes, the values y of a window that
     starts at b solve y = b + S f(y). Linearised about the current values, the change is d = c + S J
@@ -221,7 +222,7 @@ def _linear(
 
 
 def _shifts(ends: FloatArray) -> FloatArray:
-    """Corrections of a spin axis's longitude and component along N at the window starts.
+    """Corrections of a spin axis's longitude and reference-axis component at the window starts.
 
     Parameters
     ----------
@@ -459,7 +460,7 @@ class _BlockSolver:
         return pull(self.strength, (normal, eccentricity, turning), times)
 
     def _guess(self, windows: Windows, torque: Turn, state: FloatArray) -> FloatArray:
-        """First guess of a spin axis at all nodes: longitude, and component along the axis N.
+        """First guess of a spin axis at all times: longitude and reference-axis component.
 
         It is a neighbouring trajectory shifted to the initial state, or uniform precession.
         """
