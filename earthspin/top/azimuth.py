@@ -57,7 +57,7 @@ class Turned(NamedTuple):
 
 
 def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
-    """Advance of a top's Euler angles phi and psi since the first lower turning point.
+    """Advance of a top's phi and psi since the first lower turning point, without the linear part.
 
     The part that is linear in time, of the rate `shared_rate`, is left out.
 

@@ -129,7 +129,7 @@ class Place(NamedTuple):
 
 
 class AxisHeight(NamedTuple):
-    """Height u = cos(theta) of a top's axis in time, as distances from poles and start; rate u'.
+    """Height u = cos(theta) of a top's axis in time: 1 - u, 1 + u, u - u(0), and the rate u'.
 
     Attributes
     ----------

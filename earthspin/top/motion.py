@@ -241,7 +241,7 @@ def error_bound(top: HeavyTop, times: ArrayLike) -> FloatArray:
 
 
 def effect_of_rounding(top: HeavyTop, times: ArrayLike) -> FloatArray:
-    """Change of a top's motion if each initial value changes by one unit in its last place.
+    """Total relative change of a top's motion if each input changes by one unit in its last place.
 
     Parameters
     ----------
