@@ -539,7 +539,7 @@ def _attitude(motion: JacobiMotion, phase: Phase) -> FloatArray:
 
 
 def _half_psi(motion: JacobiMotion, phase: Phase) -> FloatArray:
-    """Half of the angle by which a body has rotated about its angular momentum, rad."""
+    """Half of the rotation angle of a body about its angular momentum since the first time, rad."""
     precession = motion.precession
     run = precession.rate.scaled(0.5)[..., np.newaxis] * phase.times
     rest = run - TWO_PI * np.rint(run.hi / TWO_PI.hi)
