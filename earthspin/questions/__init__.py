@@ -1,4 +1,4 @@
-"""Modules of the questions that users can ask, and modules with code for several questions.
+"""One module for each computation that users can request, and modules with shared code.
 
 Parts, the functions that answer a question, convert between labelled data and the arrays of the
 physics packages. Modules that load large libraries are imported when they are first used, so that a

@@ -420,7 +420,7 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
 
 
 def _labeller(means: MeanTorques) -> Callable[[FloatArray], xr.DataArray]:
-    """Return a function that turns arrays of `means` into DataArrays with named dimensions."""
+    """Return a function that converts arrays to DataArrays with the dimensions of `means`."""
     dims, shape = ("perturber", *means.cases), (len(means.labels), *means.cases.values())
     labels = {"perturber": means.labels}
     return lambda values: xr.DataArray(np.reshape(values, shape), labels, dims)

@@ -41,7 +41,7 @@ class EffectNames(Several):
 
     @property
     def hint(self) -> str:
-        """Type hint of the allowed value, as code editors show it."""
+        """Type hint for code editors: "known", "rigid" or "all", or one or several effect names."""
         return f"Literal['known', 'rigid', 'all'] | {super().hint}"
 
     @property
@@ -66,7 +66,7 @@ EFFECTS_DOC = (
 
 
 class AxisMotion(Series):
-    """Base class of questions about the motion of a body's axes under torques."""
+    """Base class of computations that follow the motion of a body's axes under torques."""
 
     by_body = ("effects",)
 
@@ -300,7 +300,7 @@ def switched_off(
 def each_added(
     sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: Sequence[str], off: Sequence[str]
 ) -> tuple[Forces, dict[str, Forces]]:
-    """Build the forces of `effects`, and, by name, the forces with each effect of `off` added.
+    """Build the forces with `effects` on, and, by name, those with one effect of `off` also on.
 
     The planets are omitted if their positions are not known (`drift_by_planets`).
     """
@@ -319,7 +319,7 @@ _SAMPLES = 1000
 
 
 def drift_by_planets(body: Body, seconds: float) -> dict[str, float]:
-    """Displacement of a planet's axis by the other planets after a given time (s), rad, by effect.
+    """Displacement (rad) of a planet's axis by the other planets in a given time (s), as a dict.
 
     It follows from their mean torque on circular orbits in one plane, without their positions:
     within 10 % for the Earth and Mars over ten years. Empty for a body that is not a planet of the
@@ -381,7 +381,7 @@ class CustomTorque:
         return cls(value)
 
     def write(self) -> Plain:
-        """Form stored in scene files: the name of the function; its code is not stored."""
+        """Name of the function, as stored in scene (input) files; its code is not stored."""
         name = getattr(self.law, "__qualname__", None) or repr(self.law)
         return {_FUNCTION: re.sub(r" at 0x[0-9a-fA-F]+", "", str(name))}
 

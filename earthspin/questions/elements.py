@@ -74,7 +74,7 @@ def _add_chain(
     links: Mapping[str, Mapping[str, tuple[Ellipse, int]]],
     reached: dict[str, EllipseChain],
 ) -> None:
-    """Store in `reached` the chain to the body `end`, then those to all bodies linked to `end`."""
+    """Store in `reached` the chains to the body `end` and to all bodies linked to `end`."""
     reached[end] = chain
     for name, link in links[end].items():
         if name not in reached:

@@ -37,7 +37,7 @@ _MIDNIGHT = 1e-6
 
 
 class Day(Epoch):
-    """Kind of input: a calendar day, which a scene file stores as a date."""
+    """Kind of input: a calendar day, which a scene (input) file stores as a date."""
 
     words, hint = 'a date, or "today"', "Date | float"
 
@@ -47,7 +47,7 @@ class Day(Epoch):
         return float(np.floor(day + 0.5 + _MIDNIGHT)) - 0.5
 
     def write(self, value: float) -> Plain:
-        """Return days from J2000.0 as the text of a date."""
+        """Convert days from J2000.0 to the text of a date."""
         return date_text(value)
 
 
@@ -145,7 +145,7 @@ def record(file: eop.PoleTable, origin: float | None) -> PoleSeries:
 
 @part
 def output_days(record: PoleSeries, days: float, step: float, start: float | None) -> slice:
-    """Slice that selects the answer from the daily forecast: one day per `step`, up to `days`."""
+    """Slice that selects the requested days of a daily forecast: one day per `step`."""
     newest = float(record.mjd[-1]) - MJD
     gap, every = 0 if start is None else round(start - newest), round(step / DAY)
     if not 0 <= gap <= model.LONGEST - days:
@@ -329,7 +329,7 @@ class BulletinA(Daily):
 def not_in_file(
     file: eop.PoleTable, origin: float | None, start: float | None, days: float
 ) -> str | None:
-    """Return the reason (text) to omit Bulletin A if it cannot give the forecast, else None."""
+    """Return the reason (text) to omit Bulletin A if it lacks the requested forecast, else None."""
     if origin is not None:
         return "Bulletin A predicts from the newest observed day; leave origin out"
     if (table := eop.read_bulletin_a(file)) is None:
@@ -391,7 +391,7 @@ def no_offsets(
 
 @part(unless=no_offsets, loads=("scipy.signal",))
 def pole_offsets(file: eop.PoleTable, record: PoleSeries, output_days: slice) -> AheadOffsets:
-    """Forecast the celestial pole offsets from those observed up to the origin of the forecast."""
+    """Forecast celestial pole offsets from offsets observed up to the origin of the forecast."""
     table = offsets_until(file, float(record.mjd[-1]) - MJD)
     time = _times(record, output_days)
     value, error = (pair.T for pair in predicted_offsets(table, time + MJD))

@@ -54,7 +54,7 @@ class Moments:
         return cls((first, second, third), table)
 
     def write(self) -> Plain:
-        """Form stored in scene files: the moments of inertia as text with their unit."""
+        """Text stored in scene (input) files: the moments of inertia with their unit."""
         texts = [f"{number!r} kg m2" for number in self.numbers]
         return dict(zip(KEYS, texts, strict=True)) if self.differences else texts
 
@@ -65,7 +65,7 @@ class Moments:
         return dict(zip(KEYS, numbers, strict=True)) if self.differences else numbers
 
     def of_many(self, starts: int) -> FloatArray | dict[str, FloatArray]:
-        """Arrays of the moments of inertia, with extra axes of length 1 for the initial states.
+        """Return the moments of inertia as arrays that broadcast with arrays of initial states.
 
         The argument `starts` is the number of these axes, one for each axis of initial states.
         """
@@ -228,7 +228,7 @@ def poinsot(moments: Moments, omega: FloatArray, instants: FloatArray) -> Poinso
 
 @part
 def neglected() -> Neglected:
-    """Report that no effect is neglected, as the question is about a rigid body without torque."""
+    """Report that no effect is neglected, as the problem is a rigid body without torque."""
     return Neglected(what="nothing: the question is about a rigid body without torque")
 
 

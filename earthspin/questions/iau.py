@@ -131,7 +131,7 @@ _ADOPTED = "a model that was adopted, exact by definition"
 
 
 class EffectRates(Variables, no_error="a measure of error itself"):
-    """Contribution of each effect to the rates of psi_A and omega_A, and the unexplained rest."""
+    """Contribution of each effect to the rates of psi_A and omega_A; differences from IAU 2006."""
 
     psi_rate = measured(
         "arcsec/yr",
@@ -179,7 +179,7 @@ class EffectRates(Variables, no_error="a measure of error itself"):
 
 @part
 def budget(rates_by_effect: Budget) -> EffectRates:
-    """Collect the contribution of each effect to the precession rates, and the unexplained rest."""
+    """Collect contributions of effects to the precession rates, and differences from IAU 2006."""
     rates = rates_by_effect
     both = math.hypot(rates.psi_from_h, rates.psi_analysis_error)
     return EffectRates(

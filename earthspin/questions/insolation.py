@@ -1,4 +1,4 @@
-"""Daily insolation, as a question and as a function of a result of `long_term`."""
+"""Daily insolation over millennia, computed from the orbit and the obliquity of a planet."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _HEMISPHERE = re.compile(r"\s*(\d+\.?\d*|\.\d+)\s*(?:°|deg)?\s*([NS])\s*")
 
 
 def _signed(value: Any) -> Any:
-    """Replace the letter of a hemisphere by a sign, as in "-23.5 deg" for "23.5S"."""
+    """Replace the hemisphere letter of latitudes by a sign: "23.5S" becomes "-23.5 deg"."""
     if isinstance(value, (list, tuple)):
         return [_signed(text) if isinstance(text, str) else text for text in value]
     match = isinstance(value, str) and _HEMISPHERE.fullmatch(value)
@@ -45,7 +45,7 @@ def _signed(value: Any) -> Any:
 
 
 def _in_radians(value: Any, where: Where, limit: float) -> Any:
-    """Convert latitudes or longitudes to rad with labels; refuse angles above `limit` (rad)."""
+    """Convert latitudes or longitudes to rad; refuse angles above `limit` (rad)."""
     is_latitude = limit < np.pi
     example = "65 deg" if is_latitude else "90 deg"
     angle = quantity(_signed(value) if is_latitude else value, "rad", where, example)
@@ -73,7 +73,7 @@ class Angles(Numbers):
         return super().read(angle, replace(where, typed=False))
 
     def write(self, value: FloatArray) -> Plain:
-        """Text of an angle for scene files, in degrees, or in radians if degrees are not exact."""
+        """Text of an angle for scene (input) files, in deg, or in rad if degrees are not exact."""
         if value.ndim:
             return [self.write(angle) for angle in value]
         degrees = round(math.degrees(value), 12)
@@ -97,7 +97,7 @@ class Insolation(
     call="insolation",
     positional=("start", "stop", "step"),
 ):
-    """Insolation at the top of the atmosphere over millennia, averaged over a day (Berger 1978).
+    """Insolation at the top of the atmosphere over millennia, daily or longer means (Berger 1978).
 
     Obliquity, eccentricity and perihelion are those of `long_term`, with all its inputs. Longitudes
     of the Sun are seen from the body along the orbit from the moving equinox: 0 is the March
@@ -237,7 +237,7 @@ def daily_insolation(
     days: Any = None,
     solar_constant: Any = None,
 ) -> xr.DataArray:
-    """Insolation at the top of the atmosphere, averaged over a day (Berger 1978).
+    """Insolation at the top of the atmosphere, averaged over one or more days (Berger 1978).
 
     Longitudes are those of the Sun as seen from the body, along the orbit from the moving equinox:
     0 is the March equinox, 90 degrees the June solstice. (The `longitude_of_perihelion` of an

@@ -74,7 +74,7 @@ def no_interior(body: Body) -> str | None:
 
 
 def require_layers(question: Question, interior: LayeredBody | None, body: Body) -> None:
-    """Raise an error if neither the question nor its body has a layered interior.
+    """Raise an error if layers are neither given as input nor known for the body.
 
     Raises
     ------

@@ -55,7 +55,7 @@ class OrbitChoice(FileName):
     content = "the table of an orbit"
 
     def read(self, value: object, where: Where) -> Any:
-        """Read the choice of orbit: "own", a file, an `OrbitTable`, or the result of `write`."""
+        """Check the choice of orbit: "own", a file, an `OrbitTable`, or a dict made by `write`."""
         if isinstance(value, OrbitTable):
             return value
         if isinstance(value, Mapping):
@@ -253,7 +253,7 @@ def numbers(
     obliquity_shift: float,
     longitude_shift: float,
 ) -> SideBySide:
-    """Broadcast the inputs of the long-term precession that may be arrays to one shape."""
+    """Broadcast the inputs of the long-term precession (numbers or arrays) to one shape."""
     (rate, error), j2 = mean_rates.total(), body.needed("j2")
     as_published = 0.0 if not_sun_and_moon(body, perturbers) else body.are_as_named
     return SideBySide.of(

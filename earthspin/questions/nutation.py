@@ -105,7 +105,7 @@ def models(body: Body, coupling: str, anelastic_exponent: float) -> Prediction:
 
 @part(loads=("scipy.special",))
 def interior_spread(models: Prediction) -> Spread:
-    """Compute interior models with one input changed each, and weights for random inputs."""
+    """Compute interior models, each with one input changed, and weights for random inputs."""
     return spread_of(models.setting, models.rungs, models.uncertainty)
 
 

@@ -75,7 +75,7 @@ class GivenTable:
         return GivenSeries(np.array([time, *np.divide(values, MAS)]))
 
     def write(self, value: Any) -> Plain:
-        """Form stored in scene files: the rows as bytes, or the name or path of a table."""
+        """Value stored in scene (input) files: rows as bytes, or the name or path of a table."""
         return pack(value.rows) if isinstance(value, GivenSeries) else value
 
 
@@ -98,7 +98,7 @@ class PoleInput(GivenTable, FileName):
 
 
 class OfTable(Question):
-    """Base class of questions about a table of the observed pole."""
+    """Base class of computations that use a table of the observed pole."""
 
     body: Body = key(EARTH, doc="body whose pole was observed")
     span: Span | None = key(None, doc="first and last date; the whole table if not given")
@@ -109,7 +109,7 @@ class OfTable(Question):
 
 
 class Daily(Variables, along=("time",)):
-    """Base class of daily results: at the days of a table of the observed pole, or later."""
+    """Base class of time series from a table of the observed pole, and of forecast time series."""
 
     time = labels("time", standard_name="time", comment="0h UTC in daily tables")
 

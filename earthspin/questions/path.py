@@ -117,9 +117,10 @@ def direction_errors(
 
 
 def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
-    """Largest displacement of the axis by satellites and by published effects, rad.
+    """Largest displacement of the axis by satellite nodes and neglected or uncertain rates, rad.
 
-    Satellites displace it by their nodes, and by the uncertainty of the rate that they add.
+    Satellites displace it by their nodes, and by the uncertainty of the rate that they add. The
+    published effects on the rate that are not modelled are added. Zero without satellites.
 
     Parameters
     ----------
@@ -144,7 +145,7 @@ def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
 def continuous_longitude(
     path: AxisPath, first: float, ecliptic: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Start times of a path's windows, s, and angular momentum longitudes at these times, rad.
+    """Start times of integration windows, s, and continuous longitude of angular momentum, rad.
 
     The longitude is continuous, and equals the principal value at the time `first`, s.
     """
@@ -160,15 +161,15 @@ def continuous_longitude(
 
 
 class WithInterior(AxisMotion):
-    """Base class of questions whose known effects include the response of the Earth's interior."""
+    """Base class of computations that can include the response of the Earth's interior."""
 
     def known_effects(self) -> tuple[str, ...]:
-        """Names of the effects that can be computed.
+        """Names of effects on a rigid body, plus the interior's response if the body is the Earth.
 
-        They are those on a rigid body, and for the Earth under Sun and Moon the response of its
-        interior, unless one of the three has an orbit of its own, or its mass, figure or spin
-        differs from that of the built-in body by more than 1 %. After smaller changes the error
-        includes the difference of the pole from that of the IAU.
+        These are the effects that can be computed. The response requires that Sun and Moon are the
+        perturbers, and that none of the three bodies has an orbit of its own, or a mass, figure or
+        spin that differs from that of the built-in body by more than 1 %. After smaller changes the
+        error includes the difference of the pole from that of the IAU.
         """
         known = super().known_effects()
         usual = all(p.is_as_named and p.orbit is p.position is None for p in self.perturbers)
@@ -184,7 +185,7 @@ class WithInterior(AxisMotion):
 
 
 class Comparison(WithInterior):
-    """Base class of questions that compare the computed pole with the IAU pole over time."""
+    """Base class of comparisons of the computed pole with the IAU pole over time."""
 
     span: Span = key(
         ("1980-01-01T12:00:00", "2020-01-01T12:00:00"),

@@ -96,7 +96,7 @@ def not_fitted(response: str) -> str | None:
 
 
 def not_predicted(response: str) -> str | None:
-    """Return the reason (text) to omit the predicted response if it is not chosen, else None.
+    """Return the reason (text) to omit the prediction if a fitted response is requested, else None.
 
     The response is that of the body's interior to nutation torques.
     """
@@ -105,13 +105,13 @@ def not_predicted(response: str) -> str | None:
 
 @part(unless=(not_nonrigid, not_fitted))
 def as_fitted(nonrigid_shift: Shift) -> Shift:
-    """Return the axis displacement from the fitted interior response, if that is requested."""
+    """Return the axis displacement by the interior's response as fitted to IAU 2000A."""
     return nonrigid_shift
 
 
 @part(unless=(not_nonrigid, not_predicted))
 def as_predicted(predicted_shift: Shift) -> Shift:
-    """Return the axis displacement from the predicted interior response, if that is requested."""
+    """Return the axis displacement by the interior's response as predicted from the layers."""
     return predicted_shift
 
 
@@ -204,7 +204,7 @@ def response_error(
 
 
 class SatelliteError(Dated):
-    """Error of the axis directions from neglected nodes and uncertain masses of satellites."""
+    """Error of the axis directions due to satellites: neglected nutation and uncertain rate."""
 
     direction_error_satellites = number(
         "arcsec",
@@ -277,7 +277,7 @@ def neglected(
     axis_path: AxisPath,
     epochs: Epochs,
 ) -> Neglected:
-    """Sizes of effects that are not modelled, such as those that are switched off.
+    """Sizes of effects that are switched off or are not part of the model.
 
     They are the largest changes of the figure axis from J2000.0 to the first and the last date.
     """

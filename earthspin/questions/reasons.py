@@ -70,7 +70,7 @@ def many_pulls(perturbers: tuple[Body, ...]) -> str | None:
 
 
 def north_note(body: Body, obliquity: float | None = None) -> dict[str, str]:
-    """Attribute of an obliquity that names its pole, if the body spins backwards about that pole.
+    """Attributes that explain the obliquity of a body that spins backwards; empty for other bodies.
 
     Parameters
     ----------

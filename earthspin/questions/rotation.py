@@ -105,7 +105,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
     @property
     def unused(self) -> str:
-        """Names of neglected satellites; empty if the sizes of satellite effects are listed."""
+        """Text that names neglected satellites; empty if `neglected` estimates their effects."""
         known = self.perturbers and obliquity_of(self.body) is not None
         return "" if known else super().unused
 
@@ -163,7 +163,7 @@ def _spinning(body: Body, start_omega: FloatArray | None) -> Body:
 
 
 def _acting(effects: tuple[str, ...]) -> tuple[str, ...]:
-    """Add triaxiality and second-order effect to the effects, as both are always included."""
+    """Add triaxiality and the second-order effect to a list of effects, as both always act."""
     return (*effects, TRIAXIALITY, SECOND_ORDER.name)
 
 

@@ -58,7 +58,7 @@ def no_satellites(body: Body) -> str | None:
 
 
 def without_swings(body: Body) -> Body:
-    """Replace the pole of a body with satellites by its mean over the nodes of the satellites."""
+    """Replace the pole of a body by the mean pole, without nutation by the nodes of satellites."""
     if not body.satellites:
         return body
     pole = body.needed("pole").without_nutation()
@@ -243,9 +243,10 @@ def obliquity_of(body: Body) -> float | None:
 
 
 def common_turn(body: Body, pull: float) -> tuple[FloatArray, float] | None:
-    """Angular velocity that satellites add to the precession of their planet, rad/s, shape (3,).
+    """Precession vector added by the satellites of a planet, and error of the total rate, rad/s.
 
-    The second number is the 95 % half-width of the common rate due to the satellites, rad/s.
+    The shape of the vector is (3,). The second number is the 95 % half-width of the common rate due
+    to the satellites, rad/s.
 
     The torque of the perturbers on the bulge turns the planet as if it were alone. Its satellites,
     each near its Laplace plane, make planet and satellites precess together about the normal of

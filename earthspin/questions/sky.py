@@ -1,4 +1,4 @@
-"""Body and perturbers of a question, and the source of the positions of these bodies."""
+"""Rotating body and perturbers of a computation, and the source of their positions."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ SOURCE_DOC = (
 
 
 class PerturbedBody(Question):
-    """Base class of questions about a rotating body and its perturbers."""
+    """Base class of computations with a rotating body and its perturbers."""
 
     body: Body = key(EARTH, doc="rotating body; its numbers may be labelled arrays")
     perturbers: tuple[Body, ...] = key(
@@ -110,11 +110,11 @@ class PerturbedBody(Question):
         all_by_elements(self.body, self.perturbers)  # refuses inconsistent elements
 
     def needed(self) -> tuple[str, ...]:
-        """Names of the body's properties that the question needs."""
+        """Names of the body's properties that the computation needs."""
         return self.needs
 
     def check_spin(self) -> None:
-        """Refuse a spin so fast that the body would break up, if the question needs the spin."""
+        """Refuse a spin so fast that the body would break up, if the computation needs the spin."""
         if "spin_period" in self.needed():
             checks.refuse_break_up(self.body)
 
@@ -217,7 +217,7 @@ class Sky:
         self.source.check_times(np.array(list(days)), self._all(targets))
 
     def unchanged(self, *bodies: Body, also: Hashable = None) -> Hashable:
-        """Cache key: equal for equal positions, bodies and further inputs `also`.
+        """Cache key that is equal if positions, bodies and the inputs `also` are equal.
 
         None if they contain arrays or objects, which may change.
         """

@@ -106,7 +106,7 @@ def field(body: Body, position: FloatArray, point_mass: float) -> Field:
 
 @part
 def neglected(body: Body, position: FloatArray) -> Neglected:
-    """Neglected effect of non-uniform density: change of the potential by the body's own J2."""
+    """Neglected effect of non-uniform density: change of the potential if J2 has its true value."""
     if body.labelled or body.j2 is None:
         lacking = f"this {proper(body.name)} has no single J2 to compare with"
         return Neglected(what=f"a density that grows inwards: {lacking}")

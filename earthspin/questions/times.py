@@ -29,7 +29,7 @@ SPAN_DOC = "first and last date, TDB; the last is included if the step meets it"
 
 
 class Series(PerturbedBody):
-    """Base class of questions whose results are time series at given dates."""
+    """Base class of computations whose results are time series at given dates."""
 
     exclusive = ((("times",), ("span", "step")),)
 
@@ -45,7 +45,7 @@ class Dated(Variables, along=("time",)):
 
 
 class FromStart(Variables, along=("time",)):
-    """Base class of results at times from the start of a motion, with components x, y, z."""
+    """Base class of results at times after the start of a motion, s; vectors are along x, y, z."""
 
     time = labels("time from the start", "s")
     component = labels(default=["x", "y", "z"])
@@ -70,7 +70,7 @@ BYTES_PER_TIME = 128
 def days_of(
     epochs: Epochs, block: Block | None = None, store: str = "", bodies: Iterable[Body] = ()
 ) -> FloatArray:
-    """Days from J2000.0 TDB of one block of a time series, or of the whole series.
+    """Times of a time series, or of one block (interval) of the series, days from J2000.0 TDB.
 
     Parameters
     ----------

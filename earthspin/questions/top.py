@@ -218,7 +218,7 @@ def potential(heavy_top_start: HeavyTop) -> Potential:
 
 @part
 def neglected() -> Neglected:
-    """Report that no effect is neglected, as the question is about a rigid top without friction."""
+    """Report that no effect is neglected, as the problem is a rigid top without friction."""
     return Neglected(what="nothing: the question is about a rigid top without friction")
 
 

@@ -166,7 +166,7 @@ _SEARCHED = 1 << 16
 
 
 def one_body(body: Body) -> str | None:
-    """Return the reason (text) to omit effect sizes if the body has labelled arrays, else None."""
+    """Return the reason (text) to omit effect sizes if the body's numbers are arrays, else None."""
     return "the sizes are given for one body at a time" if body.labelled else None
 
 

@@ -293,7 +293,7 @@ class Sensitivity(Variables, along=("input",), no_error="a part of an error, or 
 
 @part
 def sensitivity(inside: Inside) -> Sensitivity:
-    """Derivative of the most detailed model's wobble period with respect to each input."""
+    """Derivative of the most detailed model's wobble period by each input, and input errors."""
     slopes = propagation.sensitivities(inside.inputs, *inside.setting)
     anelastic = "anelastic" in ladder.climb(inside.inputs, *inside.setting).turns
     half_widths = propagation.half_widths(inside.inputs, inside.uncertainty, anelastic)
