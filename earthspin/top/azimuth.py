@@ -271,7 +271,7 @@ def _integral(
     arc: BoolArray,
     regular_shape: FloatArray,
 ) -> _Integral:
-    """Coefficients of the elliptic integral of (total/2)/(u - pole) over time, u = cos(theta).
+    """Coefficients of the elliptic integral over time of (total/2)/(u - u_pole), u = cos(theta).
 
     If the arctangent is separate, only the regular part is returned.
 
