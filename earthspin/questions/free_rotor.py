@@ -40,7 +40,7 @@ class Moments:
 
     @classmethod
     def read(cls, value: object, where: Where) -> Moments:
-        """Read principal moments of inertia: three moments, or a table of "A", "B-A" and "C-A"."""
+        """Check principal moments of inertia, given as three moments or by "A", "B-A" and "C-A"."""
         if isinstance(value, Moments):
             return value
         table = isinstance(value, Mapping)

@@ -322,7 +322,7 @@ def daily_insolation(
 
 
 def _place(value: Any, name: str, limit: float, result: xr.Dataset) -> xr.DataArray:
-    """Convert latitudes or longitudes to rad; a list is labelled in degrees along `name`."""
+    """Convert latitudes or longitudes to a DataArray in rad; lists get the dimension `name`."""
     where = Where(name, _CALL)
     angle = _in_radians(value, where, limit)
     if not isinstance(angle, xr.DataArray):

@@ -29,7 +29,7 @@ LayeredInterior = Annotated[LayeredBody, Layers()]
 
 
 def interior_of(body: Body) -> named.Interior | None:
-    """Interior model of a body, from its layers or its name; None if the body is rigid.
+    """Interior model of a body, from layers or a model name; None if the body is rigid.
 
     If an unmodified body has custom layers, the other known numbers of its interior still apply.
     """
@@ -93,7 +93,7 @@ def require_layers(question: Question, interior: LayeredBody | None, body: Body)
 
 @part
 def layers(interior: LayeredBody | None, body: Body) -> LayeredBody:
-    """Layers that the user gives as input, or by default those of the body."""
+    """Layers that the user gives as input, or by default the known layers of the body."""
     if interior is not None:
         return interior
     known = interior_of(body)
@@ -114,7 +114,7 @@ SOURCES = "; ".join([*_SOURCES, named.ANELASTIC_EXPONENT.source])
 
 @dataclass(frozen=True)
 class Prediction:
-    """Predicted response of a body's interior, from models of increasing detail (rungs).
+    """Nutation response of a body's interior, predicted by models of increasing detail (rungs).
 
     Attributes
     ----------
@@ -153,7 +153,7 @@ def layered(body: Body) -> named.Interior | None:
 
 
 def no_layers(body: Body) -> str | None:
-    """Return the reason (text) to omit the prediction if the body is unsuitable, else None.
+    """Return the reason (text) to omit the predicted response if it is impossible, else None.
 
     The body needs an IAU model, and layers with an inner core that have its mass and radius.
     """

@@ -75,7 +75,7 @@ class OrbitChoice(FileName):
 
 
 def _table_of(table: Mapping[str, Any], where: Where) -> OrbitTable:
-    """Build an `OrbitTable` from the dict in which a scene file stores it."""
+    """Build an `OrbitTable` from the dict that a scene (input) file stores."""
     wanted = {*_WORDS, *_ARRAYS}
     if set(table) != wanted:
         raise where.error(sorted(table), f"an orbit table needs {', '.join(sorted(wanted))}")

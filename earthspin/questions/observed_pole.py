@@ -59,7 +59,7 @@ class GivenTable:
     hint = "xr.Dataset | pd.DataFrame"
 
     def read(self, value: Any, where: Where) -> Any:
-        """Read the two time series, with errors if given, or restore both from a scene file."""
+        """Extract two time series (and errors) from a table, or restore them from an input file."""
         if isinstance(value, GivenSeries):
             return value
         if isinstance(value, dict):
