@@ -470,7 +470,7 @@ def _soften(
 
 
 def _compliance(interior: Interior, inputs: Inputs) -> tuple[Numeric, ...]:
-    """Deformation coefficients of body and core under wobble and core pressure, for a given k2."""
+    """Love numbers k of body and core, for tides and for core pressure, scaled to the given k2."""
     if interior.layers is None:
         return inputs.k2, 0.0, 0.0, 0.0
     love = elastic(interior.layers)

@@ -237,7 +237,7 @@ class DrivenOscillator:
         return np.asarray(-noise / (rates[:, None] + rates.conj()))
 
     def of_means(self, length: float, reference: float) -> tuple[ComplexArray, ComplexArray]:
-        """Factors of the modes from block to block, and covariance of block means at lags 0, 1, 2.
+        """Factors by which modes change per block, and covariance of block means at lags 0, 1, 2.
 
         The rotation at the reference frequency is removed first.
 
