@@ -135,7 +135,7 @@ PoleTable = str | Path | GivenSeries
 
 @dataclass(frozen=True)
 class PoleSeries:
-    """Time series of observed polar motion, or of observed celestial pole offsets.
+    """Time series of polar motion or of celestial pole offsets, observed or predicted.
 
     Attributes
     ----------

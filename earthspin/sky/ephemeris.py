@@ -298,7 +298,7 @@ class Ephemeris:
 
 @lru_cache
 def _sha256(path: Path, same: tuple[int, ...]) -> str:
-    """SHA-256 hash of a file, cached until the state of the file (`same`) changes."""
+    """SHA-256 hash of a file, cached until the size or time stamps of the file (`same`) change."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 

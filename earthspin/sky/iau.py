@@ -227,7 +227,7 @@ def at_days(angles: Callable[[FloatArray], FloatArray], days: FloatArray) -> Flo
 
 
 def node_error(days: FloatArray) -> float:
-    """Half-width of the interpolation error of nutation angles at given days, rad; 0 if exact."""
+    """Half-width of the nutation error due to interpolation between times, rad; 0 if exact."""
     return NODE_ERROR if days.size > _nodes_of(days).size else 0.0
 
 
