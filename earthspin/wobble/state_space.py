@@ -82,7 +82,7 @@ class StateSpace:
         return cls(transition, (noise + noise.T) / 2, side_by_side(observed), error, start)
 
     def every(self, steps: int) -> StateSpace:
-        """Return this model with a longer step: a given number of the present steps."""
+        """Return this model with a time step that is longer by a whole factor (`steps`)."""
         transition, noise = self.transition, self.noise
         for _ in range(steps - 1):
             transition = self.transition @ transition
