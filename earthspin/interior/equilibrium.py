@@ -121,7 +121,7 @@ class Regions:
 
 @dataclass(frozen=True)
 class Figure(Regions):
-    """Hydrostatic figure of a body: `Regions`, and core ellipticity, inertia unit, flattening.
+    """Hydrostatic figure: `Regions`, whole-core ellipticity, Omega2 R5/(3 G A), surface flattening.
 
     The other eight fields are those of `Regions`.
 

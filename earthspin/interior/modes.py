@@ -192,7 +192,7 @@ def free_modes(parts: Parts) -> dict[str, complex]:
 
 
 def parts_of(layers: LayeredBody, spin_rate: float, answers: Array, e: float) -> Parts:
-    """Parameters of coupled rotation, with a hydrostatic core and the given ellipticity (C - A)/A.
+    """Parameters of coupled rotation: hydrostatic core, and given (C - A)/A of the whole body.
 
     Parameters
     ----------

@@ -49,7 +49,7 @@ def anelastic_strain(period: Numeric, exponent: Numeric) -> Numeric:
 
 
 def _expm1_over(exponent: Numeric, log: Numeric) -> Numeric:
-    """Compute (x^alpha - 1)/alpha from alpha and ln x without cancellation; wrong at alpha = 0."""
+    """Compute (x^alpha - 1)/alpha from alpha and ln x, without cancellation; alpha is not 0."""
     safe = np.where(np.equal(exponent, 0), 1.0, exponent)
     return np.expm1(safe * log) / safe
 
@@ -167,7 +167,7 @@ def wave_response(wave: Wave) -> complex:
 
 
 def diurnal_response(sigma: Array) -> Array:
-    """Change of the Love number k2 by ocean tides at diurnal frequencies, cycles per rotation.
+    """Change of the Love number k2 by ocean tides, at diurnal frequencies in cycles per rotation.
 
     Linear interpolation between the waves; constant beyond the first and the last.
 

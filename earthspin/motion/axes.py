@@ -83,7 +83,7 @@ class Segment:
     rounds: int
 
     def momentum_at_end(self, forward: bool) -> FloatArray:
-        """Angular momentum at the segment's last edge (first if backward), in units of C Omega."""
+        """Angular momentum at the segment's last time, or first if not `forward`, unit C Omega."""
         if forward:
             return np.asarray(self.momentum[:, -1].sum(axis=-1))
         return np.asarray(self.momentum[:, 0] @ signs(self.momentum.shape[-1]))
@@ -95,7 +95,7 @@ class Segment:
 
 
 def signs(terms: int) -> FloatArray:
-    """Values (-1)^n of the Legendre polynomials at -1, by degree n from 0."""
+    """Values of the Legendre polynomials P_n at -1, which are (-1)^n, for n = 0, 1, ..."""
     return np.asarray((-1.0) ** np.arange(terms))
 
 
@@ -108,7 +108,7 @@ def solve(
     is_figure: bool,
     forward: bool,
 ) -> Segment:
-    """Integrate angular momentum and figure axis through the windows of one segment.
+    """Integrate angular momentum and figure axis over consecutive windows, by Picard iteration.
 
     Parameters
     ----------
@@ -196,7 +196,7 @@ def _chain(
 
 
 def _at_edge(windows: Windows, values: FloatArray, forward: bool) -> FloatArray:
-    """Extrapolate a vector from the nodes to the edge where the integration starts, shape (3,)."""
+    """Extrapolate a vector from the nodes to the time where the integration starts, shape (3,)."""
     series = windows.coefficients(values[:, :1] if forward else values[:, -1:])[:, 0]
     return np.asarray(series @ signs(series.shape[-1]) if forward else series.sum(axis=-1))
 
@@ -213,7 +213,7 @@ def _refuse_slow_spin(last_term: float, spin_rate: float) -> None:
 
 
 def _fast_tail(fast: ComplexArray | None) -> float:
-    """Truncation error of the semidiurnal amplitudes, from the last terms of their series, rad.
+    """Truncation error of the semidiurnal amplitudes, from the last Legendre terms, rad.
 
     Two of fourteen terms are too few: at a spin of 1.9 d their sum was half the measured error.
     """
@@ -224,7 +224,7 @@ def _fast_tail(fast: ComplexArray | None) -> float:
 
 
 def _tail(series: FloatArray, windows: Windows) -> float:
-    """Truncation error of the axis in a time window, from the last Legendre terms of its rate, rad.
+    """Largest truncation error of the axis in any window, from the last Legendre terms, rad.
 
     The error at the ends of windows is much smaller, since Gauss's rule is exact to twice the
     degree.
@@ -329,7 +329,7 @@ class AxisPath:
         return dict(zip(AXES, np.moveaxis(axes, 1, 2), strict=True))
 
     def _fast_at(self, times: FloatArray, figure: FloatArray) -> FloatArray:
-        """Semidiurnal displacement of the three axes of a triaxial body, shape (3, 3, t)."""
+        """Semidiurnal displacements of momentum, rotation and figure axis, rad, shape (3, 3, t)."""
         assert self.fast is not None
         phase = np.exp(2j * (self.body.spin_rate * times + self.body.meridian))
         move = self.windows.evaluate(self.fast, times) * phase
@@ -459,7 +459,7 @@ def error_of_sky(
 
 
 def _displacement(path: AxisPath, figure: FloatArray) -> FloatArray:
-    """Angle between the figure axis at given times and at the epoch, rad, shape (t,)."""
+    """Displacement of the figure axis since J2000.0 (or the path's nearest time), rad, (t,)."""
     epoch = np.array([min(max(0.0, path.span[0]), path.span[1])])
     return np.asarray(np.linalg.norm(figure - path.at(epoch)["figure"], axis=1))
 
@@ -467,7 +467,7 @@ def _displacement(path: AxisPath, figure: FloatArray) -> FloatArray:
 def _directions(
     epoch: float, span: tuple[float, float], limits: tuple[float, float], window: float
 ) -> list[tuple[FloatArray, bool]]:
-    """Edges (s) of time windows, forward and backward from the epoch, with a flag for forward."""
+    """Edges (s) of windows from the epoch to each end of the span, with True if forward in time."""
     directions: list[tuple[FloatArray, bool]] = []
     for end, limit, sign in ((span[1], limits[1], 1.0), (span[0], limits[0], -1.0)):
         count = int(np.ceil(sign * (end - epoch) / window))

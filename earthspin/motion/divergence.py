@@ -121,7 +121,7 @@ def _neighbour_pair(state: FloatArray, rotation: FloatArray, momentum: FloatArra
 
 
 def _distance(pair: FloatArray) -> tuple[FloatArray, FloatArray, float]:
-    """Difference of two states: rotation vector, relative momentum change, and norm of both."""
+    """Difference of two states: rotation vector, relative momentum change, and combined norm."""
     state, other = pair[:, :1], pair[:, 1:]
     quaternion = 2 * rotations.times(other[3:], rotations.conjugate(state[3:]))
     rotation = quaternion[1:] * np.sign(quaternion[:1])

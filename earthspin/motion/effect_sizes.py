@@ -156,7 +156,7 @@ def attitude_displacements(
 
 
 def _edges(body: Rigid, start: State, duration: float, forces: Forces) -> FloatArray:
-    """Edges of windows, s from the start, not longer than a quarter turn of body or perturber."""
+    """Edges (s from start) of windows in which body and perturbers turn by at most about 90 deg."""
     moments = body.epoch + np.array([0.0, 1e-5 * duration])
     turned = [float(np.linalg.norm(start.spin[:, 0])) * 1e-5 * duration]
     for place in forces.positions(moments).values():
@@ -178,7 +178,7 @@ def _steady_rotation(start: State, times: FloatArray) -> FloatArray:
 def _rate_and_tide(
     forces: Forces, windows: Windows, matrix: FloatArray
 ) -> tuple[FloatArray, float]:
-    """Rate of angular momentum, torque on B - A included (s-1), and largest sum of GM/r3 (s-2)."""
+    """Rate of angular momentum (s-1, unit C Omega), B - A included, and largest GM/r3 sum (s-2)."""
     law, tensor = forces.over(windows)
     axis_a, axis_b, axis = (np.ascontiguousarray(matrix[:, column]) for column in range(3))
     figure = forces.figure
@@ -205,7 +205,7 @@ class _Change:
         self.largest = 0.0
 
     def add(self, windows: Windows, rate: FloatArray, start: State) -> None:
-        """Add windows, given the additional rate of angular momentum at nodes (3, w, n), s-1."""
+        """Add the change in further windows, from the added rate of momentum (3, w, n), s-1."""
         since = windows.times - self._epoch
         in_body = np.einsum("jiwn,jwn->iwn", _steady_rotation(start, since), rate)
         across = (in_body[0] + 1j * in_body[1]) * np.exp(-1j * self._wobble * since)

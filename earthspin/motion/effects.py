@@ -21,10 +21,10 @@ from earthspin.torque.gravity import cross, dot
 
 
 class Numbers(Protocol):
-    """Protocol for access to the numeric fields of a body that an effect uses."""
+    """Protocol of a body whose numeric properties, such as J3, can be looked up by name."""
 
     def number(self, name: str) -> float:
-        """Return a field of the body as a float."""
+        """Return a numeric property of the body, such as "j3", as a float."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ EFFECTS: dict[str, Effect] = {}
 
 
 def add(effect: Effect) -> Effect:
-    """Register an effect on the axes by its name, so that a question can switch it on.
+    """Register an effect on the axes by its name, so that users can switch it on.
 
     Returns
     -------
@@ -157,7 +157,7 @@ def geodesic_rate(
 
 
 def geodesic_torque(forces: Forces, windows: Windows, place: Places) -> RateLaw:
-    """Geodesic precession as a contribution to the rate of angular momentum (a `Torque`)."""
+    """Return a function for the rate of angular momentum due to geodesic precession."""
     near = {name: forces.gm[name] for name in {forces.sun, *forces.near}}
     velocity = {name: windows.derivative(place[name]) for name in near}
     rate = geodesic_rate(near, place, velocity, forces.sun)

@@ -78,12 +78,12 @@ class Rigid:
 
     @cached_property
     def moments(self) -> FloatArray:
-        """Ratios A/C, B/C and C/C of the principal moments of each body, shape (3, lanes)."""
+        """Ratios A/C, B/C and C/C of the principal moments of each body, shape (3, bodies)."""
         return np.stack([1 - self.c_minus_a, 1 - self.c_minus_b, np.ones_like(self.c_minus_a)])
 
     @cached_property
     def levers(self) -> FloatArray:
-        """Ratios (C - B)/C, (A - C)/C, (B - A)/C of the moments of each body, shape (3, lanes)."""
+        """Ratios (C - B)/C, (A - C)/C, (B - A)/C of the moments of each body, shape (3, bodies)."""
         return np.stack([self.c_minus_b, -self.c_minus_a, self.c_minus_a - self.c_minus_b])
 
     @property
@@ -235,7 +235,7 @@ class Equations:
         return np.concatenate([rate, 0.5 * drift])
 
     def _torque(self, q: FloatArray, matrix: FloatArray, spin: FloatArray) -> FloatArray:
-        """Tidal torque on the bulge plus custom torque in body axes, over C times spin unit, s-1.
+        """Tidal torque on the bulge plus custom torque, in body axes, per C and spin unit, s-1.
 
         The torque is divided by C u. C is the polar moment of inertia, and u the unit of spin.
         """
@@ -248,7 +248,7 @@ class Equations:
         return np.asarray(torque)
 
     def _further_torque(self, matrix: FloatArray, momentum: FloatArray) -> FloatArray:
-        """Torque on harmonics J_n and by further effects in sky axes, over C times spin unit, s-1.
+        """Torque on harmonics J_n and by other effects, in sky axes, per C and spin unit, s-1.
 
         The torque is divided by C u. C is the polar moment of inertia, and u the unit of spin.
         """

@@ -62,7 +62,7 @@ class Figure:
 
     @property
     def tau(self) -> float:
-        """Ratio A/(C Omega), s: angle between figure axis and angular momentum over axis speed."""
+        """Time A/(C Omega), s: angle from figure axis to angular momentum, over the axis speed."""
         return (1 - self.h) / self.spin_rate
 
 
@@ -207,7 +207,7 @@ def tilt_of_figure(
 
 
 def fastest_sweep(h: float, spin_rate: float, pulls: Iterable[tuple[float, float]]) -> float:
-    """Largest speed of an axis in precession, over all obliquities (at 45 degrees), rad/s.
+    """Largest speed of a precessing axis at any obliquity (reached at 45 degrees), rad/s.
 
     (3/4) H/Omega times the sum of GM/r3: the rate of precession in longitude, (3/2) H/Omega GM/r3
     cos(eps), times sin(eps) (I.8.23).

@@ -67,7 +67,7 @@ class Masses:
     laws: Callable[[Windows, Mapping[str, FloatArray]], Sequence[SkyLaw]] | None = None
 
     def over(self, windows: Windows) -> list[Pull]:
-        """Make a `Pull` for each time window, with the positions of the masses at its nodes."""
+        """Make a `Pull` for each time window: GM of the masses, and positions at the nodes."""
         times, gm = windows.times, np.array(list(self.gm.values()))
         if not self.gm:
             nothing = np.zeros((3, 0, windows.order))
@@ -112,7 +112,7 @@ class Piece:
     end: FloatArray
 
     def at(self, times: FloatArray) -> FloatArray:
-        """Angular momentum and attitude quaternion of all bodies at given times, (7, lanes, t)."""
+        """Angular momentum and attitude quaternion of all bodies at given times, (7, bodies, t)."""
         lanes = self.series.shape[1]
         windows = Windows(self.edges, self.series.shape[-1])
         flat = windows.evaluate(self.series.reshape(7 * lanes, len(windows.half), -1), times)
@@ -195,7 +195,7 @@ class Solver:
         return np.asarray(edges)
 
     def through(self, edges: FloatArray, start: FloatArray, near: Piece | None = None) -> Piece:
-        """Solve consecutive time windows; stop before one that is too long to be accurate.
+        """Integrate over consecutive windows; stop before a window that is too long to be accurate.
 
         Parameters
         ----------
@@ -253,7 +253,7 @@ class Solver:
     def _solve(
         self, equations: Equations, start: FloatArray, half: float, guess: FloatArray | None
     ) -> tuple[FloatArray, float]:
-        """Solve one window; return the rates and the ratio of truncation error to tolerance.
+        """Integrate over one window; return rates at nodes, and truncation error over tolerance.
 
         The error is estimated from the last two Legendre terms; the window fails if the ratio is
         above 1.
@@ -285,7 +285,7 @@ class Solver:
     def _end(
         self, rates: FloatArray, equations: Equations, start: FloatArray, half: float
     ) -> FloatArray:
-        """Angular momentum and attitude quaternion at the end of a window, shape (7, lanes)."""
+        """Angular momentum and attitude quaternion at the end of a window, shape (7, bodies)."""
         lanes = start.shape[1]
         whole = rates.reshape(7, lanes, self.order) @ rule(self.order).weights * half
         end = start + whole

@@ -108,7 +108,7 @@ def masses(forces: Forces, epoch: float = 0.0) -> Masses:
 
 
 def relative_tide_error(distance: float, distance_error: float, angle_error: float) -> float:
-    """Bound on the relative error of a tide GM/r3 due to errors of the mass's position.
+    """Bound on the relative error of a tide GM/r3 due to errors of the perturber's position.
 
     Parameters
     ----------
@@ -342,7 +342,7 @@ class Motion:
         )
 
     def _errors_until(self, edges: FloatArray) -> FloatArray:
-        """Largest errors of the rotation up to each window edge, shape (lanes, kinds, edges)."""
+        """Largest errors of attitude, spin and momentum until each edge, (causes, 3, edges)."""
         errors = self._state_and_errors(edges)[1]
         return np.maximum(np.maximum.accumulate(errors, axis=2), self._worst)
 

@@ -146,7 +146,7 @@ class Rule:
 
 @lru_cache
 def rule(order: int) -> Rule:
-    """Return the `Rule` with a given number of nodes; it is computed once and stored."""
+    """Return the `Rule` (Gauss-Legendre nodes and matrices) of a given order, computed once."""
     return Rule(order)
 
 

@@ -50,7 +50,7 @@ def block_means(values: Any, size: int) -> Any:
 def in_blocks(
     time: FloatArray, p: ComplexArray, length: float
 ) -> tuple[FloatArray, ComplexArray, float]:
-    """Means of times and of values in consecutive blocks, and the block length (unit of time).
+    """Means of times and of values in consecutive blocks, and the block length in units of `time`.
 
     Blocks have about the given length, in the same unit. A sinusoid stays one and is shortened by
     sinc(block/T).
@@ -61,7 +61,7 @@ def in_blocks(
 
 
 class Shares(NamedTuple):
-    """Linear fit of outputs by inputs: slopes, and the inputs' shares of the variance.
+    """Linear fit of outputs to inputs: slopes, and the fraction of variance due to each input.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ class Shares(NamedTuple):
 def shares_of_variance(
     inputs: FloatArray, outputs: FloatArray, classes: Sequence[NDArray[Any]] = ()
 ) -> Shares:
-    """Fit outputs by a linear function of all inputs; return slopes and shares of the variance.
+    """Fit outputs by a linear function of inputs; return slopes and each input's share of variance.
 
     With the slopes b of the fit the explained variance is the sum of b_j b_k cov(x_j, x_k) over all
     pairs of inputs, and the share of input j is the part with that j. A covariance that may be
@@ -151,7 +151,7 @@ def shares_of_variance(
 
 
 def _related(covariance: FloatArray, owner: NDArray[Any], n: int) -> BoolArray:
-    """True for pairs of columns with a significant correlation, or of the same input."""
+    """Matrix that is True for two columns that correlate significantly or belong to one input."""
     correlation = np.clip(np.abs(covariance), 0.0, 1 - 1e-15)
     # Fisher's transformation of a correlation has the standard error 1/sqrt(n - 3)
     significant = np.arctanh(correlation) * np.sqrt(max(n - 3, 0)) > SIGNIFICANT

@@ -31,7 +31,7 @@ SAME_TIME = 1e-6
 
 @dataclass(frozen=True)
 class AngularMomentum:
-    """Time series of the mass and motion terms of effective angular momentum functions.
+    """Effective angular momentum functions: time series of the mass term and of the motion term.
 
     Attributes
     ----------

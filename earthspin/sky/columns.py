@@ -79,7 +79,7 @@ def rows_of(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
 
 
 def text_between(lines: list[str], is_row: Callable[[str], bool]) -> list[int]:
-    """Numbers of the lines below a table's first row that are not rows, comments or blank lines.
+    """Line numbers of text below a table's first row: neither rows, comments nor blank lines.
 
     Parameters
     ----------

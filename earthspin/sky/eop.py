@@ -118,7 +118,7 @@ _NOT_IAU_1980 = "offsets from IAU 2006/2000A are needed; are they from IAU 1980?
 
 @dataclass(frozen=True, eq=False)
 class GivenSeries:
-    """Polar motion, celestial pole offsets or excitation from a labelled table of the user.
+    """Polar motion, celestial pole offsets or excitation that the user gives as a labelled table.
 
     Attributes
     ----------
@@ -135,7 +135,7 @@ PoleTable = str | Path | GivenSeries
 
 @dataclass(frozen=True)
 class PoleSeries:
-    """Time series of observed polar motion, or of observed celestial pole offsets.
+    """Time series of polar motion or of celestial pole offsets, observed or predicted.
 
     Attributes
     ----------

@@ -211,7 +211,7 @@ class Ephemeris:
         return position
 
     def _path_to_root(self, place: Place) -> list[Step]:
-        """List the kernel segments from a body back to the solar-system barycentre."""
+        """List the kernel segments, or trajectory and segments, from a body to the barycentre."""
         path: list[Step] = []
         if not isinstance(place, int):
             path, place = [place], place.centre
@@ -277,7 +277,7 @@ class Ephemeris:
             )
 
     def check_records(self, days: FloatArray, places: Iterable[Place]) -> None:
-        """Refuse a kernel if records that are needed for the given bodies and times are damaged.
+        """Refuse a damaged kernel: check the hash of a named kernel, else the records to be used.
 
         For a named kernel, the published hash of the whole file is checked instead.
 
@@ -298,7 +298,7 @@ class Ephemeris:
 
 @lru_cache
 def _sha256(path: Path, same: tuple[int, ...]) -> str:
-    """SHA-256 hash of a file, cached until the state of the file (`same`) changes."""
+    """SHA-256 hash of a file, cached until the size or time stamps of the file (`same`) change."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 

@@ -148,7 +148,7 @@ def precession_angles(days: FloatArray) -> FloatArray:
 
 
 def moved_by_nutation(pole: FloatArray, eta: ComplexArray, days: FloatArray) -> FloatArray:
-    """Shift the unit vectors of poles by small nutation angles, and return them, shape (n, 3).
+    """Unit vectors of poles in the GCRS, after a shift by small nutation angles, shape (n, 3).
 
     Parameters
     ----------
@@ -165,7 +165,7 @@ def moved_by_nutation(pole: FloatArray, eta: ComplexArray, days: FloatArray) -> 
 
 
 def nutation_of(pole: FloatArray, days: FloatArray) -> FloatArray:
-    """Nutation of a pole in longitude and obliquity, relative to IAU 2006, rad, shape (n, 2).
+    """Nutation in longitude and obliquity of a pole from the IAU 2006 mean pole, rad, shape (n, 2).
 
     Parameters
     ----------
@@ -227,7 +227,7 @@ def at_days(angles: Callable[[FloatArray], FloatArray], days: FloatArray) -> Flo
 
 
 def node_error(days: FloatArray) -> float:
-    """Half-width of the interpolation error of nutation angles at given days, rad; 0 if exact."""
+    """Half-width of the nutation error due to interpolation between times, rad; 0 if exact."""
     return NODE_ERROR if days.size > _nodes_of(days).size else 0.0
 
 

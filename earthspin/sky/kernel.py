@@ -92,7 +92,7 @@ class Table(NamedTuple):
 
 
 class Epochs:
-    """Times at which Chebyshev series are evaluated, arranged once for each time grid.
+    """Times for Chebyshev series; the kernel record of each time is found once per record grid.
 
     Parameters
     ----------
@@ -105,16 +105,16 @@ class Epochs:
         self._layouts: dict[Grid, _InOrder | _InAnyOrder] = {}
 
     def on(self, grid: Grid) -> _InOrder | _InAnyOrder:
-        """Arrange the times for the evaluation of Chebyshev series with given record intervals."""
+        """Return the times arranged for Chebyshev series of kernel records on a given time grid."""
         if grid not in self._layouts:
             self._layouts[grid] = _laid_out(*grid.places(self.days))
         return self._layouts[grid]
 
 
 def _laid_out(record: IntArray, place: FloatArray) -> _InOrder | _InAnyOrder:
-    """Arrange times for Chebyshev series: as a matrix if evenly spread over the kernel records.
+    """Arrange times for Chebyshev series: a matrix if evenly spread over records, else one by one.
 
-    Otherwise each time is evaluated by itself. A matrix also requires sorted times.
+    A matrix also requires sorted times.
     """
     if place.size >= _FEWEST_TO_A_RECORD:
         low, high = int(record[0]), int(record[-1])
@@ -329,7 +329,7 @@ class Records:
         return KernelError(self.path, f"its segment {name} {problem}", AGAIN)
 
     def _check_times(self, records: IntArray) -> None:
-        """Check midpoints and half-lengths stored in given records against the directory."""
+        """Check that midpoints and half-lengths stored in records agree with the directory."""
         middle = self.start + (records + 0.5) * self.length
         expected = np.stack([middle, np.full_like(middle, self.length / 2)], axis=1)
         if not np.all(np.abs(self._times[records] - expected) <= self._slack):  # NaN is wrong
@@ -372,12 +372,12 @@ class Records:
 
     @cached_property
     def _usual_gap(self) -> float:
-        """Median relative jump of position between adjacent records; NaN for few records."""
+        """Median relative jump of position between adjacent records; NaN if records are too few."""
         sample = np.unique(np.linspace(0, self.count - 2, _SAMPLE).astype(np.int64))
         return float(np.median(self._gaps(sample)[0])) if sample.size > 4 else np.nan
 
     def _gaps(self, joints: IntArray) -> tuple[FloatArray, FloatArray]:
-        """Relative position jumps after given records, and last terms of the series, (n,) each.
+        """Relative position jumps after given records, and relative last series terms, (n,) each.
 
         A jump is from the end of a record to the start of the next. The last terms, the smaller of
         both records, scale the truncation error. Both results are divided by the sum of the
@@ -475,9 +475,9 @@ def growth(day: float) -> float:
 
 
 def drift_is_measured(centre: int, target: int) -> bool:
-    """Return True if `DRIFT` was measured for this pair of a body and its perturber (NAIF codes).
+    """Return True if the kernel error of the axis motion was measured for a body and a perturber.
 
-    `DRIFT` is the error of the motion of the axis that is due to errors of the positions.
+    This error, in `DRIFT`, is due to errors of the positions. The bodies are given by NAIF codes.
     """
     pair = sorted((_barycentre(centre), _barycentre(target)))
     return (pair[0], pair[1]) in DRIFT_MEASURED

@@ -304,7 +304,7 @@ def _left_out(
 
 
 def _to_meet(ends: FloatArray, samples: FloatArray) -> FloatArray:
-    """Corrections of the last two Legendre coefficients, to pass through first and last sample.
+    """Corrections of the last two Legendre coefficients, so that the series meets both end samples.
 
     The last two terms are 1 at the end, plus and minus 1 at the start, and small in between.
     """

@@ -137,7 +137,7 @@ def measured_code(place: Place) -> int | None:
 
 
 def words(place: object) -> str:
-    """Describe a NAIF code or trajectory in one line, which is the same in every run."""
+    """Describe a NAIF code or trajectory in one line of text, without memory addresses."""
     text = f"NAIF {place}" if isinstance(place, int) else " ".join(str(place).split())
     return re.sub(r" at 0x[0-9a-fA-F]+", "", text)
 

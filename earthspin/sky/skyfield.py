@@ -139,7 +139,7 @@ def function_of(trajectory: Trajectory) -> VectorFunction:
 
 
 def _leaves(function: VectorFunction) -> Iterator[VectorFunction]:
-    """Yield the elementary terms of a sum of vector functions, without signs."""
+    """Yield the elementary vector functions in a sum; a reversed one is yielded unreversed."""
     if isinstance(function, VectorSum):
         for term in function.vector_functions:
             yield from _leaves(term)

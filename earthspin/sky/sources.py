@@ -76,7 +76,7 @@ def trajectory(position: Any) -> Trajectory:
 
 
 def read_position(value: Any, where: Where) -> VectorFunction | Trajectory:
-    """Check and return the source of positions: vector function, trajectory or stored tables.
+    """Check a body's source of positions; return it as a vector function or as a trajectory.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def read_position(value: Any, where: Where) -> VectorFunction | Trajectory:
 
 
 def describe_position(position: object) -> str:
-    """Describe a body's source of positions in one line, which is the same in every run."""
+    """Describe a body's source of positions in one line of text, without memory addresses."""
     return words(repr(position))
 
 

@@ -64,13 +64,13 @@ class Precessing:
     node_rate: float
 
     def slope(self, obliquity: FloatArray) -> FloatArray:
-        """Derivative -dH/d(eps) of the spin axis's Hamiltonian by the obliquity, rad/s."""
+        """Minus the derivative of the spin axis's Hamiltonian by obliquity, -dH/d(eps), rad/s."""
         cosine, sine = np.cos(obliquity), np.sin(obliquity)
         torque = 1.5 * (self.axial * cosine + self.locked * (1 + cosine)) * sine
         return np.asarray(self.node_rate * np.sin(obliquity - self.inclination) - torque)
 
     def curvature(self, obliquity: FloatArray) -> FloatArray:
-        """Second derivative -d2H/d(eps)2 of the Hamiltonian by the obliquity, rad/s."""
+        """Minus the second derivative of the Hamiltonian by the obliquity, -d2H/d(eps)2, rad/s."""
         cosine, double = np.cos(obliquity), np.cos(2 * obliquity)
         torque = 1.5 * (self.axial * double + self.locked * (cosine + double))
         return np.asarray(self.node_rate * np.cos(obliquity - self.inclination) - torque)
@@ -95,7 +95,7 @@ class States(NamedTuple):
 
 
 def is_locked(spin_rate: float, motion: float) -> bool:
-    """Return True if the spin rate is a positive multiple of half the orbital mean motion."""
+    """Return True if the spin rate is nearly a positive multiple of half the mean motion."""
     halves = round(2 * spin_rate / motion)
     return halves > 0 and abs(2 * spin_rate / motion / halves - 1) < LOCKED
 

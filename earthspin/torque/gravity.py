@@ -246,7 +246,7 @@ def quadrupole_torque(tensor: FloatArray, axis: FloatArray) -> FloatArray:
 def zonal_law(
     coefficients: Mapping[int, float], radius: float, gm: float | FloatArray, position: FloatArray
 ) -> Callable[[FloatArray], FloatArray]:
-    """Return a function of the figure axis that gives the torque on harmonics J_n per M a2.
+    """Return a function of the figure axis: torque on the harmonics J_n, divided by M a2, s-2.
 
     Parameters
     ----------

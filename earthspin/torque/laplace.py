@@ -69,7 +69,7 @@ class Satellites:
 
 @dataclass(frozen=True)
 class Planet:
-    """Parameters of one planet or of m planets, as arrays of shape (m, 1), with one obliquity.
+    """Parameters of m planets with the same obliquity, as arrays of shape (m, 1); m may be 1.
 
     Attributes
     ----------

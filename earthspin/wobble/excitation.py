@@ -1,4 +1,4 @@
-"""Equation that relates polar motion to its excitation, exact for mean excitation per step.
+"""Convert polar motion to excitation and back, exactly for the mean excitation in each step.
 
     p + (i/s) dp/dt = chi,    p = x - i y,    s = (2 pi/T)(1 + i/(2 Q))
 

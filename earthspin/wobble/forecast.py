@@ -76,14 +76,14 @@ class Autoregression:
         return cls(filter_[1:], complex(residuals[-1]), covariance)
 
     def extended(self, series: ComplexArray, days: int) -> ComplexArray:
-        """Predict the innovations of the next days, with all future residuals e set to zero."""
+        """Predict the innovations of the next days, with all future residuals set to zero."""
         values = list(series[-ORDER:])
         for _ in range(days):
             values.append(-np.dot(self.coefficients, values[: -ORDER - 1 : -1]))
         return np.array(values[ORDER:], dtype=complex)
 
     def without_error(self, variance: float) -> tuple[complex, FloatArray]:
-        """Most probable last residual and its covariance if the last observation has extra error.
+        """Most probable last residual, with covariance, if the last observation is less accurate.
 
         Parameters
         ----------
@@ -224,7 +224,10 @@ SHIPPED = FastExcitation(0.2755, -0.33, 0.3524, 0.09, 32.0, 47.0, 0.535)
 
 
 def model(fast: FastExcitation = SHIPPED) -> StateSpace:
-    """State-space model of daily polar motion, with ten complex states in the order of `BEFORE`."""
+    """State-space model of daily polar motion: wobble, excitation, seasons, drift (10 states).
+
+    The states are complex, in the order of `BEFORE`.
+    """
     rate = 1j * chandler_frequency(PERIOD, QUALITY)
     year = 2j * np.pi / YEAR
     diagonal = [
@@ -368,7 +371,7 @@ def last_of(p: ComplexArray, used: int = RECORD) -> ComplexArray:
 
 
 def _rows(states: list[int]) -> FloatArray:
-    """Matrix that sums the chosen states of the model into one x and one y coordinate."""
+    """Matrix that sums chosen states of the model to the real and imaginary part of the pole."""
     row = np.zeros(len(BEFORE))
     row[states] = 1
     return np.asarray(np.kron(np.eye(2), row), dtype=float)

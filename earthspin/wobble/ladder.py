@@ -341,7 +341,7 @@ def roots(
 
 @dataclass(frozen=True)
 class Ladder:
-    """Wobble periods, quality factors and core nutation periods from all models of the ladder.
+    """Wobble periods, quality factors and core nutation periods from the non-rigid models.
 
     Attributes
     ----------
@@ -395,7 +395,7 @@ def love_radius(interior: Interior, spin: Spin) -> Numeric:
 
 
 def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -> Ladder:
-    """Compute wobble period and quality factor from all non-rigid models of the ladder.
+    """Compute wobble periods and quality factors from all non-rigid models that an interior allows.
 
     Parameters
     ----------
@@ -470,7 +470,7 @@ def _soften(
 
 
 def _compliance(interior: Interior, inputs: Inputs) -> tuple[Numeric, ...]:
-    """Deformation coefficients of body and core under wobble and core pressure, for a given k2."""
+    """Love numbers k of body and core, for tides and for core pressure, scaled to the given k2."""
     if interior.layers is None:
         return inputs.k2, 0.0, 0.0, 0.0
     love = elastic(interior.layers)

@@ -105,7 +105,7 @@ class Periodogram:
         return Periodogram(self.frequency[inside], self.power[inside])
 
     def ratio(self) -> tuple[float, float]:
-        """Ratio of the power in the wobble band to that expected from noise, and its threshold.
+        """Ratio of the power in the wobble band to expected noise power, and detection threshold.
 
         The ratio of pure noise exceeds the threshold with a probability of `FALSE_ALARM`.
         """
@@ -119,7 +119,7 @@ class Periodogram:
         return float(band.power.mean() / expected), float(needed)
 
     def peak(self) -> float:
-        """Period at which the power is largest, in the wobble band or at shorter periods, d."""
+        """Period of the largest power, from the wobble band down to shorter periods, d."""
         part = self.between(BAND[1], FASTER[1])
         return float(1 / part.frequency[np.argmax(part.power)])
 
@@ -277,7 +277,7 @@ class LikelihoodWithExcitation(Likelihood):
         self.step = float((time[-1] - time[0]) / (time.size - 1))
 
     def data(self, s: complex) -> ComplexArray:
-        """Columns of block means: terms to fit, and record minus driven pole as the last column."""
+        """Columns of block means: terms to fit, and observed minus driven pole as last column."""
         start = np.exp(1j * s * (self.time - self.time[0]))
         driven = polar_motion_from(self.chi, self.step, s)
         moving = self._averaged(self.time, np.column_stack([start, driven]))
@@ -334,7 +334,7 @@ def fit_likelihood(time: FloatArray, p: ComplexArray) -> WobbleFit:
 def lowest(
     likelihood: Likelihood, start: FloatArray = START, fixed: int | None = None
 ) -> tuple[FloatArray, float]:
-    """Parameters of maximum likelihood, and minus twice the logarithm of the likelihood there.
+    """Parameters of maximum likelihood, and minus twice the logarithm of this likelihood.
 
     Parameters
     ----------

@@ -137,7 +137,7 @@ def _sampled(
 def _points(
     inputs: Inputs, names: list[str], uncertainty: Mapping[str, float], exponents: Array
 ) -> Inputs:
-    """Input values at which the models are computed, as nodes of an interpolation."""
+    """Input values at which models are computed; wobble periods are interpolated between these."""
     count = 1 + 2 * len(names) + exponents.size
     exponent = np.concatenate(
         [
@@ -156,7 +156,7 @@ def _points(
 def half_widths(
     inputs: Inputs, uncertainty: Mapping[str, float], anelastic: bool
 ) -> dict[str, Array]:
-    """95 % half-widths of all inputs by name; half the published range for the exponent.
+    """95 % half-widths of all inputs by name; for the anelastic exponent, half its published range.
 
     Parameters
     ----------

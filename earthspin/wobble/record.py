@@ -94,7 +94,7 @@ def least_squares(columns: ComplexArray, values: ComplexArray) -> ComplexArray:
 
 
 def without_known_terms(time: FloatArray, p: ComplexArray) -> ComplexArray:
-    """Subtract fitted drift and seasonal terms from polar motion; fit the free wobble as well."""
+    """Remove drift and seasonal terms from polar motion; the free wobble is fitted, but kept."""
     columns = known_terms(time)
     sizes = least_squares(np.column_stack([columns, turning(time, NEAR)]), p)
     return np.asarray(p - columns @ sizes[:-1])

@@ -82,7 +82,7 @@ class StateSpace:
         return cls(transition, (noise + noise.T) / 2, side_by_side(observed), error, start)
 
     def every(self, steps: int) -> StateSpace:
-        """Return this model with a longer step: a given number of the present steps."""
+        """Return this model with a time step that is longer by a whole factor (`steps`)."""
         transition, noise = self.transition, self.noise
         for _ in range(steps - 1):
             transition = self.transition @ transition
@@ -237,7 +237,7 @@ class DrivenOscillator:
         return np.asarray(-noise / (rates[:, None] + rates.conj()))
 
     def of_means(self, length: float, reference: float) -> tuple[ComplexArray, ComplexArray]:
-        """Factors of the modes from block to block, and covariance of block means at lags 0, 1, 2.
+        """Factors by which modes change per block, and covariance of block means at lags 0, 1, 2.
 
         The rotation at the reference frequency is removed first.
 
