@@ -46,7 +46,7 @@ _CHUNK = re.compile(r"\d+(\.\d+)*")
 
 
 def write(groups: Mapping[str, xr.Dataset], path: Path, encoding: Mapping[str, Any]) -> None:
-    """Write Datasets to the groups of a new store.
+    """Write Datasets to the groups of a new Zarr store.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def write_region(node: xr.Dataset, store: Path, region: Mapping[str, slice]) -> 
 
 
 def lengthen(store: Path, along: str, size: int) -> None:
-    """Resize all arrays of a store that have a given first dimension; no chunk is written."""
+    """Resize all arrays of a store that have the dimension `along`, without writing data."""
     group = zarr.open_group(store, mode="r+")
     for _, array in group.arrays():
         dimensions: Any = array.attrs[DIMENSIONS]
