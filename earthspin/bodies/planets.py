@@ -214,7 +214,7 @@ _ASKED = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
 
 
 def all_in_words() -> str:
-    """List all built-in bodies as text: perturber, spinning body or both, and unknown numbers."""
+    """List all built-in bodies as text: whether each can also spin, and unknown numbers."""
     width = max(map(len, BODIES))
     lines = []
     for name, world in BODIES.items():
