@@ -127,7 +127,7 @@ def residuals(tree: Result) -> Table:
 
 
 def observed(tree: Result) -> Table:
-    """Table of the rms of the computed pole minus the observed pole, for each set of effects."""
+    """Table of rms differences from the observed pole, for each computed pole and the IAU pole."""
     sizes = needed(tree, "observed")
     columns = (
         Column("model", lambda row: MODELS.get(row.model.item(), row.model.item())),
@@ -311,7 +311,7 @@ def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the nutation transfer function near the core resonance, and IAU 2000A over rigid terms.
+    """Draw the nutation transfer function over frequency, and ratios of IAU 2000A to rigid terms.
 
     Parameters
     ----------

@@ -343,7 +343,7 @@ def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the logarithm of the distance of two neighbouring rotations, and its mean growth.
+    """Draw the divergence of two rotations from nearly equal starts, as a logarithm over time.
 
     Parameters
     ----------
