@@ -40,7 +40,7 @@ __all__ = ["BodyFixed", "EquatorOfDate", "SkyfieldFrame", "rotations"]
 
 
 def _give(words: tuple[str, ...]) -> str:
-    """Advice for an error message: give an answer to one of the questions `words`."""
+    """Advice for an error message: give a result of one of the computations named in `words`."""
     return f"give an answer to {' or '.join(map(repr, words))}"
 
 
@@ -86,7 +86,7 @@ class Model:
         return answer
 
     def check(self, words: tuple[str, ...]) -> None:
-        """Raise an error if the result does not answer one of the questions `words`."""
+        """Raise an error if the result is not that of one of the computations named in `words`."""
         if self.question.word not in words:
             raise SceneError("model", f"an answer to '{self.question.word}'", _give(words))
 
@@ -226,7 +226,7 @@ class _ModelAttribute(coord.Attribute):  # type: ignore[misc]
 
 
 class _Computed:
-    """Properties of astropy frames with axes that this package computes."""
+    """Base class of astropy frames with axes that this package computes, and with their errors."""
 
     obstime: Time
     model: Model | None
