@@ -71,7 +71,7 @@ class _ShowHelp(Action):
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line.
+    """Run a command of the command line, and return the exit status.
 
     Parameters
     ----------

@@ -103,7 +103,7 @@ class Model:
 
     @property
     def first(self) -> float:
-        """First date of the answer, at which a rotation starts, days from J2000.0 TDB."""
+        """First date of the result (of a rotation, the initial date), days from J2000.0 TDB."""
         keys = self.question.keys()
         return float(epochs(keys["span"], keys["step"], keys["times"]).span()[0])
 
@@ -203,7 +203,7 @@ def _at(model: Model, time: Any, where: Where) -> tuple[FloatArray, FloatArray]:
 
 
 class _DateAttribute(coord.TimeAttribute):  # type: ignore[misc]
-    """Frame attribute (astropy) for dates, in all forms that the questions accept."""
+    """Frame attribute (astropy) for dates, in all forms that this package accepts."""
 
     def convert_input(self, value: Any) -> tuple[Any, bool]:
         """Convert dates to an astropy Time (TDB); leave an astropy Time unchanged."""

@@ -458,7 +458,7 @@ def series_length(question: Question) -> int:
 
 
 def members_of(question: Question) -> int:
-    """Number of bodies that labelled arrays in the body fields of a question define; else 1."""
+    """Number of bodies in a question; more than 1 only if body fields are labelled arrays."""
     groups = [value if isinstance(value, tuple) else (value,) for value in question.keys().values()]
     return members(value for group in groups for value in group if isinstance(value, Body))
 
@@ -616,7 +616,7 @@ def toml(text: str) -> dict[str, Any]:
 
 
 def files_of(question: Question, but: Iterable[str] = ()) -> list[tuple[str, Path, FileName]]:
-    """List the files that a question reads, each with its key and the expected kind of file.
+    """List the files that a question reads: name of the input, path, and expected type of file.
 
     Parameters
     ----------

@@ -408,7 +408,7 @@ class Numbers:
         return values
 
     def write(self, value: FloatArray) -> Plain:
-        """Form stored in scene files: a list of numbers, or the bytes of a long array."""
+        """Return the array as scene files store it: as a list, or as bytes if the array is long."""
         if value.size > LONGEST_LIST:
             return pack(value) | {"unit": self.unit}
         return _with_unit(value.tolist(), self.unit) if self.unit else value.tolist()

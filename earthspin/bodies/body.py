@@ -405,10 +405,7 @@ class Body(FromMass):
         return self.gm / c.G.value
 
     def gm_on(self, other: Body) -> Numeric:
-        """GM of this body and its satellites, as it acts on another body, m3 s-2.
-
-        It includes the satellites of this body, except the other body itself.
-        """
+        """GM of this body and its satellites, except `other`, as it acts on `other`, m3 s-2."""
         name = (other.known_as or other.name).lower()
         return self.gm + sum(s.gm for s in self.satellites if s.name.lower() != name)
 
@@ -693,10 +690,7 @@ def body(name: object, where: Where | None = None) -> Body:
 
 
 def _placed(function: Any, where: Where) -> Body:
-    """Return the built-in body whose position a Skyfield function gives, with this as `position`.
-
-    The function becomes the position source of the body.
-    """
+    """Return the built-in body that a Skyfield function locates, with this as `position`."""
     match = next((body for body in BODIES.values() if function.target in body.naif), None)
     if match is None:
         problem = "its mass is not known; give Body(name=..., gm=..., position=...)"

@@ -158,7 +158,7 @@ def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
 
 
 def _check_density(name: str, gm: Numeric, radius: Numeric) -> None:
-    """Refuse an impossible mean density that suits a radius or GM in km units instead of SI."""
+    """Refuse an impossible mean density that indicates a radius or GM in km units instead of SI."""
     density = gm / (4 / 3 * math.pi * G.value) / radius / radius / radius
     not_dense = (density <= NO_STAR[0]) | (density >= NO_STAR[1]) | (gm >= LARGEST_STAR)
     not_thin = (density >= 1) | (gm >= LEAST_STAR)
@@ -238,7 +238,7 @@ def _check_labels(name: str, numbers: Fields) -> None:
 
 
 def as_direction(name: str, field: str, value: Any, read: Callable[[Any], Any]) -> Any:
-    """Convert a spin axis or orbit normal (name, angles or direction) with the function `read`.
+    """Convert a spin axis or orbit normal by the function `read`; refuse arrays and wrong values.
 
     Parameters
     ----------

@@ -222,7 +222,7 @@ def _as_written(value: Any) -> Any:
 
 
 def docstring_of(question: type[Question]) -> str:
-    """Make the docstring of a question's public function from its class and its arguments."""
+    """Make the docstring of a question's public function from class docstring and inputs."""
     text, *sections = re.split(r"\n\n(\w+)\n-{4,}\n", inspect.cleandoc(question.__doc__ or ""))
     of_class = dict(zip(sections[::2], sections[1::2], strict=True))
     arguments, parameters = arguments_of(question), list[str]()

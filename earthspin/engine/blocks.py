@@ -103,7 +103,7 @@ def missing_blocks(folder: Path, layout: Layout) -> list[int]:
 
 
 def finish(folder: Path, layout: Layout, target: Path) -> None:
-    """Check that a Zarr store has all its blocks undamaged, and move the store to its target path.
+    """Check that no block of a Zarr store is missing or damaged; move the store to its target path.
 
     Raises
     ------
@@ -514,7 +514,9 @@ class Series:
 
 
 def request_of(question: Question, provenance: Mapping[str, str]) -> dict[str, str]:
-    """Texts that identify a run: question, versions, file checksums; a resumed store must match.
+    """Texts that identify a run, by name: question, software versions and checksums of files.
+
+    An unfinished store is resumed only if its texts are the same.
 
     Parameters
     ----------

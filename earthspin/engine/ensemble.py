@@ -187,7 +187,7 @@ class Ensemble:
                     yield index, error
 
     def _check_ranges(self, indices: IntArray) -> None:
-        """Raise an error if a number of any member, except body properties, is out of range."""
+        """Raise an error if a numerical input of a member (no body property) is out of range."""
         for name, entry in self.numbers.items():
             values = self.values[name][indices]
             for extreme in () if entry.field else (values.min(), values.max()):

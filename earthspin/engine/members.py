@@ -93,7 +93,7 @@ class Distribution:
         return Distribution(self.shape, tuple(map(float, numbers)))
 
     def values(self, normal: FloatArray, index: IntArray) -> NDArray[Any]:
-        """Transform standard normal numbers into values of this distribution; a grid uses indices.
+        """Transform standard normal numbers into values of this distribution, or index a grid.
 
         Parameters
         ----------
@@ -183,7 +183,7 @@ class Listed(NamedTuple):
         return cls(values.astype(float), unit if unit is None else str(unit))
 
     def checked(self, kind: Any, where: Where) -> NDArray[Any]:
-        """Return the values for all members, converted to the unit that the input `kind` uses.
+        """Return the values for all members, converted to the unit of the input type `kind`.
 
         Raises
         ------

@@ -82,7 +82,7 @@ class Key:
 
     @cached_property
     def default(self) -> Any:
-        """Default value of this key (input), converted to its type."""
+        """Default value of this key (input), converted to the type of the key."""
         return None if self.shown is None else self.kind.read(self.shown, Where(self.name))
 
     @property
@@ -218,7 +218,7 @@ class Question:
         in_scene: bool = False,
         typed: Collection[str] = (),
     ) -> Self:
-        """Set all keys of the question: convert values, refuse unknown keys, check combinations.
+        """Set all inputs of the question: convert values, refuse unknown names, check combinations.
 
         Values in `known` were read before and are not read again.
         """
@@ -258,10 +258,10 @@ class Question:
         return self
 
     def check(self) -> None:
-        """Raise an error if values of keys contradict each other; subclasses override this."""
+        """Raise an error if values of inputs contradict each other; subclasses override this."""
 
     def where(self, name: str) -> Where:
-        """Return the name of a key with the path of the scene file, for error messages."""
+        """Return the location of an input (name of the key, and scene file), for error messages."""
         return Where(name, self.read_from)
 
     def error(self, name: str, value: object, problem: str) -> SceneError:
@@ -346,7 +346,7 @@ class Question:
         return {name: getattr(self, name) for name in keys_of(type(self))}
 
     def published_inputs(self) -> Mapping[str, tuple[str, tuple[float, float]]]:
-        """Published probability distributions of numerical keys of the question, by key.
+        """Published probability distributions of numbers other than body properties, by input name.
 
         An entry is ``("normal", (mean, standard deviation))`` or ``("uniform", (low, high))``.
         The distributions of numbers of bodies follow from the bodies themselves.
@@ -354,7 +354,7 @@ class Question:
         return {}
 
     def replace(self, arrays: Mapping[str, Any] | None = None, /, **changes: Any) -> Self:
-        """Return a copy of the question with some keys changed; all checks are repeated.
+        """Return a copy of the question with some inputs changed; all checks are repeated.
 
         Parameters
         ----------

@@ -50,7 +50,7 @@ class Row(NamedTuple):
 
     @property
     def run_time(self) -> str:
-        """Run time of the part as text; empty before the run."""
+        """Run time of the function as text, or "reused"; empty before the run."""
         if self.status == REUSED:
             return REUSED
         return "" if self.seconds is None else f"{self.seconds * 1e3:.1f} ms"
@@ -286,7 +286,7 @@ class Run:
     # --- answers ---------------------------------------------------------------------------------
 
     def numbers(self, names: Iterable[str] = (), effects: Sequence[str] = ()) -> xr.Dataset:
-        """Merge the results of given parts (functions) into a Dataset without global attributes.
+        """Merge the results of several functions (parts) into a Dataset without global attributes.
 
         Parameters
         ----------
@@ -334,7 +334,7 @@ class Run:
 
     @property
     def neglected(self) -> Neglected:
-        """Effects that the model of the question does not include."""
+        """Effects that the model does not include, with sizes if known, as a `Neglected`."""
         neglected: Neglected = self[NEGLECTED]
         return neglected.also(self.question.unused)
 
@@ -355,7 +355,7 @@ class Run:
         return sources
 
     def _load_modules(self, names: Iterable[str]) -> None:
-        """Import the modules that given parts need, so that run times of parts exclude imports."""
+        """Import the modules that some parts (functions) need, so that run times exclude this."""
         begun = time.perf_counter()
         _load_xarray()
         for name in self.behind(names):

@@ -444,7 +444,7 @@ def encoding_of(node: xr.Dataset, *, zarr: bool = True) -> dict[str, dict[str, A
 
 
 def content_hash(groups: Mapping[str, xr.Dataset]) -> str:
-    """SHA-256 of the contents of a result; writing the result and reading it keeps this hash.
+    """SHA-256 of the contents of a result; the hash is the same after writing and reading.
 
     Parameters
     ----------

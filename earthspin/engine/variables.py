@@ -144,7 +144,7 @@ class Variable:
 
 
 class SchemaError(Exception):
-    """Error raised if a part returns variables that it does not declare (a program defect)."""
+    """Error raised if returned variables differ from the declared ones (a program defect)."""
 
 
 #: Options of a field; others are attributes of its variables.

@@ -111,7 +111,7 @@ def gallery() -> list[Solid]:
 
 
 def gallery_page() -> str:
-    """HTML page of the precession report, with three-dimensional pictures of rotors and tops."""
+    """HTML page with three-dimensional pictures of rotors and tops, for the precession report."""
     return page(
         "Rotors and tops",
         solids=gallery(),
