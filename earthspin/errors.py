@@ -301,7 +301,7 @@ class ApartError(UndefinedError):
 
 
 class SeriesError(EarthspinError, ValueError):
-    """Error raised if a file of observations cannot be used as it is.
+    """Error raised if a file of observations, of a published solution or of an orbit is not usable.
 
     Attributes
     ----------
@@ -354,7 +354,7 @@ class AccuracyError(EarthspinError, ValueError):
 
 
 class OutputError(EarthspinError, OSError):
-    """Error raised if a result cannot be written.
+    """Error raised if a file cannot be written, or if a result file cannot be read.
 
     Attributes
     ----------

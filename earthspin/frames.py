@@ -141,7 +141,7 @@ def _solved(model: Model, times: tuple[float, ...]) -> Solved:
 
 
 def _long_term(model: Model, times: FloatArray) -> Solved:
-    """Matrices from the ICRS to the mean equator and equinox of date, and their errors, rad."""
+    """Matrices from the ICRS to the mean equator and equinox of date, and errors of axes, rad."""
     different, index = np.unique(times, return_inverse=True)
     tree = run_tree(model.at(different * u.d), sections=["matrices"])
     section, versions = tree.earthspin.section("matrices"), xr.Dataset(attrs=tree.attrs)
@@ -149,7 +149,7 @@ def _long_term(model: Model, times: FloatArray) -> Solved:
 
 
 def _pole(model: Model, times: FloatArray) -> Solved:
-    """Matrices from the ICRS to the true equator and equinox of date, and their errors, rad.
+    """Matrices from the ICRS to the true equator and equinox of date, and errors of axes, rad.
 
     The equinox is the node on the ecliptic of date or on the orbit.
     """
@@ -173,7 +173,7 @@ def _pole(model: Model, times: FloatArray) -> Solved:
 
 
 def _rotation(model: Model, times: FloatArray) -> Solved:
-    """Matrices from the ICRS to the principal axes of the body, and their errors, rad."""
+    """Matrices from the ICRS to the principal axes of the body, and errors of these axes, rad."""
     first = model.first
     if times.min() < first - MICROSECOND:
         problem = f"the rotation starts at {date_text(first, 'us')} TDB; take a later time"
@@ -226,7 +226,7 @@ class _ModelAttribute(coord.Attribute):  # type: ignore[misc]
 
 
 class _Computed:
-    """Base class of astropy frames with axes that this package computes, and with their errors."""
+    """Base class of astropy frames with computed axes: rotation matrix, and error of the axes."""
 
     obstime: Time
     model: Model | None
@@ -248,7 +248,7 @@ class _Computed:
         return self._axes()[0]
 
     def _axes(self) -> tuple[FloatArray, FloatArray]:
-        """Rotation matrices from the ICRS at the times of the frame, and their errors, rad."""
+        """Rotation matrices from the ICRS at the times of the frame, and errors of axes, rad."""
         if self.model is None:
             raise SceneError("model", None, f"{_give(self._words)}, as in model=answer")
         return _at(self.model, self.obstime, Where("obstime"))

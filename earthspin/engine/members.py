@@ -436,7 +436,7 @@ _SETTINGS: dict[str, Callable[[Any, Where], Any]] = {
 def draw(
     members: Members, inputs: Mapping[str, Distribution], which: IntArray, where: Where
 ) -> dict[str, NDArray[Any]]:
-    """Draw values of all varying inputs, for each member, from the distributions of the inputs.
+    """Draw, for each member, a value of every varying input from the distribution of the input.
 
     Parameters
     ----------

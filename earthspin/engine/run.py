@@ -170,7 +170,7 @@ class Run:
             raise question.error("compute", question.word, f"nothing to do: {why}")
 
     def __getitem__(self, name: str) -> Any:
-        """Return an input, or the result of a function (part), computed if needed, by name."""
+        """Return an input or the result of a part (function) by name; compute a missing result."""
         if name not in self.values:
             part = self.graph.parts[name]
             inputs = {other: self[other] for other in self.inputs(name)}

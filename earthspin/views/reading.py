@@ -27,7 +27,7 @@ def answer_of(result: Result) -> xr.Dataset:
 
 
 def question_of(result: Result) -> type[Question] | None:
-    """Return the class of the question that a result answers; None for an unknown question."""
+    """Return the `Question` class (type of computation) of a result; None for an unknown type."""
     return QUESTIONS.get(result.attrs["compute"])
 
 
