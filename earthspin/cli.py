@@ -71,7 +71,7 @@ class _ShowHelp(Action):
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line.
+    """Run a command of the command line, and return the exit status.
 
     Parameters
     ----------
@@ -346,7 +346,7 @@ def _scenes(_: Namespace) -> None:
 
 
 def _keys(options: Namespace) -> None:
-    """Command `keys`: print the input keys of one question or of all questions."""
+    """Command `keys`: print all inputs of one type of computation (question), or of every type."""
     from earthspin.engine.question import describe_keys
     from earthspin.scenes import QUESTIONS, question_named
 
@@ -427,7 +427,7 @@ def _listed(names: str | None) -> str | list[str] | None:
 
 
 def _keys_of(scene: str) -> str:
-    """Text that lists the input keys and the sections of the question in a scene."""
+    """Text that lists the inputs of a scene, and the optional sections of the result."""
     from earthspin.engine.question import describe_keys
     from earthspin.scenes import load_scene
 
@@ -437,7 +437,7 @@ def _keys_of(scene: str) -> str:
 
 
 def _question(options: Namespace) -> Question:
-    """Build the question of a scene, changed by the options --set and --ephemeris."""
+    """Read the inputs of a computation from a scene, with changes by --set and --ephemeris."""
     from earthspin.scenes import files_of, typed_scene
 
     changes = dict(_setting(text) for text in options.settings)
@@ -452,7 +452,7 @@ def _question(options: Namespace) -> Question:
 
 
 def _setting(text: str) -> tuple[str, Any]:
-    """Split KEY=VALUE into key and value; the value is read as TOML, or else as text."""
+    """Split KEY=VALUE into key and value; parse the value as TOML, or return text if not TOML."""
     import tomllib
 
     from earthspin.scenes import toml

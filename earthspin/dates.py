@@ -205,7 +205,7 @@ def _from_astropy(value: Any, where: Where, given: object) -> tuple[Any, Any]:
 
 
 def _with_tdb_minus_tt(time: Any) -> Any:
-    """Convert TT, TAI or TCG to TT with the geocentric TDB - TT set; return other times unchanged.
+    """Convert TT, TAI or TCG to TT, and set TDB - TT at the geocentre; leave other times unchanged.
 
     astropy computes TDB - TT by way of UTC, and refuses or warns where UTC is not known.
     """
@@ -334,7 +334,7 @@ class Ends:
 
     @classmethod
     def read(cls, value: Any, where: Where) -> Self:
-        """Read the first and the last time of a span.
+        """Make a time span from a pair of times; refuse a span that ends before it starts.
 
         Raises
         ------
@@ -374,7 +374,7 @@ class Span(Ends):
     words, hint = "two dates", "tuple[Date, Date] | SkyfieldTime"
 
     def write(self) -> Plain:
-        """Form stored in scene files: both dates as text, to the microsecond."""
+        """Return both dates as text, to the microsecond, for a scene file."""
         return [str(J2000 + np.timedelta64(count, "us")) for count in (self.first, self.last)]
 
     @property
@@ -392,7 +392,7 @@ class YearSpan(Ends):
     words, hint = "two times from J2000.0, or two dates", "tuple[Epoch, Epoch]"
 
     def write(self) -> Plain:
-        """Form stored in scene files: both times in seconds, with all digits."""
+        """Return both times as text, in seconds with all digits, for a scene file."""
         return [f"{self.first!r} s", f"{self.last!r} s"]
 
 

@@ -168,7 +168,7 @@ class BodyError(EarthspinError, ValueError):
 
     @classmethod
     def lacking(cls, body: str, forms: Mapping[str, str]) -> BodyError:
-        """Build the error for properties that the body lacks and the question needs.
+        """Build the error for properties that a computation needs, but that the body does not have.
 
         Parameters
         ----------
@@ -282,7 +282,7 @@ class UndefinedError(EarthspinError, ValueError):
 
 
 class ApartError(UndefinedError):
-    """Error raised if several bodies cannot be computed at once, but perhaps one by one.
+    """Error raised if several bodies cannot be computed together; one body at a time may work.
 
     Examples
     --------
@@ -301,7 +301,7 @@ class ApartError(UndefinedError):
 
 
 class SeriesError(EarthspinError, ValueError):
-    """Error raised if a file of observations cannot be used as it is.
+    """Error raised if a file of observations, of a published solution or of an orbit is not usable.
 
     Attributes
     ----------
@@ -354,7 +354,7 @@ class AccuracyError(EarthspinError, ValueError):
 
 
 class OutputError(EarthspinError, OSError):
-    """Error raised if a result cannot be written.
+    """Error raised if a file cannot be written, or if a result file cannot be read.
 
     Attributes
     ----------
@@ -492,7 +492,7 @@ def in_bytes(count: float) -> str:
 
 
 def no_plain_file(path: object) -> str:
-    """Return the reason (text) why a path is not a plain file, else an empty text.
+    """Reason (text) why a path is not a regular file, such as a folder; empty if there is none.
 
     It is also empty if nothing exists at the path.
 

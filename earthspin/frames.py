@@ -40,7 +40,7 @@ __all__ = ["BodyFixed", "EquatorOfDate", "SkyfieldFrame", "rotations"]
 
 
 def _give(words: tuple[str, ...]) -> str:
-    """Advice for an error message: give an answer to one of the questions `words`."""
+    """Advice for an error message: give a result of one of the computations named in `words`."""
     return f"give an answer to {' or '.join(map(repr, words))}"
 
 
@@ -86,7 +86,7 @@ class Model:
         return answer
 
     def check(self, words: tuple[str, ...]) -> None:
-        """Raise an error if the result does not answer one of the questions `words`."""
+        """Raise an error if the result is not that of one of the computations named in `words`."""
         if self.question.word not in words:
             raise SceneError("model", f"an answer to '{self.question.word}'", _give(words))
 
@@ -103,7 +103,7 @@ class Model:
 
     @property
     def first(self) -> float:
-        """First date of the answer, at which a rotation starts, days from J2000.0 TDB."""
+        """First date of the result (of a rotation, the initial date), days from J2000.0 TDB."""
         keys = self.question.keys()
         return float(epochs(keys["span"], keys["step"], keys["times"]).span()[0])
 
@@ -141,7 +141,7 @@ def _solved(model: Model, times: tuple[float, ...]) -> Solved:
 
 
 def _long_term(model: Model, times: FloatArray) -> Solved:
-    """Matrices from the ICRS to the mean equator and equinox of date, and their errors, rad."""
+    """Matrices from the ICRS to the mean equator and equinox of date, and errors of axes, rad."""
     different, index = np.unique(times, return_inverse=True)
     tree = run_tree(model.at(different * u.d), sections=["matrices"])
     section, versions = tree.earthspin.section("matrices"), xr.Dataset(attrs=tree.attrs)
@@ -149,7 +149,7 @@ def _long_term(model: Model, times: FloatArray) -> Solved:
 
 
 def _pole(model: Model, times: FloatArray) -> Solved:
-    """Matrices from the ICRS to the true equator and equinox of date, and their errors, rad.
+    """Matrices from the ICRS to the true equator and equinox of date, and errors of axes, rad.
 
     The equinox is the node on the ecliptic of date or on the orbit.
     """
@@ -173,7 +173,7 @@ def _pole(model: Model, times: FloatArray) -> Solved:
 
 
 def _rotation(model: Model, times: FloatArray) -> Solved:
-    """Matrices from the ICRS to the principal axes of the body, and their errors, rad."""
+    """Matrices from the ICRS to the principal axes of the body, and errors of these axes, rad."""
     first = model.first
     if times.min() < first - MICROSECOND:
         problem = f"the rotation starts at {date_text(first, 'us')} TDB; take a later time"
@@ -203,7 +203,7 @@ def _at(model: Model, time: Any, where: Where) -> tuple[FloatArray, FloatArray]:
 
 
 class _DateAttribute(coord.TimeAttribute):  # type: ignore[misc]
-    """Frame attribute (astropy) for dates, in all forms that the questions accept."""
+    """Frame attribute (astropy) for dates, in all forms that this package accepts."""
 
     def convert_input(self, value: Any) -> tuple[Any, bool]:
         """Convert dates to an astropy Time (TDB); leave an astropy Time unchanged."""
@@ -226,7 +226,7 @@ class _ModelAttribute(coord.Attribute):  # type: ignore[misc]
 
 
 class _Computed:
-    """Properties of astropy frames with axes that this package computes."""
+    """Base class of astropy frames with computed axes: rotation matrix, and error of the axes."""
 
     obstime: Time
     model: Model | None
@@ -248,7 +248,7 @@ class _Computed:
         return self._axes()[0]
 
     def _axes(self) -> tuple[FloatArray, FloatArray]:
-        """Rotation matrices from the ICRS at the times of the frame, and their errors, rad."""
+        """Rotation matrices from the ICRS at the times of the frame, and errors of axes, rad."""
         if self.model is None:
             raise SceneError("model", None, f"{_give(self._words)}, as in model=answer")
         return _at(self.model, self.obstime, Where("obstime"))

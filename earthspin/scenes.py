@@ -33,14 +33,14 @@ from earthspin.units import FileName, Whole, is_whole
 
 
 class _Questions(Mapping[str, type[Question]]):
-    """Mapping from the name of a question, as used in scene files, to its class.
+    """Mapping from names of computations (questions), as in scene files, to `Question` classes.
 
     A module is named after the word of its question, and imported when the class is needed.
     """
 
     @property
     def calls(self) -> dict[str, str]:
-        """Names of the public functions, by the name of the question in scene files."""
+        """Names of the public functions, by the name of each computation in scene files."""
         modules = MODULES.items()
         return {path.rpartition(".")[2].replace("_", "-"): call for call, path in modules}
 
@@ -113,7 +113,7 @@ def Scene(*, compute: str, **keys: Any) -> Question:
 
 
 def question_named(word: object, source: str = "") -> type[Question]:
-    """Return the class of a question from the name of the question in scene files.
+    """Return the `Question` class (type of computation) that scene files call by a given name.
 
     Raises
     ------
@@ -126,7 +126,7 @@ def question_named(word: object, source: str = "") -> type[Question]:
 
 
 def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question:
-    """Read a question from a scene file, a shipped scene, or a result, with optional changes.
+    """Read a question (a computation with inputs) from a scene or a result, with optional changes.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def load_scene(scene: Any, changes: Mapping[str, Any] | None = None) -> Question
 
 
 def typed_scene(scene: str, changes: Mapping[str, Any]) -> Question:
-    """Read a question from a scene, with changes in which numbers must have units.
+    """Read a question from a scene, and change inputs; numbers in the changes must have units.
 
     Parameters
     ----------
@@ -167,7 +167,7 @@ def typed_scene(scene: str, changes: Mapping[str, Any]) -> Question:
 
 
 def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Question:
-    """Read a question from a scene, file or result, and apply changes to its inputs.
+    """Read a question from a scene, file or result, and set new values of some inputs.
 
     If `typed`, numbers in the changes have units, otherwise they are in SI units.
     """
@@ -217,7 +217,7 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
 
 
 def _names(table: Mapping[str, Any]) -> set[str]:
-    """All keys of a scene: those at the top level, and those inside its tables."""
+    """Names of all keys in a scene, both at the top level and inside tables."""
     return {*table}.union(*(inner for inner in table.values() if isinstance(inner, Mapping)))
 
 
@@ -245,7 +245,7 @@ def _changed(
 
 
 def _leaves(key: str, value: Any) -> Iterator[str]:
-    """Yield dotted names of all values in a nested table, or `key` itself for any other value."""
+    """Yield the dotted names of all values in a nested table; yield `key` for any other value."""
     if not isinstance(value, Mapping):
         yield key
         return
@@ -294,7 +294,7 @@ def plan(scene: Any, sections: str | Iterable[str] = ()) -> Plan:
 
 
 def run(scene: Any) -> xr.Dataset:
-    """Run a question and return its result as a Dataset.
+    """Run the computation of a scene or a question, and return the result as a Dataset.
 
     Parameters
     ----------
@@ -330,7 +330,7 @@ def run(scene: Any) -> xr.Dataset:
 
 
 def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
-    """Run a question with optional sections; return a DataTree that includes the plan of the run.
+    """Run a scene or a question; return the result, its sections and the plan as a DataTree.
 
     Parameters
     ----------
@@ -429,7 +429,7 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
 
 
 def _series(question: Question) -> Series:
-    """Return a time series of torques, pole or rotation, divided into blocks, as a `Series`.
+    """Prepare to compute a long time series of torques, pole or rotation in blocks, as a `Series`.
 
     Refuse all other questions.
     """
@@ -458,7 +458,7 @@ def series_length(question: Question) -> int:
 
 
 def members_of(question: Question) -> int:
-    """Number of bodies for which a question is computed at once; 1 without labelled arrays."""
+    """Number of bodies in a question; more than 1 only if body fields are labelled arrays."""
     groups = [value if isinstance(value, tuple) else (value,) for value in question.keys().values()]
     return members(value for group in groups for value in group if isinstance(value, Body))
 
@@ -546,7 +546,7 @@ def ensemble(
 
 
 def _with_members(question: Question, members: object, settings: dict[str, Any]) -> Question:
-    """Return a question with another ensemble; an integer changes only the number of members."""
+    """Return a question with another ensemble; an integer replaces only the number of members."""
     own, where = question.members, question.where("members")
     request: Members | None = own if members is None else Members.read(members, where)
     if request is None:
@@ -580,7 +580,7 @@ def _scene_of(answer: Any) -> str:
 
 
 def _read(scene: str | Path) -> tuple[str, str, str]:
-    """Return the text of a scene, its file name for messages, and a default title."""
+    """Read a scene: return the text, the file or scene name for messages, and a default title."""
     text = str(scene)
     if "/" not in text and not text.endswith(".toml"):
         names = shipped_scenes()
@@ -616,7 +616,7 @@ def toml(text: str) -> dict[str, Any]:
 
 
 def files_of(question: Question, but: Iterable[str] = ()) -> list[tuple[str, Path, FileName]]:
-    """List the files that a question reads, each with its key and the expected kind of file.
+    """List the files that a question reads: name of the input, path, and expected type of file.
 
     Parameters
     ----------
@@ -644,7 +644,7 @@ _HEAD = 1 << 16
 
 
 def _check_kind(key: str, path: Path, kind: FileName, source: str) -> None:
-    """Raise an error if a file named in a stored scene is not of the kind that its key requires.
+    """Raise an error if a file named in a stored scene is not of the type that the input requires.
 
     Raises
     ------

@@ -148,7 +148,7 @@ def _converted(columns: str, values: FloatArray) -> dict[str, FloatArray]:
 
 
 def _layout(file: Path, values: FloatArray) -> str:
-    """Names and units of unnamed columns, inferred from their number and the size of the values."""
+    """Names and units of unnamed columns, inferred from the number of columns and the values."""
     fitting = [c for c in LAYOUTS if c.count(",") + 1 == values.shape[1] and _fits(c, values)]
     if len(fitting) == 1:
         return fitting[0]
@@ -158,7 +158,7 @@ def _layout(file: Path, values: FloatArray) -> str:
 
 
 def _fits(columns: str, values: FloatArray) -> bool:
-    """Return True if the values are plausible for the assumed columns, and rows close in time."""
+    """Return True if the values fit the assumed column names, and the epochs have no large gaps."""
     data = _converted(columns, values)
     small = [data[name] for name in ("eccentricity", "climatic_precession") if name in data]
     close = np.abs(np.diff(data["epoch"])).max(initial=0.0) <= FARTHEST or not small

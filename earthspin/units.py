@@ -1,4 +1,4 @@
-"""Kinds of input, such as numbers with units, words or lists: how each is read and written.
+"""Types of input (numbers with units, words, lists, ...), which check and convert values.
 
 A kind knows how one sort of value is read (`read`, which checks dimension, shape, length and
 finiteness) and written (`write`, whose text or numbers `read` turns into the same bits). Inside
@@ -58,7 +58,7 @@ _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s
 
 
 class Kind(Protocol[T]):
-    """Protocol of a kind of input, which reads, describes and writes values of one type."""
+    """Protocol of an input type, which checks, converts and describes the values of an input."""
 
     @property
     def words(self) -> str:
@@ -76,7 +76,7 @@ class Kind(Protocol[T]):
 
 
 def by_name(kind: object) -> bool:
-    """Return True if a kind of input takes words, names or paths rather than numbers.
+    """Return True if an input type takes words, names or paths instead of numbers.
 
     Parameters
     ----------
@@ -304,7 +304,7 @@ def real_numbers(value: Any) -> FloatArray:
 
 @dataclass(frozen=True)
 class Number:
-    """Kind of input: one finite number, converted to a float in the unit `unit`.
+    """Input type: one finite number, converted to a float in the unit `unit`.
 
     Attributes
     ----------
@@ -357,13 +357,13 @@ class Number:
         return f"it is at least {self.low:g}{unit}"
 
     def write(self, value: float) -> Plain:
-        """Form stored in scene files: the number as text with its unit."""
+        """Return the number as scene files store it: as text with the unit, if there is a unit."""
         return f"{float(value)!r} {self.unit}" if self.unit else float(value)
 
 
 @dataclass(frozen=True)
 class Numbers:
-    """Kind of input: an array of finite numbers, converted to floats in the unit `unit`.
+    """Input type: an array of finite numbers, converted to floats in the unit `unit`.
 
     Attributes
     ----------
@@ -408,7 +408,7 @@ class Numbers:
         return values
 
     def write(self, value: FloatArray) -> Plain:
-        """Form stored in scene files: a list of numbers, or the bytes of a long array."""
+        """Return the array as scene files store it: as a list, or as bytes if the array is long."""
         if value.size > LONGEST_LIST:
             return pack(value) | {"unit": self.unit}
         return _with_unit(value.tolist(), self.unit) if self.unit else value.tolist()
@@ -461,10 +461,10 @@ def unpack(table: Mapping[str, Any], where: Where) -> FloatArray:
 
 
 class _AsItIs:
-    """Base class of kinds of input whose values are stored in scene files without conversion."""
+    """Base class of input types whose values are stored in scene files without conversion."""
 
     def write(self, value: Any) -> Plain:
-        """Form stored in scene files: the value itself."""
+        """Return the value unchanged, as it is stored in scene files."""
         return value
 
 
@@ -475,7 +475,7 @@ def is_whole(value: object) -> TypeGuard[int | np.integer[Any]]:
 
 @dataclass(frozen=True)
 class Whole(_AsItIs):
-    """Kind of input: a whole number from `low` to `high`; `others` names further allowed values."""
+    """Input type: a whole number from `low` to `high`; `others` names other allowed values."""
 
     low: int = 1
     high: int = LONGEST_IN_MEMORY
@@ -499,7 +499,7 @@ class Whole(_AsItIs):
 
 @dataclass(frozen=True)
 class Word(_AsItIs):
-    """Kind of input: one word from a list of allowed words.
+    """Input type: one word from a list of allowed words.
 
     Attributes
     ----------
@@ -532,7 +532,7 @@ class Word(_AsItIs):
 
 @dataclass(frozen=True)
 class Text(_AsItIs):
-    """Kind of input: one line of text."""
+    """Input type: one line of text."""
 
     words, hint = "a line of text", "str"
 
@@ -545,7 +545,7 @@ class Text(_AsItIs):
 
 @dataclass(frozen=True)
 class FileName(_AsItIs):
-    """Kind of input: the path of a file or folder, or a short name that stands for a file.
+    """Input type: the path of a file or folder, or a short name that stands for a file.
 
     Attributes
     ----------
@@ -575,13 +575,13 @@ class FileName(_AsItIs):
         return isinstance(value, str) and value not in self.known
 
     def begins(self, head: bytes) -> bool:
-        """Return True if the given first bytes can begin a file of this kind."""
+        """Return True if a file with these first bytes can have the type that the input needs."""
         return True
 
 
 @dataclass(frozen=True)
 class Several:
-    """Kind of input: a list of values of one kind, or a single such value.
+    """Input type: a list of values that all have the input type `of`, or a single such value.
 
     Attributes
     ----------
@@ -616,7 +616,7 @@ class Several:
 
 
 def kind_of(annotation: Any) -> Kind[Any]:
-    """Choose the kind of input that fits a type annotation; None in the annotation is ignored.
+    """Return the input type, such as `Number`, for a type annotation; None as an option is ignored.
 
     Parameters
     ----------

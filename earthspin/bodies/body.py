@@ -208,7 +208,7 @@ class Body(FromMass):
             object.__setattr__(self, "pole", self._pole_at(obliquity))
 
     def _pole_at(self, value: object) -> Pole:
-        """Fixed spin axis with a given obliquity and the equinox direction of this body."""
+        """Spin axis, fixed in space, with another obliquity but the same equinox direction."""
         angle = _READ_AS["obliquity"].read(value, Where(f"{self.name}.obliquity"))
         if hasattr(angle, "dims") or np.ndim(angle) or not 0 <= angle <= math.pi:
             raise BodyError(self.name, "obliquity", value, "give one angle from 0 to 180 deg")
@@ -405,10 +405,7 @@ class Body(FromMass):
         return self.gm / c.G.value
 
     def gm_on(self, other: Body) -> Numeric:
-        """GM of this body and its satellites, as it acts on another body, m3 s-2.
-
-        It includes the satellites of this body, except the other body itself.
-        """
+        """GM of this body and its satellites, except `other`, as it acts on `other`, m3 s-2."""
         name = (other.known_as or other.name).lower()
         return self.gm + sum(s.gm for s in self.satellites if s.name.lower() != name)
 
@@ -487,7 +484,7 @@ class Body(FromMass):
         return float(value)
 
     def magnitudes(self) -> dict[str, Magnitude]:
-        """Converters between text and SI values, by field, for the mass and all numbers set."""
+        """Converters between text and SI values, by field: for the mass and each known number."""
         numbers = {n: self.KINDS[n] for n in self.UNITS if getattr(self, n) is not None}
         return numbers | {"mass": _READ_AS["mass"]}
 
@@ -643,7 +640,7 @@ _INSTEAD = {"j2": "moments", "dynamical_flattening": "moments", "pole": "obliqui
 
 
 def _lacking(start: str, given: Mapping[str, Any]) -> str:
-    """List the fields that a table or call lacks, by its "from"; empty if it has all."""
+    """Text that lists the required fields that a table or call lacks; empty if it has all."""
     missing = [f"{name} = {e}" for name, e in _LEAST[start].items() if name not in given]
     if not missing:
         return ""
@@ -693,10 +690,7 @@ def body(name: object, where: Where | None = None) -> Body:
 
 
 def _placed(function: Any, where: Where) -> Body:
-    """Return the built-in body whose position a Skyfield function gives, with this function set.
-
-    The function becomes the position source of the body.
-    """
+    """Return the built-in body that a Skyfield function locates, with this as `position`."""
     match = next((body for body in BODIES.values() if function.target in body.naif), None)
     if match is None:
         problem = "its mass is not known; give Body(name=..., gm=..., position=...)"
@@ -705,7 +699,7 @@ def _placed(function: Any, where: Where) -> Body:
 
 
 def label_of(name: str, bodies: Iterable[Body]) -> str | None:
-    """Return the label of the first body that is known as the built-in body `name`, or None."""
+    """Own name of the first of several bodies that stands for the built-in body `name`, or None."""
     return next((world.name for world in bodies if world.known_as == name), None)
 
 

@@ -88,7 +88,7 @@ _HOLDS: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
 
 
 def check_kinds(body: Fields, numbers: Iterable[str]) -> None:
-    """Raise an error if a field of a body has a wrong type, is not finite, or its labels disagree.
+    """Raise an error if a field of a body is of a wrong type or not finite, or if labels disagree.
 
     Parameters
     ----------
@@ -158,7 +158,7 @@ def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
 
 
 def _check_density(name: str, gm: Numeric, radius: Numeric) -> None:
-    """Refuse an impossible mean density that is plausible if radius or GM was meant in km units."""
+    """Refuse an impossible mean density that indicates a radius or GM in km units instead of SI."""
     density = gm / (4 / 3 * math.pi * G.value) / radius / radius / radius
     not_dense = (density <= NO_STAR[0]) | (density >= NO_STAR[1]) | (gm >= LARGEST_STAR)
     not_thin = (density >= 1) | (gm >= LEAST_STAR)
@@ -238,7 +238,7 @@ def _check_labels(name: str, numbers: Fields) -> None:
 
 
 def as_direction(name: str, field: str, value: Any, read: Callable[[Any], Any]) -> Any:
-    """Convert a spin axis or orbit normal (name, angles or direction) with the function `read`.
+    """Convert a spin axis or orbit normal by the function `read`; refuse arrays and wrong values.
 
     Parameters
     ----------

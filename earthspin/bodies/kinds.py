@@ -1,4 +1,4 @@
-"""Converters between the fields of a body and their forms in scene files (text, tables)."""
+"""Converters of a body's properties from and to the text and tables of scene files."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from earthspin.units import Plain, Text, is_whole, pack, quantity, real_numbers,
 
 @dataclass(frozen=True)
 class Magnitude:
-    """Converter of a field that is a number with a unit, or an array with named dimensions.
+    """Converter between SI value and scene file, for a number with a unit or a labelled array.
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ class Magnitude:
 
     @property
     def form(self) -> str:
-        """Pattern for writing the value in a scene file: text with a unit, or a quotient."""
+        """Pattern of the value in a scene file: text with a unit, or a quotient."""
         return f'"... {self.text.partition(" ")[2]}"' if self.unit else self.ratio
 
     def read(self, value: object, where: Where) -> Any:
@@ -61,7 +61,7 @@ class Magnitude:
 
 
 class Moments:
-    """Converter of three principal moments of inertia, the polar one last, kg m2."""
+    """Converter of three principal moments of inertia, the polar one last, to kg m2."""
 
     words, hint = "three moments, the polar one last", "Sequence[float | str]"
 
@@ -73,7 +73,7 @@ class Moments:
 
 
 class Codes:
-    """Converter of the NAIF codes of a body: integers that identify the body in kernels."""
+    """Converter of NAIF codes, the integers that identify a body in ephemeris kernels."""
 
     words, hint = "whole numbers, like [499, 4]", "Sequence[int]"
 
@@ -89,7 +89,7 @@ class Codes:
 
 
 class Uncertainties:
-    """Converter of relative standard deviations of a body, given as a table by field name."""
+    """Converter of a table with the relative standard deviations of a body's numbers, by field."""
 
     words, hint = "standard deviation divided by value, by field", "Mapping[str, float]"
 
@@ -109,13 +109,13 @@ class Uncertainties:
 
 
 class CitedPeriod:
-    """Converter of a period in days, with its uncertainty and source, such as a wobble period."""
+    """Converter between a table and a `Constant`, for a period in days such as a wobble period."""
 
     words = "a table of value, unit, uncertainty and source"
     hint = "Mapping[str, object] | Constant"
 
     def read(self, value: object, where: Where) -> Constant:
-        """Read a period in days from a `Constant`, or from a table of its fields."""
+        """Convert a table to a `Constant`, a period in days; return a `Constant` unchanged."""
         if isinstance(value, Constant):
             return value
 
@@ -139,7 +139,7 @@ class CitedPeriod:
 
 
 def kinds_of(record: type) -> dict[str, Any]:
-    """Return the converter of each field of a class, by field name, from the type annotations."""
+    """Return the converters in the type annotations of a class, by name of the annotated field."""
     hints = get_type_hints(record, include_extras=True)
     annotated = {name: hint for name, hint in hints.items() if hasattr(hint, "__metadata__")}
     return {name: hint.__metadata__[0] for name, hint in annotated.items()}
@@ -198,7 +198,7 @@ COLUMNS = {"radius": "m", "density": "kg/m3", "vp": "m/s", "vs": "m/s", "shear_q
 
 
 class Layers:
-    """Converter of a field that holds a `LayeredBody`, from a name or a table."""
+    """Converter of the layers of a body, from a name or a table to a `LayeredBody`."""
 
     words = (
         'the name of an interior with layers, like "prem", or a table: name, and either layers '
@@ -253,7 +253,7 @@ class Layers:
 
 
 def _layer(table: Any, where: Where) -> Layer:
-    """Make one layer of a body from a table; a single number is constant within the layer."""
+    """Make one layer of a body from a table; one number means a constant within the layer."""
     if not isinstance(table, Mapping) or not {"top", "density", "vp"} <= set(table):
         raise where.error(table, "give top, density, vp, and vs and shear_q if it is solid")
     if unknown := set(table) - {"top", "density", "vp", "vs", "shear_q"}:
@@ -292,7 +292,7 @@ def _sampled(table: Any, name: str, reference: str, where: Where) -> LayeredBody
 
 
 class UnderTheSurface:
-    """Converter of the field `interior` of a body: a name or a `LayeredBody`."""
+    """Converter of the input `interior` of a body: a name, a `LayeredBody` or its table."""
 
     words = (
         'a name, like "prem", or a table: name, and either layers (top, density, vp, vs, '

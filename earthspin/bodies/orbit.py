@@ -22,7 +22,7 @@ _ONE_OF = 'give a or period, like a = "384399 km" or period = "27.32 d"'
 
 
 class Epoch:
-    """Converter of a date that is stored as days from J2000.0 TDB."""
+    """Converter of a date to days from J2000.0 TDB, the form in which an orbit stores its epoch."""
 
     words, hint = 'a date, like "2000-01-01T12:00"', "Date | float"
 

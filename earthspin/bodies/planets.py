@@ -43,7 +43,7 @@ _OTHERS = (
 
 
 def pulled_by(body: Body) -> tuple[Body, ...]:
-    """Default perturbers: Sun and Moon (Earth), Sun (other planets), planet and Sun (moons)."""
+    """Default perturbers: Sun (planets), planet and Sun (moons), Sun and Moon (Earth, others)."""
     return tuple(BODIES[name] for name in _OTHERS.get(body.known_as, _SUN_AND_MOON))
 
 
@@ -214,7 +214,7 @@ _ASKED = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
 
 
 def all_in_words() -> str:
-    """List all built-in bodies as text: perturber, spinning body or both, and unknown numbers."""
+    """List all built-in bodies as text: perturber only, or spinning too; and unknown numbers."""
     width = max(map(len, BODIES))
     lines = []
     for name, world in BODIES.items():

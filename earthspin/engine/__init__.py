@@ -1,4 +1,4 @@
-"""Machinery of all computations: questions, their functions, runs, ensembles and result files.
+"""Machinery of all computations: inputs (questions), functions, runs, ensembles, result files.
 
 Functions of the packages above the engine that answers call are registered here by their names, by
 ``earthspin/__init__.py``. A module is imported when its function is first called.
@@ -16,5 +16,5 @@ METHODS: dict[str, str] = {}
 
 
 def registered(name: str) -> Any:
-    """Import and return the function with a name in `FUNCTIONS` or `METHODS`."""
+    """Import the module of a function in `FUNCTIONS` or `METHODS`, and return the function."""
     return getattr(import_module((FUNCTIONS | METHODS)[name]), name)

@@ -39,7 +39,7 @@ _NO_VECTOR = "the answer has no vector in the GCRS"
 @xr.register_datatree_accessor("earthspin")  # type: ignore[no-untyped-call]
 @xr.register_dataset_accessor("earthspin")  # type: ignore[no-untyped-call]
 class Answer:
-    """Accessor `ds.earthspin` of a result Dataset: its question, plan, statistics and figures.
+    """Accessor `ds.earthspin` of a result Dataset: inputs, plan, tables, statistics and figures.
 
     Packages above the engine register further methods: `plot` of all answers, `to_iers_table` of a
     forecast.
@@ -78,13 +78,13 @@ class Answer:
 
     @property
     def scene(self) -> Question:
-        """Question that this Dataset answers, with the values of all its input parameters."""
+        """Computation (`Question`) whose result is this Dataset, with the values of all inputs."""
         question: Question = registered("load_scene")(self.dataset)
         return question
 
     @property
     def plan(self) -> Any:
-        """Plan of the question: functions that run, and functions left out, with the reasons."""
+        """Plan of the computation: functions that run, and functions left out, with reasons."""
         return registered("plan")(self.scene)
 
     def section(self, name: str) -> xr.Dataset:
@@ -255,7 +255,7 @@ class Answer:
         return coordinates
 
     def quantiles(self, shares: Sequence[float] = (0.025, 0.5, 0.975)) -> xr.Dataset:
-        """Return quantiles of each number that depends on the ensemble member, over all members.
+        """Return quantiles over the ensemble members, for each number along the dimension `member`.
 
         Parameters
         ----------
@@ -386,7 +386,7 @@ def is_ensemble(answer: xr.Dataset | xr.DataTree) -> bool:
 
 
 def inputs_of(answer: xr.Dataset) -> dict[str, NDArray[Any]]:
-    """Input values of all members of an ensemble, by input; numbers first, then texts.
+    """Input values of all ensemble members, by input name: numerical inputs first, then texts.
 
     An input of several numbers has one entry for each number.
     """

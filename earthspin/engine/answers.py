@@ -1,4 +1,4 @@
-"""Answer a question as a Dataset or DataTree, and make the public function of a question."""
+"""Compute the result of a question as a Dataset or DataTree, and make the public functions."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _NO_ERROR = "no number of this answer has an error that can be sampled; leave it
 
 @progress("answer")
 def answer(question: Question) -> xr.Dataset:
-    """Compute the answer to a question, as a Dataset.
+    """Compute the result of a question (a computation with inputs), as a Dataset.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def answer(question: Question) -> xr.Dataset:
 
 @progress("answer with sections")
 def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.DataTree:
-    """Compute the answer to a question, and return it with the requested sections as a DataTree.
+    """Compute the result of a question and the requested sections, as a DataTree.
 
     An ensemble has only the sections `plan` and `neglected`.
 
@@ -86,7 +86,7 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
 
 
 def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
-    """Add errors to a result that are estimated from a random sample of the question's inputs.
+    """Add errors to a result, estimated by repeating the computation with random inputs.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
 
 
 def _linear_error(answer: xr.Dataset, name: str) -> xr.DataArray | None:
-    """Error of a variable: due to inputs if known, else total or shared; None if there is none."""
+    """Return the error of a variable due to inputs, or else its total or shared error, or None."""
     shared = str(answer[name].attrs.get("ancillary_variables", "")).split()
     names = (f"{name}_error_input", f"{name}_error", *shared)
     return next((answer[error] for error in names if error in answer), None)
@@ -191,7 +191,7 @@ def public_call(question: type[Question], **parts: Any) -> Callable[..., xr.Data
 
 
 def arguments_of(question: type[Question]) -> dict[str, Key | None]:
-    """Argument names of the public function of a question, each with its `Key` or None.
+    """Arguments of a question's public function, by name: the `Key`, or None for start and stop.
 
     The arguments `start` and `stop` are not keys; they map to None.
     """
@@ -222,7 +222,7 @@ def _as_written(value: Any) -> Any:
 
 
 def docstring_of(question: type[Question]) -> str:
-    """Make the docstring of a question's public function from its class and its arguments."""
+    """Make the docstring of a question's public function from class docstring and inputs."""
     text, *sections = re.split(r"\n\n(\w+)\n-{4,}\n", inspect.cleandoc(question.__doc__ or ""))
     of_class = dict(zip(sections[::2], sections[1::2], strict=True))
     arguments, parameters = arguments_of(question), list[str]()

@@ -51,7 +51,7 @@ STORE, REQUEST, _DRAFT = "store", "asked.json", "begun"
 
 @dataclass(frozen=True)
 class Layout:
-    """Division of a Zarr store into blocks along one dimension.
+    """Division of a long result into blocks along one dimension.
 
     Attributes
     ----------
@@ -69,7 +69,7 @@ class Layout:
 
     @property
     def count(self) -> int:
-        """Number of blocks into which the store is divided."""
+        """Number of blocks into which the result is divided."""
         return -(-self.size // self.block)
 
     def bounds(self, number: int) -> tuple[int, int]:
@@ -103,7 +103,7 @@ def missing_blocks(folder: Path, layout: Layout) -> list[int]:
 
 
 def finish(folder: Path, layout: Layout, target: Path) -> None:
-    """Check that a Zarr store has all its blocks undamaged, and move the store to its target path.
+    """Check that no block of a Zarr store is missing or damaged; move the store to its target path.
 
     Raises
     ------
@@ -151,7 +151,7 @@ def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) ->
 
 @contextmanager
 def claimed(target: Path) -> Iterator[Path]:
-    """Lock and yield the folder for an unfinished store; finally remove a folder without a store.
+    """Lock and yield the folder of an unfinished store; remove it at the end if no store was begun.
 
     Parameters
     ----------
@@ -456,7 +456,7 @@ def _checked(client: object) -> object:
 
 
 def _digest_of_store(target: Path) -> str | None:
-    """Hash of the computation that a complete store holds; None if there is no store."""
+    """Hash that identifies the computation of a complete store; None if there is no store."""
     if not target.exists():
         return None
     try:
@@ -470,7 +470,7 @@ def _digest_of_store(target: Path) -> str | None:
 
 @dataclass(frozen=True)
 class Series:
-    """Long time series, the answer to one question, computed in blocks of consecutive times.
+    """Long time series that a question computes, divided into blocks of consecutive times.
 
     Attributes
     ----------
@@ -496,7 +496,7 @@ class Series:
 
     @cached_property
     def _run(self) -> Run:
-        """Run of the question for the first block; other blocks reuse its unchanged results."""
+        """Run for the first block; other blocks reuse intermediate results that do not change."""
         return Run(self.question, block=Block(*self.layout.bounds(0)))
 
     def __getstate__(self) -> dict[str, Any]:
@@ -514,7 +514,9 @@ class Series:
 
 
 def request_of(question: Question, provenance: Mapping[str, str]) -> dict[str, str]:
-    """Texts that identify a run: question, versions, file checksums; a resumed store must match.
+    """Texts that identify a run, by name: question, software versions and checksums of files.
+
+    An unfinished store is resumed only if its texts are the same.
 
     Parameters
     ----------

@@ -131,7 +131,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
 
 
 def prepared(path: str | Path) -> Path:
-    """Check the path of a file to be written, and resolve its links.
+    """Check that a result can be written to a path, and return the path with links resolved.
 
     Raises
     ------
@@ -222,7 +222,7 @@ def put_in_place(draft: Path, target: Path, box: Path) -> None:
 
 
 def _restore(box: Path, target: Path) -> None:
-    """Move an old store back to a target that is missing."""
+    """Move the old store back to the target path, if nothing is there."""
     if (box / _OLD).exists() and not target.exists():
         os.replace(box / _OLD, target)
 

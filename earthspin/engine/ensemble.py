@@ -51,7 +51,7 @@ _WHOLE, _SOURCES = "/", "/sources"
 
 
 class Ensemble:
-    """Question with many sets of inputs (members), whose answers are computed block by block.
+    """One question (computation) with many sets of inputs (members), computed block by block.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ class Ensemble:
     # --- size and run time -----------------------------------------------------------------------
 
     def _refuse_what_does_not_fit(self, members: Members) -> None:
-        """Raise an error if all answers need too much memory or time, judging from the first."""
+        """Raise an error if a few members show that the ensemble takes too much memory or time."""
         first = replace(members, only=tuple(self.which[:ROW].tolist()))
         try:
             few = Ensemble(self.full_question.replace(members=first), block=1)
@@ -136,7 +136,7 @@ class Ensemble:
             raise self.question.error("members", self.which.size, problem)
 
     def _refuse_size(self, member: int) -> None:
-        """Raise an error if the answers, of `member` bytes per member, are too large for memory."""
+        """Raise an error if results of `member` bytes for each member exceed the memory limit."""
         size = 2 * member * self.which.size  # of all blocks, and of the whole made of them
         if size > LARGEST_IN_MEMORY:
             needed, allowed = f"{size / 1e9:.3g} GB of memory", f"{LARGEST_IN_MEMORY / 1e9:g}"
@@ -187,7 +187,7 @@ class Ensemble:
                     yield index, error
 
     def _check_ranges(self, indices: IntArray) -> None:
-        """Raise an error if a numerical key of the question is out of range in some member."""
+        """Raise an error if a numerical input of a member (no body property) is out of range."""
         for name, entry in self.numbers.items():
             values = self.values[name][indices]
             for extreme in () if entry.field else (values.min(), values.max()):
@@ -234,7 +234,7 @@ class Ensemble:
 
     @cached_property
     def descriptions(self) -> dict[str, dict[Names, Mapping[str, Any]]]:
-        """Attributes of variables and of the answer, and sources, for each group of text inputs."""
+        """Attributes of the result and its variables, and data sources, by set of text inputs."""
         descriptions: dict[str, dict[Names, Mapping[str, Any]]] = {}
         for names in self.groups:
             run = self.run(names)

@@ -90,7 +90,7 @@ def inputs_of(question: Question, names: Iterable[str], where: Where) -> dict[st
 
 
 def _all_inputs(question: Question) -> Iterator[tuple[str, Input]]:
-    """Yield name and `Input` of each number that is set and each text key of a question."""
+    """Yield the name and the `Input` of every numerical input and text input of a question."""
     for key, entry in keys_of(type(question)).items():
         value, kind = getattr(question, key), entry.kind
         if by_name(kind) and key not in keys_of(Question):

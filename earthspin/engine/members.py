@@ -93,7 +93,7 @@ class Distribution:
         return Distribution(self.shape, tuple(map(float, numbers)))
 
     def values(self, normal: FloatArray, index: IntArray) -> NDArray[Any]:
-        """Transform standard normal numbers into values with this distribution.
+        """Transform standard normal numbers into values of this distribution, or index a grid.
 
         Parameters
         ----------
@@ -147,7 +147,7 @@ def _scene_value(number: Any) -> Any:
 
 
 class Listed(NamedTuple):
-    """Values of one input for all members, and their unit.
+    """Values of one input for all members of an ensemble, and the unit of the values.
 
     Attributes
     ----------
@@ -183,7 +183,7 @@ class Listed(NamedTuple):
         return cls(values.astype(float), unit if unit is None else str(unit))
 
     def checked(self, kind: Any, where: Where) -> NDArray[Any]:
-        """Return the values for all members, converted to the unit of the given kind of input.
+        """Return the values for all members, converted to the unit of the input type `kind`.
 
         Raises
         ------
@@ -355,7 +355,7 @@ def _read_file(path: Path) -> xr.Dataset:
 
 
 def _values_of(dataset: Any, where: Where) -> dict[str, Listed]:
-    """Return values of ensemble inputs from a Dataset: a table, or an earlier ensemble."""
+    """Take input values of all ensemble members from a Dataset: a table, or an earlier ensemble."""
     variables = {name: array for name, array in dataset.coords.items() if "input" in array.attrs}
     values = {
         name: Listed.of(array, where.at(name))
@@ -368,7 +368,7 @@ def _values_of(dataset: Any, where: Where) -> dict[str, Listed]:
 
 
 def _names(values: NDArray[Any], where: Where) -> NDArray[Any]:
-    """Return one text for each member as an array; refuse values that are not text."""
+    """Check that an array has one text for each member, and return the array as text."""
     if values.ndim != 1 or not values.size:
         raise where.error(f"shape {values.shape}", "give one name for each member")
     for index, name in enumerate(values):
@@ -436,7 +436,7 @@ _SETTINGS: dict[str, Callable[[Any, Where], Any]] = {
 def draw(
     members: Members, inputs: Mapping[str, Distribution], which: IntArray, where: Where
 ) -> dict[str, NDArray[Any]]:
-    """Draw the values of all varying inputs for each member, from their distributions.
+    """Draw, for each member, a value of every varying input from the distribution of the input.
 
     Parameters
     ----------

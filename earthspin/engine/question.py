@@ -82,7 +82,7 @@ class Key:
 
     @cached_property
     def default(self) -> Any:
-        """Default value of this key (input), converted to its type."""
+        """Default value of this key (input), converted to the type of the key."""
         return None if self.shown is None else self.kind.read(self.shown, Where(self.name))
 
     @property
@@ -108,7 +108,7 @@ def _read(kind: Kind[Any], value: object, where: Where) -> Any:
 
 
 def _from_default(value: object, default: Any) -> object:
-    """Make a table of body properties start from the default body, unless it names another body."""
+    """Add `from`, the default body, to a table of body properties that names no other body."""
     name = getattr(default, "name", None)
     if name and isinstance(value, Mapping) and str(value.get("name", name)).lower() == name:
         return {"from": name, **value}
@@ -147,7 +147,7 @@ def plain_words(value: Any) -> str:
 
 
 class Question:
-    """Base class of all questions; its fields are the keys (inputs) that all questions share.
+    """Base class of questions (types of computation); the fields are inputs of all questions.
 
     Attributes
     ----------
@@ -218,7 +218,7 @@ class Question:
         in_scene: bool = False,
         typed: Collection[str] = (),
     ) -> Self:
-        """Set all keys of the question: convert values, refuse unknown keys, check combinations.
+        """Set all inputs of the question: convert values, refuse unknown names, check combinations.
 
         Values in `known` were read before and are not read again.
         """
@@ -258,10 +258,10 @@ class Question:
         return self
 
     def check(self) -> None:
-        """Raise an error if values of keys contradict each other; subclasses override this."""
+        """Raise an error if values of inputs contradict each other; subclasses override this."""
 
     def where(self, name: str) -> Where:
-        """Return the name of a key with the path of the scene file, for error messages."""
+        """Return the location of an input (name of the key, and scene file), for error messages."""
         return Where(name, self.read_from)
 
     def error(self, name: str, value: object, problem: str) -> SceneError:
@@ -291,7 +291,7 @@ class Question:
         title: str = "",
         typed: Collection[str] = (),
     ) -> Self:
-        """Make a question from the table of a scene file, without its key `compute`.
+        """Make a question from the content of a scene file, a table without the key `compute`.
 
         Parameters
         ----------
@@ -346,7 +346,7 @@ class Question:
         return {name: getattr(self, name) for name in keys_of(type(self))}
 
     def published_inputs(self) -> Mapping[str, tuple[str, tuple[float, float]]]:
-        """Published probability distributions of numerical keys of the question, by key.
+        """Published probability distributions of numbers other than body properties, by input name.
 
         An entry is ``("normal", (mean, standard deviation))`` or ``("uniform", (low, high))``.
         The distributions of numbers of bodies follow from the bodies themselves.
@@ -354,7 +354,7 @@ class Question:
         return {}
 
     def replace(self, arrays: Mapping[str, Any] | None = None, /, **changes: Any) -> Self:
-        """Return a copy of the question with some keys changed; all checks are repeated.
+        """Return a copy of the question with some inputs changed; all checks are repeated.
 
         Parameters
         ----------
@@ -369,7 +369,7 @@ class Question:
         return question._fill(values, known | dict(arrays or {}), self.read_from)
 
     def _repr_html_(self) -> str:
-        """HTML table of all keys: their values, whether these were given, and their meaning."""
+        """HTML table of all inputs (keys): value, "given" or "default", and meaning."""
         rows = []
         for name, entry in keys_of(type(self)).items():
             value = getattr(self, name)
@@ -427,7 +427,7 @@ def scene_text(question: Question) -> str:
 
 
 def _shortened(value: Any, arrays: dict[str, str]) -> Any:
-    """Copy a table with short placeholders for packed arrays, which are stored in `arrays`."""
+    """Copy a table with placeholders instead of array data, and put these data into `arrays`."""
     if isinstance(value, list):
         return [_shortened(item, arrays) for item in value]
     if not isinstance(value, dict):
@@ -461,7 +461,7 @@ class Block(NamedTuple):
 
 
 class Part(Generic[P, R]):
-    """Function that computes one piece of an answer, with its inputs and outputs; it is callable.
+    """Function that computes one piece of a result, with a description of its inputs and outputs.
 
     Attributes
     ----------
@@ -546,7 +546,7 @@ class Part(Generic[P, R]):
         return _parameters(self.function, None)
 
     def reason(self, keys: dict[str, Any]) -> str | None:
-        """Return the reason (text) to omit this part for given inputs, else None."""
+        """Reason (text) why this function is left out for the inputs `keys`; None if it runs."""
         reasons = (condition(**_arguments(condition, keys)) for condition in self.unless)
         return next((why for why in reasons if why is not None), None)
 
@@ -561,7 +561,7 @@ def part(function: Callable[P, R], /) -> Part[P, R]: ...
 @overload
 def part(**options: Any) -> Callable[[Callable[P, R]], Part[P, R]]: ...
 def part(function: Callable[P, R] | None = None, /, **options: Any) -> Any:
-    """Make a `Part` from a typed function; a decorator.
+    """Turn a typed function into a `Part`, one step of a computation; a decorator.
 
     Parameters
     ----------
@@ -608,7 +608,7 @@ def _parameters(function: Callable[..., Any], default: object) -> tuple[str, ...
 
 @dataclass(frozen=True)
 class Graph:
-    """Functions (parts) that answer a question, and their names for the answer and each section.
+    """All functions (parts) of a computation, and which of them form the result and each section.
 
     Attributes
     ----------

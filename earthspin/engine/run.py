@@ -50,7 +50,7 @@ class Row(NamedTuple):
 
     @property
     def run_time(self) -> str:
-        """Run time of the part as text; empty before the run."""
+        """Run time of the function as text, or "reused"; empty before the run."""
         if self.status == REUSED:
             return REUSED
         return "" if self.seconds is None else f"{self.seconds * 1e3:.1f} ms"
@@ -170,7 +170,7 @@ class Run:
             raise question.error("compute", question.word, f"nothing to do: {why}")
 
     def __getitem__(self, name: str) -> Any:
-        """Return the result of a part (function) or an input by name; compute it if necessary."""
+        """Return an input or the result of a part (function) by name; compute a missing result."""
         if name not in self.values:
             part = self.graph.parts[name]
             inputs = {other: self[other] for other in self.inputs(name)}
@@ -203,7 +203,7 @@ class Run:
         return why
 
     def inputs(self, name: str) -> list[str]:
-        """Names of the arguments that a part (function) takes in this run; empty for an input."""
+        """Names of the arguments that a function (part) takes in this run; none for an input."""
         part, parts = self.graph.parts.get(name), self.graph.parts
         if part is None:
             return []
@@ -213,7 +213,7 @@ class Run:
         return [*part.needs, *offered]
 
     def behind(self, names: Iterable[str]) -> dict[str, None]:
-        """Names of given parts and of all inputs and parts they depend on, in order of computation.
+        """Names of parts (functions) and of all that they depend on, in the order of computation.
 
         Parts that are left out are omitted.
         """
@@ -227,7 +227,7 @@ class Run:
         return union
 
     def plan(self, sections: str | Iterable[str] = ()) -> Plan:
-        """Plan of the run for the answer and given sections: functions used, functions left out.
+        """Plan of the run: functions for the answer and requested sections, and functions left out.
 
         Parameters
         ----------
@@ -263,7 +263,7 @@ class Run:
         return [name for name in known if name in wanted]
 
     def again(self, question: Question | None = None, **values: Any) -> Self:
-        """Return a new run with changed inputs that reuses the results the changes do not affect.
+        """Return a new run with changed inputs; results that do not depend on them are reused.
 
         Parameters
         ----------
@@ -286,7 +286,7 @@ class Run:
     # --- answers ---------------------------------------------------------------------------------
 
     def numbers(self, names: Iterable[str] = (), effects: Sequence[str] = ()) -> xr.Dataset:
-        """Merge the results of given parts (functions) into a Dataset without global attributes.
+        """Merge the results of several functions (parts) into a Dataset without global attributes.
 
         Parameters
         ----------
@@ -334,7 +334,7 @@ class Run:
 
     @property
     def neglected(self) -> Neglected:
-        """Effects that the model of the question does not include."""
+        """Effects that the model does not include, with sizes if known, as a `Neglected`."""
         neglected: Neglected = self[NEGLECTED]
         return neglected.also(self.question.unused)
 
@@ -355,7 +355,7 @@ class Run:
         return sources
 
     def _load_modules(self, names: Iterable[str]) -> None:
-        """Import the modules that given parts need, so that run times of parts exclude imports."""
+        """Import the modules that some parts (functions) need, so that run times exclude this."""
         begun = time.perf_counter()
         _load_xarray()
         for name in self.behind(names):
@@ -382,7 +382,7 @@ def _load_xarray() -> None:
 
 @contextmanager
 def in_range(what: str) -> Iterator[None]:
-    """Raise an error if numbers overflow in a block of code; context manager and decorator.
+    """Raise an error if numbers overflow or become undefined; context manager and decorator.
 
     Parameters
     ----------

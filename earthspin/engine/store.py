@@ -151,7 +151,7 @@ def _is_storable(value: object) -> bool:
 
 
 def _raise_system_error(path: Path, size: int) -> None:
-    """Raise the operating system's error, if any, for writing `size` bytes to a file.
+    """Write `size` bytes to a file as a test, and raise the operating system's error, if any.
 
     Raises
     ------
@@ -191,7 +191,7 @@ UNITS, SHOWN = "units", "units_shown"
 
 
 def spelled(node: xr.Dataset) -> xr.Dataset:
-    """Return a copy with units in file spelling; `units_shown` holds the original spelling."""
+    """Return a copy with units spelled as in files; `units_shown` holds the original spelling."""
     node = node.copy()
     for name, variable in node.variables.items():
         unit = variable.attrs.get(UNITS)
@@ -444,7 +444,7 @@ def encoding_of(node: xr.Dataset, *, zarr: bool = True) -> dict[str, dict[str, A
 
 
 def content_hash(groups: Mapping[str, xr.Dataset]) -> str:
-    """SHA-256 of the contents of a result, which writing to a file and reading does not change.
+    """SHA-256 of the contents of a result; the hash is the same after writing and reading.
 
     Parameters
     ----------
@@ -463,7 +463,7 @@ def content_hash(groups: Mapping[str, xr.Dataset]) -> str:
 
 
 def _listed(attrs: Mapping[Any, Any]) -> list[tuple[str, list[Any]]]:
-    """Sorted attributes with values as lists, as netCDF reads a list of one number as a number."""
+    """Sorted attributes, with values as lists, because netCDF turns a list of one into a number."""
     values = {k: [v] if isinstance(v, str) else np.ravel(v).tolist() for k, v in attrs.items()}
     return sorted((name, value) for name, value in values.items() if name != CONTENT)
 

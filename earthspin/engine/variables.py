@@ -1,4 +1,4 @@
-"""Variables of results: how classes declare them, their units, and what a model neglects.
+"""Declaration of result variables with units and meaning, and sizes of neglected effects.
 
 A part returns an instance of a class of `Variables` with values in SI units. `dataset` converts
 them to the units of the class and adds the attributes of the CF conventions. Values are plain
@@ -144,7 +144,7 @@ class Variable:
 
 
 class SchemaError(Exception):
-    """Error raised if a part returns variables that it does not declare (a program defect)."""
+    """Error raised if returned variables differ from the declared ones (a program defect)."""
 
 
 #: Options of a field; others are attributes of its variables.
@@ -374,7 +374,7 @@ def labels_of(name: str, values: object, attrs: Mapping[str, object] | None = No
 
 
 def largest_of(text: str) -> tuple[str, float, str] | None:
-    """Read name, size and unit of the largest effect from the text that `Neglected.largest` writes.
+    """Name, size and unit of the largest neglected effect, from the text of `Neglected.largest`.
 
     The name says if the effect is zero in the mean. The result is None if the text gives no size.
     """
@@ -386,7 +386,7 @@ def largest_of(text: str) -> tuple[str, float, str] | None:
 
 
 def error_of(answer: xr.Dataset, headline: str) -> str:
-    """Name of the variable with the error of the headline number; empty if it has no error."""
+    """Name of the variable with the error of the main result `headline`; empty if there is none."""
     if headline.endswith("_error") or headline not in answer:
         return headline
     return str(answer[headline].attrs.get("ancillary_variables", "")).split(" ")[0]
@@ -398,7 +398,7 @@ BOUND = "this is a bound on a neglected effect, or its published size"
 
 @dataclass(frozen=True)
 class Neglected:
-    """Sizes of the effects that a model neglects, with their source.
+    """Sizes of the effects that a model neglects, with the source of the sizes.
 
     Attributes
     ----------
@@ -432,7 +432,7 @@ class Neglected:
         return cls(si_values, unit, what, source)
 
     def also(self, effect: str) -> Self:
-        """Add a neglected effect of unknown size; an empty text adds nothing."""
+        """Return a copy with one more neglected effect of unknown size; an empty text adds none."""
         if not effect:
             return self
         # without sizes, `what` names the neglected effect
@@ -453,7 +453,7 @@ class Neglected:
         return f"{known}; {unknown}" if unknown else known
 
     def dataset(self, effects: Sequence[str] = ()) -> xr.Dataset:
-        """Return the sizes as a Dataset along `effect`, the largest first if no order is given.
+        """Sizes of neglected effects as a Dataset along `effect`, the largest first by default.
 
         Parameters
         ----------

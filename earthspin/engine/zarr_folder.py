@@ -46,7 +46,7 @@ _CHUNK = re.compile(r"\d+(\.\d+)*")
 
 
 def write(groups: Mapping[str, xr.Dataset], path: Path, encoding: Mapping[str, Any]) -> None:
-    """Write Datasets to the groups of a new store.
+    """Write Datasets to the groups of a new Zarr store.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def write(groups: Mapping[str, xr.Dataset], path: Path, encoding: Mapping[str, A
 
 
 def write_region(node: xr.Dataset, store: Path, region: Mapping[str, slice]) -> None:
-    """Write a Dataset into a part of a store, given by index ranges along dimensions.
+    """Write a Dataset into the part of a Zarr store that index ranges along dimensions select.
 
     Raises
     ------
@@ -81,7 +81,7 @@ def write_region(node: xr.Dataset, store: Path, region: Mapping[str, slice]) -> 
 
 
 def lengthen(store: Path, along: str, size: int) -> None:
-    """Resize all arrays of a store that have a given first dimension; no chunk is written."""
+    """Resize all arrays of a store that have the dimension `along`, without writing data."""
     group = zarr.open_group(store, mode="r+")
     for _, array in group.arrays():
         dimensions: Any = array.attrs[DIMENSIONS]
@@ -230,7 +230,7 @@ def missing_blocks(store: Path, along: str) -> set[int]:
 
 
 def _arrays(metadata: Mapping[str, Any]) -> list[str]:
-    """Paths of the arrays of a store."""
+    """Paths of all arrays of a Zarr store, from the metadata of the store."""
     return [file.removesuffix("/.zarray") for file in metadata if file.endswith("/.zarray")]
 
 
@@ -283,7 +283,7 @@ class ZarrFolder(LocalStore):
         self._opened = identity(root)
 
     async def get(self, key: str, prototype: Any = None, byte_range: Any = None) -> Any:
-        """Read a file of the store.
+        """Read a file of the store; check that a chunk exists and can be decoded.
 
         Raises
         ------

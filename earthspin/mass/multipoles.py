@@ -403,7 +403,7 @@ def moments_of_density(
 
 
 def zonal_moments(integrals: ArrayLike, radius: float) -> FloatArray:
-    """Zonal moments J_n of the potential with dimension, as defined in (I.9.23), m^(n+3) s-2.
+    """Zonal moments J_n of the potential (I.9.23), m^(n+3) s-2; not the dimensionless J_n.
 
     They are -G s^n Z_n, with the reference radius s and the zonal integrals Z_n.
     J0 = -GM and J2 = G (C - A).

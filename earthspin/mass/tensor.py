@@ -334,7 +334,7 @@ def check_inertia_tensor(tensor: ArrayLike) -> FloatArray:
 
 
 def _refuse(wrong: FloatArray, field: str, value: FloatArray, allowed: str) -> None:
-    """Raise an error with the first element of `value` where `wrong` is true, if there is one."""
+    """Raise an error that shows the first wrong element of `value`, if any element is wrong."""
     if np.any(wrong):
         raise BodyError(_BODY, field, value[wrong][0].tolist(), allowed)
 

@@ -1,4 +1,4 @@
-"""Make tables, figures, HTML pages and JSON text of a result, by the views of its question."""
+"""Make tables, figures, HTML pages and JSON text of a result."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def tables_for(tree: Result) -> list[Table]:
 
 
 def _tables(tree: Result) -> list[Table]:
-    """Tables that the question defines, then general tables of the other sections."""
+    """Tables designed for this type of result, then general tables of the other sections."""
     special = _views(tree).tables
     shown = {name for sections, _ in special for name in sections.split() or [""]}
     made = [table for table in _made(tree, special) if table.rows]
@@ -96,7 +96,7 @@ def drawings_for(tree: Result) -> list[Drawing]:
 
 
 def solids_for(tree: Result) -> list[Solid]:
-    """Three-dimensional pictures (still or animated) that the question defines for a result."""
+    """Make all three-dimensional pictures, still or animated, of a result."""
     return _made(tree, _views(tree).solids)
 
 
@@ -110,13 +110,13 @@ def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> 
 
 
 def _views(tree: Result) -> Views:
-    """Return the `Views` (definitions of figures, pictures, tables) for a result's question."""
+    """Return the definitions of tables, figures and pictures (`Views`) for this type of result."""
     return ensemble.VIEWS if is_ensemble(tree) else VIEWS.get(tree.attrs["compute"], Views())
 
 
 @progress("figures")
 def figures_of(answer: xr.Dataset) -> list[Figure]:
-    """Draw all figures that the question defines for a result, and return them as a list.
+    """Draw all figures of a result, and return them as a list; missing sections are computed.
 
     Parameters
     ----------
@@ -320,7 +320,7 @@ def write_json(tree: xr.DataTree, stream: TextIO) -> None:
 def _write_members(
     title: str, members: Mapping[Any, T], write: Callable[[T, TextIO], None], stream: TextIO
 ) -> None:
-    """Write a dict as a member of a JSON object; `write` writes values without closing brace."""
+    """Write a dict as an entry of a JSON object; the function `write` omits each closing brace."""
     stream.write(f',\n"{title}": {{')
     for number, (name, member) in enumerate(members.items()):
         stream.write(f"{',' if number else ''}\n{json.dumps(str(name))}: ")

@@ -203,7 +203,7 @@ Makers: TypeAlias = Sequence[tuple[str, Callable[[Result], T]]]
 
 @dataclass(frozen=True)
 class Views:
-    """Definitions of figures, 3-D pictures and special tables for the answers to one question.
+    """Definitions of figures, 3-D pictures and special tables for one type of result.
 
     Attributes
     ----------
@@ -303,7 +303,7 @@ def axes(ax: Axes | None, width: float = 8.0, height: float = 3.8) -> Axes:
 
 
 def minus(text: str) -> str:
-    """Write the hyphens of numbers in a text as minus signs."""
+    """Replace all hyphens in a text, such as those before numbers, by minus signs."""
     return text.replace("-", "\u2212")
 
 

@@ -259,7 +259,7 @@ def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
 
 
 def _chief(answer: xr.Dataset, name: str = "") -> Number:
-    """Main quantity of an ensemble: last number that differs, in the main variable or in `name`.
+    """Last number that differs among ensemble members, in the main variable or the variable `name`.
 
     It is for example the total, or the value at the last time.
     """

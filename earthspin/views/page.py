@@ -69,7 +69,7 @@ def rendered(template: str, **content: object) -> str:
 
 @cache
 def environment() -> Environment:
-    """Jinja environment that loads the page templates and defines their text filters."""
+    """Jinja environment that loads the page templates and defines text filters for pages."""
     templates = Environment(
         loader=PackageLoader("earthspin.views"),
         autoescape=True,

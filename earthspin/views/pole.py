@@ -15,7 +15,7 @@ from earthspin.views.tables import Column, Table, table_along
 
 
 def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = None) -> Axes:
-    """Draw the nutation of an axis: psi sin(eps) against eps, without its mean precession.
+    """Draw the nutation of an axis: eps over psi sin(eps), each without a straight-line trend.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ MODELS = {
 
 
 def budget(tree: Result) -> Table:
-    """Table of contributions to the precession rate, with their sum and its difference from IAU."""
+    """Table of contributions to the precession rate, with the sum and the sum minus IAU 2006."""
     rates = answer_of(tree).map(lambda rate: rate * tables.MAS_PER_CENTURY)
 
     def rate(name: str, head: str) -> Column:
@@ -127,7 +127,7 @@ def residuals(tree: Result) -> Table:
 
 
 def observed(tree: Result) -> Table:
-    """Table of the rms of the computed pole minus the observed pole, for each set of effects."""
+    """Table of rms differences from the observed pole, for each computed pole and the IAU pole."""
     sizes = needed(tree, "observed")
     columns = (
         Column("model", lambda row: MODELS.get(row.model.item(), row.model.item())),
@@ -311,7 +311,7 @@ def plot_nutation_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the nutation transfer function near the core resonance, and IAU 2000A over rigid terms.
+    """Draw the nutation transfer function over frequency, and ratios of IAU 2000A to rigid terms.
 
     Parameters
     ----------

@@ -304,7 +304,7 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
 
 
 def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the difference of averaged and adopted precession rate over the window length.
+    """Draw the difference of averaged and adopted precession rate against the averaging time.
 
     Parameters
     ----------

@@ -21,13 +21,13 @@ Result = xr.Dataset | xr.DataTree
 
 
 def answer_of(result: Result) -> xr.Dataset:
-    """Return the main Dataset of a result; of many bodies or initial states, only the first."""
+    """Return the main Dataset of a result; of several bodies or initial states, only the first."""
     whole = result.to_dataset() if isinstance(result, xr.DataTree) else result
     return _first_case(whole, whole.attrs)
 
 
 def question_of(result: Result) -> type[Question] | None:
-    """Return the class of the question that a result answers; None for an unknown question."""
+    """Return the `Question` class (type of computation) of a result; None for an unknown type."""
     return QUESTIONS.get(result.attrs["compute"])
 
 
@@ -109,7 +109,7 @@ WORDS = {"input": "inputs", "kernel": "positions"}
 
 
 def closing_line(result: Result, seconds: float | None = None) -> str:
-    """Error of the headline number of a result, and its run time, as one line.
+    """One line of text with the error of the main number of a result, and the run time.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def closing_line(result: Result, seconds: float | None = None) -> str:
 
 
 def _error(answer: xr.Dataset) -> str:
-    """Text with the largest 95 % error of the headline number, by source, or why there is none."""
+    """Text with the largest 95 % error of the main number and its causes, or why none exists."""
     question = question_of(answer)
     if question is None or question.headline not in answer:
         return ""

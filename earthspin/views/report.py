@@ -79,7 +79,7 @@ def write_report(
 
 
 def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]:
-    """Draw torques over one year and over one period of the Moon's node."""
+    """Draw declination and torque over one year and over one period of the Moon's node."""
     epoch = np.datetime64(answer_of(tree).reference_epoch.values, "D")
     keys = load_scene(tree).keys()
     positions = {"ephemeris": keys["ephemeris"], "source": keys["source"]}
@@ -111,7 +111,7 @@ def gallery() -> list[Solid]:
 
 
 def gallery_page() -> str:
-    """HTML page of the precession report, with three-dimensional pictures of rotors and tops."""
+    """HTML page with three-dimensional pictures of rotors and tops, for the precession report."""
     return page(
         "Rotors and tops",
         solids=gallery(),

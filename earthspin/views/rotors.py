@@ -106,7 +106,7 @@ def ellipsoids_with_polhodes(tree: Result) -> Solid:
 
 
 def polhode_with_sphere(tree: Result) -> Solid:
-    """Three-dimensional picture of the inertia ellipsoid, polhode, and a sphere of mean spin.
+    """Three-dimensional picture of inertia ellipsoid and polhode, with a sphere for the mean speed.
 
     See the source text, I.5.4.
     """
@@ -225,7 +225,7 @@ def _plot_potential_and_nutation(tree: Result) -> Figure:
 
 
 def plot_effective_potential(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw a top's effective potential over the inclination of its axis, and its energy level.
+    """Draw the effective potential of a top over the inclination of the axis, and the top's energy.
 
     Parameters
     ----------
@@ -343,7 +343,7 @@ def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the logarithm of the distance of two neighbouring rotations, and its mean growth.
+    """Draw the divergence of two rotations from nearly equal starts, as a logarithm over time.
 
     Parameters
     ----------

@@ -213,7 +213,7 @@ def two_digits(value: SupportsFloat) -> str:
 def beside_observed(
     value: SupportsFloat, error: SupportsFloat, left_out: xr.Dataset | None, unit: str = ""
 ) -> str:
-    """Format a computed value; its error includes neglected effects if all sizes are known.
+    """Format a value for comparison with observation; the error includes known neglected effects.
 
     Parameters
     ----------
@@ -333,7 +333,7 @@ def tables(tree: Result, without: Iterable[str] = ()) -> list[Table]:
 
 
 def tables_of(data: xr.Dataset, title: str) -> Iterator[Table]:
-    """Tables of one Dataset: first of single numbers, then one or more along each dimension.
+    """Tables of one Dataset: first a table of single numbers, then tables along each dimension.
 
     The first table that shows a variable says what it means.
     """

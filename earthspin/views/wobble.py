@@ -114,7 +114,7 @@ MARKS = {"a day": 1.0, "14 months": 430.0, "the node": 6798.4}
 
 @drawing.style()
 def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
-    """Draw the excess (%) over the elastic Love numbers, and the phase lag (deg), over period.
+    """Draw the excess (%) of Love numbers over elastic values, and the lag (deg), against period.
 
     Parameters
     ----------
