@@ -6,6 +6,8 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).parents[1]
+#: Begin of the warning of an old table: those that astropy carries age.
+OLD_TABLE = "days count from the newest row"
 
 
 def printed(program: str, *words: str, **settings: Any) -> str:
@@ -20,7 +22,7 @@ def printed(program: str, *words: str, **settings: Any) -> str:
     **settings
         Of `subprocess.run`.
     """
-    old = "ignore:days count from the newest row:UserWarning"  # the tables of astropy age
-    command = [sys.executable, "-X", "utf8", "-W", "error", "-W", old, "-c", program, *words]
+    strict = ["-W", "error", "-W", f"ignore:{OLD_TABLE}:UserWarning"]
+    command = [sys.executable, "-X", "utf8", *strict, "-c", program, *words]
     settings = {"cwd": ROOT, "encoding": "utf-8"} | settings
     return subprocess.run(command, check=True, stdout=subprocess.PIPE, **settings).stdout

@@ -496,7 +496,7 @@ class Series:
 
     @cached_property
     def _run(self) -> Run:
-        """Run for the first block; other blocks reuse intermediate results that do not change."""
+        """The `Run` of the first block; other blocks reuse what does not depend on the block."""
         return Run(self.question, block=Block(*self.layout.bounds(0)))
 
     def __getstate__(self) -> dict[str, Any]:

@@ -108,7 +108,7 @@ def _read(kind: Kind[Any], value: object, where: Where) -> Any:
 
 
 def _from_default(value: object, default: Any) -> object:
-    """Add `from`, the default body, to a table of body properties that names no other body."""
+    """Add `from`, the default body, to a table of properties, unless it names another body."""
     name = getattr(default, "name", None)
     if name and isinstance(value, Mapping) and str(value.get("name", name)).lower() == name:
         return {"from": name, **value}

@@ -153,7 +153,7 @@ def _varying_masses(body: Body, perturbers: tuple[Body, ...]) -> xr.DataArray | 
 
 
 def _cases(strength: xr.DataArray | None) -> dict[str, int]:
-    """Names and lengths of the dimensions of mass arrays, without `perturber`; may be empty."""
+    """Return the lengths of the dimensions of `strength` by name, without `perturber`."""
     if strength is None:
         return {}
     return {str(dim): n for dim, n in strength.sizes.items() if dim != "perturber"}

@@ -61,7 +61,7 @@ def _lacking(body: Body, perturbers: tuple[Body, ...], *names: str) -> str | Non
 
 
 def many_pulls(perturbers: tuple[Body, ...]) -> str | None:
-    """Return the reason (text) to omit results if a perturber's mass is an array, else None.
+    """Return why results are omitted (text) if the mass of a perturber is an array, else None.
 
     These are results that need one number for each mass.
     """

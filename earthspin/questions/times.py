@@ -1,4 +1,4 @@
-"""Times of a series (dates, or seconds from a start), and numbers broadcast to one shape."""
+"""Dates or times of a series, and named numbers broadcast to common dimensions."""
 
 from __future__ import annotations
 

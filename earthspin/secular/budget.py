@@ -52,7 +52,7 @@ def draws(causes: int) -> FloatArray:
 
 
 class Quantiles:
-    """Quantile of the deviations of random solutions, added one by one, from the nominal solution.
+    """Quantile of deviations from a nominal value; random cases are added one at a time.
 
     Only the largest deviations are stored.
 

@@ -89,7 +89,7 @@ class Plane:
         return np.asarray(np.array(tilted) @ self.matrix)
 
     def mean_normal(self, i: float, node: float, node_period: float | None) -> Direction:
-        """Mean normal of an orbit: the pole of the plane if the node precesses, else the normal."""
+        """Return the pole of this plane if the node precesses, else the normal of the orbit."""
         x, y, z = self.normal(0.0 if node_period is not None else i, node)
         return Direction(math.atan2(y, x), math.atan2(z, math.hypot(x, y)))
 

@@ -377,7 +377,7 @@ def _pair_about_pole(
 
 
 def _largest_root(c2: FloatArray, c1: FloatArray, c0: FloatArray, wanted: BoolArray) -> FloatArray:
-    """Largest root of x^3 + c2 x^2 + c1 x + c0, if well separated, by Newton's method.
+    """Return the largest root of x^3 + c2 x^2 + c1 x + c0 by Newton's method; 0 if not `wanted`.
 
     Newton's method converges monotonically from above.
     """

@@ -25,6 +25,7 @@ from earthspin.cli import main
 from earthspin.engine import answers, run
 from earthspin.views.answers import scene_page, tables_for
 from tests.fuzz import borders, inputs, requests
+from tests.processes import OLD_TABLE
 
 #: Longest message: `LONGEST_MESSAGE` and what a command puts around it.
 LONGEST = 1100
@@ -43,6 +44,7 @@ def elsewhere() -> Iterator[None]:
         warnings.catch_warnings(),
     ):
         warnings.simplefilter("error")
+        warnings.filterwarnings("ignore", OLD_TABLE)
         os.chdir(folder)
         gc.freeze()  # what there is already needs no search after each case
         try:
