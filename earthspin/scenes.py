@@ -574,7 +574,7 @@ def _scene_of(answer: Any) -> str:
     """Text of the scene from which a stored result was computed; refuse a result without one."""
     text = scene_of(answer)
     if not text:
-        problem = "it has no scene; give a whole answer of this package, with its attributes"
+        problem = "it has no scene; give a whole answer, not a section, with its attributes"
         raise SceneError("scene", type(answer).__name__, problem)
     return text
 

@@ -211,7 +211,8 @@ class Body(FromMass):
         """Spin axis, fixed in space, with another obliquity but the same equinox direction."""
         angle = _READ_AS["obliquity"].read(value, Where(f"{self.name}.obliquity"))
         if hasattr(angle, "dims") or np.ndim(angle) or not 0 <= angle <= math.pi:
-            raise BodyError(self.name, "obliquity", value, "give one angle from 0 to 180 deg")
+            allowed = "from 0 to 180 deg; plain numbers are radians, so write '40 deg'"
+            raise BodyError(self.name, "obliquity", value, f"give one angle {allowed}")
         assert self.pole is not None
         if self.orbit_pole is None:
             allowed = "it is measured from the normal of the orbit: set orbit or orbit_pole"

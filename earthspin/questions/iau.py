@@ -229,6 +229,8 @@ class Differences:
         95 % half-width of either of them: `unfitted_error`, and the response of the interior.
     error : float
         95 % half-width of either angle after the fit: the integration, and H in the nutation.
+    fitted_error : float
+        The same with the response of the interior, if that is switched on.
     unfitted_error : ndarray, shape (t,)
         The same without a fit, at each time: the precession depends on H, too.
     """
@@ -241,6 +243,7 @@ class Differences:
     offsets: FloatArray
     offset_error: FloatArray
     error: float
+    fitted_error: float
     unfitted_error: FloatArray
 
 
@@ -295,6 +298,7 @@ def differences(
         offsets=([*models.values()][chosen] - iau_pole)[:, :2],
         offset_error=np.hypot(unfitted_error, response_error),
         error=error,
+        fitted_error=math.hypot(error, nonrigid_shift.residual if chosen == 2 else 0.0),
         unfitted_error=unfitted_error,
     )
 
@@ -313,7 +317,7 @@ class Residuals(Dated, error="residual_error"):
     dY = measured("mas", "computed Y of the celestial pole minus that of IAU 2006/2000A")
     dpsi_sineps = number("mas", _LONGITUDE)
     deps = number("mas", _OBLIQUITY)
-    residual_error = number("mas", _HALF_WIDTH, along=())
+    residual_error = number("mas", f"{_HALF_WIDTH}, and the response of the interior", along=())
 
 
 @part
@@ -326,7 +330,7 @@ def residuals(differences: Differences) -> Residuals:
         dY=(offsets[:, 1], differences.offset_error),
         dpsi_sineps=fitted[:, 0],
         deps=fitted[:, 1],
-        residual_error=differences.error,
+        residual_error=differences.fitted_error,
     )
 
 

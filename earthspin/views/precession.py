@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
 from earthspin.engine.variables import largest_of, si
-from earthspin.errors import listed
+from earthspin.errors import SceneError, listed
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing, reading, stars, tables, torque
 from earthspin.views.drawing import Axes, Figure, PageFigure, Views, axes, note
@@ -368,8 +368,16 @@ def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
     result : Dataset or DataTree
         Answer to the question ``precession``.
     ax : Axes, optional
+
+    Raises
+    ------
+    SceneError
+        If the body is not the Earth, whose sky this is.
     """
-    total = answer_of(result).isel(perturber=-1)
+    answer = answer_of(result)
+    if (body := answer.earthspin.scene.body).known_as != "earth":
+        raise SceneError("plot_pole_circle", body.name, "the chart is of the sky of the Earth")
+    total = answer.isel(perturber=-1)
     turn = float(total.precession_period)
     years = [year for year in stars.YEARS if abs(year - 2000) <= 12_000]
     dates = stars.year_labels(years, _circle(total, years))

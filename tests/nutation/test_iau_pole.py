@@ -212,6 +212,8 @@ def test_half_widths_hold_the_residuals_as_returned() -> None:
         size, error = abs(residuals[name]), residuals[f"{name}_error"]
         assert (size <= error).all()
         assert error.max() < 2.5 * size.max()
+    for name in ("dpsi_sineps", "deps"):
+        assert (abs(residuals[name]) <= residuals.residual_error).all()
 
 
 def test_error_of_residuals_as_computed_is_the_effect_of_the_uncertainty_of_h() -> None:

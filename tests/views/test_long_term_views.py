@@ -120,6 +120,11 @@ def _boxes(ax: object) -> Iterator[tuple[str, Bbox]]:
         yield text.get_text(), text.get_window_extent()
 
 
+def test_the_circle_among_the_stars_is_that_of_the_earth() -> None:
+    with pytest.raises(earthspin.SceneError, match="sky of the Earth"):
+        precession.plot_pole_circle(earthspin.precession(body="mars"))
+
+
 @pytest.mark.parametrize("which", ["circle", "path"])
 def test_labels_cover_neither_one_another_nor_the_line(which: str, about_now: xr.Dataset) -> None:
     ax = (

@@ -32,7 +32,7 @@ plot_pole_path(earthspin.pole("1980-01-01", "2020-01-01", "5 d"), ax=ax)
 #
 # *Next:* ``effects=[...]`` in ``earthspin.compare_iau`` switches each effect separately.
 
-models = {"rigid, all effects": {}, "with the response of the interior": {"effects": "all"}}
+models = {"rigid, all effects": {"effects": "rigid"}, "with the response of the interior": {}}
 
 fig, axes = plt.subplots(2, sharex=True, figsize=(6.4, 4.6))
 for ax, (words, keys) in zip(axes, models.items(), strict=True):

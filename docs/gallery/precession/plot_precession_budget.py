@@ -16,7 +16,7 @@ from earthspin.views.pole import plot_budget
 # ---------------------------------------
 # Each effect beside the torque on the bulge is switched off in turn; the change of the rate is
 # its contribution (blue), beside the published one (orange; Capitaine, Wallace & Chapront 2003).
-# The red line is the difference of the total from IAU 2006.
+# The red line is the closure: the total and the published non-linear term, minus IAU 2006.
 #
 # *Next:* ask for two effects alone, ``earthspin.compare_iau(effects=["planets", "geodesic"])``.
 
