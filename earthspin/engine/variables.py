@@ -352,7 +352,7 @@ def variable_of(
     """Make an xarray Variable from a NumPy array, faster than the usual constructor.
 
     Without `fastpath`, xarray looks for arrays of dask and pint, and imports both if they are
-    installed (0.4 s). Objects need that search, as it also converts them.
+    installed. Objects need that search, as it also converts them.
     """
     array = np.asarray(values)
     return xr.Variable(dims, array, attrs, fastpath=array.dtype != object)
