@@ -11,7 +11,7 @@ PYTHON_NEWEST ?= python3.13
 VERSIONS := not slow and not every_kill and not any_version
 SPHINX := $(BIN)/python -m sphinx -q -W --keep-going -j auto -b html docs docs/_build/html
 
-.PHONY: report test slow test-lowest test-newest check docs accuracy bench fuzz kills mutants extreme clean
+.PHONY: report test slow test-lowest test-newest check docs accuracy bench fuzz kills extreme clean
 
 report: $(VENV)/.core
 	$(BIN)/earthspin report --out report
@@ -51,9 +51,6 @@ kills: $(VENV)/.test
 
 fuzz: $(VENV)/.test
 	$(BIN)/python -m tests.fuzz $(or $(SEED),1) $(or $(COUNT),20000)
-
-mutants: $(VENV)/.test
-	$(BIN)/python -m tests.mutants --page docs/measured/mutants.md
 
 # Error against run time of every method: the tables and figures of the page and of the README.
 accuracy: $(VENV)/.test
