@@ -20,7 +20,7 @@ from scipy.optimize import linprog
 from earthspin.constants import DAY, JULIAN_YEAR, MAS
 from earthspin.dates import days
 from earthspin.errors import Where
-from earthspin.motion.effects import NONRIGID, RESPONSE, RIGID, Growth
+from earthspin.motion.effects import NONRIGID, RESPONSE, RIGID, AngleBound
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.pole import pole
 
@@ -44,7 +44,7 @@ def moved_by_response() -> tuple[FloatArray, FloatArray]:
     return years, np.asarray(np.linalg.norm(whole - rigid, axis=1) / MAS)
 
 
-def tightest(years: FloatArray, moved: FloatArray) -> Growth:
+def tightest(years: FloatArray, moved: FloatArray) -> AngleBound:
     """The bound with the least mean that lies nowhere below what was measured.
 
     Parameters
@@ -56,7 +56,7 @@ def tightest(years: FloatArray, moved: FloatArray) -> Growth:
     """
     columns = np.stack([np.ones_like(years), np.abs(years)], axis=1)
     solution = linprog(columns.mean(axis=0), A_ub=-columns, b_ub=-moved, method="highs")
-    return Growth(*(rounded_up(float(value)) for value in solution.x))
+    return AngleBound(*(rounded_up(float(value)) for value in solution.x))
 
 
 def rounded_up(value: float) -> float:
@@ -67,7 +67,7 @@ def rounded_up(value: float) -> float:
     return float(f"{math.ceil(value / unit) * unit:.3g}")
 
 
-def bound(growth: Growth, years: FloatArray) -> FloatArray:
+def bound(growth: AngleBound, years: FloatArray) -> FloatArray:
     """What is claimed at these times, mas."""
     return growth.swing + growth.rate * np.abs(years)
 

@@ -35,7 +35,7 @@ from scipy.spatial.transform import Rotation
 from earthspin.bodies import BODIES
 from earthspin.constants import AU, DAY, J2000_JD, JULIAN_YEAR
 from earthspin.numerics.arrays import FloatArray
-from earthspin.sky import iau, orbit_table
+from earthspin.sky import iau_models, orbit_table
 from earthspin.sky.ephemeris import open_ephemeris
 from earthspin.sky.orbit_table import OrbitTable, fitted, write
 
@@ -162,7 +162,7 @@ def table_of(world: int, samples: FloatArray, halved: FloatArray) -> OrbitTable:
     first, half = (smoothed(of[:, world]) for of in (samples, halved))
     inside = np.abs(times) <= COVERS * (1 + 1e-12)
     normals, eccentricities = first[inside, 0], first[inside, 1]
-    axes = iau.fixed_ecliptic()
+    axes = iau_models.fixed_ecliptic()
     table = fitted(WORLDS[world], times[inside], normals, eccentricities, axes, SOURCE)
     moved = np.linalg.norm(first - half, axis=2)
     starts = np.searchsorted(times, table.edges[:-1])

@@ -9,7 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import earthspin
-from earthspin.engine.answers import arguments_of
+from earthspin.engine.public_calls import arguments_of
 from earthspin.engine.question import Key, Question
 from earthspin.scenes import QUESTIONS
 

@@ -45,7 +45,7 @@ _MODULE_OF = _QUESTIONS | {name: module for module, names in _HOME.items() for n
 # What answers call in packages above the engine, which knows none of these.
 _engine.FUNCTIONS |= {"load_scene": "earthspin.scenes", "plan": "earthspin.scenes"}
 _engine.METHODS |= {
-    "plot": "earthspin.views.answers",
+    "plot": "earthspin.views.rendering",
     "to_iers_table": "earthspin.questions.forecast",
 }
 

@@ -209,8 +209,8 @@ def _welcome(_: Namespace) -> None:
 def _report(options: Namespace) -> None:
     """Command `report`: write the report on precession or on the wobble, and print its tables."""
     from earthspin.views import report
-    from earthspin.views.answers import print_tables
-    from earthspin.views.reading import closing_line
+    from earthspin.views.closing_line import closing_line
+    from earthspin.views.rendering import print_tables
 
     kernel, figures = options.ephemeris, not options.no_figures
     if options.topic == "wobble":
@@ -242,10 +242,10 @@ def _play(options: Namespace) -> None:
 
 def _run(options: Namespace) -> None:
     """Command `run`: run a scene, print its tables, and write its results."""
-    from earthspin.engine import drafts, store
-    from earthspin.questions import times
+    from earthspin.engine import atomic_writes, store
+    from earthspin.questions import time_axes
     from earthspin.scenes import members_of, run_tree, series_length, write_series
-    from earthspin.views.reading import closing_line
+    from earthspin.views.closing_line import closing_line
 
     question, sections = _question(options), _listed(options.sections)
     data = page = None
@@ -264,8 +264,8 @@ def _run(options: Namespace) -> None:
         long = data if data.suffix == ".zarr" else data / f"{name}.zarr"
         if data.suffix not in (".nc", ".zarr", ".csv"):
             data, page = data / f"{name}.nc", data / f"{name}.html"
-        drafts.check_writable(Path(options.out) if page else data.parent)
-        if series_length(question) * members_of(question) > times.LONGEST_IN_MEMORY:
+        atomic_writes.check_writable(Path(options.out) if page else data.parent)
+        if series_length(question) * members_of(question) > time_axes.LONGEST_IN_MEMORY:
             if options.json:
                 raise SceneError("--json", "a long series", "leave it out; read the Zarr store")
             begin = time.perf_counter()
@@ -280,15 +280,15 @@ def _run(options: Namespace) -> None:
     elif data is not None:
         store.write(tree, data)
     with _note_of_results(data):
-        from earthspin.views import answers
+        from earthspin.views import rendering
 
         if page is not None:
-            with drafts.replacing(page) as draft:
-                draft.write_text(answers.scene_page(tree), encoding="utf-8")
+            with atomic_writes.replacing(page) as draft:
+                draft.write_text(rendering.scene_page(tree), encoding="utf-8")
         if options.json:
-            answers.write_json(tree, sys.stdout)
+            rendering.write_json(tree, sys.stdout)
         else:
-            answers.print_tables(tree, with_plan=options.plan)
+            rendering.print_tables(tree, with_plan=options.plan)
             others = [name for name in question.graph.sections if name not in tree.children]
             if others and not tree.children.keys() - {"plan"}:
                 print(f"More: --sections {','.join(others)}, or all")
@@ -322,7 +322,7 @@ def _ensemble(options: Namespace) -> None:
         print(json.dumps({"wrote": options.out, "members": answer.sizes["member"]}))
         return
     with _note_of_results(options.out):
-        from earthspin.views.answers import print_tables
+        from earthspin.views.rendering import print_tables
 
         print_tables(answer)
     _print_written(options.out)

@@ -435,7 +435,7 @@ class TimeGrid:
 
 
 @dataclass(frozen=True, eq=False)
-class Listed:
+class ListedTimes:
     """Base class of lists of times in any order.
 
     Attributes
@@ -468,7 +468,7 @@ class Listed:
         return pack(self.listed)
 
 
-class TimeList(Listed):
+class TimeList(ListedTimes):
     """List of times in any order, stored as days from J2000.0 TDB."""
 
     words, hint = "a list of times", "Dates"
@@ -487,7 +487,7 @@ class TimeList(Listed):
         return self.listed[first:last:every]
 
 
-class YearList(Listed):
+class YearList(ListedTimes):
     """List of times over millennia, stored in seconds from J2000.0 TDB."""
 
     words, hint = "a list of times from J2000.0, or of dates", "Epochs"

@@ -26,9 +26,9 @@ from earthspin.engine.variables import si
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress
-from earthspin.questions.times import epochs
+from earthspin.questions.time_axes import epochs
 from earthspin.scenes import VERSIONS, load_scene, members_of, run, run_tree, warn_of_versions
-from earthspin.secular.reading import NO_EQUINOX, equator_and_equinox, equinox_error
+from earthspin.secular.derived_angles import NO_EQUINOX, equator_and_equinox, equinox_error
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
@@ -112,7 +112,7 @@ class Model:
         return load_scene(self.question, {"times": times})
 
 
-class Solved(NamedTuple):
+class FrameMatrices(NamedTuple):
     """Rotation matrices of the axes at given times, with errors and software versions.
 
     Attributes
@@ -131,7 +131,7 @@ class Solved(NamedTuple):
 
 
 @lru_cache(maxsize=16)
-def _solved(model: Model, times: tuple[float, ...]) -> Solved:
+def _solved(model: Model, times: tuple[float, ...]) -> FrameMatrices:
     """Compute the axes of a model at given times, days from J2000.0 TDB, as read-only arrays."""
     solvers = {"long-term": _long_term, "pole": _pole, "rotation": _rotation}
     solved = solvers[model.question.word](model, np.array(times))
@@ -140,15 +140,17 @@ def _solved(model: Model, times: tuple[float, ...]) -> Solved:
     return solved
 
 
-def _long_term(model: Model, times: FloatArray) -> Solved:
+def _long_term(model: Model, times: FloatArray) -> FrameMatrices:
     """Matrices from the ICRS to the mean equator and equinox of date, and errors of axes, rad."""
     different, index = np.unique(times, return_inverse=True)
     tree = run_tree(model.at(different * u.d), sections=["matrices"])
     section, versions = tree.earthspin.section("matrices"), xr.Dataset(attrs=tree.attrs)
-    return Solved(section.matrix.values[index], si(section.matrix_error).values[index], versions)
+    return FrameMatrices(
+        section.matrix.values[index], si(section.matrix_error).values[index], versions
+    )
 
 
-def _pole(model: Model, times: FloatArray) -> Solved:
+def _pole(model: Model, times: FloatArray) -> FrameMatrices:
     """Matrices from the ICRS to the true equator and equinox of date, and errors of axes, rad.
 
     The equinox is the node on the ecliptic of date or on the orbit.
@@ -169,10 +171,10 @@ def _pole(model: Model, times: FloatArray) -> Solved:
             "equinox; use the axes of the answer itself"
         )
     matrix = equator_and_equinox(axis, normal)
-    return Solved(matrix, equinox_error(error, 0.0, sine), xr.Dataset(attrs=answer.attrs))
+    return FrameMatrices(matrix, equinox_error(error, 0.0, sine), xr.Dataset(attrs=answer.attrs))
 
 
-def _rotation(model: Model, times: FloatArray) -> Solved:
+def _rotation(model: Model, times: FloatArray) -> FrameMatrices:
     """Matrices from the ICRS to the principal axes of the body, and errors of these axes, rad."""
     first = model.first
     if times.min() < first - MICROSECOND:
@@ -183,7 +185,7 @@ def _rotation(model: Model, times: FloatArray) -> Solved:
     # times of an answer are rounded to a microsecond
     spin = np.sqrt(np.sum(answer.omega**2, axis=-1)).values
     error = si(answer.attitude_error).values + spin * MICROSECOND * DAY / 2
-    return Solved(rotations(answer).inv().as_matrix(), error, xr.Dataset(attrs=answer.attrs))
+    return FrameMatrices(rotations(answer).inv().as_matrix(), error, xr.Dataset(attrs=answer.attrs))
 
 
 def _tdb(times: FloatArray) -> Time:

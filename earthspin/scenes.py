@@ -17,9 +17,9 @@ import numpy as np
 from earthspin._lazy import xr
 from earthspin.bodies import Body, in_a_sentence
 from earthspin.bodies.body import members
-from earthspin.engine import answers, blocks
-from earthspin.engine.blocks import Series
-from earthspin.engine.drafts import as_path
+from earthspin.engine import blocks, public_calls
+from earthspin.engine.atomic_writes import as_path
+from earthspin.engine.blocks import BlockSeries
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.members import ENDLESS, LARGEST_SEED, MOST_PARTS, TWICE, Members
 from earthspin.engine.question import BLOCK as BY_BLOCK
@@ -28,7 +28,7 @@ from earthspin.engine.run import Plan, Run
 from earthspin.engine.store import open as open_file
 from earthspin.errors import OutputError, SceneError, Where, nearest, no_plain_file
 from earthspin.questions import MODULES
-from earthspin.questions.times import epochs
+from earthspin.questions.time_axes import epochs
 from earthspin.units import FileName, Whole, is_whole
 
 
@@ -324,7 +324,7 @@ def run(scene: Any) -> xr.Dataset:
     >>> print(earthspin.run(answer).identical(answer))
     True
     """
-    answer = answers.answer(load_scene(scene))
+    answer = public_calls.answer(load_scene(scene))
     warn_of_versions(_attributes(scene), answer)
     return answer
 
@@ -358,7 +358,7 @@ def run_tree(scene: Any, sections: str | Iterable[str] = "all") -> xr.DataTree:
     >>> print(tree["seasons"].time_per_degree.round(2).values)
     71.59
     """
-    tree = answers.answer_tree(load_scene(scene), sections)
+    tree = public_calls.answer_tree(load_scene(scene), sections)
     warn_of_versions(_attributes(scene), tree)
     return tree
 
@@ -428,8 +428,8 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
     return blocks.write(_series(load_scene(scene)), path, client=client, replace=True)
 
 
-def _series(question: Question) -> Series:
-    """Prepare to compute a long time series of torques, pole or rotation in blocks, as a `Series`.
+def _series(question: Question) -> BlockSeries:
+    """Prepare to compute a long series of torques, pole or rotation in blocks, as `BlockSeries`.
 
     Refuse all other questions.
     """
@@ -442,7 +442,7 @@ def _series(question: Question) -> Series:
     if question.uncertainty == "sample":
         problem = "a series in blocks has no sampled errors; leave it out, or use earthspin.run"
         raise question.error("uncertainty", "sample", problem)
-    return Series(question, size, max(1, BLOCK // members_of(question)))
+    return BlockSeries(question, size, max(1, BLOCK // members_of(question)))
 
 
 def series_length(question: Question) -> int:

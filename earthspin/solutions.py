@@ -9,7 +9,7 @@ import numpy as np
 from astropy.units import Unit
 
 from earthspin._lazy import xr
-from earthspin.engine.drafts import as_path
+from earthspin.engine.atomic_writes import as_path
 from earthspin.errors import SeriesError, Where, nearest
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.long_term import LongTermSeries

@@ -205,9 +205,9 @@ def test_columns_of_a_csv_file(
 def test_a_series_too_long_for_memory_goes_to_zarr(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from earthspin.questions import times
+    from earthspin.questions import time_axes
 
-    monkeypatch.setattr(times, "LONGEST_IN_MEMORY", 100)
+    monkeypatch.setattr(time_axes, "LONGEST_IN_MEMORY", 100)
     status, _out, _ = run(capsys, "run", "torque", "--out", str(tmp_path))
     assert status == 0
     assert store.open(tmp_path / "torque.zarr").sizes["time"] == 4 * 366 + 1

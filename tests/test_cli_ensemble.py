@@ -7,7 +7,7 @@ import pytest
 
 import earthspin
 from earthspin import cli, process
-from earthspin.views import answers
+from earthspin.views import rendering
 
 
 def test_a_store_and_a_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -94,7 +94,7 @@ def test_results_are_stored_before_they_are_shown(
     def failing(*_: object) -> None:
         raise StopIteration
 
-    monkeypatch.setattr(answers, fails, failing)
+    monkeypatch.setattr(rendering, fails, failing)
     assert cli.main(["run", scene, "--out", str(tmp_path)]) == process.DEFECT
     complaint = capsys.readouterr().err
     data = tmp_path / f"{scene}.nc"

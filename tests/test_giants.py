@@ -16,9 +16,9 @@ from earthspin.errors import BodyError, SceneError
 from earthspin.questions.precession import Precession
 from earthspin.questions.satellites import carried, largest_drifts, mean_pole_error, swings
 from earthspin.torque.laplace import Planet, Satellites, laplace_tilts
-from earthspin.views.answers import tables_for
+from earthspin.views.closing_line import closing_line
 from earthspin.views.precession import lead
-from earthspin.views.reading import closing_line
+from earthspin.views.rendering import tables_for
 from tests.reference import gyroscopes
 
 #: Pull of the Sun, GM/(a3 (1 - e2)^1.5), s-2, and obliquity to the orbit, deg.

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tomllib
 import zipfile
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -55,11 +56,29 @@ def imported(module: str) -> set[str]:
 def test_no_modules_import_one_another_in_a_circle_late_imports_included() -> None:
     """Also where a function imports, or text names the module for `import_module`."""
     before = {module: imported(module) for module in MODULES}
-    assert "earthspin.views.page" in before["earthspin.views.answers"]  # a late import
+    assert "earthspin.views.page" in before["earthspin.views.rendering"]  # a late import
     assert "earthspin.questions.precession" in before["earthspin.questions"]  # text
     while free := {module for module, others in before.items() if not others}:
         before = {module: others - free for module, others in before.items() if others}
     assert before == {}
+
+
+def test_a_name_of_a_class_or_module_stands_for_one_thing() -> None:
+    """The layers of a question share its name: `torque`, `questions.torque`, `views.torque`."""
+    classes = Counter(
+        node.name
+        for path in PACKAGE.rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.ClassDef)
+    )
+    assert [name for name, count in classes.items() if count > 1] == []
+    layers = Counter(
+        module.rpartition(".")[2]
+        for module in MODULES
+        if not module.startswith(("earthspin.questions.", "earthspin.views."))
+        and (PACKAGE.parent / (module.replace(".", "/") + ".py")).exists()
+    )
+    assert [name for name, count in layers.items() if count > 1] == []
 
 
 def test_the_project_speaks_of_itself_alone() -> None:

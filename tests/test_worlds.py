@@ -16,7 +16,7 @@ from earthspin.bodies.moons import TITAN_OBLIQUITY, TITAN_OBLIQUITY_IF_SOLID
 from earthspin.bodies.planets import PLANETS, PRECESSING_ORBITS, on_its_orbit, pulled_by
 from earthspin.cli import main
 from earthspin.constants import ARCSEC
-from earthspin.sky.iau import ecliptic_pole
+from earthspin.sky.iau_models import ecliptic_pole
 from earthspin.sky.poles import FixedPole
 from earthspin.torque.cassini import locked_turns
 
@@ -117,7 +117,7 @@ def test_the_moons_pole_goes_round_with_its_node() -> None:
     tilt = np.degrees(np.arccos(poles @ normal))
     np.testing.assert_allclose(tilt, 1.5424, rtol=0, atol=0.05)
     node = np.radians(125.045 - 0.0529921 * DAYS)
-    from earthspin.sky.iau import fixed_ecliptic
+    from earthspin.sky.iau_models import fixed_ecliptic
 
     x, y, _ = fixed_ecliptic() @ poles.T
     # the orbit's normal leans to node - 90 deg, the pole to the other side

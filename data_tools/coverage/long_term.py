@@ -15,8 +15,8 @@ from earthspin.questions import averages, long_term
 from earthspin.questions import long_term as question
 from earthspin.questions import sky as skies
 from earthspin.scenes import load_scene
-from earthspin.secular.budget import Solved, changed
-from earthspin.secular.reading import angle, followed_perihelion, moved_by, read
+from earthspin.secular.derived_angles import angle, followed_perihelion, moved_by, read
+from earthspin.secular.error_budget import SolvedAxes, changed
 from earthspin.secular.trajectory import solve
 
 #: Members, their seed, and the step between epochs, kyr.
@@ -71,7 +71,7 @@ def beside_iau() -> list[Row]:
     ]
 
 
-def solution(body: Body, times: FloatArray) -> Solved:
+def solution(body: Body, times: FloatArray) -> SolvedAxes:
     """The axis of a body at times (s), and with each cause changed, as the question solves it."""
     scene = load_scene("long-term")
     assert isinstance(scene, question.LongTerm)

@@ -7,7 +7,7 @@ from typing import Annotated
 import numpy as np
 
 from earthspin.bodies import EARTH, Body
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import Question, key, part
 from earthspin.engine.variables import Neglected, Variables, labels, number
 from earthspin.units import FloatArray, Whole

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from earthspin.constants import MAS
-from earthspin.motion.effects import Effect, Numbers, add
+from earthspin.motion.effects import BodyNumbers, Effect, add
 from earthspin.motion.forces import Forces, Places, RateLaw
 from earthspin.numerics.polynomials import Windows
 from earthspin.torque.gravity import FloatArray, cross
@@ -31,7 +31,7 @@ def friction(forces: Forces, windows: Windows, place: Places) -> RateLaw:
     return rate
 
 
-def switch_on(forces: Forces, body: Numbers) -> Forces:
+def switch_on(forces: Forces, body: BodyNumbers) -> Forces:
     """Add the torque of friction to the others."""
     return replace(forces, torques=(*forces.torques, friction))
 

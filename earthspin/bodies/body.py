@@ -23,12 +23,12 @@ from earthspin.bodies.checks import all_of, are_close, is_close, is_same
 from earthspin.bodies.kinds import Magnitude
 from earthspin.bodies.orbit import Orbit, Satellite, SatelliteList
 from earthspin.bodies.shapes import FromMass, figure_of, moments_of
-from earthspin.card import card
 from earthspin.errors import ArgumentError, BodyError, EarthspinError, Where, nearest
+from earthspin.html_table import card
 from earthspin.interior.layers import LayeredBody
 from earthspin.numerics.arrays import Numeric
 from earthspin.sky.elements import Plane
-from earthspin.sky.poles import Angles, Direction, FixedPole, Pole, pole_of
+from earthspin.sky.poles import Direction, FixedPole, PoleInText, PoleModel, pole_of
 from earthspin.sky.sources import describe_position, read_position
 from earthspin.units import Text
 
@@ -72,7 +72,7 @@ class Body(FromMass):
         (a - c) / a of the figure, the ellipticity epsilon of (I.9.38).
     spin_period : float
         One turn relative to the stars, s; negative if retrograde, that is backwards about `pole`.
-    pole : Pole
+    pole : PoleModel
         Direction of the spin axis: `IAU_2006` (``"iau2006"``), or a `FixedPole`, which may be given
         as right ascension and declination (ICRF, J2000.0, rad).
     pole_uncertainty : float or None
@@ -142,9 +142,9 @@ class Body(FromMass):
     meridian: Annotated[float, Magnitude("rad", "10 deg")] = 0.0
     flattening: Annotated[Numeric | None, Magnitude("", "3.35e-3", "(a - c)/a")] = None
     spin_period: Annotated[Numeric | None, Magnitude("s", "23.93 h")] = None
-    pole: Annotated[Pole | None, Angles()] = None
+    pole: Annotated[PoleModel | None, PoleInText()] = None
     pole_uncertainty: Annotated[float | None, Magnitude("rad", "0.5 arcsec")] = None
-    orbit_pole: Annotated[Direction | None, Angles()] = None
+    orbit_pole: Annotated[Direction | None, PoleInText()] = None
     orbital_period: Annotated[float | None, Magnitude("s", "365.25 d")] = None
     cycle: Annotated[float, Magnitude("s", "4333 d")] = c.JUPITER_ORBITAL_PERIOD.value
     # from the scatter of averages about epochs every 1500 d in DE440 (docs/accuracy.md)
@@ -207,7 +207,7 @@ class Body(FromMass):
         if obliquity is not None:
             object.__setattr__(self, "pole", self._pole_at(obliquity))
 
-    def _pole_at(self, value: object) -> Pole:
+    def _pole_at(self, value: object) -> PoleModel:
         """Spin axis, fixed in space, with another obliquity but the same equinox direction."""
         angle = _READ_AS["obliquity"].read(value, Where(f"{self.name}.obliquity"))
         if hasattr(angle, "dims") or np.ndim(angle) or not 0 <= angle <= math.pi:
@@ -622,7 +622,7 @@ Body.LABELLED = frozenset(Body.UNITS) - {
 
 #: Converters of all keys by which a body can be created or changed.
 _READ_AS: dict[str, Any] = {
-    **Body.KINDS, "mass": Magnitude("kg", "5.97e24 kg"), "moments": kinds.Moments(),
+    **Body.KINDS, "mass": Magnitude("kg", "5.97e24 kg"), "moments": kinds.ThreeMoments(),
     "obliquity": Magnitude("rad", "40 deg"),
 }  # fmt: skip
 

@@ -60,7 +60,7 @@ class Magnitude:
         return f"{float(value)!r} {self.unit}" if self.unit else value
 
 
-class Moments:
+class ThreeMoments:
     """Converter of three principal moments of inertia, the polar one last, to kg m2."""
 
     words, hint = "three moments, the polar one last", "Sequence[float | str]"

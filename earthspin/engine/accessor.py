@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from earthspin.engine import METHODS, drafts, registered
+from earthspin.engine import METHODS, atomic_writes, registered
 from earthspin.engine.members import MEMBER
 from earthspin.engine.question import ALL, names_in, scene_of
 from earthspin.errors import SceneError, nearest
@@ -209,7 +209,7 @@ class Answer:
         frame, spread = self.to_frame(columns), _spread(self.dataset)
         units = {name: spread[name].attrs.get("units", "1") for name in frame}
         header = [name if unit == "1" else f"{name} ({unit})" for name, unit in units.items()]
-        with drafts.replacing(path) as draft:
+        with atomic_writes.replacing(path) as draft:
             frame.to_csv(draft, index=False, header=header)
         return Path(path)
 

@@ -30,7 +30,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from earthspin._lazy import xr
 from earthspin._version import __version__, version
-from earthspin.engine import drafts
+from earthspin.engine import atomic_writes
 from earthspin.engine.question import BLOCK, NEGLECTED, Block, Question, scene_text
 from earthspin.engine.run import Run
 from earthspin.engine.store import FORMAT, MADE_OF, VERSION, encoding_of, spelled, verify, zarr_of
@@ -117,8 +117,8 @@ def finish(folder: Path, layout: Layout, target: Path) -> None:
         problem = "a block differs from what was just written"
         raise OutputError(folder, problem, "check the disk and run it again")
     zarr_of().close(store)
-    drafts.put_in_place(store, target, folder)
-    drafts.remove(folder)
+    atomic_writes.put_in_place(store, target, folder)
+    atomic_writes.remove(folder)
 
 
 def write_block(folder: Path, layout: Layout, number: int, block: xr.Dataset) -> None:
@@ -164,17 +164,20 @@ def claimed(target: Path) -> Iterator[Path]:
         If another run has locked it.
     """
     folder = target.with_name(target.name + PARTIAL)
-    with drafts.claimed(folder, target):
+    with atomic_writes.claimed(folder, target):
         try:
             yield folder
         finally:
             if not _is_begun(folder):
-                drafts.remove(folder)
+                atomic_writes.remove(folder)
 
 
 def _is_begun(folder: Path) -> bool:
     """Return True if a folder holds files other than the lock file and the draft of a store."""
-    return folder.exists() and not {path.name for path in folder.iterdir()} <= {drafts.LOCK, _DRAFT}
+    return folder.exists() and not {path.name for path in folder.iterdir()} <= {
+        atomic_writes.LOCK,
+        _DRAFT,
+    }
 
 
 def refuse_another(folder: Path, request: Mapping[str, str]) -> None:
@@ -220,14 +223,14 @@ def begin(folder: Path, request: Mapping[str, str], layout: Layout, first: xr.Da
     """
     zarr_folder = zarr_of()
     whole = first.nbytes / layout.length(0) * layout.size
-    drafts.refuse_what_does_not_fit(folder, whole, f"{layout.size} {layout.along}s")
+    atomic_writes.refuse_what_does_not_fit(folder, whole, f"{layout.size} {layout.along}s")
     node = spelled(first).assign_attrs({FORMAT: VERSION, MADE_OF: digest(request)})
     encoding = encoding_of(node)
     for name, variable in node.variables.items():
         if layout.along in variable.dims:
             encoding[str(name)]["chunks"] = variable.shape
     draft = folder / _DRAFT
-    drafts.remove(draft)
+    atomic_writes.remove(draft)
     zarr_folder.write({"/": node}, draft, {"/": encoding})
     zarr_folder.lengthen(draft, layout.along, layout.size)
     zarr_folder.seal(draft)
@@ -301,24 +304,26 @@ def write(work: Work, path: str | Path, *, client: object = None, replace: bool 
         If zarr is not installed; or distributed, if `client` needs it.
     """
     client = _checked(client)
-    place = drafts.as_path(path)
+    place = atomic_writes.as_path(path)
     if place.suffix != ".zarr":
         remedy = "long results can only be written to Zarr"
         raise OutputError(place, "its name does not end in .zarr", remedy)
     zarr_of()
-    target, layout = drafts.prepared(place), work.layout
+    target, layout = atomic_writes.prepared(place), work.layout
     size = f"{layout.size} along {layout.along} by {layout.block}"
     request = dict(work.request) | {"size": size, "format of files": str(VERSION)}
     stay = f"finished blocks stay in {target.name}{PARTIAL}"
     remedy = f"{stay}: free some space and run it again"
-    with drafts.output_errors(place, remedy), claimed(target) as folder:
+    with atomic_writes.output_errors(place, remedy), claimed(target) as folder:
         existing = _digest_of_store(target)
         complete = existing == digest(request)
         if existing is not None and not complete and not replace:
             raise OutputError(place, "a store of another question exists there", "move it away")
         refuse_another(folder, request)
         if complete:
-            drafts.remove(folder)  # a run that was killed after its last block can have left it
+            atomic_writes.remove(
+                folder
+            )  # a run that was killed after its last block can have left it
             return verify(place)
         if not (folder / STORE).exists():
             begin(folder, request, layout, work.make(0))
@@ -469,7 +474,7 @@ def _digest_of_store(target: Path) -> str | None:
 
 
 @dataclass(frozen=True)
-class Series:
+class BlockSeries:
     """Long time series that a question computes, divided into blocks of consecutive times.
 
     Attributes

@@ -21,7 +21,7 @@ import numpy as np
 from earthspin._lazy import xr
 from earthspin.engine import blocks
 from earthspin.engine.blocks import Layout, request_of
-from earthspin.engine.inputs import along_members, inputs_of, published, with_values
+from earthspin.engine.ensemble_inputs import along_members, inputs_of, published, with_values
 from earthspin.engine.members import MEMBER, TWICE, IntArray, Members, draw
 from earthspin.engine.question import NEGLECTED, SCENE, Question, scene_text
 from earthspin.engine.run import Run

@@ -146,7 +146,7 @@ def _scene_value(number: Any) -> Any:
     return number.item() if isinstance(number, np.generic) else number
 
 
-class Listed(NamedTuple):
+class ListedValues(NamedTuple):
     """Values of one input for all members of an ensemble, and the unit of the values.
 
     Attributes
@@ -161,7 +161,7 @@ class Listed(NamedTuple):
     unit: str | None = None
 
     @classmethod
-    def read(cls, value: Any, where: Where) -> Listed:
+    def read(cls, value: Any, where: Where) -> ListedValues:
         """Read the values of one input from a scene file: a packed array, or a list of names."""
         if isinstance(value, Mapping):
             unit = value.get("unit")
@@ -169,7 +169,7 @@ class Listed(NamedTuple):
         return cls(_names(np.array(value, dtype=object), where))
 
     @classmethod
-    def of(cls, array: Any, where: Where) -> Listed:
+    def of(cls, array: Any, where: Where) -> ListedValues:
         """Take the values of one input from a DataArray: finite numbers, or names."""
         if array.dims[:1] != (MEMBER,):
             dims = f"dimensions {', '.join(map(str, array.dims)) or 'none'}"
@@ -224,7 +224,7 @@ class Members:
     correlations : tuple of (str, str, float)
     distributions : mapping of str to Distribution
         Distributions by name of the input, like ``"body.j2"``.
-    values : mapping of str to Listed
+    values : mapping of str to ListedValues
         Numbers or names of every member, by name of the input.
     """
 
@@ -235,7 +235,7 @@ class Members:
     only: tuple[int, ...] = ()
     correlations: tuple[tuple[str, str, float], ...] = ()
     distributions: Mapping[str, Distribution] = field(default_factory=dict)
-    values: Mapping[str, Listed] = field(default_factory=dict)
+    values: Mapping[str, ListedValues] = field(default_factory=dict)
 
     words: ClassVar[str] = "how many, a table of distributions, or a Dataset along `member`"
     hint: ClassVar[str] = "int | Mapping[str, Any] | xr.Dataset | str"
@@ -354,11 +354,11 @@ def _read_file(path: Path) -> xr.Dataset:
     raise OutputError(path, "it is not a file of members", remedy)
 
 
-def _values_of(dataset: Any, where: Where) -> dict[str, Listed]:
+def _values_of(dataset: Any, where: Where) -> dict[str, ListedValues]:
     """Take input values of all ensemble members from a Dataset: a table, or an earlier ensemble."""
     variables = {name: array for name, array in dataset.coords.items() if "input" in array.attrs}
     values = {
-        name: Listed.of(array, where.at(name))
+        name: ListedValues.of(array, where.at(name))
         for label, array in (variables or dataset.data_vars).items()
         if (name := str(array.attrs.get("input", label))) != MEMBER
     }
@@ -412,10 +412,10 @@ def _correlation(row: Any, where: Where) -> tuple[str, str, float]:
     return first, second, float(size)
 
 
-def _tables(value: Any, where: Where) -> dict[str, Listed]:
+def _tables(value: Any, where: Where) -> dict[str, ListedValues]:
     if not isinstance(value, Mapping):
         raise where.error(value, "give a table of inputs, each with its values")
-    return {name: Listed.read(entry, where.at(name)) for name, entry in value.items()}
+    return {name: ListedValues.read(entry, where.at(name)) for name, entry in value.items()}
 
 
 #: Settings in a table of members, each with the function that reads it; other names are inputs.

@@ -22,10 +22,10 @@ from functools import cache, cached_property, partial, update_wrapper
 from threading import Lock
 from typing import Any, ClassVar, Generic, Literal, NamedTuple, ParamSpec, Self, TypeVar, overload
 
-from earthspin.card import card
 from earthspin.engine.members import Members
 from earthspin.engine.variables import Variables
 from earthspin.errors import EarthspinError, SceneError, Where, nearest
+from earthspin.html_table import card
 from earthspin.units import Kind, kind_of
 
 #: Name of the part that lists the effects that the model of a question does not include.

@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from earthspin._lazy import xr
 from earthspin._version import __version__, version
-from earthspin.card import card
 from earthspin.engine.question import ALL, NEGLECTED, SCENE, Part, Question, names_in, scene_text
 from earthspin.engine.variables import (
     CONVENTIONS,
@@ -28,6 +27,7 @@ from earthspin.engine.variables import (
     variable_of,
 )
 from earthspin.errors import SceneError, UndefinedError, nearest
+from earthspin.html_table import card
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -1,8 +1,8 @@
 """Write, read and verify results as netCDF or Zarr.
 
 A result is written to a draft, which replaces the target when it is complete
-(`earthspin.engine.drafts`). An attribute of a netCDF file holds the SHA-256 of its content: names,
-dimensions, types, attributes and values. The checksums of a Zarr store are described in
+(`earthspin.engine.atomic_writes`). An attribute of a netCDF file holds the SHA-256 of its content:
+names, dimensions, types, attributes and values. The checksums of a Zarr store are described in
 `earthspin.engine.zarr_folder`.
 """
 
@@ -23,7 +23,13 @@ from typing import Any
 import numpy as np
 
 from earthspin._lazy import xr
-from earthspin.engine.drafts import as_path, check_identity, identity, mismatch_error, replacing
+from earthspin.engine.atomic_writes import (
+    as_path,
+    check_identity,
+    identity,
+    mismatch_error,
+    replacing,
+)
 from earthspin.engine.question import SCENE, scene_of
 from earthspin.engine.variables import IN_FILES
 from earthspin.errors import EarthspinError, MissingExtraError, OutputError, in_bytes, one_line

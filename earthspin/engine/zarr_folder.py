@@ -25,7 +25,7 @@ import zarr
 from zarr.storage import LocalStore
 
 from earthspin._lazy import xr
-from earthspin.engine.drafts import check_identity, identity, mismatch_error
+from earthspin.engine.atomic_writes import check_identity, identity, mismatch_error
 from earthspin.errors import OutputError
 
 #: Attribute of the root: SHA-256 of all other metadata.

@@ -120,7 +120,7 @@ class Regions:
 
 
 @dataclass(frozen=True)
-class Figure(Regions):
+class HydrostaticFigure(Regions):
     """Hydrostatic figure: `Regions`, whole-core ellipticity, Omega2 R5/(3 G A), surface flattening.
 
     The other eight fields are those of `Regions`.
@@ -141,7 +141,7 @@ class Figure(Regions):
 
 
 @lru_cache(maxsize=32)
-def figure(layers: LayeredBody, spin_rate: float) -> Figure:
+def figure(layers: LayeredBody, spin_rate: float) -> HydrostaticFigure:
     """Compute the hydrostatic figure of a rotating layered body from Clairaut's equation.
 
     Parameters
@@ -203,7 +203,7 @@ def figure(layers: LayeredBody, spin_rate: float) -> Figure:
     fluid_share = share["core"] - share["inner"]
     e_f = _over_equatorial(excess["core"] - excess["inner"], fluid_share)
     equatorial = 1 / (1 + e / 3)  # A over the mean moment
-    return Figure(
+    return HydrostaticFigure(
         e=e,
         e_f=e_f,
         e_s=e_s,

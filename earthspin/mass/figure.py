@@ -30,7 +30,7 @@ from earthspin.numerics.arrays import FloatArray, Numeric
 LEAST_FLATTENING = -1e6
 
 
-class Moments(NamedTuple):
+class AxisymmetricMoments(NamedTuple):
     """Moments of inertia A, C and their difference C - A of an axisymmetric body.
 
     Attributes
@@ -132,7 +132,9 @@ def mean_radius(radius: ArrayLike, flattening: ArrayLike) -> FloatArray:
     return np.asarray(a * axis_ratio * elliprc(1.0, axis_ratio**2))
 
 
-def spheroid_moments(mass: ArrayLike, radius: ArrayLike, flattening: ArrayLike) -> Moments:
+def spheroid_moments(
+    mass: ArrayLike, radius: ArrayLike, flattening: ArrayLike
+) -> AxisymmetricMoments:
     """Exact moments of inertia A, C and C - A of a homogeneous spheroid.
 
     A = (1/5) M (a2 + c2), C = (2/5) M a2, C - A = (1/5) M a2 f (2 - f).
@@ -150,7 +152,9 @@ def spheroid_moments(mass: ArrayLike, radius: ArrayLike, flattening: ArrayLike) 
     e2 = eccentricity_squared(flattening)
     axis_ratio = 1 - np.asarray(flattening, dtype=float)
     polar = 2 * fifth * np.ones_like(e2)
-    return Moments(np.asarray(fifth * (1 + axis_ratio**2)), polar, np.asarray(fifth * e2))
+    return AxisymmetricMoments(
+        np.asarray(fifth * (1 + axis_ratio**2)), polar, np.asarray(fifth * e2)
+    )
 
 
 # --- J2, H and e ----------------------------------------------------------------------------------

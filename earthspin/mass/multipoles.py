@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from earthspin.constants import G
 from earthspin.errors import AccuracyError, BodyError, UndefinedError
-from earthspin.mass.figure import Moments
+from earthspin.mass.figure import AxisymmetricMoments
 from earthspin.mass.tensor import degree, first_wrong, point_masses, positive, vectors
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 
@@ -380,7 +380,7 @@ def zonal_integrals(
 
 def moments_of_density(
     density: DensityFunction, perimeter: PerimeterFunction, accuracy: float = 1e-12
-) -> Moments:
+) -> AxisymmetricMoments:
     """Moments A, C and C - A of a body of revolution from its density (I.9.28, I.9.29), kg m2.
 
     C - A = -integral of rho r2 P2 is integrated directly, not computed as a difference.
@@ -395,7 +395,7 @@ def moments_of_density(
         return np.stack([r**2, r**2 * (1.5 * cosine**2 - 0.5)])
 
     whole, quadrupole = _integrate(density, perimeter, squares, accuracy)
-    return Moments(
+    return AxisymmetricMoments(
         equatorial=np.asarray((2 * whole + quadrupole) / 3),
         polar=np.asarray(2 * (whole - quadrupole) / 3),
         difference=np.asarray(-quadrupole),

@@ -19,7 +19,7 @@ import numpy as np
 from earthspin.constants import ARCSEC, DAY, NORMAL_95
 from earthspin.errors import UndefinedError
 from earthspin.motion.forces import (
-    Figure,
+    FigureOfBody,
     Forces,
     equatorial_basis,
     semidiurnal_amplitudes,
@@ -259,7 +259,7 @@ class AxisPath:
         Legendre series of angular momentum minus figure axis, rad.
     fast : ndarray, shape (3, w, n), complex, or None
         Legendre series of the semidiurnal amplitudes of `AXES`, for a triaxial body.
-    body : Figure
+    body : FigureOfBody
         Flattening, spin rate and meridian of the body.
     interpolation_error : float
         Error from interpolating the torques between nodes, rad.
@@ -274,7 +274,7 @@ class AxisPath:
     momentum: FloatArray
     tilt: FloatArray
     fast: ComplexArray | None
-    body: Figure
+    body: FigureOfBody
     interpolation_error: float
     floor: float
     rounds: int

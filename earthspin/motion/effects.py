@@ -20,7 +20,7 @@ from earthspin.torque.gravity import cross, dot
 # --- effects and their register -------------------------------------------------------------------
 
 
-class Numbers(Protocol):
+class BodyNumbers(Protocol):
     """Protocol of a body whose numeric properties, such as J3, can be looked up by name."""
 
     def number(self, name: str) -> float:
@@ -43,7 +43,7 @@ class Effect:
     """
 
     name: str
-    switch_on: Callable[[Forces, Numbers], Forces]
+    switch_on: Callable[[Forces, BodyNumbers], Forces]
     coefficient: str = ""
 
 
@@ -83,7 +83,7 @@ PLANETS = add(
 
 
 def _zonal_harmonic(degree: int) -> Effect:
-    def switch_on(forces: Forces, body: Numbers) -> Forces:
+    def switch_on(forces: Forces, body: BodyNumbers) -> Forces:
         coefficient = body.number(f"j{degree}")
         if not coefficient:
             return forces
@@ -101,7 +101,7 @@ J4 = _zonal_harmonic(4)
 # Inequality of the equatorial moments A and B, which causes semidiurnal motion of the axes.
 
 
-def _set_triaxiality(forces: Forces, body: Numbers) -> Forces:
+def _set_triaxiality(forces: Forces, body: BodyNumbers) -> Forces:
     figure = forces.figure
     over_c = figure.inverse_polar_moment * body.number("triaxiality")
     return replace(forces, figure=replace(figure, triaxiality=over_c))
@@ -164,7 +164,7 @@ def geodesic_torque(forces: Forces, windows: Windows, place: Places) -> RateLaw:
     return lambda axis, momentum: cross(rate, momentum)
 
 
-def _add_geodesic(forces: Forces, body: Numbers) -> Forces:
+def _add_geodesic(forces: Forces, body: BodyNumbers) -> Forces:
     # The effect needs the Sun among the perturbers.
     if forces.sun not in forces.gm:
         return forces
@@ -178,7 +178,7 @@ GEODESIC = add(Effect("geodesic", _add_geodesic))
 # Slow change of J2 due to post-glacial rebound of the mantle.
 
 
-def _set_j2_trend(forces: Forces, body: Numbers) -> Forces:
+def _set_j2_trend(forces: Forces, body: BodyNumbers) -> Forces:
     j2 = body.number("j2")
     if not j2:
         return forces
@@ -203,7 +203,7 @@ SECOND_ORDER = add(Effect("second-order", lambda forces, body: replace(forces, m
 # 2006/2000A, the path with the response starts 30 mas away, such that the mean poles agree.
 
 
-class Growth(NamedTuple):
+class AngleBound(NamedTuple):
     """Bound on an angle, swing + rate |t| in mas, with t in years from J2000.0."""
 
     swing: float
@@ -218,7 +218,7 @@ NONRIGID = add(Effect("nonrigid", lambda forces, body: forces))
 
 #: Bound on the displacement of the figure axis of the Earth by the response of its interior,
 #: measured on DE421 from 1950 to 2050 with `python -m data_tools neglected`.
-RESPONSE = Growth(84.4, 0.116)
+RESPONSE = AngleBound(84.4, 0.116)
 #: Largest amplitude of the free core nutation in windows of three years from 1984 to 2026, rad, in
 #: the section `core_nutation` of `earthspin.pole_offsets`; no model predicts it.
 LARGEST_CORE_NUTATION = 290 * UAS

@@ -115,7 +115,7 @@ class Rigid:
 
 
 @dataclass(frozen=True)
-class Pull:
+class WindowMasses:
     """GM of the perturbing masses, and their positions at the nodes of one time window.
 
     Attributes
@@ -151,7 +151,7 @@ class Equations:
     ----------
     body : Rigid
         The bodies, one in each lane.
-    pull : Pull
+    pull : WindowMasses
     in_space : bool
         True if the angular momentum is along the sky's axes, False if along the body's axes.
     start : ndarray, shape (7, lanes)
@@ -161,7 +161,7 @@ class Equations:
     """
 
     def __init__(
-        self, body: Rigid, pull: Pull, in_space: bool, start: FloatArray, since: FloatArray
+        self, body: Rigid, pull: WindowMasses, in_space: bool, start: FloatArray, since: FloatArray
     ) -> None:
         self._body, self._pull, self._in_space = body, pull, in_space
         self._lanes, self._nodes = start.shape[1], since.size

@@ -27,7 +27,7 @@ Torque = Callable[["Forces", Windows, Places], RateLaw]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Figure:
+class FigureOfBody:
     """Parameters of a rotating body (H, spin, J_n) that determine the motion of its axes.
 
     Attributes
@@ -72,7 +72,7 @@ class Forces:
 
     Attributes
     ----------
-    figure : Figure
+    figure : FigureOfBody
     gm : mapping of str to float
         GM of the perturbers, m3 s-2.
     positions : callable
@@ -90,7 +90,7 @@ class Forces:
         Name of the Sun, if it is among the perturbers.
     """
 
-    figure: Figure
+    figure: FigureOfBody
     gm: Mapping[str, float]
     positions: Positions
     near: tuple[str, ...] = ()
@@ -262,7 +262,11 @@ def equatorial_basis(figure: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def semidiurnal_amplitudes(
-    windows: Windows, tensor: FloatArray, direction: FloatArray, tilt: FloatArray, figure: Figure
+    windows: Windows,
+    tensor: FloatArray,
+    direction: FloatArray,
+    tilt: FloatArray,
+    figure: FigureOfBody,
 ) -> ComplexArray:
     """Complex amplitudes of the semidiurnal motion of a triaxial body's axes, rad, (3, w, n).
 
@@ -278,7 +282,7 @@ def semidiurnal_amplitudes(
         Figure axis without this motion.
     tilt : ndarray, shape (3, w, n)
         Angular momentum minus figure axis, rad.
-    figure : Figure
+    figure : FigureOfBody
 
     Returns
     -------

@@ -15,7 +15,7 @@ import numpy as np
 
 from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
-from earthspin.motion.equations import Equations, Pull, Rigid, SkyLaw
+from earthspin.motion.equations import Equations, Rigid, SkyLaw, WindowMasses
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.polynomials import Windows, integrated, rule
@@ -66,12 +66,12 @@ class Masses:
     near: int = 0
     laws: Callable[[Windows, Mapping[str, FloatArray]], Sequence[SkyLaw]] | None = None
 
-    def over(self, windows: Windows) -> list[Pull]:
-        """Make a `Pull` for each time window: GM of the masses, and positions at the nodes."""
+    def over(self, windows: Windows) -> list[WindowMasses]:
+        """Make the `WindowMasses` of each time window: GM of the masses, and their positions."""
         times, gm = windows.times, np.array(list(self.gm.values()))
         if not self.gm:
             nothing = np.zeros((3, 0, windows.order))
-            return [Pull(row, gm, nothing) for row in times]
+            return [WindowMasses(row, gm, nothing) for row in times]
         positions = self.positions(times.ravel())
         places = np.stack([positions[name].T for name in self.gm], axis=1)
         places = places.reshape(3, len(self.gm), *times.shape)
@@ -82,7 +82,7 @@ class Masses:
                 by_name = {name: places[:, m, w : w + 1] for m, name in enumerate(self.gm)}
                 laws = self.laws(Windows(windows.edges[w : w + 2], windows.order), by_name)
             place = np.ascontiguousarray(places[:, :, w])
-            pulls.append(Pull(row, gm, place, self.near, laws))
+            pulls.append(WindowMasses(row, gm, place, self.near, laws))
         return pulls
 
 

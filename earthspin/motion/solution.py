@@ -218,7 +218,7 @@ def start_of(body: Rigid, attitude: FloatArray, omega: FloatArray) -> State:
     return State(momentum=body.moments * spin / body.unit, attitude=q, spin=spin)
 
 
-class Motion:
+class SteppedRotation:
     """Rotation of a body, integrated window by window; past time windows are discarded.
 
     Parameters

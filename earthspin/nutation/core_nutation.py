@@ -37,7 +37,7 @@ FALSE_ALARM = 1e-2
 
 
 @dataclass(frozen=True)
-class CoreNutation:
+class WindowAmplitudes:
     """Amplitudes of the free core nutation in sliding time windows, with errors.
 
     Attributes
@@ -93,7 +93,7 @@ def fit(
     window: float = WINDOW,
     step: float = STEP,
     period: float = PERIOD,
-) -> CoreNutation:
+) -> WindowAmplitudes:
     """Fit free core nutation, constant and trend to pole offsets in sliding time windows.
 
     The noise is not white, so its power is measured where it matters: at the same frequency in
@@ -149,7 +149,7 @@ def fit(
     half_width = np.sqrt(power / 2) * stdtrit(freedom, 0.975)
     # Below what noise alone gives, the true amplitude may be zero, and the estimate is too large.
     error = np.where(np.abs(amplitude) > noise_alone, half_width, noise_alone)
-    return CoreNutation(middle, amplitude, error, limit, period)
+    return WindowAmplitudes(middle, amplitude, error, limit, period)
 
 
 # --- prediction of celestial pole offsets, up to two years ahead ----------------------------------

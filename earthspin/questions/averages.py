@@ -16,7 +16,12 @@ from earthspin.constants import DAY
 from earthspin.engine.question import part
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import Estimate, FloatArray
-from earthspin.questions.elements import ellipse_chains, exact_means, locked_error, no_exact_means
+from earthspin.questions.ellipse_chains import (
+    ellipse_chains,
+    exact_means,
+    locked_error,
+    no_exact_means,
+)
 from earthspin.questions.satellites import Carried, carried, without_swings
 from earthspin.questions.sky import Sky, Stretch
 from earthspin.sky.elements import Elements

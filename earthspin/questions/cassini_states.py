@@ -11,12 +11,12 @@ import numpy as np
 from earthspin.bodies import BODIES, MOON, SUN, Body, Orbit, checks, in_a_sentence
 from earthspin.bodies.planets import LEFT_OUT_OF_STATES, PRECESSING_ORBITS
 from earthspin.constants import NORMAL_95
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import Question, key, part
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import SceneError, nearest
 from earthspin.numerics.arrays import FloatArray
-from earthspin.questions.elements import refuse_overlap, size_and_motion
+from earthspin.questions.ellipse_chains import refuse_overlap, size_and_motion
 from earthspin.torque import cassini
 from earthspin.torque.cassini import Precessing
 
@@ -131,7 +131,7 @@ def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
     return Precessing(axial, locked if locking.locked else 0.0, orbit.i, node)
 
 
-class States(Variables, along=("state",), no_error="true or false"):
+class CassiniObliquities(Variables, along=("state",), no_error="true or false"):
     """Obliquity, tilt to the mean orbit normal, and stability of each Cassini state of a body."""
 
     obliquity = measured(
@@ -146,7 +146,7 @@ class States(Variables, along=("state",), no_error="true or false"):
 
 
 @part
-def states(body: Body, own_orbit: Orbit, locking: Locking) -> States:
+def states(body: Body, own_orbit: Orbit, locking: Locking) -> CassiniObliquities:
     """Compute obliquity, tilt to the mean orbit normal, and stability of every Cassini state."""
     axis = precessing(body, own_orbit, locking)
     # a locked body turns with its orbit: there the torque of each orbit is the same at any rate
@@ -158,7 +158,7 @@ def states(body: Body, own_orbit: Orbit, locking: Locking) -> States:
     tilt = np.abs(solution.obliquity - own_orbit.i)
     reference = {"references": own_orbit.reference} if own_orbit.reference else {}
     locked = "locked" if locking.locked else "free"
-    return States(
+    return CassiniObliquities(
         obliquity=(np.abs(solution.obliquity), error),
         tilt=(np.minimum(tilt, 2 * np.pi - tilt), error),
         towards_pole=solution.obliquity > 0,

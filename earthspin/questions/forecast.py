@@ -14,7 +14,7 @@ from earthspin.bodies import EARTH, Body
 from earthspin.bodies.orbit import Epoch
 from earthspin.constants import DAY, MAS, NORMAL_95
 from earthspin.dates import SPACING, TABLES, date_text, datetime64, days
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import Question, key, part
 from earthspin.engine.run import Run
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number, words
@@ -164,7 +164,7 @@ def _times(record: PoleSeries, output_days: slice) -> FloatArray:
 @part(loads=("scipy.linalg",))
 def predicted(
     record: PoleSeries, output_days: slice, parameters: str | None, excitation: GivenSeries | None
-) -> model.Forecast:
+) -> model.PredictedPole:
     """Predict polar motion and the covariance of its error for each day after the origin."""
     if excitation is not None:
         pole, chi = _from_common_day(record, excitation)
@@ -207,7 +207,7 @@ class ForecastPole(Daily):
 @part
 def ahead(
     record: PoleSeries,
-    predicted: model.Forecast,
+    predicted: model.PredictedPole,
     output_days: slice,
     parameters: str | None,
     origin: float | None,
@@ -265,7 +265,9 @@ def not_separated(excitation: GivenSeries | None) -> str | None:
 
 
 @part(unless=not_separated)
-def components(record: PoleSeries, predicted: model.Forecast, output_days: slice) -> Components:
+def components(
+    record: PoleSeries, predicted: model.PredictedPole, output_days: slice
+) -> Components:
     """Compute the forecast Chandler, annual and semiannual wobbles and slow pole, with errors."""
     p = np.array([values[output_days] for values in predicted.components.values()]) * MAS
     variance = np.array([values[output_days] for values in predicted.component_variance.values()])

@@ -9,18 +9,18 @@ from typing import Annotated
 import numpy as np
 
 from earthspin._lazy import xr
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import Question, part, setting
 from earthspin.engine.variables import Neglected, labels, number, variable_of
 from earthspin.errors import Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.questions.times import FromStart, Seconds, instants
+from earthspin.questions.time_axes import Seconds, TimesFromStart, instants
 from earthspin.rotor.euler import KEYS, axis_stability
 from earthspin.units import Duration, Numbers, Plain, Whole, quantity
 
 
 @dataclass(frozen=True)
-class Moments:
+class RotorMoments:
     """Kind of input: three principal moments of inertia, or A, B - A and C - A, in kg m2.
 
     Attributes
@@ -39,9 +39,9 @@ class Moments:
     unit, example = "kg m2", "8.01e37 kg m2"
 
     @classmethod
-    def read(cls, value: object, where: Where) -> Moments:
+    def read(cls, value: object, where: Where) -> RotorMoments:
         """Check principal moments of inertia, given as three moments or by "A", "B-A" and "C-A"."""
-        if isinstance(value, Moments):
+        if isinstance(value, RotorMoments):
             return value
         table = isinstance(value, Mapping)
         if isinstance(value, Mapping):
@@ -110,7 +110,7 @@ class FreeRotor(
 
     exclusive = ((("times",), ("duration", "points")),)
 
-    moments: Moments = setting(
+    moments: RotorMoments = setting(
         doc="principal moments about the x, y, z axes of the body, in any order of size"
     )
     omega: Annotated[FloatArray, Numbers("rad/s", "1 rad/s", (None, 3), optional_row=True)] = (
@@ -124,7 +124,7 @@ class FreeRotor(
 _SERIES = ("time", "component")
 
 
-class Rotation(FromStart, along=_SERIES, error="relative_error"):
+class RotorMotion(TimesFromStart, along=_SERIES, error="relative_error"):
     """Angular velocity, angular momentum, attitude and energy of a free body in time."""
 
     omega_body = number("rad/s", "angular velocity along the principal axes")
@@ -143,7 +143,7 @@ class Rotation(FromStart, along=_SERIES, error="relative_error"):
 
 
 @part(loads=("scipy.special",))
-def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> Rotation:
+def free_rotation(moments: RotorMoments, omega: FloatArray, instants: FloatArray) -> RotorMotion:
     """Compute angular velocity, angular momentum, attitude and energy of a free rotor in time."""
     from earthspin.rotor import triaxial
 
@@ -155,7 +155,7 @@ def free_rotation(moments: Moments, omega: FloatArray, instants: FloatArray) -> 
     def lay(values: FloatArray, *dims: str) -> xr.DataArray:
         return xr.DataArray(variable_of((*many, *starts, "time", *dims), values))
 
-    return Rotation(
+    return RotorMotion(
         omega_body=lay(motion.omega_body, "component"),
         angular_momentum_body=lay(motion.angular_momentum_body, "component"),
         omega_inertial=lay(motion.omega_inertial, "component"),
@@ -172,7 +172,7 @@ def several_starts(omega: FloatArray) -> str | None:
 
 
 class Poinsot(
-    FromStart,
+    TimesFromStart,
     along=("component",),
     no_error="same closed form as the rotation, so its relative_error holds",
 ):
@@ -204,7 +204,7 @@ class Poinsot(
 
 
 @part(unless=several_starts)
-def poinsot(moments: Moments, omega: FloatArray, instants: FloatArray) -> Poinsot:
+def poinsot(moments: RotorMoments, omega: FloatArray, instants: FloatArray) -> Poinsot:
     """Compute ellipsoids, polhode and herpolhode of Poinsot's construction for a free rotor."""
     from earthspin.rotor import poinsot as construction
 

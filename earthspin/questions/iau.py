@@ -11,7 +11,7 @@ import numpy as np
 from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95
 from earthspin.dates import Epochs, datetime64
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import part
 from earthspin.engine.variables import (
     Neglected,
@@ -26,12 +26,11 @@ from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import analysis
-from earthspin.nutation import budget as flat
-from earthspin.nutation.budget import Budget, budget_of
+from earthspin.nutation import rate_budget as flat
+from earthspin.nutation.rate_budget import RateBudget, budget_of
 from earthspin.progress import progress
-from earthspin.questions.axis_motion import PULLS, Pulls
-from earthspin.questions.observed_pole import ObservedSizes, ObservedSky, observed_sky
-from earthspin.questions.path import (
+from earthspin.questions.effects_and_torques import PULLS, Pulls
+from earthspin.questions.iau_comparison import (
     INTERIOR,
     MERGED,
     NEIGHBOUR,
@@ -50,9 +49,10 @@ from earthspin.questions.path import (
     same_paths,
     steady_figure,
 )
+from earthspin.questions.observed_pole import ObservedSizes, ObservedSky, observed_sky
 from earthspin.questions.reasons import neglected_rates
-from earthspin.questions.times import Dated
-from earthspin.sky import iau
+from earthspin.questions.time_axes import Dated
+from earthspin.sky import iau_models
 from earthspin.sky.sources import is_measured
 
 if TYPE_CHECKING:
@@ -107,7 +107,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
 @part(same_for=same_paths)
 def rates_by_effect(
     pole_analysis: PoleComparison, pulls: Pulls, effects: tuple[str, ...]
-) -> Budget:
+) -> RateBudget:
     """Compute the contribution of each effect to the precession rates at J2000.0.
 
     Each effect is switched off in turn.
@@ -123,7 +123,9 @@ def rates_by_effect(
     # What is off has no share, nor has a transfer function: T = 1 at rest in space.
     off = [effect for effect in EFFECTS if effect not in on]
     u_h = pulls.body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    return budget_of(done.ours, done.theirs, without, off, iau.precession_rates(0.0).psi_a, u_h)
+    return budget_of(
+        done.ours, done.theirs, without, off, iau_models.precession_rates(0.0).psi_a, u_h
+    )
 
 
 _PUBLISHED = "the published table gives no errors"
@@ -178,7 +180,7 @@ class EffectRates(Variables, no_error="a measure of error itself"):
 
 
 @part
-def budget(rates_by_effect: Budget) -> EffectRates:
+def budget(rates_by_effect: RateBudget) -> EffectRates:
     """Collect contributions of effects to the precession rates, and differences from IAU 2006."""
     rates = rates_by_effect
     both = math.hypot(rates.psi_from_h, rates.psi_analysis_error)
@@ -265,7 +267,7 @@ def differences(
         return path_over(pulls, on, start, ends).at(days * DAY, semidiurnal=False)
 
     def eta_of(pole: FloatArray) -> ComplexArray:
-        return analysis.complex_nutation(iau.nutation_of(pole, days))
+        return analysis.complex_nutation(iau_models.nutation_of(pole, days))
 
     # Each model as `pole` returns it, start included, but without the semidiurnal motion, which
     # the celestial pole excludes by definition.
@@ -379,7 +381,7 @@ _ARGUMENTS = "it follows from the adopted arguments of IERS 2003"
 _FIT = "part of a fit; left_in_phase and left_out_of_phase are its residuals"
 
 
-class Nutation(Variables, along=("term",)):
+class NutationTerms(Variables, along=("term",)):
     """Largest circular nutation terms of the computed pole and of the IAU pole."""
 
     period = number(
@@ -413,13 +415,13 @@ class Nutation(Variables, along=("term",)):
 
 
 @part
-def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation:
+def nutation(pole_analysis: PoleComparison, core_response: Response) -> NutationTerms:
     """Compare the thirty largest circular nutation terms of the computed pole and the IAU pole."""
     order, terms = largest_terms(pole_analysis, LARGEST)
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
     rigid, real = ours.amplitude[order], theirs.amplitude[order]
     transfer, ratio = core_response.transfer(ours.frequency[order]), real / rigid
-    return Nutation(
+    return NutationTerms(
         **terms,
         rigid=analysis.phases(rigid),
         ratio=(ratio.real, ratio.imag),
@@ -432,7 +434,7 @@ def nutation(pole_analysis: PoleComparison, core_response: Response) -> Nutation
 _ABSORBING = "the fit to IAU 2000A with its additive terms"
 
 
-class Core(Variables, no_error="part of a fit; its residuals measure it"):
+class FittedCore(Variables, no_error="part of a fit; its residuals measure it"):
     """Parameters of the free core nutation from a fit of the resonance formula to IAU 2000A."""
 
     core_nutation_period = measured(
@@ -480,7 +482,7 @@ class Core(Variables, no_error="part of a fit; its residuals measure it"):
 @part
 def core(
     pole_analysis: PoleComparison, core_response: Response, response_apart: ResponseFit
-) -> Core:
+) -> FittedCore:
     """Return the parameters of the free core nutation fitted to IAU 2000A, and fit residuals."""
     from earthspin.nutation.response import added_half_width
 
@@ -489,7 +491,7 @@ def core(
     ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
     beside = (apart.left - apart.added)[apart.used]
     left = np.abs(theirs.amplitude - core_response.transfer(ours.frequency) * ours.amplitude)
-    return Core(
+    return FittedCore(
         core_nutation_period=(alone.period, alone.period_error),
         core_nutation_quality=(alone.quality, alone.quality_error),
         strength_real=alone.strengths.real,
@@ -506,7 +508,7 @@ def core(
     )
 
 
-class Angles(Variables, along=("angle", "degree")):
+class PrecessionAngles(Variables, along=("angle", "degree")):
     """Polynomial coefficients of the precession angles: computed values and those of IAU 2006."""
 
     angle_coefficient = number(
@@ -527,10 +529,10 @@ class Angles(Variables, along=("angle", "degree")):
 
 
 @part
-def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
+def angles(pole_analysis: PoleComparison, body: Body) -> PrecessionAngles:
     """Fit polynomials to the precession angles of the computed pole and the IAU pole."""
     t = pole_analysis.days / DAYS_PER_CENTURY
-    ecliptic = iau.ecliptic_of_date(pole_analysis.days)
+    ecliptic = iau_models.ecliptic_of_date(pole_analysis.days)
     # what the analysis makes of the pole of IAU 2006 shows what it misses
     ours, again = (
         analysis.polynomials(
@@ -539,11 +541,11 @@ def angles(pole_analysis: PoleComparison, body: Body) -> Angles:
         for path in (pole_analysis.ours, pole_analysis.theirs)
     )
     theirs = analysis.polynomials(
-        t, iau.precession_angles(pole_analysis.days), analysis.SLOW_DEGREE
+        t, iau_models.precession_angles(pole_analysis.days), analysis.SLOW_DEGREE
     )
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     of_h = NORMAL_95 * u_h * np.abs(ours) * (np.arange(analysis.SLOW_DEGREE + 1) > 0)
-    return Angles(
+    return PrecessionAngles(
         angle_coefficient=ours,
         angle_coefficient_iau=theirs,
         angle_coefficient_error=np.hypot(again - theirs, of_h),
@@ -567,7 +569,7 @@ class Inferred(Variables, along=("origin",)):
 
 
 @part
-def inferred_flattening(rates_by_effect: Budget, body: Body) -> Inferred:
+def inferred_flattening(rates_by_effect: RateBudget, body: Body) -> Inferred:
     """Collect H and C/(M a2) from three sources: the IAU precession rate, literature, and PREM."""
     h, j2, radius = (body.number(name) for name in ("dynamical_flattening", "j2", "radius"))
     u_h, u_j2 = (

@@ -12,7 +12,7 @@ import numpy as np
 from earthspin._lazy import xr
 from earthspin.bodies import BODIES, EARTH, SUN, Body
 from earthspin.constants import AU, DAY, SOLAR_CONSTANT
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import NEGLECTED, key, part
 from earthspin.engine.variables import Neglected, Variables, labels, measured, si
 from earthspin.errors import SceneError, UndefinedError, Where
@@ -56,7 +56,7 @@ def _in_radians(value: Any, where: Where, limit: float) -> Any:
 
 
 @dataclass(frozen=True)
-class Angles(Numbers):
+class AngleList(Numbers):
     """Kind of input: an angle, or a list of angles.
 
     Attributes
@@ -131,10 +131,10 @@ class Insolation(
 
     exclusive = (*long_term.LongTerm.exclusive, (("longitude",), ("day",)))  # type: ignore[assignment]
 
-    latitude: Annotated[FloatArray, Angles("rad", "65 deg", (None,), True, np.pi / 2)] = key(
+    latitude: Annotated[FloatArray, AngleList("rad", "65 deg", (None,), True, np.pi / 2)] = key(
         "65 deg", doc='latitude, or a list; "65N" and "23.5S" are read, plain numbers are radians'
     )
-    longitude: Annotated[FloatArray, Angles("rad", "90 deg", (None,), True)] = key(
+    longitude: Annotated[FloatArray, AngleList("rad", "90 deg", (None,), True)] = key(
         "90 deg", doc="true longitude of the Sun, or a list; 90 degrees is the June solstice"
     )
     day: Annotated[FloatArray, Numbers("", "172", (None,), True)] | None = key(

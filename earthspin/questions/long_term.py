@@ -12,21 +12,26 @@ from earthspin._lazy import xr
 from earthspin.bodies import MOON, SUN, Body, in_a_sentence, label_of
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.dates import YearList, YearSpan, YearStep, grid
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import key, part
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, of_perturber
-from earthspin.questions.axis_motion import start_error
+from earthspin.questions.effects_and_torques import start_error
 from earthspin.questions.reasons import no_iau_model, north_note, not_sun_and_moon
 from earthspin.questions.satellites import mean_pole_error
 from earthspin.questions.sky import PerturbedBody, Sky, Stretch, places, sky
-from earthspin.questions.times import SideBySide
-from earthspin.secular import budget as solutions
-from earthspin.secular import reading
-from earthspin.secular.orbit import Strength, Tides, geodesic_precession, moons_height
-from earthspin.secular.reading import equator_and_equinox, equinox_error, inclined_axis
+from earthspin.questions.time_axes import SideBySide
+from earthspin.secular import derived_angles
+from earthspin.secular import error_budget as solutions
+from earthspin.secular.averaged_torque import (
+    PrecessionConstant,
+    Tides,
+    geodesic_precession,
+    moons_height,
+)
+from earthspin.secular.derived_angles import equator_and_equinox, equinox_error, inclined_axis
 from earthspin.sky.columns import is_table
 from earthspin.sky.orbit_files import read_orbit
 from earthspin.sky.orbit_table import OrbitTable, shipped
@@ -208,7 +213,7 @@ def _unknown_start(body: Body) -> str:
     )
 
 
-class FromStart(Variables):
+class FromPole(Variables):
     """Base class of results that depend on the direction of a body's pole at J2000.0."""
 
     _unknown_start = ""
@@ -275,7 +280,7 @@ def numbers(
 @part
 def strength(
     numbers: SideBySide, mean_torques: MeanTorques, body: Body, orbit_table: OrbitTable
-) -> Strength:
+) -> PrecessionConstant:
     """Compute the constant of precession at J2000.0, and parameters of its change in time.
 
     It follows from the rates of `precession` divided by the cosine of the obliquity. The published
@@ -293,12 +298,12 @@ def strength(
     )
     sun = sun / cosine
     if "moon" not in numbers.numbers:
-        return Strength(sun, 0.0, eccentricity, geodesic, ellipticity, j2_rate=j2_rate)
+        return PrecessionConstant(sun, 0.0, eccentricity, geodesic, ellipticity, j2_rate=j2_rate)
     moon, published = numbers.columns("moon", "published")
     node_rate = 2 * math.pi / MOON.cycle
     pole = np.asarray(body.needed("pole").mean(np.zeros(1))[0])[:, np.newaxis]
     by_lag = float((moons_height(now, pole, node_rate) / dot(now[0], pole)).item())
-    return Strength(
+    return PrecessionConstant(
         sun,
         (moon + published) / (cosine * by_lag),
         eccentricity,
@@ -321,13 +326,13 @@ def _published() -> float:
 
 @part
 def solved(
-    strength: Strength,
+    strength: PrecessionConstant,
     numbers: SideBySide,
     orbit_table: OrbitTable,
     wanted: FloatArray,
     body: Body,
     mean_rates: MeanRates,
-) -> solutions.Solved:
+) -> solutions.SolvedAxes:
     """Integrate the motion of the spin axis, and repeat it with each uncertain input changed.
 
     A further integration has windows of twice the length.
@@ -338,7 +343,7 @@ def solved(
     half = mean_pole_error(body, start_error(body), mean_rates.pull)
     # of the IAU's pole the obliquity alone is uncertain, because longitudes count from it
     directions = 1 if body.needed("pole").of_the_iau else 2
-    setting = solutions.Setting(strength, orbit_table, _start(numbers, body, orbit_table))
+    setting = solutions.AxisInputs(strength, orbit_table, _start(numbers, body, orbit_table))
     uncertainty = solutions.Uncertainty(
         constant=relative_error,
         start=() if half is None else (half,) * directions,
@@ -361,16 +366,18 @@ def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArr
 
 
 @part
-def readings(solved: solutions.Solved, wanted: FloatArray, body: Body) -> reading.Readings:
+def readings(
+    solved: solutions.SolvedAxes, wanted: FloatArray, body: Body
+) -> derived_angles.Readings:
     """Compute angles and rates, with their errors, from the integrated motions of the spin axis."""
     fixed = body.needed("pole").without_nutation().orbit_axes(body.orbit_pole)
-    return reading.readings(solved, wanted, fixed)
+    return derived_angles.readings(solved, wanted, fixed)
 
 
 # --- the answer ----------------------------------------------------------------------------------
 
 
-class LongTermSeries(FromStart, along=("epoch",)):
+class LongTermSeries(FromPole, along=("epoch",)):
     """Obliquity, precession, eccentricity, poles and precession rates at every epoch."""
 
     obliquity = measured(
@@ -418,10 +425,10 @@ _READ = (
 
 @part
 def series(
-    readings: reading.Readings,
+    readings: derived_angles.Readings,
     numbers: SideBySide,
     wanted: FloatArray,
-    solved: solutions.Solved,
+    solved: solutions.SolvedAxes,
     orbit_table: OrbitTable,
     body: Body,
     perturbers: tuple[Body, ...],
@@ -474,7 +481,7 @@ _ONE_AT_A_TIME = (
 )
 
 
-class Budget(Variables, along=("cause", "epoch"), no_error="a share of an error"):
+class ErrorShares(Variables, along=("cause", "epoch"), no_error="a share of an error"):
     """Contribution of each error source to the errors of obliquity, perihelion and pole."""
 
     obliquity_share = number("arcsec", "share of the error of the obliquity")
@@ -489,7 +496,9 @@ class Budget(Variables, along=("cause", "epoch"), no_error="a share of an error"
 
 
 @part
-def budget(readings: reading.Readings, numbers: SideBySide, series: xr.Dataset) -> Budget:
+def budget(
+    readings: derived_angles.Readings, numbers: SideBySide, series: xr.Dataset
+) -> ErrorShares:
     """Compute the contribution of each error source to errors of obliquity, perihelion and pole."""
 
     def lay(by_cause: dict[str, FloatArray]) -> xr.DataArray:
@@ -497,7 +506,7 @@ def budget(readings: reading.Readings, numbers: SideBySide, series: xr.Dataset) 
         return numbers.lay(np.stack(shares, axis=-2), "cause", "epoch")
 
     by_pole = readings.poles_apart("pole")
-    return Budget(
+    return ErrorShares(
         obliquity_share=lay(readings.apart("obliquity")),
         longitude_share=lay(readings.apart("longitude_of_perihelion")),
         pole_share=lay(by_pole),
@@ -506,7 +515,7 @@ def budget(readings: reading.Readings, numbers: SideBySide, series: xr.Dataset) 
     )
 
 
-class Matrices(FromStart, along=("epoch", "axis", "component"), error="matrix_error"):
+class Matrices(FromPole, along=("epoch", "axis", "component"), error="matrix_error"):
     """Precession matrices from the GCRS to mean equator and equinox of date."""
 
     matrix = number("1", "precession matrix from the GCRS to mean equator and equinox of date")
@@ -520,7 +529,7 @@ class Matrices(FromStart, along=("epoch", "axis", "component"), error="matrix_er
 
 @part
 def matrices(
-    readings: reading.Readings, numbers: SideBySide, series: xr.Dataset, body: Body
+    readings: derived_angles.Readings, numbers: SideBySide, series: xr.Dataset, body: Body
 ) -> Matrices:
     """Compute the precession matrices from the GCRS to mean equator and equinox of date."""
     matrix = equator_and_equinox(readings.mine.pole, readings.mine.normal)

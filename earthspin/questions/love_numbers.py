@@ -9,7 +9,7 @@ import numpy as np
 from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY, JULIAN_YEAR
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import Question, key, part
 from earthspin.engine.variables import Neglected, Variables, labels, number
 from earthspin.interior.layers import LayeredBody
@@ -19,7 +19,12 @@ from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.interior.ocean_and_anelasticity import anelastic_strain
 from earthspin.mass.figure import ellipticity_from_h
 from earthspin.numerics.arrays import ComplexArray
-from earthspin.questions.interiors import FROM_LAYERS, LayeredInterior, layers, require_layers
+from earthspin.questions.interior_response import (
+    FROM_LAYERS,
+    LayeredInterior,
+    layers,
+    require_layers,
+)
 from earthspin.units import Number
 
 
@@ -165,7 +170,7 @@ def compliances(layers: LayeredBody, body: Body) -> Compliances:
     )
 
 
-class Modes(Variables, along=("free_mode",), no_error=FROM_LAYERS):
+class ElasticModes(Variables, along=("free_mode",), no_error=FROM_LAYERS):
     """Periods of the free modes (wobbles and nutations) of a layered elastic body."""
 
     compliance_mode_period = number(
@@ -178,7 +183,7 @@ class Modes(Variables, along=("free_mode",), no_error=FROM_LAYERS):
 
 
 @part(unless=not_turning)
-def modes(layers: LayeredBody, body: Body) -> Modes:
+def modes(layers: LayeredBody, body: Body) -> ElasticModes:
     """Compute the periods of the free modes (wobbles and nutations) of the body without ocean.
 
     The dynamical flattening H is the observed one.
@@ -187,7 +192,7 @@ def modes(layers: LayeredBody, body: Body) -> Modes:
     e = float(ellipticity_from_h(body.number("dynamical_flattening")))
     spin_rate = abs(float(body.spin_rate))
     frequencies = free_modes(parts_of(layers, spin_rate, elastic(layers).answers, e))
-    return Modes(
+    return ElasticModes(
         compliance_mode_period=[mode_period(n, s, spin_rate) for n, s in frequencies.items()],
         free_mode=list(frequencies),
     )

@@ -10,7 +10,7 @@ import numpy as np
 from earthspin.bodies import Body
 from earthspin.constants import DAYS_PER_CENTURY
 from earthspin.dates import Epochs
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import part, setting
 from earthspin.engine.variables import (
     Neglected,
@@ -24,14 +24,14 @@ from earthspin.engine.variables import (
 from earthspin.interior.modes import mode_period
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.numerics.arrays import FloatArray
-from earthspin.nutation import ladder
+from earthspin.nutation import interior_models
 from earthspin.nutation.analysis import complex_nutation, phases, responses, without_line
-from earthspin.nutation.ladder import Spread, spread_of
+from earthspin.nutation.interior_models import Spread, spread_of
 from earthspin.progress import progress
-from earthspin.questions import path
-from earthspin.questions.axis_motion import PULLS, Pulls
-from earthspin.questions.interiors import SOURCES, Prediction, no_layers, predict
-from earthspin.sky import iau
+from earthspin.questions import iau_comparison
+from earthspin.questions.effects_and_torques import PULLS, Pulls
+from earthspin.questions.interior_response import SOURCES, Prediction, no_layers, predict
+from earthspin.sky import iau_models
 from earthspin.units import Number
 
 #: Terms of the table: the largest circles.
@@ -41,7 +41,7 @@ DAYS_OF_ERRORS = 2000
 
 
 class NutationLadder(
-    path.Comparison,
+    iau_comparison.Comparison,
     word="nutation",
     call="nutation_ladder",
     table="nutation",
@@ -111,7 +111,7 @@ def interior_spread(models: Prediction) -> Spread:
 
 @part
 def left(
-    pole_analysis: path.PoleComparison,
+    pole_analysis: iau_comparison.PoleComparison,
     models: Prediction,
     interior_spread: Spread,
     pulls: Pulls,
@@ -124,25 +124,29 @@ def left(
     half-width of either from the inputs of the interior, H and integration. All are in rad.
     """
     done = pole_analysis
-    days, ends, _, theirs = path.iau_nutation(pulls, epochs)
-    figure = path.steady_figure(path.path_over(pulls, effects, done.start, ends), days)
-    own = complex_nutation(iau.nutation_of(figure, days))
+    days, ends, _, theirs = iau_comparison.iau_nutation(pulls, epochs)
+    figure = iau_comparison.steady_figure(
+        iau_comparison.path_over(pulls, effects, done.start, ends), days
+    )
+    own = complex_nutation(iau_models.nutation_of(figure, days))
     circles, frequency = done.our_circles, done.our_circles.frequency
     factors = {name: models.transfer(name, frequency) - 1 for name in models.rungs}
 
     def shifts(at: FloatArray) -> FloatArray:
-        added = np.array([*responses(circles, iau.delaunay_arguments(at), factors).values()])
+        added = np.array([*responses(circles, iau_models.delaunay_arguments(at), factors).values()])
         return np.stack([added.real, added.imag], axis=-1).swapaxes(0, 1)
 
-    error = path.residual_error(done, pulls.body, theirs, days)
+    error = iau_comparison.residual_error(done, pulls.body, theirs, days)
     sampled = slice(None, None, max(1, days.size // DAYS_OF_ERRORS))
-    phases = circles.multiples @ iau.delaunay_arguments(days[sampled])
+    phases = circles.multiples @ iau_models.delaunay_arguments(days[sampled])
     terms = (circles.amplitude[:, np.newaxis] * np.exp(1j * phases)).T
     waves = without_line(days[sampled] / DAYS_PER_CENTURY, np.hstack([terms.real, terms.imag])).T
     products = np.einsum("it,jt->ij", waves, waves)
     residuals = {}
     with progress("residuals", len(factors)) as advance:
-        for name, shift in zip(factors, iau.at_days(shifts, days).swapaxes(0, 1), strict=True):
+        for name, shift in zip(
+            factors, iau_models.at_days(shifts, days).swapaxes(0, 1), strict=True
+        ):
             eta = own + shift[:, 0] + 1j * shift[:, 1] - theirs
             plain = np.stack([eta.real, eta.imag], axis=1)
             residual = without_line(days / DAYS_PER_CENTURY, plain)
@@ -189,7 +193,7 @@ def rung_sizes(left: dict[str, FloatArray], models: Prediction) -> RungSizes:
         rms_dpsi_sineps=longitude,
         rms_deps=obliquity,
         rms_error=error,
-        adds=np.array([ladder.RUNGS[name] for name in names]),
+        adds=np.array([interior_models.RUNGS[name] for name in names]),
         rung=names,
     )
 
@@ -217,13 +221,13 @@ def beside(left: dict[str, FloatArray]) -> ModelSizes:
 
     They are a fluid core in a rigid mantle, and a body with the H of hydrostatic equilibrium.
     """
-    longitude, obliquity, error = np.array([left[name] for name in ladder.BESIDE]).T
+    longitude, obliquity, error = np.array([left[name] for name in interior_models.BESIDE]).T
     return ModelSizes(
         model_rms_dpsi_sineps=longitude,
         model_rms_deps=obliquity,
         model_rms_error=error,
-        model_adds=np.array(list(ladder.BESIDE.values())),
-        model=list(ladder.BESIDE),
+        model_adds=np.array(list(interior_models.BESIDE.values())),
+        model=list(interior_models.BESIDE),
     )
 
 
@@ -250,23 +254,27 @@ class Terms(Variables, along=("term",)):
         "95 % half-width of a predicted amplitude, from the parameters of the interior",
         along=("rung", "term"),
     )
-    iau = amplitude("mas", path.MERGED, error="amplitude_error")
+    iau = amplitude("mas", iau_comparison.MERGED, error="amplitude_error")
     amplitude_error = number(
         "mas", "95 % half-width of an amplitude from its analysis, without the neighbour's share"
     )
-    neighbour = words(path.NEIGHBOUR)
-    neighbour_in_phase = number("mas", f"{path.NEIGHBOUR_SHARE}, in phase", no_error=path.SERIES)
+    neighbour = words(iau_comparison.NEIGHBOUR)
+    neighbour_in_phase = number(
+        "mas", f"{iau_comparison.NEIGHBOUR_SHARE}, in phase", no_error=iau_comparison.SERIES
+    )
     neighbour_out_of_phase = number(
-        "mas", f"{path.NEIGHBOUR_SHARE}, out of phase", no_error=path.SERIES
+        "mas", f"{iau_comparison.NEIGHBOUR_SHARE}, out of phase", no_error=iau_comparison.SERIES
     )
     rung = labels()
     term = labels()
 
 
 @part
-def terms(pole_analysis: path.PoleComparison, models: Prediction, interior_spread: Spread) -> Terms:
+def terms(
+    pole_analysis: iau_comparison.PoleComparison, models: Prediction, interior_spread: Spread
+) -> Terms:
     """Compute the largest circular nutation terms of each model, in phase and out of phase."""
-    order, columns = path.largest_terms(pole_analysis, LARGEST)
+    order, columns = iau_comparison.largest_terms(pole_analysis, LARGEST)
     circles, names = pole_analysis.our_circles, models.ladder
     frequency, own = circles.frequency[order], circles.amplitude[order]
     predicted = np.array([models.transfer(name, frequency) * own for name in names])
@@ -280,7 +288,7 @@ def terms(pole_analysis: path.PoleComparison, models: Prediction, interior_sprea
     ).with_attributes(predicted_in_phase={"references": SOURCES})
 
 
-class Modes(Variables, along=("mode",)):
+class RungModes(Variables, along=("mode",)):
     """Periods and quality factors of the free modes (wobbles and nutations) of each model."""
 
     mode_rung = words("model (rung) that has the mode", short="rung")
@@ -302,16 +310,16 @@ class Modes(Variables, along=("mode",)):
 
 
 @part
-def modes(models: Prediction, interior_spread: Spread) -> Modes:
+def modes(models: Prediction, interior_spread: Spread) -> RungModes:
     """Compute periods and quality factors of the free modes (wobbles, nutations) of each model."""
     rows = []
     for name in models.ladder:
         half_widths = interior_spread.period_half_widths(name)
         for mode, s in models.rungs[name].modes().items():
             period = mode_period(mode, s, models.setting.spin_rate)
-            rows.append((name, mode, period, half_widths[mode], ladder.quality(s)))
+            rows.append((name, mode, period, half_widths[mode], interior_models.quality(s)))
     rungs, names, periods, errors, qualities = zip(*rows, strict=True)
-    return Modes(
+    return RungModes(
         mode_rung=np.array(rungs),
         mode_name=np.array(names),
         mode_period=(np.array(periods), np.array(errors)),
@@ -350,12 +358,19 @@ def transfer(models: Prediction) -> Transfer:
 @part
 def neglected() -> Neglected:
     """Effects on nutation that even the most detailed model neglects."""
-    return Neglected.cited(ladder.LEFT_OUT, "change of the largest term that is concerned")
+    return Neglected.cited(interior_models.LEFT_OUT, "change of the largest term that is concerned")
 
 
 nutation_ladder = public_call(
     NutationLadder,
     answer=rung_sizes,
     sections=(beside, terms, modes, transfer, neglected),
-    parts=(*PULLS, path.iau_pole, path.pole_analysis, models, interior_spread, left),
+    parts=(
+        *PULLS,
+        iau_comparison.iau_pole,
+        iau_comparison.pole_analysis,
+        models,
+        interior_spread,
+        left,
+    ),
 )

@@ -21,7 +21,7 @@ from earthspin.errors import SceneError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import core_nutation
 from earthspin.nutation.analysis import without_line
-from earthspin.questions import reasons, times
+from earthspin.questions import reasons, time_axes
 from earthspin.sky import eop
 from earthspin.sky.columns import is_table
 from earthspin.sky.eop import GivenSeries, PoleSeries
@@ -295,7 +295,7 @@ def observed_sky(epochs: Epochs) -> ObservedSky:
     """Observed celestial pole offsets, and free core nutation fitted to them, at given dates."""
     table = observed_series()
     time = table.mjd - eop.MJD
-    days = times.days_of(epochs)
+    days = time_axes.days_of(epochs)
     rows = (days >= FIRST_DAY) & (days <= time[-1])
     days = days[rows]
     offsets = np.stack([np.interp(days, time, axis) for axis in (table.x, table.y)], axis=1)

@@ -12,7 +12,7 @@ from earthspin._lazy import xr
 from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_YEAR, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import part, setting
 from earthspin.engine.run import in_range
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
@@ -103,7 +103,7 @@ def observed_pole(pole_table: PoleSeries, body: Body, span: Span | None) -> Obse
 _END = "an end of an interval of 95 %"
 
 
-class FreeWobble(
+class ObservedFreeWobble(
     Variables, along=("middle",), no_error="a mean over one beat, whose scatter was not propagated"
 ):
     """Period and amplitude of the free wobble, amplitudes of the annual wobble, and mean pole."""
@@ -140,7 +140,7 @@ class FreeWobble(
 
 
 @part(loads=("earthspin.wobble.observed",))
-def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> FreeWobble:
+def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> ObservedFreeWobble:
     """Period, quality factor and amplitude of the free wobble in the observed pole."""
     from earthspin.wobble import observed
 
@@ -150,11 +150,11 @@ def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> Fr
 
 def _free_wobble(
     time: FloatArray, p: ComplexArray, fit: record.WobbleFit, window: float | None
-) -> FreeWobble:
+) -> ObservedFreeWobble:
     """Return the fitted period and quality factor, and wobble amplitudes in sliding windows."""
     wobbles = record.envelope(time, p, fit.period, window)
     low, high = fit.quality_bounds
-    return FreeWobble(
+    return ObservedFreeWobble(
         chandler_period=(fit.period * DAY, fit.period_error * DAY),
         chandler_amplitude=(abs(wobbles.chandler) * MAS, wobbles.error * MAS),
         chandler_phase=np.unwrap(np.angle(wobbles.chandler)),

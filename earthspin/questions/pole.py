@@ -10,7 +10,7 @@ from earthspin._lazy import xr
 from earthspin.bodies import Body, in_a_sentence
 from earthspin.constants import DAY
 from earthspin.dates import Epochs, Span, Step, datetime64
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import Block, key, part
 from earthspin.engine.variables import Neglected, labels, number
 from earthspin.motion.axes import AXES, AxisPath
@@ -18,11 +18,17 @@ from earthspin.motion.effect_sizes import axis_displacements
 from earthspin.motion.effects import LARGEST_CORE_NUTATION, NONRIGID, RESPONSE
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation.analysis import followed, on_fixed_ecliptic
-from earthspin.questions import axis_motion, interiors, path, reasons, satellites
-from earthspin.questions.axis_motion import PULLS, Pulls
-from earthspin.questions.path import Shift, WithInterior
+from earthspin.questions import (
+    effects_and_torques,
+    iau_comparison,
+    interior_response,
+    reasons,
+    satellites,
+)
+from earthspin.questions.effects_and_torques import PULLS, Pulls
+from earthspin.questions.iau_comparison import Shift, WithInterior
 from earthspin.questions.sky import Sky
-from earthspin.questions.times import SPAN_DOC, Dated, days_of
+from earthspin.questions.time_axes import SPAN_DOC, Dated, days_of
 
 
 class Pole(WithInterior, word="pole", call="pole", positional=("start", "stop", "step")):
@@ -78,7 +84,7 @@ class Pole(WithInterior, word="pole", call="pole", positional=("start", "stop", 
             name = in_a_sentence(self.body.name)
             problem = f"no response of the inside of {name} is known; leave it out"
             raise self.error("effects", NONRIGID.name, problem)
-        if self.response == "predicted" and (why := interiors.no_layers(self.body)):
+        if self.response == "predicted" and (why := interior_response.no_layers(self.body)):
             raise self.error("response", self.response, f"{why}; take 'fitted'")
 
 
@@ -154,7 +160,7 @@ def axes(
     now = days_of(epochs, block, "pole.zarr")
     directions = axis_path.at(now * DAY)
     figure = directions["figure"]
-    errors = path.direction_errors(axis_path, figure, now, epochs, pulls, interior_shift)
+    errors = iau_comparison.direction_errors(axis_path, figure, now, epochs, pulls, interior_shift)
     if interior_shift is not None:
         interior_shift.apply(directions, now)
     vectors = np.stack([directions[axis] for axis in AXES], axis=1)
@@ -171,8 +177,8 @@ def axes(
         direction_error={
             "method": f"Gauss windows of {window:g} d with {axis_path.windows.order} nodes",
             "evaluations": axis_path.evaluations,
-            **axis_motion.start_note(pulls.body),
-            **axis_motion.idle_note(pulls.body, effects),
+            **effects_and_torques.start_note(pulls.body),
+            **effects_and_torques.idle_note(pulls.body, effects),
         },
     )
 
@@ -199,7 +205,7 @@ def response_error(
     half_width = interior_shift.half_width(days_of(epochs, block, "pole.zarr"))
     share = ResponseError(time=axes.time, direction_error_response=half_width)
     if response == "predicted":
-        share.with_attributes(direction_error_response={"references": interiors.SOURCES})
+        share.with_attributes(direction_error_response={"references": interior_response.SOURCES})
     return share
 
 
@@ -219,7 +225,7 @@ def satellite_error(
 ) -> SatelliteError:
     """Compute the error of the axis directions that is due to the satellites."""
     since = days_of(epochs, block, "pole.zarr") * DAY - pulls.epoch
-    drift = path.drift_of_nodes(pulls, since)
+    drift = iau_comparison.drift_of_nodes(pulls, since)
     return SatelliteError(time=axes.time, direction_error_satellites=drift)
 
 
@@ -233,7 +239,7 @@ def no_longitude(body: Body) -> str | None:
     return None
 
 
-class Angles(Dated, along=("time", "axis"), error="direction_error"):
+class PoleAngles(Dated, along=("time", "axis"), error="direction_error"):
     """Longitude psi and inclination eps of the axes, relative to the body's orbit at J2000.0."""
 
     psi = number("arcsec", "precession and nutation in longitude along the orbit of J2000.0")
@@ -245,7 +251,9 @@ class Angles(Dated, along=("time", "axis"), error="direction_error"):
 def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> tuple[FloatArray, FloatArray]:
     """Window start times, s, and longitude psi of the angular momentum at these times, rad."""
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
-    return path.continuous_longitude(axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic)
+    return iau_comparison.continuous_longitude(
+        axis_path, float(epochs.days(0, 1)[0]) * DAY, ecliptic
+    )
 
 
 @part(unless=no_longitude)
@@ -255,14 +263,14 @@ def pole_angles(
     epochs: Epochs,
     body: Body,
     block: Block | None = None,
-) -> Angles:
+) -> PoleAngles:
     """Compute longitude psi and inclination eps of the axes, relative to the J2000.0 orbit."""
     vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     angles = on_fixed_ecliptic(vectors.reshape(-1, 3), ecliptic).reshape(*vectors.shape[:2], 2)
     near = np.interp(days_of(epochs, block, "pole.zarr") * DAY, *turns)
     psi = followed(angles[..., 0], near[:, np.newaxis])
-    return Angles(time=axes.time, axis=axes.axis, psi=psi, eps=angles[..., 1]).with_attributes(
+    return PoleAngles(time=axes.time, axis=axes.axis, psi=psi, eps=angles[..., 1]).with_attributes(
         eps=reasons.north_note(body)
     )
 
@@ -281,12 +289,12 @@ def neglected(
 
     They are the largest changes of the figure axis from J2000.0 to the first and the last date.
     """
-    off = axis_motion.switched_off(body, perturbers, effects)
-    forces, further = axis_motion.each_added(sky, body, perturbers, effects, off)
+    off = effects_and_torques.switched_off(body, perturbers, effects)
+    forces, further = effects_and_torques.each_added(sky, body, perturbers, effects, off)
     moved = axis_displacements(axis_path, pulls.epoch, forces, further)
     if {*off} - {*further}:
         reach = max(abs(day * DAY - pulls.epoch) for day in epochs.span())
-        moved |= axis_motion.drift_by_planets(body, reach)
+        moved |= effects_and_torques.drift_by_planets(body, reach)
     sizes = {name: size for name, size in moved.items() if size}
     unknown = [name for name in off if name not in moved]
     sources = ["effects that are off: to first order, along the computed path"] if off else []
@@ -300,7 +308,7 @@ def neglected(
         sizes |= {NONRIGID.name: max(map(RESPONSE.at, epochs.span()))}
         sources.append("nonrigid: measured on DE421 from 1950 to 2050")
     if not body.needed("pole").of_the_iau:
-        half = axis_motion.start_error(body)
+        half = effects_and_torques.start_error(body)
         if half is None:
             unknown.append("uncertainty of the pole at the start")
         else:
@@ -314,5 +322,13 @@ pole = public_call(
     Pole,
     answer=(axes, response_error, satellite_error, pole_angles),
     sections=(neglected,),
-    parts=(*PULLS, path.axis_path, turns, *path.INTERIOR, as_fitted, as_predicted, interior_shift),
+    parts=(
+        *PULLS,
+        iau_comparison.axis_path,
+        turns,
+        *iau_comparison.INTERIOR,
+        as_fitted,
+        as_predicted,
+        interior_shift,
+    ),
 )

@@ -9,7 +9,7 @@ import numpy as np
 
 from earthspin.constants import DAY, DAYS_PER_YEAR, NORMAL_95
 from earthspin.dates import Span, datetime64
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import part, setting
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number
 from earthspin.errors import UndefinedError
@@ -88,7 +88,7 @@ def observed_offsets(offset_table: PoleSeries) -> ObservedOffsets:
     ).with_attributes(no_error=tables.NO_ERRORS, dX=source, dY=source)
 
 
-class CoreNutation(
+class ObservedCoreNutation(
     Variables,
     along=("middle",),
     no_error="a test that noise alone passes in 1 % of the windows",
@@ -132,12 +132,12 @@ def _length(span: Span | None) -> float:
 
 
 @part(unless=shorter_than_a_window)
-def core_nutation(offset_table: PoleSeries, window: float | None) -> CoreNutation:
+def core_nutation(offset_table: PoleSeries, window: float | None) -> ObservedCoreNutation:
     """Fit amplitude and phase of the free core nutation to offsets in sliding time windows."""
     time, eta = offset_table.mjd - MJD, offset_table.offsets
     length = core.WINDOW if window is None else window
     fit = core.fit(time, eta, length)
-    return CoreNutation(
+    return ObservedCoreNutation(
         core_nutation_amplitude=(np.abs(fit.amplitude), fit.error),
         core_nutation_phase=(np.unwrap(np.angle(fit.amplitude)), fit.phase_error),
         detection_limit=fit.limit,

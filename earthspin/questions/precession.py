@@ -11,7 +11,7 @@ from earthspin.bodies import Body, all_of, in_a_sentence, label_of
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.dates import Span, datetime64
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import key, part
 from earthspin.engine.variables import (
     Neglected,
@@ -24,12 +24,12 @@ from earthspin.engine.variables import (
 )
 from earthspin.mass import figure
 from earthspin.numerics.arrays import FloatArray
-from earthspin.nutation import budget
+from earthspin.nutation import rate_budget
 from earthspin.questions import reasons, satellites
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, Samples
 from earthspin.questions.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
 from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
-from earthspin.sky import iau
+from earthspin.sky import iau_models
 from earthspin.sky.sources import SourceName
 from earthspin.torque import rates
 from earthspin.torque.average import convergence_curve
@@ -217,7 +217,7 @@ def is_sphere(body: Body) -> str | None:
     return None if oblate else "a sphere does not wobble"
 
 
-class FreeWobble(Variables, no_error="its relative error is that of free_wobble_period"):
+class RigidFreeWobble(Variables, no_error="its relative error is that of free_wobble_period"):
     """Period of the free wobble of the body, computed as if the body were rigid."""
 
     free_wobble_period = measured("d", "period of the rigid free wobble, A/(C - A)")
@@ -227,18 +227,18 @@ class FreeWobble(Variables, no_error="its relative error is that of free_wobble_
 
 
 @part(unless=is_sphere)
-def free_wobble(body: Body) -> FreeWobble:
+def free_wobble(body: Body) -> RigidFreeWobble:
     """Compute the period of the free wobble of the body, as if the body were rigid."""
     h = body.needed("dynamical_flattening")
     period = free_wobble_period(figure.ellipticity_from_h(h), body.needed("spin_period"))
     u = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    return FreeWobble(
+    return RigidFreeWobble(
         free_wobble_period=(period, free_wobble_error(period, h, u)),
         free_wobble_period_sidereal=free_wobble_period(figure.ellipticity_from_h(h), 1.0),
     )
 
 
-class Seasons(Variables, no_error="its relative error is that of general_precession"):
+class SeasonsAndCalendar(Variables, no_error="its relative error is that of general_precession"):
     """Motion of the equinox, tropical year, and drift of the calendar relative to the seasons."""
 
     general_precession = measured(
@@ -264,29 +264,29 @@ class Seasons(Variables, no_error="its relative error is that of general_precess
 @part(unless=reasons.not_sun_and_moon)
 def seasons(
     mean_rates: MeanRates, mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ...]
-) -> Seasons:
+) -> SeasonsAndCalendar:
     """Compute the motion of the equinox, the tropical year, and the drift of the calendar.
 
     For the Earth as it is, the published effects that the rate leaves out are included.
     """
     rate, error = mean_rates.total()
     another = reasons.not_the_iaus_earth(body, perturbers)
-    published = 0.0 if another else sum(budget.published_effects().values())
+    published = 0.0 if another else sum(rate_budget.published_effects().values())
     effects = "torques of Sun and Moon, and the published effects that their mean leaves out"
     if another:
         effects = f"torques of Sun and Moon alone; no published effects apply: {another}"
-    chi_rate = iau.precession_rates(mean_torques.epoch / DAY).chi_a
-    general = budget.general_precession(rate + published, chi_rate, mean_torques.obliquity)
-    year = budget.tropical_year(general, body.needed("orbital_period"))
+    chi_rate = iau_models.precession_rates(mean_torques.epoch / DAY).chi_a
+    general = rate_budget.general_precession(rate + published, chi_rate, mean_torques.obliquity)
+    year = rate_budget.tropical_year(general, body.needed("orbital_period"))
     period = rates.period(general), rates.period_error(general, error)
-    gregorian_drift = budget.time_per_day_of_drift(year, budget.GREGORIAN_YEAR)
-    return Seasons(
+    gregorian_drift = rate_budget.time_per_day_of_drift(year, rate_budget.GREGORIAN_YEAR)
+    return SeasonsAndCalendar(
         general_precession=(general, error),
         general_precession_period=period,
-        time_per_degree=budget.time_per_degree(general),
+        time_per_degree=rate_budget.time_per_degree(general),
         tropical_year=year,
-        time_per_day_of_drift=budget.time_per_day_of_drift(year),
-        time_per_dropped_leap_day=budget.DROPPED_LEAP_DAY * JULIAN_YEAR,
+        time_per_day_of_drift=rate_budget.time_per_day_of_drift(year),
+        time_per_dropped_leap_day=rate_budget.DROPPED_LEAP_DAY * JULIAN_YEAR,
         time_per_day_of_gregorian_drift=gregorian_drift,
     ).with_attributes(no_error=mean_torques.no_error, general_precession={"effects": effects})
 
@@ -315,10 +315,10 @@ def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> Be
     The observed H contains the observed precession; H = J2 M a2/C with C of PREM does not.
     """
     rate, error = mean_rates.total()
-    iau_rate = iau.precession_rates(mean_torques.epoch / DAY).psi_a
-    unexplained = budget.closure(rate, iau_rate)
+    iau_rate = iau_models.precession_rates(mean_torques.epoch / DAY).psi_a
+    unexplained = rate_budget.closure(rate, iau_rate)
     h, j2, radius = (body.needed(name) for name in ("dynamical_flattening", "j2", "radius"))
-    h_of_prem = j2 / budget.prem_polar_moment(radius, j2)
+    h_of_prem = j2 / rate_budget.prem_polar_moment(radius, j2)
     return BesideIAU(
         iau_rate=iau_rate,
         difference_from_iau=(rate - iau_rate, error),
@@ -347,7 +347,7 @@ def standstills(
     def declination(days: FloatArray) -> FloatArray:
         return sky.radec(body, days, moon)["moon"][1]
 
-    extremes = iau.find_standstills(declination, stretch.first, stretch.last)
+    extremes = iau_models.find_standstills(declination, stretch.first, stretch.last)
     errors = [sky.error(moon["moon"], (extreme.day,))[0] for extreme in extremes]
     return Standstills(
         standstill_kind=np.array([extreme.kind for extreme in extremes], dtype=str),

@@ -11,7 +11,7 @@ from earthspin.bodies import Body, in_a_sentence, label_of, proper
 from earthspin.constants import DAY, NORMAL_95, PUBLISHED_EFFECTS
 from earthspin.engine.question import part
 from earthspin.engine.variables import Neglected, Variables, measured
-from earthspin.nutation.budget import published_effects
+from earthspin.nutation.rate_budget import published_effects
 
 
 def no_iau_model(body: Body) -> str | None:

@@ -10,7 +10,7 @@ import numpy as np
 from earthspin.bodies import Body, checks, planets
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import Block, key, part
 from earthspin.engine.variables import Neglected, Variable, labels, number, words
 from earthspin.errors import SceneError
@@ -21,14 +21,14 @@ from earthspin.motion.effects import NONRIGID, SECOND_ORDER
 from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY, Rigid
 from earthspin.motion.forces import Forces
 from earthspin.motion.march import FINEST, Masses
-from earthspin.motion.solution import COARSEST, KINDS, Motion, RotationSeries, State
+from earthspin.motion.solution import COARSEST, KINDS, RotationSeries, State, SteppedRotation
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress
-from earthspin.questions import axis_motion
-from earthspin.questions.axis_motion import AxisMotion, CustomTorque, Pulls, forces_of
+from earthspin.questions import effects_and_torques
+from earthspin.questions.effects_and_torques import AxisMotion, CustomTorque, Pulls, forces_of
 from earthspin.questions.satellites import largest_drifts, no_satellites, obliquity_of, swings
 from earthspin.questions.sky import Sky
-from earthspin.questions.times import SPAN_DOC, Dated, days_of
+from earthspin.questions.time_axes import SPAN_DOC, Dated, days_of
 from earthspin.sky.elements import ByElements, Elements
 from earthspin.units import Number, Numbers
 
@@ -267,10 +267,10 @@ def rotor(
     epoch = begin * DAY
     body = _spinning(body, start_omega)
     spin_rate = float(body.spin_rate)
-    figure = axis_motion.figure_of(body, spin_rate)
+    figure = effects_and_torques.figure_of(body, spin_rate)
     if pulling is None:
         alone = Forces(figure=figure, gm={}, positions=lambda times: {})
-        pulling = Pulling(axis_motion.switched_on(alone, body, _acting(effects)))
+        pulling = Pulling(effects_and_torques.switched_on(alone, body, _acting(effects)))
     moment = polar_moment(body.number("j2"), figure.h, float(body.mass), body.number("radius"))
     u = body.relative_uncertainty
     doubts = {
@@ -293,9 +293,11 @@ def rotor(
 
 
 @part
-def motion(rotor: Rotor, tolerance: float) -> Motion:
+def motion(rotor: Rotor, tolerance: float) -> SteppedRotation:
     """Prepare the integration of the rotation with the requested tolerance."""
-    return Motion(rotor.body, rotor.masses, rotor.start, rotor.duration, tolerance=tolerance)
+    return SteppedRotation(
+        rotor.body, rotor.masses, rotor.start, rotor.duration, tolerance=tolerance
+    )
 
 
 #: Shares of the errors.
@@ -342,7 +344,9 @@ class Attitudes(Dated, along=("time", "component")):
     quaternion = labels(default=["w", "x", "y", "z"])
 
 
-def _followed(motion: Motion, rotor: Rotor, seconds: FloatArray, begin: float) -> RotationSeries:
+def _followed(
+    motion: SteppedRotation, rotor: Rotor, seconds: FloatArray, begin: float
+) -> RotationSeries:
     """Integrate the rotation up to the given times (s), while a progress bar is shown."""
     total, shown = round(rotor.turns(float(seconds[-1]) - begin)), 0
     with progress("turns of the body", total) as advance:
@@ -358,7 +362,7 @@ def _followed(motion: Motion, rotor: Rotor, seconds: FloatArray, begin: float) -
 
 @part
 def turning(
-    motion: Motion,
+    motion: SteppedRotation,
     rotor: Rotor,
     epochs: Epochs,
     body: Body,
@@ -395,15 +399,15 @@ def turning(
             "method": f"Gauss windows of {motion.order} nodes, in two forms",
             # the number that a whole series takes is not known from one block of it
             **({"evaluations": motion.evaluations} if block is None else {}),
-            **({} if start_attitude is not None else axis_motion.start_note(body)),
-            **axis_motion.idle_note(body, effects),
+            **({} if start_attitude is not None else effects_and_torques.start_note(body)),
+            **effects_and_torques.idle_note(body, effects),
         },
         omega_error=comment,
         angular_momentum_error=comment,
     )
 
 
-class Growth(Dated):
+class DistanceGrowth(Dated):
     """Growth in time of the distance between two rotations that start almost equal."""
 
     growth = number(
@@ -444,12 +448,12 @@ def parting(rotor: Rotor) -> Divergence:
 
 
 @part(unless=one_date)
-def divergence(parting: Divergence, rotor: Rotor, epochs: Epochs) -> Growth:
+def divergence(parting: Divergence, rotor: Rotor, epochs: Epochs) -> DistanceGrowth:
     """Rate at which rotations with almost equal starts diverge, and Lyapunov time if chaotic."""
     now = days_of(epochs)
     rate, spread = parting.rate
     chaotic = parting.is_chaotic
-    return Growth(
+    return DistanceGrowth(
         time=datetime64(now),
         growth=parting.at(rotor.since(now)),
         growth_rate=rate,
@@ -472,12 +476,16 @@ def effect_changes(
 ) -> dict[str, float]:
     """Largest changes of the attitude by each effect that is switched off, rad."""
     on = _acting(effects)
-    off = axis_motion.switched_off(body, perturbers, on)
+    off = effects_and_torques.switched_off(body, perturbers, on)
     if not off:
         return {}
     spinning = body.replace(spin_period=2 * np.pi / rotor.body.unit)
-    forces, further = axis_motion.each_added(sky, spinning, perturbers, on, off)
-    unplaced = axis_motion.drift_by_planets(spinning, rotor.duration) if {*off} - {*further} else {}
+    forces, further = effects_and_torques.each_added(sky, spinning, perturbers, on, off)
+    unplaced = (
+        effects_and_torques.drift_by_planets(spinning, rotor.duration)
+        if {*off} - {*further}
+        else {}
+    )
     return unplaced | attitude_displacements(
         rotor.body, rotor.start, rotor.duration, forces, further
     )
@@ -509,7 +517,7 @@ def neglected(
     """
     changes = effect_changes or {}
     sizes = {name: change for name, change in changes.items() if change}
-    off = axis_motion.switched_off(body, perturbers, _acting(effects))
+    off = effects_and_torques.switched_off(body, perturbers, _acting(effects))
     unknown = [name for name in off if name not in changes]
     sources = ["effects that are off: to first order, about a steady rotation"] if sizes else []
     if node_drifts:
@@ -531,5 +539,13 @@ rotation = public_call(
     Rotation,
     answer=turning,
     sections=(divergence, neglected),
-    parts=(*axis_motion.PULLS, pulling, rotor, motion, parting, effect_changes, node_drifts),
+    parts=(
+        *effects_and_torques.PULLS,
+        pulling,
+        rotor,
+        motion,
+        parting,
+        effect_changes,
+        node_drifts,
+    ),
 )

@@ -146,7 +146,7 @@ def carried(body: Body, pull: Numeric, obliquity: float) -> Carried:
 
 
 @dataclass(frozen=True)
-class Swing:
+class NodeNutation:
     """Nutation of a body caused by the moving node of one of its satellites.
 
     Attributes
@@ -169,7 +169,7 @@ class Swing:
         return f"{float(f'{2 * np.pi / self.node_rate / JULIAN_YEAR:.3g}'):,g} years"
 
 
-def swings(body: Body, pull: Numeric, obliquity: float) -> dict[str, Swing]:
+def swings(body: Body, pull: Numeric, obliquity: float) -> dict[str, NodeNutation]:
     """Nutations of a body caused by the moving nodes of satellites, by name of the node.
 
     An orbit that is tilted to the Laplace plane turns, so its node goes round, and the torque on
@@ -188,7 +188,7 @@ def swings(body: Body, pull: Numeric, obliquity: float) -> dict[str, Swing]:
         if node.swing:
             # infinite for an upright pole, whose longitude is not defined
             rate = node.rate * math.sin(node.swing) / sine if sine else math.inf
-            nutations[f"node of {satellite.name}"] = Swing(rate, node.swing, node.rate)
+            nutations[f"node of {satellite.name}"] = NodeNutation(rate, node.swing, node.rate)
     return nutations
 
 
@@ -213,7 +213,7 @@ def largest_torques_of_satellites(body: Body, pull: float) -> dict[str, float]:
     return torques
 
 
-def largest_drifts(nutations: Mapping[str, Swing], span: float) -> dict[str, float]:
+def largest_drifts(nutations: Mapping[str, NodeNutation], span: float) -> dict[str, float]:
     """Largest displacements of the pole by the nodes of satellites within a time span (s), rad."""
     return {
         name: 2 * swing.angle * math.sin(min(swing.node_rate * span, math.pi) / 2)
@@ -221,7 +221,7 @@ def largest_drifts(nutations: Mapping[str, Swing], span: float) -> dict[str, flo
     }
 
 
-def drifts(nutations: Mapping[str, Swing], times: FloatArray) -> dict[str, FloatArray]:
+def drifts(nutations: Mapping[str, NodeNutation], times: FloatArray) -> dict[str, FloatArray]:
     """Displacements of the pole by the nodes of satellites since the epoch, rad, shape (t,) each.
 
     They are chords of the circles that the pole describes, larger by `SWING_SHARE`; `times` are s

@@ -17,12 +17,12 @@ from earthspin.dates import Span
 from earthspin.engine.question import Question, key, part
 from earthspin.errors import KernelError, SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.questions.elements import EllipseChain, all_by_elements, ellipse_chains
+from earthspin.questions.ellipse_chains import EllipseChain, all_by_elements, ellipse_chains
 from earthspin.sky import sources
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
 from earthspin.sky.ephemeris import NAMED_KERNELS
-from earthspin.sky.iau import Nutation, true_equator
-from earthspin.sky.poles import FixedPole, IAU2006Pole, MovingPole, Pole, rotate, spherical
+from earthspin.sky.iau_models import NutationSpline, true_equator
+from earthspin.sky.poles import FixedPole, IAU2006Pole, MovingPole, PoleModel, rotate, spherical
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
 from earthspin.sky.sources import SourceName
 from earthspin.units import FileName
@@ -258,7 +258,7 @@ class Sky:
 
         For the Earth, they are those of the source if it has its own equator.
         """
-        pole: Pole = body.needed("pole")
+        pole: PoleModel = body.needed("pole")
         if isinstance(self.source, OfDate) and pole.of_the_iau:
             return self.source.equator(days)
         return pole.equator(body.orbit_pole, days)
@@ -270,7 +270,7 @@ class Sky:
         targets: Mapping[str, Place] | None = None,
         *,
         true: bool = False,
-        nutation: Nutation | None = None,
+        nutation: NutationSpline | None = None,
     ) -> dict[str, tuple[FloatArray, FloatArray, FloatArray]]:
         """Right ascension and declination (rad, equator of date), and distance (m) of perturbers.
 
@@ -284,10 +284,10 @@ class Sky:
             The perturbers by default.
         true : bool
             Use the true equator instead of the mean equator.
-        nutation : Nutation, optional
+        nutation : NutationSpline, optional
             Interpolated nutation, for the source jplephem.
         """
-        pole: Pole = body.needed("pole")
+        pole: PoleModel = body.needed("pole")
 
         def equator(days: FloatArray) -> FloatArray:
             return pole.equator(body.orbit_pole, days, nutation)

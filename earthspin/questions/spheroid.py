@@ -7,12 +7,12 @@ from typing import Annotated
 import numpy as np
 
 from earthspin.bodies import EARTH, Body, all_of, proper
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import Question, key, part, setting
 from earthspin.engine.variables import Neglected, Variables, labels, number
 from earthspin.mass.figure import eccentricity_squared
 from earthspin.numerics.arrays import FloatArray
-from earthspin.questions.times import SideBySide
+from earthspin.questions.time_axes import SideBySide
 from earthspin.units import Number, Numbers
 
 

@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import Question, part, setting
 from earthspin.engine.variables import Neglected, Variables, labels, number, words
 from earthspin.numerics.arrays import FloatArray
-from earthspin.questions.times import FromStart, Seconds, SideBySide, instants
+from earthspin.questions.time_axes import Seconds, SideBySide, TimesFromStart, instants
 from earthspin.top.start import HeavyTop
 from earthspin.units import Duration, Number, Whole
 
 if TYPE_CHECKING:
-    from earthspin.top.motion import HeavyTopMotion
+    from earthspin.top.closed_form import HeavyTopMotion
 
 #: Points of the effective potential, ends included.
 POTENTIAL_POINTS = 361
@@ -114,7 +114,7 @@ def heavy_top_start(numbers: SideBySide) -> HeavyTop:
 @part(loads=("scipy.special",))
 def motion(heavy_top_start: HeavyTop, instants: FloatArray) -> HeavyTopMotion:
     """Compute the Euler angles of the top, the shape of its path, and its turning angles."""
-    from earthspin.top.motion import heavy_top_motion
+    from earthspin.top.closed_form import heavy_top_motion
 
     return heavy_top_motion(heavy_top_start, instants)
 
@@ -123,7 +123,7 @@ def motion(heavy_top_start: HeavyTop, instants: FloatArray) -> HeavyTopMotion:
 ERROR_POINTS = 64
 
 
-class Motion(FromStart, error="relative_error"):
+class TopMotion(TimesFromStart, error="relative_error"):
     """Motion of a top in time: Euler angles, attitude, angular velocity and shape of the path."""
 
     theta = number("rad", "angle from the vertical to the axis")
@@ -153,14 +153,14 @@ class Motion(FromStart, error="relative_error"):
 @part
 def euler_angles(
     motion: HeavyTopMotion, heavy_top_start: HeavyTop, numbers: SideBySide, instants: FloatArray
-) -> Motion:
+) -> TopMotion:
     """Return the motion of the top in time: Euler angles, attitude and angular velocity."""
-    from earthspin.top.motion import error_bound
+    from earthspin.top.closed_form import error_bound
 
     lay = numbers.lay
     # the error grows with time: the last instants and some before show it
     some = instants[np.unique(np.linspace(0, instants.size - 1, ERROR_POINTS).astype(int))]
-    return Motion(
+    return TopMotion(
         theta=lay(motion.theta, "time"),
         phi=lay(motion.phi, "time"),
         psi=lay(motion.psi, "time"),

@@ -10,20 +10,20 @@ import numpy as np
 from earthspin._lazy import xr
 from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.dates import Epochs, Span, Step, datetime64
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import Block, key, part
 from earthspin.engine.variables import Neglected, labels, measured, number, variable_of
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions import reasons, satellites
 from earthspin.questions.sky import Sky, places, sky
-from earthspin.questions.times import SPAN_DOC, Dated, Series, days_of, epochs
-from earthspin.sky.iau import NUTATION_NODE_STEP, Nutation
+from earthspin.questions.time_axes import SPAN_DOC, Dated, DateSeries, days_of, epochs
+from earthspin.sky.iau_models import NUTATION_NODE_STEP, NutationSpline
 from earthspin.sky.sources import OF_DATE, SourceName
 from earthspin.torque.gravity import largest_torque_on_figure, torque_error, torque_from_declination
 
 
-class Torque(Series, word="torque", call="torque_series", positional=("start", "stop", "step")):
+class Torque(DateSeries, word="torque", call="torque_series", positional=("start", "stop", "step")):
     """Declination, distance and torque of each perturber in time (source text, I.8.7).
 
     Returns
@@ -74,10 +74,10 @@ def source_has_equator(source: SourceName) -> str | None:
 
 
 @part(unless=(on_mean_equator, source_has_equator))
-def nutation(epochs: Epochs) -> Nutation:
+def nutation(epochs: Epochs) -> NutationSpline:
     """IAU nutation for the true equator of date, over the time span of the series."""
     start, end = epochs.span()
-    return Nutation(start, end, epochs.size)
+    return NutationSpline(start, end, epochs.size)
 
 
 class Torques(Dated, along=("time", "perturber")):
@@ -108,7 +108,7 @@ def torques(
     body: Body,
     perturbers: tuple[Body, ...],
     equator: str,
-    nutation: Nutation | None = None,
+    nutation: NutationSpline | None = None,
     block: Block | None = None,
 ) -> Torques:
     """Compute declination, distance and torque of each perturber at every time."""
@@ -153,7 +153,7 @@ def torques(
     )
 
 
-def _equator_words(equator: str, nutation: Nutation | None) -> str:
+def _equator_words(equator: str, nutation: NutationSpline | None) -> str:
     """Describe the model of the equator in words, for the attributes of the result."""
     if nutation is not None and nutation.interpolates:
         return f"IAU 2000A nutation, a node each {NUTATION_NODE_STEP:g} d"

@@ -15,11 +15,11 @@ from earthspin._lazy import xr
 from earthspin.bodies import EARTH, Body, Numeric, all_of
 from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY
-from earthspin.engine.answers import public_call
+from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import Question, key, part, setting
 from earthspin.engine.variables import Neglected, Variables, measured, number, words
 from earthspin.interior.named import ANELASTIC_EXPONENT, EXPONENT_RANGE, Interior
-from earthspin.questions import interiors
+from earthspin.questions import interior_response
 from earthspin.questions.reasons import observed_wobble
 from earthspin.rotor.axisymmetric import free_wobble_error
 from earthspin.units import Number
@@ -83,9 +83,9 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
         self.body.require(("radius", "j2", "dynamical_flattening", "flattening", "spin_period"))
         refuse_break_up(self.body)
-        interiors.refuse_unknown(self, self.body)
+        interior_response.refuse_unknown(self, self.body)
         rigid = why_rigid(self.body)
-        interior = None if rigid else interiors.interior_of(self.body)
+        interior = None if rigid else interior_response.interior_of(self.body)
         for name, field in _INTERIOR.items():
             value = getattr(self, name)
             if rigid and field != "anelastic_exponent" and value is not None:
@@ -113,12 +113,16 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
 
 def why_rigid(body: Body) -> str | None:
     """Return the reason (text) to omit non-rigid models if they do not apply, else None."""
-    interior = interiors.interior_of(body)
+    interior = interior_response.interior_of(body)
     if interior is None:
-        return f"{interiors.no_interior(body)}; set body.interior"
+        return f"{interior_response.no_interior(body)}; set body.interior"
     if not all_of(body.needed("dynamical_flattening") > 0):
         return "models with an interior are for oblate bodies"
-    return None if interior.layers is None else interiors.of_another_body(interior.layers, body)
+    return (
+        None
+        if interior.layers is None
+        else interior_response.of_another_body(interior.layers, body)
+    )
 
 
 # --- what lies inside ------------------------------------------------------------------------
@@ -172,7 +176,7 @@ def inside(
     ocean_love_number: Numeric | None = None,
 ) -> Inside:
     """Collect the inputs of the non-rigid wobble models: figure, interior and ocean of the body."""
-    interior = interiors.interior_of(body)
+    interior = interior_response.interior_of(body)
     assert interior is not None
     chosen = (k2, core_fraction, core_ellipticity, ocean_love_number, anelastic_exponent)
     pairs = zip(_INTERIOR.values(), chosen, strict=True)
@@ -306,7 +310,7 @@ def sensitivity(inside: Inside) -> Sensitivity:
     )
 
 
-class CoreNutation(
+class CoreNutationPeriod(
     Variables, along=("core_shape",), no_error="its relative error is that of free_core_nutation"
 ):
     """Period of the free core nutation, for different shapes of the core."""
@@ -318,7 +322,7 @@ class CoreNutation(
 
 
 @part
-def core_nutation(inside: Inside, body: Body) -> CoreNutation:
+def core_nutation(inside: Inside, body: Body) -> CoreNutationPeriod:
     """Compute the period of the free core nutation, for different shapes of the core."""
     shapes = {"hydrostatic": (inside.inputs, inside.uncertainty)}
     attributes = {}
@@ -336,7 +340,7 @@ def core_nutation(inside: Inside, body: Body) -> CoreNutation:
         half_widths[name] = propagation.core_nutation_half_width(inputs, spread, *inside.setting)
     nutation = inside.stack(turns, "core_shape") * body.needed("spin_period")
     error = inside.stack(half_widths, "core_shape") * abs(body.needed("spin_period"))
-    return CoreNutation(
+    return CoreNutationPeriod(
         free_core_nutation=(nutation, error),
         free_core_nutation_sidereal=nutation / abs(body.needed("spin_period")),
     ).with_attributes(free_core_nutation=attributes)

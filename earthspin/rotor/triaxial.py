@@ -54,7 +54,7 @@ _LEAST_ENERGY, _LARGEST_ENERGY = -960, 1000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Precession:
+class MomentumTurn:
     """Rotation of a free body about the angular momentum: mean rate and periodic part.
 
     Attributes
@@ -103,7 +103,7 @@ class JacobiMotion:
         k': 0 on the separatrix, 1 for circular cones.
     descent : LandenDescent
         Landen sequence that starts from k'.
-    precession : Precession
+    precession : MomentumTurn
         Motion of psi.
     """
 
@@ -120,7 +120,7 @@ class JacobiMotion:
     start_angle: FloatArray
     complementary_modulus: FloatArray
     descent: elliptic.LandenDescent
-    precession: Precession
+    precession: MomentumTurn
 
     @property
     def exact_period(self) -> DoubleDouble:
@@ -227,7 +227,7 @@ def _constants(
 
 def _precession(
     start: _Start, k_complementary: DoubleDouble, descent: elliptic.LandenDescent, speed: FloatArray
-) -> Precession:
+) -> MomentumTurn:
     """Compute mean rate and periodic part of the rotation about the angular momentum.
 
     It integrates psi' = G/I3 + D3 (I3 - I1)/(G I3) / (1 + b dn u), with b = a3 I3/G.
@@ -254,7 +254,7 @@ def _precession(
         * np.sqrt((i1 * i2 / start.r).hi)
         * (2 * k1.hi * (1 + k1.hi) / (1 + b.hi) ** 2)
     )
-    return Precession(rate.scaled(speed), swing, np.asarray(n.hi), np.asarray(mean.hi))
+    return MomentumTurn(rate.scaled(speed), swing, np.asarray(n.hi), np.asarray(mean.hi))
 
 
 def _numbered(unit: PrincipalMoments, spin: FloatArray) -> _Start:

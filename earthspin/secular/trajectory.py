@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 from earthspin.errors import ApartError, UndefinedError
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.numerics.polynomials import Windows, integrated, rule
-from earthspin.secular.orbit import (
-    Orbit,
-    Pull,
-    Strength,
+from earthspin.secular.averaged_torque import (
+    AveragedTorque,
+    ChangingOrbit,
+    PrecessionConstant,
     broadcast_over_members,
     pull,
     reference_axes,
@@ -68,7 +68,7 @@ class Turn(NamedTuple):
     constant: FloatArray
 
     @classmethod
-    def of(cls, torque: Pull, axes: FloatArray, windows: Windows) -> Turn:
+    def of(cls, torque: AveragedTorque, axes: FloatArray, windows: Windows) -> Turn:
         """Resolve an averaged torque along and perpendicular to the reference axis N."""
         shape = windows.times.shape
 
@@ -257,7 +257,7 @@ TOO_NEAR = 0.99
 
 
 @dataclass(frozen=True)
-class Trajectory:
+class AxisTrajectory:
     """Motion of one or many spin axes, as polynomials in time windows.
 
     Attributes
@@ -296,21 +296,21 @@ class Trajectory:
 
 
 def solve(
-    strength: Strength,
-    orbit: Orbit,
+    strength: PrecessionConstant,
+    orbit: ChangingOrbit,
     start: FloatArray,
     span: tuple[float, float],
     order: int = ORDER,
     pieces: int = 1,
-    near: Trajectory | None = None,
-) -> Trajectory:
+    near: AxisTrajectory | None = None,
+) -> AxisTrajectory:
     """Integrate one or several spin axes from J2000.0 in both directions of time.
 
     Parameters
     ----------
-    strength : Strength
+    strength : PrecessionConstant
         Torque; for several axes, its arrays have shape (..., 1).
-    orbit : Orbit
+    orbit : ChangingOrbit
         Orbit, common to all axes.
     start : ndarray, shape (3,) or (3, ...)
         Unit vector of the axis at J2000.0, GCRS.
@@ -320,7 +320,7 @@ def solve(
         Number of nodes per window.
     pieces : int
         Number of windows per window of the orbit.
-    near : Trajectory, optional
+    near : AxisTrajectory, optional
         Initial guess: the trajectory of a similar setting over the same span.
 
     Raises
@@ -340,7 +340,7 @@ def solve(
     reversed_past = past[1][..., ::-1, :] * (-1.0) ** np.arange(order + 1)
     windows = Windows(np.concatenate([past[0][::-1], future[0][1:]]), order)
     series = np.concatenate([reversed_past, future[1]], axis=-2)
-    return Trajectory(windows, series, axes, solver.steps)
+    return AxisTrajectory(windows, series, axes, solver.steps)
 
 
 def _edges(edges: FloatArray, span: tuple[float, float], pieces: int) -> list[FloatArray]:
@@ -364,7 +364,7 @@ def _cut(edges: FloatArray, pieces: int) -> FloatArray:
     return np.append(fine.ravel(), edges[-1])
 
 
-def _axes(orbit: Orbit, start: FloatArray, span: tuple[float, float]) -> FloatArray:
+def _axes(orbit: ChangingOrbit, start: FloatArray, span: tuple[float, float]) -> FloatArray:
     """Choose the reference axes of the integration from the mean orbit normal.
 
     If the spin axis is near that normal, the third is perpendicular to it.
@@ -384,11 +384,11 @@ class _BlockSolver:
 
     def __init__(
         self,
-        strength: Strength,
-        orbit: Orbit,
+        strength: PrecessionConstant,
+        orbit: ChangingOrbit,
         axes: FloatArray,
         order: int,
-        near: Trajectory | None = None,
+        near: AxisTrajectory | None = None,
     ) -> None:
         self.strength, self.orbit, self.axes, self.order = strength, orbit, axes, order
         self.near, self.steps = near, 0
@@ -452,7 +452,7 @@ class _BlockSolver:
             before = np.maximum(change, TINY)
         return None
 
-    def _pull(self, times: FloatArray, state: FloatArray) -> Pull:
+    def _pull(self, times: FloatArray, state: FloatArray) -> AveragedTorque:
         """Averaged torque on one or many spin axes at given times."""
         normal, eccentricity, turning = (
             broadcast_over_members(state, vector) for vector in self.orbit.at(times)

@@ -17,8 +17,8 @@ from earthspin.constants import DAY, DAYS_PER_CENTURY
 from earthspin.errors import SceneError, UndefinedError
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.kepler import eccentric_anomaly
-from earthspin.sky.iau import fixed_ecliptic
-from earthspin.sky.poles import Direction, Pole, fixed_equator
+from earthspin.sky.iau_models import fixed_ecliptic
+from earthspin.sky.poles import Direction, PoleModel, fixed_equator
 from earthspin.sky.protocol import BY_ELEMENTS, Place, checked
 
 #: Bound on the error of a direction in units of the rounding of all angles; measured: 0.73 at most,
@@ -47,14 +47,14 @@ class Plane:
     axes: tuple[float, ...]
 
     @classmethod
-    def of(cls, word: str, pole: Pole | None, orbit: Direction | None) -> Self:
+    def of(cls, word: str, pole: PoleModel | None, orbit: Direction | None) -> Self:
         """Create the reference plane of an orbit from its name, such as "ecliptic".
 
         Parameters
         ----------
         word : str
             ``"ecliptic"``, ``"equator"``, ``"orbit"`` or ``"icrf"``.
-        pole : Pole or None
+        pole : PoleModel or None
             Pole of the spinning body, at J2000.0.
         orbit : Direction or None
             Normal of the spinning body's orbit.

@@ -74,7 +74,7 @@ class Ephemeris:
             problem = "it holds several segments for one body"
             raise KernelError(path, problem, "cut out one span with `python -m jplephem excerpt`")
         self._records = {step: kernel.Records(s, self.path) for step, s in self._segments.items()}
-        self._tables: dict[tuple[int, int], kernel.Table] = {
+        self._tables: dict[tuple[int, int], kernel.SegmentSeries] = {
             step: records.table() for step, records in self._records.items()
         }
 

@@ -68,7 +68,7 @@ class Grid(NamedTuple):
         return record, seconds
 
 
-class Table(NamedTuple):
+class SegmentSeries(NamedTuple):
     """Chebyshev coefficients of all records in a kernel segment, and the times of the records.
 
     Attributes
@@ -335,10 +335,10 @@ class Records:
         if not np.all(np.abs(self._times[records] - expected) <= self._slack):  # NaN is wrong
             raise self._damaged("has records of other times than its directory gives")
 
-    def table(self) -> Table:
+    def table(self) -> SegmentSeries:
         """Chebyshev coefficients (km) of all records of the segment, with the record times."""
         series = self._series.reshape(self.count, -1).astype(float, copy=False)
-        return Table(series, Grid(self.start, self.length, self.count))
+        return SegmentSeries(series, Grid(self.start, self.length, self.count))
 
     @np.errstate(all="ignore")  # what is damaged may overflow
     def check(self, days: FloatArray) -> None:

@@ -24,9 +24,9 @@ from numpy.typing import NDArray
 
 from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import CoverageError, OutputError, one_line
+from earthspin.number_text import plain
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.polynomials import rule
-from earthspin.rounded import plain
 from earthspin.sky.columns import checksum
 
 #: Length of a window, s, and number of terms per window.
@@ -42,7 +42,7 @@ LARGEST = 1 << 26
 UNIT = 1e-9
 
 
-class Growth(NamedTuple):
+class ErrorGrowth(NamedTuple):
     """Growth with time of the errors of the orbit tables included in the package.
 
     The integration error is excluded.
@@ -78,8 +78,8 @@ _MYR = 1e6 * JULIAN_YEAR
 #: Ceres, Pallas and Vesta (7.2e-10 solar masses on a ring of 2.77 au). It is closer to La2010a by
 #: a factor of two beyond six million years.
 GROWTH = {
-    "earth": Growth(4.5e-5, 4.0e-5 / _MYR, 1.8e-5 / _MYR),
-    "mars": Growth(1.4e-4, 6.0e-5 / _MYR, 2.0e-5 / _MYR),
+    "earth": ErrorGrowth(4.5e-5, 4.0e-5 / _MYR, 1.8e-5 / _MYR),
+    "mars": ErrorGrowth(1.4e-4, 6.0e-5 / _MYR, 2.0e-5 / _MYR),
 }
 
 

@@ -1,7 +1,7 @@
 """Direction of a body's pole (spin axis), and the plane in which its precession is measured.
 
-All kinds of poles have the interface of `Pole`. Times are days from J2000.0 TDB, vectors are in the
-GCRS.
+All kinds of poles have the interface of `PoleModel`. Times are days from J2000.0 TDB, vectors are
+in the GCRS.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import numpy as np
 from earthspin.constants import ARCSEC, DAY, DAYS_PER_CENTURY, EPSILON_0
 from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.sky import iau
+from earthspin.sky import iau_models
 from earthspin.units import quantity
 
 # --- equator of date ------------------------------------------------------------------------------
@@ -134,7 +134,7 @@ class Direction(NamedTuple):
         return direction(*self)
 
 
-class Pole(Protocol):
+class PoleModel(Protocol):
     """Protocol of a body's pole (spin axis).
 
     The argument `orbit` is the normal of the body's own orbit, if known.
@@ -164,14 +164,17 @@ class Pole(Protocol):
     def mean(self, days: FloatArray) -> FloatArray:
         """Unit vectors of the spin axis on given days, without IAU nutation, shape (n, 3)."""
 
-    def without_nutation(self) -> Pole:
+    def without_nutation(self) -> PoleModel:
         """Return the pole without the periodic terms that count as nutation."""
 
     def true(self, day: float) -> FloatArray:
         """Unit vector of the spin axis on one day, nutation included, shape (3,)."""
 
     def equator(
-        self, orbit: Direction | None, days: FloatArray, nutation: iau.Nutation | None = None
+        self,
+        orbit: Direction | None,
+        days: FloatArray,
+        nutation: iau_models.NutationSpline | None = None,
     ) -> FloatArray:
         """Matrices from the GCRS to the body's equator and equinox of date, on given days.
 
@@ -179,7 +182,7 @@ class Pole(Protocol):
         ----------
         orbit : Direction or None
         days : ndarray, shape (n,)
-        nutation : Nutation, optional
+        nutation : NutationSpline, optional
             If given, the true equator is returned, otherwise the mean equator.
 
         Returns
@@ -233,7 +236,7 @@ class FixedPole(Direction):
         self,
         orbit: Direction | None,
         days: FloatArray | None = None,
-        nutation: iau.Nutation | None = None,
+        nutation: iau_models.NutationSpline | None = None,
     ) -> FloatArray:
         """Matrix from the GCRS to the fixed equator of the body, shape (3, 3)."""
         return fixed_equator(self.vector(), self.orbit_normal(orbit))
@@ -250,7 +253,7 @@ class IAU2006Pole:
 
     def orbit_normal(self, orbit: Direction | None) -> FloatArray:
         """Unit normal of the ecliptic of J2000.0, to which precession refers, shape (3,)."""
-        return iau.ecliptic_pole()
+        return iau_models.ecliptic_pole()
 
     def is_upright(self, orbit: Direction | None) -> bool:
         """Return False, as the Earth's axis is never normal to the ecliptic."""
@@ -258,11 +261,11 @@ class IAU2006Pole:
 
     def orbit_axes(self, orbit: Direction | None) -> FloatArray:
         """Matrix from the GCRS to the ecliptic and mean equinox of J2000.0."""
-        return iau.fixed_ecliptic()
+        return iau_models.fixed_ecliptic()
 
     def mean(self, days: FloatArray) -> FloatArray:
         """Unit vectors of the mean pole of date, frame bias included, shape (n, 3)."""
-        return np.asarray(iau.mean_equator(days)[..., 2, :])
+        return np.asarray(iau_models.mean_equator(days)[..., 2, :])
 
     def without_nutation(self) -> Self:
         """Return the pole itself; its mean direction has no nutation."""
@@ -270,21 +273,24 @@ class IAU2006Pole:
 
     def true(self, day: float) -> FloatArray:
         """Unit vector of the celestial intermediate pole on a day, bias included, shape (3,)."""
-        return np.asarray(iau.true_pole(np.array([day]))[0])
+        return np.asarray(iau_models.true_pole(np.array([day]))[0])
 
     def equator(
-        self, orbit: Direction | None, days: FloatArray, nutation: iau.Nutation | None = None
+        self,
+        orbit: Direction | None,
+        days: FloatArray,
+        nutation: iau_models.NutationSpline | None = None,
     ) -> FloatArray:
         """Matrices from the GCRS to the Earth's mean or true equator and equinox of date."""
-        return iau.mean_equator(days) if nutation is None else nutation.true_equator(days)
+        return iau_models.mean_equator(days) if nutation is None else nutation.true_equator(days)
 
 
 IAU_2006 = IAU2006Pole()
 #: Poles by name.
-NAMED_POLES: dict[str, Pole] = {str(IAU_2006): IAU_2006}
+NAMED_POLES: dict[str, PoleModel] = {str(IAU_2006): IAU_2006}
 
 
-def pole_of(value: object) -> Pole:
+def pole_of(value: object) -> PoleModel:
     """Return a pole from a pole, a name, or right ascension and declination in radians.
 
     Raises
@@ -314,7 +320,7 @@ _CENTURY = DAYS_PER_CENTURY * DAY
 LONGEST_NUTATION = 100 * _CENTURY
 
 
-class Swing(NamedTuple):
+class PeriodicTerm(NamedTuple):
     """Periodic term in the right ascension or declination of a moving pole.
 
     Attributes
@@ -347,15 +353,15 @@ class MovingPole:
         Direction at J2000.0 without periodic terms, ICRF, rad.
     right_ascension_rate, declination_rate : float
         rad/s.
-    right_ascension_swings, declination_swings : tuple of Swing
+    right_ascension_swings, declination_swings : tuple of PeriodicTerm
     """
 
     right_ascension: float
     declination: float
     right_ascension_rate: float = 0.0
     declination_rate: float = 0.0
-    right_ascension_swings: tuple[Swing, ...] = ()
-    declination_swings: tuple[Swing, ...] = ()
+    right_ascension_swings: tuple[PeriodicTerm, ...] = ()
+    declination_swings: tuple[PeriodicTerm, ...] = ()
 
     of_the_iau = False
 
@@ -377,9 +383,9 @@ class MovingPole:
             Sine terms of alpha, and cosine terms of delta.
         """
 
-        def swings(terms: Sequence[tuple[float, float, float]]) -> tuple[Swing, ...]:
+        def swings(terms: Sequence[tuple[float, float, float]]) -> tuple[PeriodicTerm, ...]:
             return tuple(
-                Swing(math.radians(size), math.radians(phase), math.radians(rate) / _CENTURY)
+                PeriodicTerm(math.radians(size), math.radians(phase), math.radians(rate) / _CENTURY)
                 for size, phase, rate in terms
             )
 
@@ -437,7 +443,7 @@ class MovingPole:
     def without_nutation(self) -> Self:
         """Return the pole without its short-period terms, which count as nutation."""
 
-        def slow(swings: tuple[Swing, ...]) -> tuple[Swing, ...]:
+        def slow(swings: tuple[PeriodicTerm, ...]) -> tuple[PeriodicTerm, ...]:
             return tuple(s for s in swings if abs(s.rate) * LONGEST_NUTATION < math.tau)
 
         return replace(
@@ -451,7 +457,10 @@ class MovingPole:
         return np.asarray(self.mean(np.array([day]))[0])
 
     def equator(
-        self, orbit: Direction | None, days: FloatArray, nutation: iau.Nutation | None = None
+        self,
+        orbit: Direction | None,
+        days: FloatArray,
+        nutation: iau_models.NutationSpline | None = None,
     ) -> FloatArray:
         """Matrices from the GCRS to the equator and equinox of date, shape (n, 3, 3)."""
         normal = self.orbit_normal(orbit)
@@ -501,19 +510,21 @@ class MovingPole:
         }
 
 
-def _swing(row: object, where: Where) -> Swing:
+def _swing(row: object, where: Where) -> PeriodicTerm:
     """Read one periodic term of a moving pole: amplitude, phase and rate."""
     if not isinstance(row, (list, tuple)) or len(row) != 3:
         raise where.error(row, "give size, phase and rate of each term")
     units, examples = ("rad", "rad", "rad/s"), ("0.7 deg", "357.85 deg", "1e-11 rad/s")
     terms = zip(row, units, examples, strict=True)
-    return Swing(*(float(quantity(term, unit, where, example)) for term, unit, example in terms))
+    return PeriodicTerm(
+        *(float(quantity(term, unit, where, example)) for term, unit, example in terms)
+    )
 
 
 # --- poles as input -------------------------------------------------------------------------------
 
 
-class Angles:
+class PoleInText:
     """Input type for the pole of a body: two angles, a name, or a table of a moving pole."""
 
     words, hint = "right ascension and declination", "tuple[float | str, float | str]"
@@ -532,7 +543,7 @@ class Angles:
             raise where.error(value, f"give {self.words}")
         return tuple(quantity(angle, "rad", where, "317.7 deg") for angle in value)
 
-    def write(self, value: Direction | Pole) -> str | list[str] | dict[str, Any]:
+    def write(self, value: Direction | PoleModel) -> str | list[str] | dict[str, Any]:
         """Convert a pole for scene files: to a name, two angles, or the table of a moving pole."""
         if isinstance(value, MovingPole):
             return value.write()

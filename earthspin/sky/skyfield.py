@@ -220,7 +220,7 @@ def _spice_kernel(path: str, sha256: str) -> SpiceKernel:
 
 
 @dataclass(frozen=True)
-class EquatorOfDate:
+class SkyfieldEquator:
     """Skyfield frame of an equator of date, defined by rotation matrices for given days.
 
     Attributes
@@ -330,7 +330,7 @@ class Skyfield(Ephemeris):
         """
         self.check_times(days, {*targets.values(), centre})
         self.check_records(days, {*targets.values(), centre})
-        frame = mean_equator_and_equinox_of_date if equator is None else EquatorOfDate(equator)
+        frame = mean_equator_and_equinox_of_date if equator is None else SkyfieldEquator(equator)
         angles = {name: np.empty((3, days.size)) for name in targets}
         for block, t in blocks_of_times(days):
             for name, place in targets.items():

@@ -35,7 +35,7 @@ from scipy.special import ellipkm1, elliprj
 
 from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.numerics.elliptic import complete_third_kind
-from earthspin.top.height import Nutation, Place, nutation_of
+from earthspin.top.height import Place, TopNutation, nutation_of
 from earthspin.top.start import HeavyTop
 
 # cosine of a whole number of quarter turns
@@ -56,7 +56,7 @@ class Turned(NamedTuple):
     psi: FloatArray
 
 
-def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
+def turned_at(nutation: TopNutation, place: Place) -> tuple[Turned, Turned]:
     """Advance of a top's phi and psi since the first lower turning point, without the linear part.
 
     The part that is linear in time, of the rate `shared_rate`, is left out.
@@ -83,7 +83,7 @@ def turned_at(nutation: Nutation, place: Place) -> tuple[Turned, Turned]:
     return Turned(sigma + delta, sigma - delta), rest
 
 
-def shared_rate(nutation: Nutation) -> FloatArray:
+def shared_rate(nutation: TopNutation) -> FloatArray:
     """Constant rate of phi and psi that the angles of `turned_at` do not include.
 
     It is half the axial angular momentum over I1, or zero. It is separated if the axis stays so
@@ -112,17 +112,17 @@ def mean_precession_rate(top: HeavyTop) -> FloatArray:
     return np.where(still, top.phi_rate, mean * start.rate_unit)
 
 
-def _lower_winding(nutation: Nutation) -> FloatArray:
+def _lower_winding(nutation: TopNutation) -> FloatArray:
     """Quarter turns (-1, 0 or 1) that an arctangent adds to (phi + psi)/2 per half nutation."""
     return np.where(_has_lower_arc(nutation), np.sign(nutation.start.b_plus_a), 0.0)
 
 
-def _upper_winding(nutation: Nutation) -> FloatArray:
+def _upper_winding(nutation: TopNutation) -> FloatArray:
     """Quarter turns (-1, 0 or 1) that an arctangent adds to (phi - psi)/2 per half nutation."""
     return np.where(_has_upper_arc(nutation), np.sign(nutation.start.b_minus_a), 0.0)
 
 
-def _has_lower_arc(nutation: Nutation) -> BoolArray:
+def _has_lower_arc(nutation: TopNutation) -> BoolArray:
     """Return True if (phi + psi)/2 is computed with a separate arctangent term.
 
     That is so if u1 is not nearer to u3 than to the lower pole.
@@ -130,7 +130,7 @@ def _has_lower_arc(nutation: Nutation) -> BoolArray:
     return np.asarray(nutation.stiffness >= nutation.start.beta * nutation.gaps.lower_pole)
 
 
-def _has_upper_arc(nutation: Nutation) -> BoolArray:
+def _has_upper_arc(nutation: TopNutation) -> BoolArray:
     """Return True if (phi - psi)/2 is computed with a separate arctangent term.
 
     That is so if u3 is not nearer to the upper pole than u2.
@@ -138,7 +138,7 @@ def _has_upper_arc(nutation: Nutation) -> BoolArray:
     return np.asarray(nutation.gaps.outer >= nutation.start.beta * nutation.gaps.upper_pole)
 
 
-def _arc_tangents(nutation: Nutation, place: Place) -> Turned:
+def _arc_tangents(nutation: TopNutation, place: Place) -> Turned:
     """Arctangent terms of the Euler angles phi and psi, without cancellation, rad.
 
     They are the sum and the difference of the arctangents of sigma and delta.
@@ -201,7 +201,7 @@ def _sum_over_root(
     )
 
 
-def _lower_pole_rate(nutation: Nutation) -> FloatArray:
+def _lower_pole_rate(nutation: TopNutation) -> FloatArray:
     """Value of (a + b)/sqrt(1 + cos theta) at the largest inclination, finite at the lower pole.
 
     Here a and b are the axial and vertical angular momentum over I1. The value is the rate at which
@@ -212,7 +212,7 @@ def _lower_pole_rate(nutation: Nutation) -> FloatArray:
     return size * np.where(nutation.crosses_lower_pole, 1.0, np.sign(start.b_plus_a))
 
 
-def _upper_pole_rate(nutation: Nutation) -> FloatArray:
+def _upper_pole_rate(nutation: TopNutation) -> FloatArray:
     """Value of (b - a)/sqrt(1 - cos theta) at the smallest inclination, finite at the upper pole.
 
     Here a and b are the axial and vertical angular momentum over I1, in the rate unit of the
@@ -223,7 +223,7 @@ def _upper_pole_rate(nutation: Nutation) -> FloatArray:
     return size * np.where(nutation.crosses_upper_pole, 1.0, sense)
 
 
-def _side_of_pole(nutation: Nutation, place: Place) -> FloatArray:
+def _side_of_pole(nutation: TopNutation, place: Place) -> FloatArray:
     """Sign of the half turn of phi if the axis passes exactly over a pole; otherwise 1."""
     quarter = np.mod(place.halves, 4).astype(int)
     lower = np.where(nutation.crosses_lower_pole, _COSINE[quarter], 1.0)
@@ -244,7 +244,7 @@ class _Integral(NamedTuple):
     shape: FloatArray
 
 
-def _integrals(nutation: Nutation, upper: BoolArray) -> tuple[_Integral, _Integral]:
+def _integrals(nutation: TopNutation, upper: BoolArray) -> tuple[_Integral, _Integral]:
     """Coefficients of the elliptic integrals in (phi + psi)/2 and (phi - psi)/2.
 
     They start from a turning point; the arctangents are left out.
@@ -264,7 +264,7 @@ def _integrals(nutation: Nutation, upper: BoolArray) -> tuple[_Integral, _Integr
 
 
 def _integral(
-    nutation: Nutation,
+    nutation: TopNutation,
     total: FloatArray,
     ends: tuple[FloatArray, FloatArray],
     upper: BoolArray,
@@ -287,7 +287,7 @@ def _integral(
     return _Integral(np.where(arc, 0.0, pace / near), pace / 3 * third, shape)
 
 
-def _partial_integrals(nutation: Nutation, place: Place) -> Turned:
+def _partial_integrals(nutation: TopNutation, place: Place) -> Turned:
     """Advance of phi and psi since the nearest turning point, without arctangent terms, rad.
 
     The rate `shared_rate` is left out, too.
@@ -301,7 +301,7 @@ def _partial_integrals(nutation: Nutation, place: Place) -> Turned:
     return Turned(sigma + delta, sigma - delta)
 
 
-def _complete_integrals(nutation: Nutation) -> Turned:
+def _complete_integrals(nutation: TopNutation) -> Turned:
     """Advance of phi and psi between two turning points, without arctangent terms, rad.
 
     The rate `shared_rate` is left out, too.

@@ -40,7 +40,7 @@ _NEVER = 1e290
 _MOMENT = 1e-120
 
 
-class Nutation(NamedTuple):
+class TopNutation(NamedTuple):
     """Constants of a top's nutation, the oscillation of its axis between two inclinations.
 
     Rates are in the rate unit of the start.
@@ -147,7 +147,7 @@ class AxisHeight(NamedTuple):
     u_rate: FloatArray
 
 
-def nutation_of(top: HeavyTop) -> Nutation:
+def nutation_of(top: HeavyTop) -> TopNutation:
     """Compute the constants of the nutation of one or more tops from the initial states."""
     start = axis_start(top)
     gaps = cubic_gaps(start)
@@ -164,7 +164,7 @@ def nutation_of(top: HeavyTop) -> Nutation:
     quarter = ellipkm1(np.where(returns, complement, 1.0))
     rate = np.sqrt(np.where(moving, stiffness, 1.0)) / 2
     half_period = np.where(returns, quarter / rate, _NEVER)
-    nutation = Nutation(
+    nutation = TopNutation(
         start=start,
         gaps=gaps,
         swing=swing,
@@ -178,7 +178,7 @@ def nutation_of(top: HeavyTop) -> Nutation:
     return nutation._replace(phase=_phase_of_start(nutation))
 
 
-def _phase_of_start(nutation: Nutation) -> FloatArray:
+def _phase_of_start(nutation: TopNutation) -> FloatArray:
     """Signed time from the nearest turning point to the initial state, in scaled units."""
     start, gaps = nutation.start, nutation.gaps
     third = start.beta * start.below + gaps.outer  # beta (u3 - u(0))
@@ -197,12 +197,12 @@ def _phase_of_start(nutation: Nutation) -> FloatArray:
     return since * np.where(upper, leaving, -leaving)
 
 
-def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
+def place_at(nutation: TopNutation, elapsed: FloatArray) -> Place:
     """Find the phase of a top's axis in its nutation cycle at given times.
 
     Parameters
     ----------
-    nutation : Nutation
+    nutation : TopNutation
     elapsed : ndarray
         Time since the start, in the rate unit; broadcasts with the tops.
     """
@@ -220,7 +220,7 @@ def place_at(nutation: Nutation, elapsed: FloatArray) -> Place:
     return Place(halves, upper, phase, *jacobi_sncndn(phase, nutation.complement))
 
 
-def height_at(nutation: Nutation, place: Place) -> AxisHeight:
+def height_at(nutation: TopNutation, place: Place) -> AxisHeight:
     """Compute the height u = cos(theta) of a top's axis at given times, and the rate u'.
 
     The height is given as distances from the poles and the start. Those from the poles are sums of

@@ -76,7 +76,7 @@ class Precessing:
         return np.asarray(self.node_rate * np.cos(obliquity - self.inclination) - torque)
 
 
-class States(NamedTuple):
+class StatesOfAxis(NamedTuple):
     """Cassini states (2 or 4) of a body: number, obliquity and stability, shape (n,) each.
 
     Attributes
@@ -136,7 +136,7 @@ def hansen(multiple: int, eccentricity: float) -> float:
     return float(np.mean(nearness**3 * np.cos(2 * true - multiple * mean)))
 
 
-def cassini_states(body: Precessing) -> States:
+def cassini_states(body: Precessing) -> StatesOfAxis:
     """Compute obliquity and stability of all Cassini states of a body.
 
     Parameters
@@ -167,7 +167,7 @@ def cassini_states(body: Precessing) -> States:
     stable = body.curvature(angles) * nu * np.sin(i) / np.sin(angles) > 0
     number = _numbers(angles * np.sign(nu), stable)
     order = np.argsort(number)
-    return States(number[order], angles[order], stable[order])
+    return StatesOfAxis(number[order], angles[order], stable[order])
 
 
 def _numbers(angles: FloatArray, stable: BoolArray) -> NDArray[np.int64]:

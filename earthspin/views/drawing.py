@@ -19,9 +19,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 import numpy as np
 import xarray as xr
 
-from earthspin.views.reading import Result, section
+from earthspin.views.closing_line import Result, section
 from earthspin.views.solids import Solid
-from earthspin.views.tables import Table
+from earthspin.views.tables import TextTable
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -217,7 +217,7 @@ class Views:
 
     figures: Sequence[PageFigure] = ()
     solids: Makers[Solid] = ()
-    tables: Makers[Table] = ()
+    tables: Makers[TextTable] = ()
     lead: Callable[[Result], str] | None = None
 
 

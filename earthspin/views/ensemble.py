@@ -12,9 +12,9 @@ from earthspin.engine.accessor import inputs_of, members_needed
 from earthspin.engine.members import MEMBER
 from earthspin.errors import SceneError
 from earthspin.numerics.arrays import FloatArray
+from earthspin.views.closing_line import Result
 from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, PageFigure, Views, axes, literal
-from earthspin.views.reading import Result
-from earthspin.views.tables import Table, short_exponents, tables_of, with_error
+from earthspin.views.tables import TextTable, short_exponents, tables_of, with_error
 
 #: The figure of shares has at most so many bars and colours.
 MOST_ROWS, MOST_COLOURS = 12, 6
@@ -24,7 +24,7 @@ CHIEF = {"precession": ("precession_rate", "mean_torque"), "wobble": ("period_so
 SMALL = 5e-4
 
 
-class Number(NamedTuple):
+class VaryingNumber(NamedTuple):
     """Name, coordinate labels and unit of one number that differs among the ensemble members."""
 
     name: str
@@ -41,7 +41,7 @@ class Number(NamedTuple):
         return ", ".join([self.name.replace("_", " "), *labels])
 
 
-def tables(tree: Result) -> list[Table]:
+def tables(tree: Result) -> list[TextTable]:
     """Tables of an ensemble: median and spread of results, and each input's share of the variance.
 
     The brackets behind a median hold half the width of the interval with the central 95 % of the
@@ -100,7 +100,7 @@ def _percentages(answer: xr.Dataset) -> xr.Dataset:
     return shares.assign_coords(input=labels)
 
 
-def _shares(answer: xr.Dataset) -> tuple[list[Number], FloatArray]:
+def _shares(answer: xr.Dataset) -> tuple[list[VaryingNumber], FloatArray]:
     """List of main quantities, and share of each input in the variance of each quantity."""
     result, chiefs = answer.earthspin.sensitivity(), _chiefs(answer)
     rows = [number for number in _numbers(answer) if number.name in chiefs]
@@ -225,7 +225,7 @@ def _enough(answer: xr.Dataset) -> bool:
     return bool(answer.sizes[MEMBER] >= members_needed(answer))
 
 
-def _numbers(answer: xr.Dataset) -> list[Number]:
+def _numbers(answer: xr.Dataset) -> list[VaryingNumber]:
     """List all finite quantities of an ensemble whose values differ among the members."""
     numbers = []
     for name, variable in answer.data_vars.items():
@@ -237,7 +237,7 @@ def _numbers(answer: xr.Dataset) -> list[Number]:
         for place in np.argwhere(differs).tolist():
             at = zip(first.dims, place, strict=True)
             labels = {str(dim): variable[dim].values[k] for dim, k in at}
-            numbers.append(Number(str(name), labels, str(variable.attrs.get("units", ""))))
+            numbers.append(VaryingNumber(str(name), labels, str(variable.attrs.get("units", ""))))
     return numbers
 
 
@@ -258,7 +258,7 @@ def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
     return tuple(chiefs or [*differing][:1])
 
 
-def _chief(answer: xr.Dataset, name: str = "") -> Number:
+def _chief(answer: xr.Dataset, name: str = "") -> VaryingNumber:
     """Last number that differs among ensemble members, in the main variable or the variable `name`.
 
     It is for example the total, or the value at the last time.

@@ -12,9 +12,9 @@ from earthspin.constants import EPSILON_0
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing
+from earthspin.views.closing_line import Result, answer_of, needed
 from earthspin.views.drawing import Axes, PageFigure, Views, axes
-from earthspin.views.reading import Result, answer_of, needed
-from earthspin.views.stars import YEARS, on_the_chart, plot_path, year_labels
+from earthspin.views.star_chart import YEARS, on_the_chart, plot_path, year_labels
 
 #: Sentence at the end of captions.
 BANDS = "Bands are 95 % half-widths; where none is seen, it is thinner than the line."

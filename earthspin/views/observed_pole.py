@@ -11,8 +11,8 @@ import xarray as xr
 from earthspin.constants import DAYS_PER_YEAR, MAS
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing
+from earthspin.views.closing_line import Result, answer_of, needed, section
 from earthspin.views.drawing import Axes, Figure, PageFigure, Views, axes, note
-from earthspin.views.reading import Result, answer_of, needed, section
 from earthspin.views.tables import date
 from earthspin.wobble.record import NEAR, YEAR
 

@@ -13,16 +13,16 @@ from markupsafe import Markup
 
 from earthspin.views.drawing import RAISED, Drawing
 from earthspin.views.solids import Solid
-from earthspin.views.tables import SHORT, Table
+from earthspin.views.tables import SHORT, TextTable
 
 
 def page(
     title: str,
-    tables: Sequence[Table] = (),
+    tables: Sequence[TextTable] = (),
     drawings: Sequence[Drawing] = (),
     solids: Sequence[Solid] = (),
     *,
-    last: Sequence[Table] = (),
+    last: Sequence[TextTable] = (),
     **words: object,
 ) -> str:
     """HTML text of a page that shows figures, three-dimensional pictures and tables, in this order.
@@ -30,11 +30,11 @@ def page(
     Parameters
     ----------
     title : str
-    tables : sequence of Table
+    tables : sequence of TextTable
     drawings : sequence of Drawing
         If the first is square, it stands beside the title.
     solids : sequence of Solid
-    last : sequence of Table
+    last : sequence of TextTable
         Tables at the end, collapsed.
     **words
         `lead` and `note`, a sentence at the head, and what holds for all that follows; `links`,
@@ -106,7 +106,7 @@ def typeset(words: str) -> Markup:
     Parameters
     ----------
     words : str
-        Plain text, as `earthspin.views.tables.Table` holds it.
+        Plain text, as `earthspin.views.tables.TextTable` holds it.
 
     Returns
     -------

@@ -18,7 +18,7 @@ from earthspin._version import __version__
 from earthspin.bodies import EARTH, MOON, SUN, Body
 from earthspin.bodies.planets import MOON_ECCENTRICITY, MOON_INCLINATION, SUN_ECCENTRICITY
 from earthspin.constants import ARCSEC_PER_YEAR, DAY
-from earthspin.engine import drafts
+from earthspin.engine import atomic_writes
 from earthspin.errors import SceneError
 from earthspin.interior.love import elastic, softening
 from earthspin.interior.named import INTERIORS
@@ -143,6 +143,6 @@ def write_page(name: str, file: str | Path) -> Path:
         If the file cannot be written.
     """
     path, text = Path(file), play_page(name)
-    with drafts.replacing(path) as draft:
+    with atomic_writes.replacing(path) as draft:
         draft.write_text(text, encoding="utf-8")
     return path

@@ -9,9 +9,9 @@ from earthspin.constants import DAY, DAYS_PER_YEAR
 from earthspin.interior.named import CORE_NUTATION
 from earthspin.motion.effects import NONRIGID
 from earthspin.views import drawing, tables
+from earthspin.views.closing_line import Result, answer_of, needed
 from earthspin.views.drawing import Axes, PageFigure, Views, axes, note
-from earthspin.views.reading import Result, answer_of, needed
-from earthspin.views.tables import Column, Table, table_along
+from earthspin.views.tables import Column, TextTable, table_along
 
 
 def plot_pole_path(result: Result, *, axis: str = "figure", ax: Axes | None = None) -> Axes:
@@ -75,7 +75,7 @@ MODELS = {
 }
 
 
-def budget(tree: Result) -> Table:
+def budget(tree: Result) -> TextTable:
     """Table of contributions to the precession rate, with the sum and the sum minus IAU 2006."""
     rates = answer_of(tree).map(lambda rate: rate * tables.MAS_PER_CENTURY)
 
@@ -111,7 +111,7 @@ def _both_angles(name: str) -> Column:
     return Column(name, lambda row: " / ".join(f"{value:.3f}" for value in row[name].values))
 
 
-def residuals(tree: Result) -> Table:
+def residuals(tree: Result) -> TextTable:
     """Table of rms and maximum of the computed pole minus the IAU pole, for each set of effects."""
     columns = (
         Column("model", lambda row: MODELS[row.model.item()]),
@@ -126,7 +126,7 @@ def residuals(tree: Result) -> Table:
     return table_along(needed(tree, "residual_sizes"), "model", title, columns, note, first="")
 
 
-def observed(tree: Result) -> Table:
+def observed(tree: Result) -> TextTable:
     """Table of rms differences from the observed pole, for each computed pole and the IAU pole."""
     sizes = needed(tree, "observed")
     columns = (

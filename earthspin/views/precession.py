@@ -12,10 +12,10 @@ from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
 from earthspin.engine.variables import largest_of, si
 from earthspin.errors import SceneError, listed
 from earthspin.numerics.arrays import FloatArray
-from earthspin.views import drawing, reading, stars, tables, torque
+from earthspin.views import closing_line, drawing, star_chart, tables, torque
+from earthspin.views.closing_line import Result, answer_of, changes_of, needed, section
 from earthspin.views.drawing import Axes, Figure, PageFigure, Views, axes, note
-from earthspin.views.reading import Result, answer_of, changes_of, needed, section
-from earthspin.views.tables import Column, Table, measured, table_along
+from earthspin.views.tables import Column, TextTable, measured, table_along
 
 #: Once round, arcsec.
 FULL_TURN = 360 * 3600.0
@@ -28,10 +28,10 @@ def lead(tree: Result) -> str:
     """First sentence on the precession page: period of precession, and which torques cause it."""
     answer, known = answer_of(tree), section(tree, "iau_2006")
     alone = measured(answer.isel(perturber=-1), "precession_period", "years")
-    pull = f"the pull of {reading.perturbers_of(answer)} on the equatorial bulge"
+    pull = f"the pull of {closing_line.perturbers_of(answer)} on the equatorial bulge"
     if moons := _satellites(answer):
         pull += f" and on the orbits of its satellites {moons}, which precess with it"
-    once = f"The axis of {reading.body_of(answer)} goes once round in"
+    once = f"The axis of {closing_line.body_of(answer)} goes once round in"
     if known is None:
         return f"{once} {alone} in this model: {pull}, and nothing else."
     period, error = _with_known_effects(known)
@@ -58,7 +58,7 @@ def _with_known_effects(known: xr.Dataset) -> tuple[float, float]:
 # --- tables --------------------------------------------------------------------------------------
 
 
-def periods(tree: Result) -> Table:
+def periods(tree: Result) -> TextTable:
     """Table of the precession period by three definitions, and the use of each definition."""
     answer, known, seasons = answer_of(tree), needed(tree, "iau_2006"), needed(tree, "seasons")
     total, iau = answer.isel(perturber=-1), FULL_TURN / float(known.iau_rate)
@@ -72,7 +72,7 @@ def periods(tree: Result) -> Table:
         (fixed, *known_effects, "the motion of the celestial pole"),
         ("the same, torques of Sun and Moon alone", alone, "", "the theory of rigid bodies"),
     ]
-    return Table(
+    return TextTable(
         "Which period to quote",
         ("period", "years", "IAU 2006", "quote it for"),
         rows,
@@ -93,7 +93,7 @@ def _millionths(known: xr.Dataset) -> str:
     return f"{abs(float(known.closure / known.iau_rate)) * 1e6:.1f}"
 
 
-def rates(tree: Result) -> Table:
+def rates(tree: Result) -> TextTable:
     """Table of precession rate, period and mean torque of each perturber."""
     answer = answer_of(tree)
     if answer.sizes["perturber"] == 2:  # the total of one perturber says nothing more
@@ -131,7 +131,7 @@ def rates(tree: Result) -> Table:
     return table_along(answer, "perturber", "Precession", columns, note, first="pulled by")
 
 
-def sky_and_calendar(tree: Result) -> Table:
+def sky_and_calendar(tree: Result) -> TextTable:
     """Table of general precession, tropical year and calendar drift, with values for comparison."""
     computed = tables.quantities(
         needed(tree, "seasons"),
@@ -148,7 +148,7 @@ def sky_and_calendar(tree: Result) -> Table:
     rate = f"{P_A_RATE.value:.5f} (IAU 2006)"
     year = f"{TROPICAL_YEAR.value / DAY:.6f} (Simon et al. 1994)"
     others = (rate, period, degree, year, drift, leap_day, "")
-    return Table(
+    return TextTable(
         "Equinox and calendar",
         ("quantity", "computed", "for comparison"),
         [(*row, other) for row, other in zip(computed, others, strict=True)],
@@ -168,7 +168,7 @@ _MODELS = {
 }
 
 
-def models(tree: Result) -> Table:
+def models(tree: Result) -> TextTable:
     """Table of H, precession period and wobble period for three models of the Earth's figure."""
     figure = needed(tree, "figure_models")
     columns = (
@@ -185,7 +185,7 @@ def models(tree: Result) -> Table:
     return table_along(figure, "earth_model", title, columns, note, first="")
 
 
-def free_wobble(tree: Result) -> Table:
+def free_wobble(tree: Result) -> TextTable:
     """Table of the free wobble period of the rigid body, and the observed period if known."""
     wobble = needed(tree, "free_wobble")
     notes = ["The formula holds for a rigid body; a real body deforms."]
@@ -197,7 +197,7 @@ def free_wobble(tree: Result) -> Table:
         source = wobble.observed_period.attrs["references"]
         notes.append(f"Source of the observed period: {source}.")
     sidereal = f"{float(wobble.free_wobble_period_sidereal):.4f}"
-    return Table(
+    return TextTable(
         "Free wobble",
         ("period", "days of 86400 s", "sidereal days"),
         [("rigid body, A/(C-A)", rigid, sidereal), *rows],
@@ -205,7 +205,7 @@ def free_wobble(tree: Result) -> Table:
     )
 
 
-def iau(tree: Result) -> Table:
+def iau(tree: Result) -> TextTable:
     """Table of the computed precession rate compared with that of IAU 2006."""
     known, left_out, answer = needed(tree, "iau_2006"), section(tree, "neglected"), answer_of(tree)
     effects = () if left_out is None else tables.along(left_out, "effect")
@@ -216,7 +216,7 @@ def iau(tree: Result) -> Table:
         *((f"  left out: {name}", f"{float(e.neglected_effect):+.6f}") for name, e in effects),
         ("difference after the effects left out", measured(known, "closure")),
     ]
-    return Table(
+    return TextTable(
         "Comparison with IAU 2006",
         (f"rate at {tables.date(answer.reference_epoch)}", "arcsec/yr"),
         rows,
@@ -227,7 +227,7 @@ def iau(tree: Result) -> Table:
     )
 
 
-def standstills(tree: Result) -> Table:
+def standstills(tree: Result) -> TextTable:
     """Table of lunar standstills: dates, and declinations of the Moon."""
     extremes, text = needed(tree, "standstills"), {"major": "28.58", "minor": "18.30"}
     error = float(extremes.standstill_declination_error.values.max(initial=0.0))
@@ -335,9 +335,9 @@ def _caption_of_circle(tree: Result) -> str:
     total = answer_of(tree).isel(perturber=-1)
     years = np.arange(-9900, 14001, 100)
     path = _circle(total, years)
-    places = stars.on_the_chart(stars.star_vectors(), float(np.radians(total.obliquity)))
+    places = star_chart.on_the_chart(star_chart.star_vectors(), float(np.radians(total.obliquity)))
     passed = []
-    for (name, *_), place in zip(stars.STARS, places, strict=True):
+    for (name, *_), place in zip(star_chart.STARS, places, strict=True):
         away = np.linalg.norm(path - place, axis=1)
         if away.min() < PASSED:
             year = int(years[away.argmin()])
@@ -379,10 +379,10 @@ def plot_pole_circle(result: Result, *, ax: Axes | None = None) -> Axes:
         raise SceneError("plot_pole_circle", body.name, "the chart is of the sky of the Earth")
     total = answer.isel(perturber=-1)
     turn = float(total.precession_period)
-    years = [year for year in stars.YEARS if abs(year - 2000) <= 12_000]
-    dates = stars.year_labels(years, _circle(total, years))
+    years = [year for year in star_chart.YEARS if abs(year - 2000) <= 12_000]
+    dates = star_chart.year_labels(years, _circle(total, years))
     path = _circle(total, np.linspace(2000 - turn / 2, 2000 + turn / 2, 361))
-    ax = stars.plot_path(path, dates, float(np.radians(total.obliquity)), ax)
+    ax = star_chart.plot_path(path, dates, float(np.radians(total.obliquity)), ax)
     ax.set_title(f"once round in {turn:.0f} years")
     return ax
 

@@ -11,15 +11,15 @@ import numpy as np
 import xarray as xr
 
 from earthspin._version import __version__
-from earthspin.engine import drafts, store
+from earthspin.engine import atomic_writes, store
 from earthspin.progress import progress
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.scenes import load_scene, run, run_tree
 from earthspin.views import precession, rotors, torque
-from earthspin.views.answers import drawings_for, page_of, solids_for
+from earthspin.views.closing_line import answer_of, body_of, needed, section
 from earthspin.views.drawing import Drawing
 from earthspin.views.page import page
-from earthspin.views.reading import answer_of, body_of, needed, section
+from earthspin.views.rendering import drawings_for, page_of, solids_for
 from earthspin.views.solids import Solid
 from earthspin.views.tables import beside_observed, measured
 
@@ -60,7 +60,7 @@ def write_report(
     OutputError
         If the folder cannot be written. The data are written before anything is drawn.
     """
-    place = drafts.check_writable(folder)
+    place = atomic_writes.check_writable(folder)
     with progress("report", 4) as advance:
         tree = run_tree(load_scene("precession", {"ephemeris": ephemeris}))
         data = _write({place / "precession.nc": tree})
@@ -145,7 +145,7 @@ def write_wobble_report(
     OutputError
         If the folder cannot be written. The data are written before anything is drawn.
     """
-    place = drafts.check_writable(folder)
+    place = atomic_writes.check_writable(folder)
     with progress("wobble report", 3) as advance:
         ladder = run_tree("wobble")
         advance(1)
@@ -177,7 +177,7 @@ def _write(files: Mapping[Path, str | xr.DataTree]) -> list[Path]:
     """Write pages and data files, and return the paths; if one file fails, none is replaced."""
     with ExitStack() as together:
         for path, content in files.items():
-            draft = together.enter_context(drafts.replacing(path))
+            draft = together.enter_context(atomic_writes.replacing(path))
             if isinstance(content, str):
                 draft.write_text(content, encoding="utf-8")
             else:

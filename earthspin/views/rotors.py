@@ -10,8 +10,8 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.quaternion import multiply, rotate
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.views import drawing, solids
+from earthspin.views.closing_line import Result, answer_of, needed
 from earthspin.views.drawing import BLUE, GREEN, RED, Axes, Figure, PageFigure, Views, axes
-from earthspin.views.reading import Result, answer_of, needed
 from earthspin.views.solids import BLACK, GREY, Solid
 
 

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from earthspin.engine.variables import error_of, from_si
-from earthspin.views.reading import Result, answer_of, needed
+from earthspin.views.closing_line import Result, answer_of, needed
 
 MAS_PER_CENTURY = 1e5  # of an arcsec/yr
 #: Below and from here on, numbers are written with a power of ten.
@@ -37,7 +37,7 @@ NUMBERS_ONLY = "error from inputs only"
 
 
 @dataclass(frozen=True)
-class Table:
+class TextTable:
     """Table of text for the terminal or a page, with title, headers, note and run time.
 
     Attributes
@@ -121,7 +121,7 @@ def table_along(
     *,
     first: str | None = None,
     more: Sequence[tuple[str, ...]] = (),
-) -> Table:
+) -> TextTable:
     """Build a table with one row for each label along a dimension of the data.
 
     Parameters
@@ -145,7 +145,7 @@ def table_along(
         shown = [Column(dim, lambda row: str(row[dim].values), first), *shown]
     headers = tuple(column.header(data) for column in shown)
     rows = [tuple(column.text(row) for column in shown) for _, row in along(data, dim)]
-    return Table(title, headers, [*rows, *more], note)
+    return TextTable(title, headers, [*rows, *more], note)
 
 
 def least_width(head: str, cells: Sequence[str]) -> int:
@@ -308,7 +308,7 @@ class _DataColumn:
         return [with_error(v, e) if np.isfinite(v) else _text(v) for v, e in pairs]
 
 
-def tables(tree: Result, without: Iterable[str] = ()) -> list[Table]:
+def tables(tree: Result, without: Iterable[str] = ()) -> list[TextTable]:
     """General tables of a result and its sections, made from the variables and dimensions.
 
     A table has a row for each label of a dimension, or for each single number. Values are
@@ -332,7 +332,7 @@ def tables(tree: Result, without: Iterable[str] = ()) -> list[Table]:
     return [table for title, data in nodes.items() for table in tables_of(data, title)]
 
 
-def tables_of(data: xr.Dataset, title: str) -> Iterator[Table]:
+def tables_of(data: xr.Dataset, title: str) -> Iterator[TextTable]:
     """Tables of one Dataset: first a table of single numbers, then tables along each dimension.
 
     The first table that shows a variable says what it means.
@@ -352,14 +352,14 @@ def tables_of(data: xr.Dataset, title: str) -> Iterator[Table]:
         shapes = [" x ".join(map(str, column.values.shape)) for column in wide]
         rows += [(c.head, f"{shape} values") for c, shape in zip(wide, shapes, strict=True)]
         note = _notes(data, [*single, *wide], said)
-        yield Table(title, ("quantity", "value"), rows, note)
+        yield TextTable(title, ("quantity", "value"), rows, note)
     for dim, along in columns.items():
         yield from _tables_along(data, dim, along, title, said)
 
 
-def numbered(tables: Iterable[Table]) -> list[Table]:
+def numbered(tables: Iterable[TextTable]) -> list[TextTable]:
     """Return the tables with different titles: a number is added to a repeated title."""
-    unique: dict[str, Table] = {}
+    unique: dict[str, TextTable] = {}
     for table in tables:
         title, number = table.title, 1
         while title in unique:
@@ -414,7 +414,7 @@ def _columns(data: xr.Dataset, name: str) -> Iterator[tuple[str, _DataColumn]]:
 
 def _tables_along(
     data: xr.Dataset, dim: str, columns: list[_DataColumn], title: str, said: set[str]
-) -> Iterator[Table]:
+) -> Iterator[TextTable]:
     """Yield tables with a row for each label of a dimension; more than one if columns are many."""
     labels, count = _DataColumn(dim, label(data[dim]), data[dim]), data.sizes[dim]
     rows, part = np.arange(count), ""
@@ -425,7 +425,7 @@ def _tables_along(
         part = f"{SAMPLE} of {count} rows."
     texts = {column: column.cells(rows) for column in (labels, *columns)}
     for group in _side_by_side(texts, labels):
-        yield Table(
+        yield TextTable(
             title,
             tuple(column.head for column in group),
             [*zip(*(texts[column] for column in group), strict=True)],

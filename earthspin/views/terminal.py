@@ -14,7 +14,7 @@ from earthspin.errors import printable
 from earthspin.views.tables import SHORT, SPACE, least_width, short_exponents
 
 if TYPE_CHECKING:
-    from earthspin.views.tables import Table
+    from earthspin.views.tables import TextTable
 
 #: Columns where the output goes to a file or a pipe.
 WIDTH = 100
@@ -30,7 +30,7 @@ class Terminal(Console):
         """Raise BrokenPipeError, as the program that reads stdout has closed the pipe."""
         raise BrokenPipeError
 
-    def print_table(self, table: Table) -> None:
+    def print_table(self, table: TextTable) -> None:
         """Print a table with its note and its run time."""
         self.print(_plain(table.title), style="bold")
         shown = RichTable(box=box.SIMPLE_HEAD)

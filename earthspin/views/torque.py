@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 
 from earthspin.views import drawing
+from earthspin.views.closing_line import Result, answer_of
 from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, Figure, PageFigure, Views, axes
-from earthspin.views.reading import Result, answer_of
 from earthspin.views.tables import along
 
 COLOURS = {"sun": "#E69F00", "moon": "#0072B2", "total": "#222222"}

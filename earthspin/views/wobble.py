@@ -6,12 +6,12 @@ import numpy as np
 import xarray as xr
 
 from earthspin.views import drawing, tables
+from earthspin.views.closing_line import Result, answer_of, changes_of, needed, section
 from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, Figure, PageFigure, Views, axes
-from earthspin.views.reading import Result, answer_of, changes_of, needed, section
-from earthspin.views.tables import Column, Table, along, table_along
+from earthspin.views.tables import Column, TextTable, along, table_along
 
 
-def ladder(tree: Result) -> Table:
+def ladder(tree: Result) -> TextTable:
     """Table of the free wobble period for successive models, from rigid to deformable."""
     answer, observed = answer_of(tree), section(tree, "observed")
 

@@ -259,7 +259,7 @@ def _filter(fast: FastExcitation, count: int) -> Filter:
 
 
 @dataclass(frozen=True)
-class Forecast:
+class PredictedPole:
     """Predicted polar motion and its covariance, for each day after the last observation.
 
     Attributes
@@ -292,7 +292,7 @@ def forecast(
     fast: FastExcitation = SHIPPED,
     used: int = RECORD,
     newest: bool = False,
-) -> Forecast:
+) -> PredictedPole:
     """Forecast polar motion, with a covariance, from daily values of observed polar motion.
 
     The covariance is that of the observed innovations in the first weeks, and that of the model
@@ -351,7 +351,7 @@ def forecast(
     spread *= signs
     combined = share * observed * signs + (1 - share) * spread
     complex_parts = {name: part @ np.array([1, 1j]) for name, part in parts.items()}
-    return Forecast(pole @ np.array([1, 1j]), combined, spread, complex_parts, variances, fast)
+    return PredictedPole(pole @ np.array([1, 1j]), combined, spread, complex_parts, variances, fast)
 
 
 def last_of(p: ComplexArray, used: int = RECORD) -> ComplexArray:
@@ -406,7 +406,7 @@ def fit(p: ComplexArray, used: int = RECORD) -> FastExcitation:
 
 def forecast_with_excitation(
     p: ComplexArray, chi: ComplexArray, days: int, newest: bool = False
-) -> Forecast:
+) -> PredictedPole:
     """Forecast polar motion from past polar motion and past (perhaps also future) excitation.
 
     The pole that the known excitation drives is computed exactly up to a day before its end. The
@@ -453,4 +453,4 @@ def forecast_with_excitation(
         later = forecast(known, days - ahead, fit(known, used), used)
         pole[ahead:] += later.pole
         covariance[ahead:] += later.model_covariance
-    return Forecast(pole, covariance, covariance, {}, {}, left.fast)
+    return PredictedPole(pole, covariance, covariance, {}, {}, left.fast)

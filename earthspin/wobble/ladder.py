@@ -119,7 +119,7 @@ class Mantle:
 
 
 @dataclass(frozen=True)
-class Core:
+class CoreCoefficients:
     """Coefficients of the core's equation of motion; floats or arrays of one shape.
 
     Attributes
@@ -141,7 +141,7 @@ class Core:
     xi: Numeric = 0.0
 
 
-def solve(mantle: Mantle, core: Core) -> Roots:
+def solve(mantle: Mantle, core: CoreCoefficients) -> Roots:
     """Solve the equations of mantle and core for the wobble and core nutation frequencies.
 
     Raises
@@ -329,7 +329,7 @@ def roots(
     )
     has_core = np.not_equal(inputs.core_fraction, 0)
     share = np.where(has_core, inputs.core_fraction, 1.0)
-    core = Core(
+    core = CoreCoefficients(
         fraction=inputs.core_fraction,
         ellipticity=inputs.core_ellipticity,
         gamma=unit * core_k / share,

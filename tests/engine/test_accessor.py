@@ -85,7 +85,7 @@ def test_methods_that_other_packages_register_are_listed_and_load_nothing_before
         "answer = earthspin.love_numbers()\n"
         "assert {'plot', 'to_iers_table'} <= set(dir(answer.earthspin))\n"
         "assert not hasattr(answer.earthspin, 'print')\n"
-        "assert not {'matplotlib', 'earthspin.views.answers'} & set(sys.modules)\n"
+        "assert not {'matplotlib', 'earthspin.views.rendering'} & set(sys.modules)\n"
         "figures = answer.earthspin.plot()\n"
         "assert 'matplotlib' in sys.modules\n"
         "print(len(figures), answer.earthspin.plot.__doc__.split('.')[0])"

@@ -11,7 +11,7 @@ import tomli_w
 
 import earthspin
 from earthspin import ArgumentError, SceneError, load_scene
-from earthspin.engine.answers import arguments_of
+from earthspin.engine.public_calls import arguments_of
 from earthspin.engine.question import Question, keys_of
 from earthspin.scenes import QUESTIONS
 from tests import shipped

@@ -276,8 +276,8 @@ def test_words_ask_for_as_many_members_as_there_are(orbits: Path) -> None:
     three = earthspin.run(long_term({"orbit": {"grid": [OWN, ROUND, COPY]}}))
     with pytest.raises(SceneError, match="1 inputs need at least 4 members"):
         three.earthspin.sensitivity()
-    from earthspin.views.answers import tables_for
     from earthspin.views.ensemble import lead
+    from earthspin.views.rendering import tables_for
 
     def has_shares(ensemble: xr.Dataset) -> bool:
         return any(table.title == "Shares of the variance" for table in tables_for(ensemble))

@@ -19,7 +19,7 @@ import zarr
 
 import earthspin
 from earthspin import EarthspinError, OutputError, SceneError
-from earthspin.engine import blocks, drafts
+from earthspin.engine import atomic_writes, blocks
 from tests.engine.work import Squares, bytes_of
 from tests.processes import printed
 
@@ -171,7 +171,9 @@ def test_a_disk_without_room_is_refused_at_once(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     usage = (100, 90, 10)
-    monkeypatch.setattr(drafts.shutil, "disk_usage", lambda at: type("U", (), {"free": usage[2]}))
+    monkeypatch.setattr(
+        atomic_writes.shutil, "disk_usage", lambda at: type("U", (), {"free": usage[2]})
+    )
     work = Squares()
     with pytest.raises(OutputError, match=r"20 members take .* 10 B of the disk are free"):
         blocks.write(work, tmp_path / "r.zarr")

@@ -13,7 +13,7 @@ import xarray as xr
 import earthspin
 from earthspin import Scene, SceneError, load_scene, scenes
 from earthspin.engine.run import Run
-from earthspin.questions import averages, path
+from earthspin.questions import averages, iau_comparison
 from earthspin.scenes import run, run_tree
 from earthspin.sky import ephemeris
 from earthspin.sky.poles import FixedPole
@@ -123,7 +123,7 @@ def test_means_are_reused_for_equal_inputs_only(
 
 
 def test_paths_of_the_pole_are_reused_for_other_dates_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    parts = path.pole_analysis, path.response_apart
+    parts = iau_comparison.pole_analysis, iau_comparison.response_apart
     span, dates = ["2000-01-01", "2000-01-03"], {"span": ["2001-01-01", "2001-01-03"]}
     heavy_moon = earthspin.MOON.replace(gm=1.01 * earthspin.MOON.gm)
 

@@ -79,7 +79,7 @@ def test_killed_while_writing(tmp_path: Path, kind: str) -> None:
     program = textwrap.dedent(
         f"""
         import sys, time
-        import earthspin.engine.drafts as d
+        import earthspin.engine.atomic_writes as d
         import earthspin.engine.store as s
         from tests.engine.test_store import small
         with d.replacing({str(path)!r}) as draft:

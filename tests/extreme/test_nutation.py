@@ -14,9 +14,9 @@ from earthspin.nutation.analysis import (
     pole_from,
     precession_angles,
 )
-from earthspin.nutation.budget import contributions, general_precession, tropical_year
+from earthspin.nutation.rate_budget import contributions, general_precession, tropical_year
 from earthspin.nutation.response import Response, fit_response
-from earthspin.sky import iau
+from earthspin.sky import iau_models
 from earthspin.torque.rates import period, period_error, rate_ratio
 from tests.extreme import Distances, holds
 from tests.reference.sky import SPIN, H
@@ -61,7 +61,7 @@ def test_faint_line() -> Distances:
         separates
     Compared with: original amplitude, relative
     """
-    arguments, rates = iau.delaunay_arguments(DAYS), iau.delaunay_rates()
+    arguments, rates = iau_models.delaunay_arguments(DAYS), iau_models.delaunay_rates()
     faint = np.exp(-1j * (MULTIPLES[40] @ arguments))
     eta = 1e9 * np.exp(1j * (MULTIPLES[0] @ arguments)) + faint
     result = FrequencyAnalysis(DAYS / DAYS_PER_CENTURY, arguments, rates)(eta)
@@ -78,7 +78,7 @@ def test_resonance() -> Distances:
     """
     strengths = np.array([-0.14 + 0.03j, -0.93 + 0.07j, 0.049, 2.8e-4])
     true = Response(H, SPIN, -1.0025 + 1e-6j, strengths)
-    frequency = np.concatenate([MULTIPLES, -MULTIPLES]) @ iau.delaunay_rates()
+    frequency = np.concatenate([MULTIPLES, -MULTIPLES]) @ iau_models.delaunay_rates()
     rng = np.random.default_rng(8)
     both = ARCSEC * rng.normal(size=(2, frequency.size))
     rigid = both[0] + 1j * both[1]

@@ -6,7 +6,7 @@ from earthspin.bodies import Body
 from earthspin.constants import G
 from earthspin.motion.equations import Rigid
 from earthspin.motion.march import Masses
-from earthspin.motion.solution import Motion, start_of
+from earthspin.motion.solution import SteppedRotation, start_of
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.rotation import rotation
 from earthspin.rotor.triaxial import free_rotation
@@ -27,7 +27,7 @@ def _free(moments: tuple[float, float], omega: tuple[float, ...], end: float) ->
     """Largest angle between an integrated free rotation and Jacobi's closed form, rad."""
     times = np.linspace(0.0, end, 50)
     body, alone = _body(*moments), Masses(gm={}, positions=lambda times: {})
-    result = Motion(body, alone, start_of(body, UPRIGHT, np.array(omega)), end).at(times)
+    result = SteppedRotation(body, alone, start_of(body, UPRIGHT, np.array(omega)), end).at(times)
     true = free_rotation((*moments, 1.0), omega, times).attitude
     return _angle(result.attitude, true)
 
@@ -77,7 +77,8 @@ def test_close_passage() -> Distances:
     masses, end = Masses(gm={"mass": 1.0}, positions=places), np.array([9.0])
     start = start_of(body, UPRIGHT, np.array([0.1, 0.0, 1.0]))
     tight, loose = (
-        Motion(body, masses, start, 9.0, tolerance=tolerance).at(end) for tolerance in (1e-13, 1e-9)
+        SteppedRotation(body, masses, start, 9.0, tolerance=tolerance).at(end)
+        for tolerance in (1e-13, 1e-9)
     )
     apart = _angle(tight.attitude, loose.attitude)
     yield apart / (tight.error[0, 0, -1] + loose.error[0, 0, -1])

@@ -9,8 +9,8 @@ from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, JULIAN_YEAR
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.long_term import LongTerm, long_term
 from earthspin.scenes import run_tree
+from earthspin.secular.averaged_torque import PrecessionConstant
 from earthspin.secular.insolation import Season, daily
-from earthspin.secular.orbit import Strength
 from earthspin.secular.trajectory import solve
 from tests.extreme import Distances, holds
 from tests.reference.sky import BODY
@@ -20,7 +20,7 @@ from tests.secular.setting import EARTHS, FixedOrbit, inclined_axis, turned
 MYR = 1e6 * JULIAN_YEAR
 NORTH = np.array([0.0, 0.0, 1.0])
 #: Precession constants of Sun and Moon near those of the Earth, and geodesic precession.
-STRENGTH = Strength(
+STRENGTH = PrecessionConstant(
     sun=17.4 * ARCSEC_PER_YEAR, moon=37.6 * ARCSEC_PER_YEAR, geodesic=0.0192 * ARCSEC_PER_YEAR
 )
 

@@ -6,7 +6,7 @@ import numpy as np
 from earthspin.bodies import MARS, MOON
 from earthspin.constants import DAY, J2000_JD
 from earthspin.questions.torque import torque_series
-from earthspin.sky.iau import Nutation
+from earthspin.sky.iau_models import NutationSpline
 from earthspin.sky.poles import spherical
 from tests.extreme import Distances, holds, relative_error
 from tests.reference.sky import BODY, CENTRE, CODES, kernel, positions
@@ -57,7 +57,7 @@ def test_nutation_ends() -> Distances:
     """
     for day in (-36000.0, 0.0, 19000.0):
         days = day + np.concatenate([np.linspace(0, 0.04, 20), np.linspace(29.96, 30.0, 20)])
-        interpolated = Nutation(days[0], days[-1], 1000).true_equator(days)
+        interpolated = NutationSpline(days[0], days[-1], 1000).true_equator(days)
         yield interpolated - erfa.pnm06a(J2000_JD, days)
 
 

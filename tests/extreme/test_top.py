@@ -8,8 +8,8 @@ from scipy.special import ellipkm1
 
 from earthspin.numerics.arrays import FloatArray
 from earthspin.top.azimuth import mean_precession_rate
+from earthspin.top.closed_form import heavy_top_motion
 from earthspin.top.height import nutation_period, turning_angles
-from earthspin.top.motion import heavy_top_motion
 from earthspin.top.patterns import nutation_pattern, sleeping_top, steady_precession
 from earthspin.top.start import HeavyTop
 from tests.extreme import Distances, holds

@@ -11,7 +11,7 @@ from earthspin.bodies import MOON, SUN, Body
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR
 from earthspin.questions.precession import precession
 from earthspin.questions.torque import torque_series
-from earthspin.sky.iau import ecliptic_pole
+from earthspin.sky.iau_models import ecliptic_pole
 from earthspin.sky.poles import spherical
 from earthspin.torque.average import TAPERS, Window, best_window, precessing_torque
 from earthspin.torque.gravity import (

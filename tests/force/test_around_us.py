@@ -13,7 +13,7 @@ import pytest
 import earthspin
 from earthspin import SceneError
 from earthspin.engine import store
-from earthspin.views.tables import Table
+from earthspin.views.tables import TextTable
 from earthspin.views.terminal import Terminal
 
 #: Nearly each starts a process or more.
@@ -45,7 +45,7 @@ def test_no_style_of_the_readers_own_reaches_a_figure(tmp_path: Path) -> None:
         "text.usetex: True\nfont.size: 30\naxes.facecolor: red\nsvg.fonttype: path\n"
     )
     program = (
-        "import earthspin, sys; from earthspin.views.answers import scene_page\n"
+        "import earthspin, sys; from earthspin.views.rendering import scene_page\n"
         "sys.stdout.write(scene_page(earthspin.run_tree('torque')))"
     )
     pages = [
@@ -240,7 +240,7 @@ def test_titles_do_nothing_to_the_terminal(capsys: pytest.CaptureFixture[str]) -
         with pytest.raises(SceneError, match="a line of text"):
             earthspin.load_scene("torque", {"title": title})
     odd = "[/red] [bold]b[/bold] \x1b[2J"
-    Terminal().print_table(Table(odd, (odd, "n"), [(odd, "1")], note=f"{odd}\nsecond"))
+    Terminal().print_table(TextTable(odd, (odd, "n"), [(odd, "1")], note=f"{odd}\nsecond"))
     shown = capsys.readouterr().out
     assert shown.count("[/red] [bold]b[/bold] \\x1b[2J") == 4
     assert "\x1b" not in shown

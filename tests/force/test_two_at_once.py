@@ -17,7 +17,7 @@ import xarray as xr
 import earthspin
 from earthspin import OutputError
 from earthspin.cli import main
-from earthspin.engine import drafts, store
+from earthspin.engine import atomic_writes, store
 
 ROOT = Path(__file__).parents[2]
 
@@ -46,9 +46,9 @@ ELSEWHERE = """
     import os, sys
     import distributed  # xarray imports it when it writes, and it asks what process this is
     os.getpid = lambda: 4_194_000
-    from earthspin.engine import drafts, store
+    from earthspin.engine import atomic_writes, store
     from tests.force.test_two_at_once import small
-    with drafts.replacing(sys.argv[1]) as draft:
+    with atomic_writes.replacing(sys.argv[1]) as draft:
         print("begun", flush=True)
         sys.stdin.readline()
         store.write(small(2.0), draft)
@@ -115,7 +115,7 @@ def test_a_store_whose_writer_was_killed_between_two_moves_is_restored(tmp_path:
     path = store.write(small(1.0), tmp_path / "r.zarr")
     program = """
         import os, signal, sys
-        from earthspin.engine import drafts, store
+        from earthspin.engine import atomic_writes, store
         from tests.force.test_two_at_once import small
         move = os.replace
         def move_and_die(source, target):
@@ -129,7 +129,7 @@ def test_a_store_whose_writer_was_killed_between_two_moves_is_restored(tmp_path:
     process.communicate()
     assert process.returncode == -9
     assert not path.exists()
-    with pytest.raises(RuntimeError, match="half-way"), drafts.replacing(path):
+    with pytest.raises(RuntimeError, match="half-way"), atomic_writes.replacing(path):
         raise RuntimeError("half-way")
     assert store.open(path).identical(small(1.0))
     assert list(tmp_path.iterdir()) == [path]

@@ -14,7 +14,7 @@ from astropy.time import Time
 
 import earthspin
 from earthspin.scenes import Scene
-from earthspin.views.answers import scene_page
+from earthspin.views.rendering import scene_page
 
 Random = random.Random
 

@@ -17,7 +17,7 @@ from astropy import units as u
 from astropy.time import Time
 
 import earthspin
-from earthspin.engine.answers import arguments_of
+from earthspin.engine.public_calls import arguments_of
 from earthspin.engine.question import Question, keys_of
 from earthspin.scenes import QUESTIONS, shipped_scenes
 from tests import shipped

@@ -22,8 +22,8 @@ import numpy as np
 import earthspin
 from earthspin import EarthspinError, UndefinedError, process
 from earthspin.cli import main
-from earthspin.engine import answers, run
-from earthspin.views.answers import scene_page, tables_for
+from earthspin.engine import public_calls, run
+from earthspin.views.rendering import scene_page, tables_for
 from tests.fuzz import borders, inputs, requests
 from tests.processes import OLD_TABLE
 
@@ -60,8 +60,8 @@ def only_planned() -> Iterator[None]:
     planned = mock.Mock(side_effect=lambda question, *_: run.Run(question).plan())
     with (
         elsewhere(),
-        mock.patch.object(answers, "answer", planned),
-        mock.patch.object(answers, "answer_tree", planned),
+        mock.patch.object(public_calls, "answer", planned),
+        mock.patch.object(public_calls, "answer_tree", planned),
         mock.patch("earthspin.scenes.warn_of_versions"),
         mock.patch.object(run.Run, "__getitem__", side_effect=UndefinedError("not tried")),
     ):

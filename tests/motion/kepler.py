@@ -6,7 +6,7 @@ import numpy as np
 
 from earthspin.motion.equations import CustomTorque, Rigid
 from earthspin.motion.march import Masses
-from earthspin.motion.solution import Motion, State, start_of
+from earthspin.motion.solution import State, SteppedRotation, start_of
 from earthspin.numerics.arrays import FloatArray
 
 AS_SKY = np.array([1.0, 0.0, 0.0, 0.0])
@@ -65,9 +65,9 @@ def start(body: Rigid, omega: tuple[float, ...], attitude: FloatArray = AS_SKY) 
 
 def followed(
     body: Rigid, masses: Masses, omega: tuple[float, ...], end: float, **settings: float
-) -> Motion:
+) -> SteppedRotation:
     """A motion from time 0."""
-    return Motion(body, masses, start(body, omega), end, **settings)  # type: ignore[arg-type]
+    return SteppedRotation(body, masses, start(body, omega), end, **settings)  # type: ignore[arg-type]
 
 
 def angle(p: FloatArray, q: FloatArray) -> FloatArray:

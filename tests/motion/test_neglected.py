@@ -15,7 +15,7 @@ from earthspin.bodies import BODIES, MARS
 from earthspin.constants import ARCSEC, DAY, MAS, PUBLISHED_EFFECTS
 from earthspin.motion.effects import EFFECTS, RESPONSE, RIGID
 from earthspin.numerics.rotations import angle_between
-from earthspin.questions.axis_motion import drift_by_planets
+from earthspin.questions.effects_and_torques import drift_by_planets
 from tests.questions.test_rotation import moonlet
 
 FORTY_YEARS = ("1980-01-01", "2020-01-01", "9.7 d")

@@ -7,12 +7,12 @@ from earthspin.bodies import EARTH
 from earthspin.constants import DAY
 from earthspin.motion.axes import axis_path
 from earthspin.motion.effects import EFFECTS, RIGID
-from earthspin.motion.forces import Figure, Forces
+from earthspin.motion.forces import FigureOfBody, Forces
 from earthspin.motion.solution import (
     FLATTENING,
     PULL,
     TRIAXIALITY,
-    Motion,
+    SteppedRotation,
     masses,
     relative_tide_error,
     rigid_bodies,
@@ -24,7 +24,7 @@ from earthspin.sky.ephemeris import Ephemeris
 from tests.motion.kepler import AS_SKY, Ellipse, angle
 from tests.motion.sky import CODES, GM, NORTH, UAS, figure, forces
 
-FIGURE = Figure(h=0.2, spin_rate=1.0, triaxiality=0.1)
+FIGURE = FigureOfBody(h=0.2, spin_rate=1.0, triaxiality=0.1)
 
 
 def test_each_neighbour_has_one_number_changed() -> None:
@@ -48,16 +48,18 @@ def test_what_a_neighbour_is_away_by_is_what_the_number_does() -> None:
     )
     doubts = {FLATTENING: 1e-3, PULL: 2e-3}
 
-    def follow(doubts: dict[str, float], **changed: float) -> Motion:
+    def follow(doubts: dict[str, float], **changed: float) -> SteppedRotation:
         numbers = {"h": 0.2, "triaxiality": 0.1} | changed
         made = Forces(
-            figure=Figure(spin_rate=1.0, **numbers),
+            figure=FigureOfBody(spin_rate=1.0, **numbers),
             gm={"mass": changed.pop("gm", 1.0)},
             positions=pulled.positions,
             near=("mass",),
         )
         body, _ = rigid_bodies(made, 1.0, doubts)
-        return Motion(body, masses(made), start_of(body, AS_SKY, np.array([0.1, 0.0, 1.1])), 20.0)
+        return SteppedRotation(
+            body, masses(made), start_of(body, AS_SKY, np.array([0.1, 0.0, 1.1])), 20.0
+        )
 
     found = follow(doubts).at(times)
     other = follow({}, h=0.2 * 1.001, triaxiality=0.1 * 1.001).at(times)
@@ -116,7 +118,9 @@ def test_the_earth_with_all_effects_against_the_solver_of_the_pole(de421: Epheme
         .apply(length * true["angular_momentum"][0])
     )
     omega = made.figure.spin_rate * momentum / body.moments[:, 0]
-    found = Motion(body, masses(made), start_of(body, attitude, omega), times[-1]).at(times)
+    found = SteppedRotation(body, masses(made), start_of(body, attitude, omega), times[-1]).at(
+        times
+    )
     axis = Rotation.from_quat(found.attitude, scalar_first=True).as_matrix()[:, :, 2]
     away = np.linalg.norm(axis - true["figure"], axis=1)
     # 9e-4 uas measured on the triaxial body; J3, J4 and geodesic precession move it by 100s of uas

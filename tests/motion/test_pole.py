@@ -13,7 +13,7 @@ import earthspin
 from earthspin import EARTH, MARS, MOON
 from earthspin.constants import ARCSEC
 from earthspin.engine.variables import largest_of
-from earthspin.sky import iau
+from earthspin.sky import iau_models
 from earthspin.sky.ephemeris import find_kernel
 
 RIGID = ("planets", "j3", "j4", "triaxiality", "geodesic", "j2-rate", "second-order")
@@ -34,7 +34,7 @@ def test_the_times_asked_in_the_order_asked() -> None:
 
 def test_a_rigid_earth_starts_at_the_pole_of_the_iau() -> None:
     result = earthspin.pole(times=["2000-01-01T12:00"], effects="rigid")
-    off = direction(result)[0] - iau.true_pole(np.array([0.0]))[0]
+    off = direction(result)[0] - iau_models.true_pole(np.array([0.0]))[0]
     # What is half-daily is added to it: 0.03 mas.
     assert np.linalg.norm(off) < 1e-4 * ARCSEC
 
@@ -44,10 +44,10 @@ def test_the_default_is_the_pole_of_the_sky() -> None:
     span = "1990-01-01T12:00", "2010-01-01T12:00", "30 d"
     result, rigid = earthspin.pole(*span), earthspin.pole(*span, effects="rigid")
     days = (result.time.values - np.datetime64("2000-01-01T12:00")) / np.timedelta64(1, "D")
-    off = np.linalg.norm(direction(result) - iau.true_pole(days), axis=1) / ARCSEC
+    off = np.linalg.norm(direction(result) - iau_models.true_pole(days), axis=1) / ARCSEC
     assert np.mean(off < result.direction_error) >= 0.95
     assert off.max() < 0.7e-3
-    off = np.linalg.norm(direction(rigid) - iau.true_pole(days), axis=1) / ARCSEC
+    off = np.linalg.norm(direction(rigid) - iau_models.true_pole(days), axis=1) / ARCSEC
     assert 20e-3 < off.max() < 120e-3
     # The start, 30 mas, and the nutation, 57.5 mas.
     assert np.max(np.linalg.norm(direction(result) - direction(rigid), axis=1)) / ARCSEC > 60e-3

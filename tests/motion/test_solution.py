@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 from scipy.special import ellipj, ellipk
 
 from earthspin.errors import UndefinedError
-from earthspin.motion.equations import Equations, Pull
-from earthspin.motion.solution import Motion
+from earthspin.motion.equations import Equations, WindowMasses
+from earthspin.motion.solution import SteppedRotation
 from earthspin.numerics import rotations
 from earthspin.rotor.triaxial import free_rotation
-from earthspin.top.motion import heavy_top_motion
+from earthspin.top.closed_form import heavy_top_motion
 from earthspin.top.start import HeavyTop
 from tests.motion.kepler import (
     ALONE,
@@ -114,7 +114,9 @@ def test_a_torque_of_ones_own_makes_a_heavy_top() -> None:
         return 1.5 / 1.2 * np.cross(up, [0.0, 0.0, 1.0])
 
     body = of_moments(1.0, 1.0, 1.2, own=gravity)
-    motion = Motion(body, ALONE, start(body, tuple(true.omega_body[0]), true.attitude[0]), 30.0)
+    motion = SteppedRotation(
+        body, ALONE, start(body, tuple(true.omega_body[0]), true.attitude[0]), 30.0
+    )
     found = motion.at(times)
     assert np.max(angle(found.attitude, true.attitude)) < 3e-12  # 6e-13 measured
     np.testing.assert_allclose(found.omega, true.omega_body, rtol=0, atol=1e-11)
@@ -164,7 +166,7 @@ def test_both_forms_have_the_same_rates() -> None:
     turn = np.array([0.1, 0.7, -0.3, 0.6])
     turn /= np.linalg.norm(turn)
     place = np.array([[[1.2]], [[-0.3]], [[0.4]]])
-    pull = Pull(
+    pull = WindowMasses(
         np.array([2.0]), np.array([0.9]), place, 1, [lambda axis, momentum: 0.3 * axis + momentum]
     )
     state = start(body, (0.3, -0.2, 0.9), turn)

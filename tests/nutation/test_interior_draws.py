@@ -10,8 +10,8 @@ import earthspin
 from earthspin.engine.run import Run
 from earthspin.interior.modes import mode_period
 from earthspin.interior.named import EXPONENT_RANGE
-from earthspin.nutation.ladder import changed, climb, inputs_of, spread_of
-from earthspin.questions.interiors import Prediction
+from earthspin.nutation.interior_models import changed, climb, inputs_of, spread_of
+from earthspin.questions.interior_response import Prediction
 from earthspin.questions.nutation import left
 
 #: Draws of all inputs together; three standard errors of their share are 0.046.

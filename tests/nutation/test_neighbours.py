@@ -12,10 +12,10 @@ from earthspin.nutation.analysis import (
     circles_of,
     neighbours_of,
 )
-from earthspin.sky import iau
+from earthspin.sky import iau_models
 from tests import shipped
 
-RATES, AT_EPOCH = iau.delaunay_rates(), iau.delaunay_arguments(np.zeros(1))[:, 0]
+RATES, AT_EPOCH = iau_models.delaunay_rates(), iau_models.delaunay_arguments(np.zeros(1))[:, 0]
 SINE = np.sin(EPSILON_0.value * ARCSEC)
 
 

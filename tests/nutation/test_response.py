@@ -16,11 +16,11 @@ from earthspin.nutation.analysis import (
     without_line,
 )
 from earthspin.nutation.response import Response, fit_response
-from earthspin.sky import iau
+from earthspin.sky import iau_models
 
 H, SPIN = 0.0032737949, 7.292115e-5
 DAYS = np.arange(-18000.0, 18000.0, 9.7)
-ARGUMENTS, RATES = iau.delaunay_arguments(DAYS), iau.delaunay_rates()
+ARGUMENTS, RATES = iau_models.delaunay_arguments(DAYS), iau_models.delaunay_rates()
 
 
 @pytest.fixture(scope="module")
@@ -107,7 +107,7 @@ def test_pole_and_its_angles(psi: float, omega: float) -> None:
 def test_precession_angles_are_erfas() -> None:
     """psi_A and omega_A of IAU 2006 with its ecliptic give its eps_A, chi_A and p_A."""
     days = np.linspace(-40000, 40000, 41)
-    expected = iau.precession_angles(days)
-    found = precession_angles(expected[:, 0], expected[:, 1], iau.ecliptic_of_date(days))
+    expected = iau_models.precession_angles(days)
+    found = precession_angles(expected[:, 0], expected[:, 1], iau_models.ecliptic_of_date(days))
     # 0.9 uas measured in p_A over a century: its polynomial is rounded for itself
     assert np.max(np.abs(found - expected)) / ARCSEC < 5e-6

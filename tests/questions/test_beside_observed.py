@@ -12,7 +12,7 @@ from earthspin.bodies.moons import TITAN_OBLIQUITY
 from earthspin.engine.variables import Neglected
 from earthspin.questions.cassini_states import CassiniStates
 from earthspin.questions.precession import Precession
-from earthspin.views.answers import tables_for
+from earthspin.views.rendering import tables_for
 from earthspin.views.tables import NUMBERS_ONLY, beside_observed, systematic_size
 from tests.reference import lunar_state
 

@@ -62,7 +62,7 @@ def test_several_starts_at_once() -> None:
     ],
 )
 def test_a_polhode_without_a_period_has_no_advance(moments: list, omega: list) -> None:
-    from earthspin.views.answers import drawings_for, tables_for
+    from earthspin.views.rendering import drawings_for, tables_for
 
     scene = Scene(compute="free-rotor", rotor={"moments": moments, "omega": omega, "times": TIMES})
     tree = earthspin.run_tree(scene)

@@ -17,7 +17,7 @@ import numpy as np
 
 from earthspin.constants import DAY, J2000_JD
 from earthspin.numerics.arrays import FloatArray
-from earthspin.sky import iau
+from earthspin.sky import iau_models
 from tests.benchmarks.accuracy.pole import DAYS
 from tests.reference.extrapolation import COLUMNS, LONG, LongArray, extrapolated, states
 from tests.reference.sky import CENTRE, CODES, GM, SPIN, H, kernel
@@ -37,7 +37,7 @@ def days() -> FloatArray:
 
 def axis_in_time() -> tuple[LongArray, LongArray]:
     """Angular momentum at the start, and the figure axis at the times of `days`."""
-    axis = iau.true_pole(np.array([0.0]))[0].astype(LONG)
+    axis = iau_models.true_pole(np.array([0.0]))[0].astype(LONG)
     momentum = slow_start(axis, STEP)
     path = integrate(momentum, axis, DAYS, STEP / 2)[::2]
     return momentum, (path[:, :3] - path[:, 3:])[np.rint(days() / STEP).astype(int)]

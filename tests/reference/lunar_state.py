@@ -17,7 +17,7 @@ from earthspin.bodies import EARTH, MOON, SUN
 from earthspin.bodies.planets import MEAN_MOON, MOON_NODE
 from earthspin.constants import DAY
 from earthspin.numerics.arrays import FloatArray
-from earthspin.sky import iau
+from earthspin.sky import iau_models
 from earthspin.sky.ephemeris import open_ephemeris
 
 #: Turns of the node before and after J2000.0, and the time between two samples, d.
@@ -60,7 +60,7 @@ def sky(kernel: str = "de421") -> Sky:
     days = np.arange(-span, span, STEP)
     weights = np.hanning(days.size)
     seen = open_ephemeris(kernel).positions({"earth": 399, "sun": 10}, 301, days)
-    earth, sun = (seen[name] @ iau.fixed_ecliptic().T for name in ("earth", "sun"))
+    earth, sun = (seen[name] @ iau_models.fixed_ecliptic().T for name in ("earth", "sun"))
     true = np.unwrap(np.arctan2(-earth[:, 1], -earth[:, 0]))
     mean = np.polyval(np.polyfit(days, true, 1, w=np.sqrt(weights)), days)
     return Sky(days, weights / weights.sum(), earth, sun, mean)

@@ -9,7 +9,7 @@ import mpmath as mp
 import numpy as np
 
 from earthspin.interior.layers import PREM
-from earthspin.sky import iau
+from earthspin.sky import iau_models
 from tests.benchmarks.accuracy import (
     compliances,
     elements,
@@ -93,7 +93,7 @@ def make_pole() -> Made:
     momentum, figure = figure_axis.axis_in_time()
     return pole.INPUTS, {
         "days": figure_axis.days(),
-        "start_axis": iau.true_pole(np.array([0.0]))[0],
+        "start_axis": iau_models.true_pole(np.array([0.0]))[0],
         "start_momentum": momentum,
         "figure": figure,
     }

@@ -9,13 +9,13 @@ import numpy as np
 
 from earthspin.constants import JULIAN_YEAR
 from earthspin.numerics.arrays import FloatArray
-from earthspin.secular.orbit import Orbit, Strength, pull
+from earthspin.secular.averaged_torque import ChangingOrbit, PrecessionConstant, pull
 from tests.reference.extrapolation import LONG, LongArray, extrapolated, states
 
 
 def spin_axis(
-    strength: Strength,
-    orbit: Orbit,
+    strength: PrecessionConstant,
+    orbit: ChangingOrbit,
     start: FloatArray,
     end: float,
     step: float = 2000 * JULIAN_YEAR,

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, J2000_JD, JULIAN_YEAR
-from earthspin.secular.orbit import Orbit, Shape, Strength, Tides
+from earthspin.secular.averaged_torque import ChangingOrbit, PrecessionConstant, Shape, Tides
 from earthspin.sky.orbit_table import OrbitTable, shipped
 
 KYR = 1000 * JULIAN_YEAR
@@ -27,9 +27,9 @@ J2_RATE = -3.001e-9 / 1.0826359e-3 / (100 * JULIAN_YEAR)
 E0 = 0.016708634
 
 
-def earths(tides: float = 1.0, j2_rate: float = J2_RATE) -> Strength:
+def earths(tides: float = 1.0, j2_rate: float = J2_RATE) -> PrecessionConstant:
     """The Earth's constant of precession, by the numbers above."""
-    return Strength(
+    return PrecessionConstant(
         sun=SUN * ARCSEC_PER_YEAR / COSINE,
         moon=(MOON + PUBLISHED) * ARCSEC_PER_YEAR / COSINE,
         eccentricity=E0,
@@ -79,7 +79,9 @@ def turned(axis: np.ndarray, angle: np.ndarray) -> np.ndarray:
     return np.stack([c * axis[0] - s * axis[1], s * axis[0] + c * axis[1], axis[2] + 0 * c])
 
 
-def by_scipy(strength: Strength, orbit: Orbit, start: np.ndarray, times: np.ndarray) -> np.ndarray:
+def by_scipy(
+    strength: PrecessionConstant, orbit: ChangingOrbit, start: np.ndarray, times: np.ndarray
+) -> np.ndarray:
     """The equation as one writes it: two torques, each about its own axis, and the geodesic turn.
 
     Times lead away from J2000.0. The fade of the J2 rate stands here again, as a formula.

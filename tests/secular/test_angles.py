@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from earthspin.constants import ARCSEC, J2000_JD
-from earthspin.secular.reading import equator_and_equinox, inclined_axis, seasons
+from earthspin.secular.derived_angles import equator_and_equinox, inclined_axis, seasons
 
 NORTH = np.array([[0.0], [0.0], [1.0]])
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from earthspin.constants import ARCSEC, J2000_JD, JULIAN_YEAR
-from earthspin.secular.reading import seasons
+from earthspin.secular.derived_angles import seasons
 from earthspin.secular.trajectory import solve
 from tests.secular.setting import EARTHS, KYR, POLE, arcsec, earths
 

@@ -7,16 +7,7 @@ import pytest
 from scipy.special import ndtr
 
 from earthspin.constants import ARCSEC, NORMAL_95
-from earthspin.secular.budget import (
-    MEMBERS,
-    Quantiles,
-    Setting,
-    Uncertainty,
-    changed,
-    draws,
-    solved,
-)
-from earthspin.secular.reading import (
+from earthspin.secular.derived_angles import (
     LINEAR_TO,
     SAMPLED_FROM,
     Readings,
@@ -28,11 +19,20 @@ from earthspin.secular.reading import (
     readings,
     together,
 )
+from earthspin.secular.error_budget import (
+    MEMBERS,
+    AxisInputs,
+    Quantiles,
+    Uncertainty,
+    changed,
+    draws,
+    solved,
+)
 from earthspin.secular.trajectory import solve
-from earthspin.sky.iau import fixed_ecliptic
+from earthspin.sky.iau_models import fixed_ecliptic
 from tests.secular.setting import EARTHS, KYR, POLE, earths
 
-SETTING = Setting(earths(), EARTHS, POLE)
+SETTING = AxisInputs(earths(), EARTHS, POLE)
 UNCERTAINTY = Uncertainty(
     constant=1e-6, orbit=EARTHS.error, earth=True, start=(NORMAL_95 * 0.001 * ARCSEC,)
 )
@@ -152,11 +152,11 @@ def test_members_side_by_side_have_the_half_widths_that_each_has_alone() -> None
     many = replace(many, moon=many.moon * factors[:, np.newaxis])
     start = np.repeat(POLE[:, np.newaxis], 2, axis=1)
     together_ = readings(
-        solved(Setting(many, EARTHS, start), (times[0], times[-1]), UNCERTAINTY), times, FIXED
+        solved(AxisInputs(many, EARTHS, start), (times[0], times[-1]), UNCERTAINTY), times, FIXED
     )
     for place, factor in enumerate(factors):
         alone = replace(SETTING.strength, moon=SETTING.strength.moon * factor)
-        setting = Setting(alone, EARTHS, POLE)
+        setting = AxisInputs(alone, EARTHS, POLE)
         one = readings(solved(setting, (times[0], times[-1]), UNCERTAINTY), times, FIXED)
         for name in NAMES:
             assert together_.half_width(name)[place] == pytest.approx(

@@ -16,11 +16,11 @@ from earthspin.constants import (
     SPEED_OF_LIGHT,
 )
 from earthspin.errors import UndefinedError
-from earthspin.secular.orbit import (
+from earthspin.secular.averaged_torque import (
     FADES_FROM,
     FADES_TO,
     J2_SHARE,
-    Strength,
+    PrecessionConstant,
     Tides,
     band,
     faded,
@@ -34,7 +34,7 @@ NOW = np.zeros(1)
 
 
 def test_today_it_is_what_was_put_in() -> None:
-    strength = Strength(sun=2e-12, moon=5e-12, eccentricity=0.3, geodesic=1e-15)
+    strength = PrecessionConstant(sun=2e-12, moon=5e-12, eccentricity=0.3, geodesic=1e-15)
     assert strength.constant(NOW, np.array([0.09])) == pytest.approx([7e-12], rel=1e-15, abs=0)
     assert strength.geodesic_rate(np.array([0.09])) == pytest.approx([1e-15], rel=1e-15, abs=0)
     assert strength.moons_share == pytest.approx(5 / 7, rel=1e-15, abs=0)
@@ -42,7 +42,7 @@ def test_today_it_is_what_was_put_in() -> None:
 
 def test_the_suns_share_grows_with_eccentricity_and_the_moons_does_not() -> None:
     """(1 - e^2)^(-3/2), the mean of (a/r)^3; and (1 - e^2)^(-1) of the geodesic term."""
-    strength = Strength(sun=2e-12, moon=5e-12, geodesic=1e-15)
+    strength = PrecessionConstant(sun=2e-12, moon=5e-12, geodesic=1e-15)
     e2 = np.array([0.36])
     assert strength.constant(NOW, e2) == pytest.approx([2e-12 / 0.8**3 + 5e-12], rel=1e-15, abs=0)
     assert strength.geodesic_rate(e2) == pytest.approx([1e-15 / 0.64], rel=1e-15, abs=0)
@@ -58,14 +58,14 @@ def test_tides_over_a_million_years() -> None:
     million = -1e6 * JULIAN_YEAR
     moon = 1 + 4.6e-18 * 1e6 * 3.15576e7
     spin = 1 + 51 * (2.6617e-6 / 7.292115e-5) * 4.6e-18 * 1e6 * 3.15576e7
-    strength = Strength(sun=2e-12, moon=5e-12, tides=tides)
+    strength = PrecessionConstant(sun=2e-12, moon=5e-12, tides=tides)
     found = strength.constant(np.array([million]), NOW)
     assert found == pytest.approx([spin * (2e-12 + 5e-12 * moon**2)], rel=1e-13, abs=0)
 
 
 @pytest.mark.parametrize("tides", [Tides(moon=-1e-15), Tides(spin=-1e-15)])
 def test_tides_that_would_stop_spin_or_moon_are_refused(tides: Tides) -> None:
-    strength = Strength(sun=1e-12, moon=1e-12, tides=tides)
+    strength = PrecessionConstant(sun=1e-12, moon=1e-12, tides=tides)
     with pytest.raises(UndefinedError, match="half; give a smaller factor"):
         strength.constant(np.array([6e14]), NOW)
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from earthspin.constants import ARCSEC
 from earthspin.errors import ApartError, UndefinedError
-from earthspin.secular.orbit import Strength, Tides, pull
+from earthspin.secular.averaged_torque import PrecessionConstant, Tides, pull
 from earthspin.secular.trajectory import Turn, slope, solve
 from tests.reference.spin_axis import spin_axis
 from tests.secular.setting import (
@@ -188,7 +188,7 @@ def test_precession_too_fast_for_the_windows_is_refused() -> None:
         solve(strength, EARTHS, POLE, (-100 * KYR, 0.0))
 
 
-def different(members: int) -> Strength:
+def different(members: int) -> PrecessionConstant:
     """Earths of other ellipticities and tides, side by side."""
     share = np.linspace(0.0, 1.0, members)[:, np.newaxis]
     tides = earths().tides
@@ -199,7 +199,7 @@ def different(members: int) -> Strength:
     )
 
 
-def one_of(strength: Strength, member: int) -> Strength:
+def one_of(strength: PrecessionConstant, member: int) -> PrecessionConstant:
     tides = Tides(strength.tides.moon[member, 0], strength.tides.spin[member, 0])
     return replace(strength, ellipticity=strength.ellipticity[member, 0], tides=tides)
 

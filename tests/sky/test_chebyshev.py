@@ -9,17 +9,17 @@ from numpy.polynomial.chebyshev import chebval
 
 from earthspin.constants import J2000_JD
 from earthspin.sky.ephemeris import find_kernel
-from earthspin.sky.kernel import Epochs, Grid, Records, Table
+from earthspin.sky.kernel import Epochs, Grid, Records, SegmentSeries
 
 RECORDS, DAYS_EACH = 40, 4.0
 
 
-def table(terms: int, records: int = RECORDS) -> Table:
+def table(terms: int, records: int = RECORDS) -> SegmentSeries:
     """Series that fall off as those of a kernel do, in records of four days from day -10."""
     rng = np.random.default_rng(terms)
     fall = np.tile(0.2 ** np.arange(terms), 3)
     series = 4e5 * fall * rng.standard_normal((records, 3 * terms))
-    return Table(series, Grid(-10.0 * 86400.0, DAYS_EACH * 86400.0, records))
+    return SegmentSeries(series, Grid(-10.0 * 86400.0, DAYS_EACH * 86400.0, records))
 
 
 @pytest.mark.parametrize("terms", [1, 2, 3, 13])

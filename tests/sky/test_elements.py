@@ -13,7 +13,7 @@ from earthspin import EARTH, MARS
 from earthspin.constants import DAY
 from earthspin.errors import SceneError, UndefinedError
 from earthspin.sky.elements import CENTRE, ByElements, Elements, Ellipse, Plane
-from earthspin.sky.iau import ecliptic_pole
+from earthspin.sky.iau_models import ecliptic_pole
 from earthspin.sky.poles import Direction, FixedPole
 from tests.sky.textbook import DIGITS, place
 

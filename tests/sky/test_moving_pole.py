@@ -9,7 +9,7 @@ import earthspin
 from earthspin import MARS, SUN
 from earthspin.constants import DAYS_PER_CENTURY
 from earthspin.errors import EarthspinError, Where
-from earthspin.sky.poles import Angles, Direction, MovingPole, pole_of
+from earthspin.sky.poles import Direction, MovingPole, PoleInText, pole_of
 
 #: Neptune's, with one slow term.
 SLOW = MovingPole.published(
@@ -51,7 +51,7 @@ def test_an_upright_pole_that_moves_has_an_equator_still() -> None:
 
 
 def test_a_scene_keeps_it() -> None:
-    kind = Angles()
+    kind = PoleInText()
     assert kind.read(kind.write(SLOW), Where("pole")) == SLOW
     body = MARS.replace(pole=SLOW)
     found = earthspin.torque_series(

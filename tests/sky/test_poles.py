@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from earthspin import MARS, UndefinedError
-from earthspin.sky import iau
+from earthspin.sky import iau_models
 from earthspin.sky.poles import IAU_2006, UPRIGHT, Direction, FixedPole, pole_of
 
 angles = st.floats(-np.pi, np.pi)
@@ -40,7 +40,7 @@ def test_the_iaus_pole_brings_its_ecliptic() -> None:
     # nutation is 9.2 arcsec at most in obliquity, and 6.9 across
     apart = np.linalg.norm(IAU_2006.true(8000.0) - IAU_2006.mean(days)[2]) * 206264.8
     assert 1 < apart < 11
-    nutation = iau.Nutation(-3000.0, 8000.0, 3)
+    nutation = iau_models.NutationSpline(-3000.0, 8000.0, 3)
     assert np.allclose(
         IAU_2006.equator(None, days, nutation)[2, 2], IAU_2006.true(8000.0), rtol=0, atol=1e-14
     )

@@ -8,7 +8,7 @@ from skyfield.api import load, load_file
 
 import earthspin
 from earthspin.engine.question import keys_of
-from earthspin.sky import iau
+from earthspin.sky import iau_models
 from earthspin.sky.ephemeris import Ephemeris, find_kernel
 from earthspin.sky.skyfield import Skyfield
 
@@ -76,7 +76,7 @@ def test_declinations_are_those_of_erfa(skyfield: Skyfield, true: bool) -> None:
     kernel, scale = load_file(str(find_kernel("de421"))), load.timescale(builtin=True)
     t = scale.tdb_jd(2451545.0, DAYS)
     matrix = (erfa.pnm06a if true else erfa.pmat06)(2451545.0, DAYS)
-    equator = iau.true_equator if true else None
+    equator = iau_models.true_equator if true else None
     for name, (ra, dec, distance) in skyfield.radec(TARGETS, 399, DAYS, equator).items():
         place = (kernel[TARGETS[name]] - kernel[399]).at(t).position.m.T
         x, y, z = np.einsum("tij,tj->it", matrix, place)
@@ -90,7 +90,7 @@ def test_declinations_are_those_of_erfa(skyfield: Skyfield, true: bool) -> None:
 def test_it_is_radec_of_date_but_for_what_iau_2006_changed(skyfield: Skyfield) -> None:
     """Skyfield as it comes: 4e-11 rad by 2030, and 1.3e-10 rad in 1900, where J2 was larger."""
     kernel, scale = load_file(str(find_kernel("de421"))), load.timescale(builtin=True)
-    found = skyfield.radec({"moon": 301}, 399, DAYS, iau.true_equator)["moon"][1]
+    found = skyfield.radec({"moon": 301}, 399, DAYS, iau_models.true_equator)["moon"][1]
     _, dec, _ = (kernel["moon"] - kernel["earth"]).at(scale.tdb_jd(2451545.0, DAYS)).radec("date")
     off = np.abs(found - dec.radians)
     assert 2e-11 < off[abs(DAYS) < 10957].max() < 5e-11  # measured: 4.2e-11

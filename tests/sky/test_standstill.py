@@ -7,7 +7,7 @@ from scipy.optimize import minimize_scalar
 from skyfield.api import load, load_file
 
 from earthspin.sky.ephemeris import find_kernel
-from earthspin.sky.iau import find_standstills, node_passages
+from earthspin.sky.iau_models import find_standstills, node_passages
 
 
 @pytest.mark.parametrize("number", [0, 7, 14, 22, 31])

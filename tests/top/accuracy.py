@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import mpmath as mp
 import numpy as np
 
-from earthspin.top.motion import HeavyTopMotion, heavy_top_motion
+from earthspin.top.closed_form import HeavyTopMotion, heavy_top_motion
 from earthspin.top.start import HeavyTop
 from tests.rotor.accuracy import matrix
 from tests.top.families import Start

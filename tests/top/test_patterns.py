@@ -6,7 +6,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from earthspin.top.motion import heavy_top_motion
+from earthspin.top.closed_form import heavy_top_motion
 from earthspin.top.patterns import nutation_pattern, steady_precession
 from earthspin.top.start import HeavyTop, top_constants
 from tests.top.families import FAMILIES, cases

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from earthspin.top.azimuth import mean_precession_rate
+from earthspin.top.closed_form import HeavyTopMotion, heavy_top_motion
 from earthspin.top.height import nutation_period, turning_angles
-from earthspin.top.motion import HeavyTopMotion, heavy_top_motion
 from earthspin.top.start import HeavyTop
 
 # Below 1e-100 rad/s a top counts as still.

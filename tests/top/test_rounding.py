@@ -4,7 +4,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from earthspin.top.motion import CLOSED_FORM_ERROR, effect_of_rounding, error_bound
+from earthspin.top.closed_form import CLOSED_FORM_ERROR, effect_of_rounding, error_bound
 from earthspin.top.start import HeavyTop
 from tests.top.accuracy import FRACTIONS, LATE, errors
 from tests.top.families import FAMILIES, cases

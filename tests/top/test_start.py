@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from earthspin.errors import BodyError
-from earthspin.top.motion import heavy_top_motion
+from earthspin.top.closed_form import heavy_top_motion
 from earthspin.top.start import HeavyTop, top_constants
 
 TOP: dict[str, Any] = {

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from earthspin.errors import UndefinedError
+from earthspin.top.closed_form import heavy_top_motion
 from earthspin.top.height import nutation_period, turning_angles
-from earthspin.top.motion import heavy_top_motion
 from earthspin.top.patterns import (
     minimum_spin,
     sleeping_top,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from earthspin.top.motion import HeavyTopMotion, heavy_top_motion
+from earthspin.top.closed_form import HeavyTopMotion, heavy_top_motion
 from earthspin.top.start import HeavyTop, top_constants
 
 I1, I3, WEIGHT = 1.25, 0.75, 2.0

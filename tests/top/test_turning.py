@@ -9,8 +9,8 @@ import pytest
 
 from earthspin.errors import BodyError
 from earthspin.top.azimuth import mean_precession_rate
+from earthspin.top.closed_form import heavy_top_motion
 from earthspin.top.height import cubic_roots, effective_potential, nutation_period, turning_angles
-from earthspin.top.motion import heavy_top_motion
 from earthspin.top.start import HeavyTop, top_constants
 from tests.top.families import FAMILIES, cases
 from tests.top.textbook import DIGITS, Textbook

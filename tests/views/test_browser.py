@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from earthspin.views.answers import scene_page
+from earthspin.views.rendering import scene_page
 from earthspin.views.report import gallery, gallery_page
 from tests import shipped
 

@@ -11,7 +11,7 @@ import earthspin
 from earthspin import EARTH, cli
 from earthspin.engine.variables import largest_of
 from earthspin.scenes import QUESTIONS
-from earthspin.views.reading import closing_line
+from earthspin.views.closing_line import closing_line
 from tests import shipped
 
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 import earthspin
 from earthspin.views import torque
-from earthspin.views.stars import STARS, on_the_chart, star_vectors
+from earthspin.views.star_chart import STARS, on_the_chart, star_vectors
 
 
 @pytest.fixture(scope="module")

@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.text import Annotation, Text
 from matplotlib.transforms import Bbox
 
-from earthspin.views.answers import drawings_for
 from earthspin.views.drawing import empty, style
 from earthspin.views.pole import plot_pole_residuals
+from earthspin.views.rendering import drawings_for
 from tests import shipped
 
 SCENES = ("precession", "torque", "pole", "iau", "wobble", "polar-motion", "free-rotor", "top-loop")

@@ -14,8 +14,8 @@ from matplotlib.transforms import Bbox
 import earthspin
 from earthspin.errors import UndefinedError
 from earthspin.views import drawing, long_term, precession
-from earthspin.views.answers import drawings_for, tables_for
-from earthspin.views.stars import year_words
+from earthspin.views.rendering import drawings_for, tables_for
+from earthspin.views.star_chart import year_words
 from tests import shipped
 
 

@@ -13,7 +13,7 @@ import xarray as xr
 
 import earthspin
 from earthspin.cli import main
-from earthspin.views import answers
+from earthspin.views import rendering
 
 NAMES = (
     r"$\frac{a}{$", "_moon", "<b>", 'a"b', "[red]", "a;rm", "M\u00f6nd \u6708", "x" * 400, "&amp;",
@@ -54,7 +54,7 @@ def test_every_reader_shows_a_name_as_it_is(
     legend = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
     assert legend[-1].strip("\u200b\u2026").replace(r"\$", "$") == name[:40]
     page = Words()
-    page.feed(answers.scene_page(tree))
+    page.feed(rendering.scene_page(tree))
     assert name[:40].strip() in {words.strip("\n \u200b\u2026") for words in page.words}
     for kind in ("nc", "zarr"):
         back = earthspin.open(earthspin.write(tree, tmp_path / f"r.{kind}"))

@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 
 import earthspin
 from earthspin.scenes import QUESTIONS, shipped_scenes
-from earthspin.views.answers import (
+from earthspin.views.page import typeset
+from earthspin.views.rendering import (
     ERRORS,
     PAGES,
     drawings_for,
@@ -19,7 +20,6 @@ from earthspin.views.answers import (
     solids_for,
     tables_for,
 )
-from earthspin.views.page import typeset
 from earthspin.views.report import write_report
 from tests import shipped
 

@@ -19,8 +19,8 @@ from earthspin.numerics.quaternion import rotate
 from earthspin.rotor.triaxial import free_rotation
 from earthspin.scenes import run
 from earthspin.top.azimuth import mean_precession_rate
+from earthspin.top.closed_form import heavy_top_motion
 from earthspin.top.height import nutation_period, turning_angles
-from earthspin.top.motion import heavy_top_motion
 from earthspin.top.start import HeavyTop
 from earthspin.torque.average import precessing_torque
 from earthspin.torque.gravity import quadrupole_torque, tidal_tensor

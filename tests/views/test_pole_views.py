@@ -8,7 +8,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 import earthspin
 from earthspin.views import pole as of_iau
 from earthspin.views import pole as of_pole
-from earthspin.views.answers import tables_for
+from earthspin.views.rendering import tables_for
 from tests import shipped
 
 

@@ -7,8 +7,8 @@ import xarray as xr
 import earthspin
 from earthspin import EARTH
 from earthspin.scenes import QUESTIONS
-from earthspin.views.answers import drawings_for, scene_page, tables_for, what_ran
-from earthspin.views.reading import answer_of, needed
+from earthspin.views.closing_line import answer_of, needed
+from earthspin.views.rendering import drawings_for, scene_page, tables_for, what_ran
 from earthspin.views.tables import (
     MOST_ROWS,
     SAMPLE,

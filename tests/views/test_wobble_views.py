@@ -10,7 +10,7 @@ import earthspin
 from earthspin.cli import main
 from earthspin.constants import MAS
 from earthspin.views import observed_pole, wobble
-from earthspin.views.answers import tables_for
+from earthspin.views.rendering import tables_for
 
 SPAN = ("1962-01-01", "2026-09-29")
 

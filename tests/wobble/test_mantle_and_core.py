@@ -10,10 +10,10 @@ from earthspin.interior.equilibrium import figure
 from earthspin.interior.layers import PREM
 from earthspin.interior.love import yielding
 from earthspin.interior.modes import all_fluid, free_modes, parts_of
-from earthspin.wobble.ladder import Core, Mantle, solve
+from earthspin.wobble.ladder import CoreCoefficients, Mantle, solve
 
 
-def eigenvalues(mantle: Mantle, core: Core) -> np.ndarray:
+def eigenvalues(mantle: Mantle, core: CoreCoefficients) -> np.ndarray:
     """s of d/dt (M m + X n) = J (D m - X n), d/dt (a m + b n) = -f J n, by numpy, sorted."""
     water = np.zeros((2, 2)) if mantle.ocean is None else mantle.ocean
     yielding = mantle.kappa * np.eye(2) + water
@@ -58,7 +58,7 @@ def test_against_eigenvalues(
         kappa=kappa * e * (1 - 1j * loss),
         ocean=np.array([[first, off], [off, second]]),
     )
-    inside = Core(fraction, *core)
+    inside = CoreCoefficients(fraction, *core)
     found = solve(mantle, inside)
     low, _, wobble, _ = eigenvalues(mantle, inside)
     # The core's root is the faster one unless a very flat mantle outruns it.
@@ -80,7 +80,7 @@ def test_it_is_a_case_of_the_system_of_all_parts(strain: complex) -> None:
     name = parts.compliances
     found = solve(
         Mantle(e, 0.0, name["kappa"]),
-        Core(parts.fluid, flat, gamma=name["gamma"], beta=name["beta"], xi=name["xi"]),
+        CoreCoefficients(parts.fluid, flat, gamma=name["gamma"], beta=name["beta"], xi=name["xi"]),
     )
     modes = free_modes(parts)
     assert abs(complex(found.wobble) - modes["chandler_wobble"]) < 1e-14
@@ -88,11 +88,11 @@ def test_it_is_a_case_of_the_system_of_all_parts(strain: complex) -> None:
 
 
 def test_without_loss_the_roots_are_real() -> None:
-    found = solve(Mantle(3e-3, 1e-5, 1e-3), Core(0.1, 2.5e-3))
+    found = solve(Mantle(3e-3, 1e-5, 1e-3), CoreCoefficients(0.1, 2.5e-3))
     assert found.wobble.dtype == found.core.dtype == np.float64
     assert np.isinf(found.quality_factor)
 
 
 def test_a_body_that_yields_by_more_than_one_of_its_bulges_is_refused() -> None:
     with pytest.raises(UndefinedError, match="turn over"):
-        solve(Mantle(3e-3, 2.5e-3, 1e-3), Core(0.1, 2.5e-3))
+        solve(Mantle(3e-3, 2.5e-3, 1e-3), CoreCoefficients(0.1, 2.5e-3))

@@ -10,7 +10,7 @@ import numpy as np
 
 import earthspin
 from earthspin.views.drawing import RED, note
-from earthspin.views.stars import year_words
+from earthspin.views.star_chart import year_words
 
 # %%
 # Angles that locate the equator

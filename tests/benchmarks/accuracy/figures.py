@@ -6,7 +6,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullLocator
 
-from earthspin.rounded import plain, shown_unit
+from earthspin.number_text import plain, shown_unit
 from earthspin.views.drawing import BLUE, GREEN, ORANGE, PINK, RED, SKY, Axes, Drawing, power_of_ten
 from tests.benchmarks.accuracy.ladder import Ladder
 

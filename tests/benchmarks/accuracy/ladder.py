@@ -13,7 +13,7 @@ from typing import Any
 
 import pandas as pd
 
-from earthspin.rounded import plain
+from earthspin.number_text import plain
 
 #: Function that returns values and the number of evaluations of the costly function.
 Run = Callable[..., tuple[Any, int]]

@@ -13,7 +13,7 @@ from earthspin.bodies import MOON
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, JULIAN_YEAR
 from earthspin.numerics.arrays import FloatArray
 from earthspin.secular import trajectory
-from earthspin.secular.orbit import Strength, Tides, pull
+from earthspin.secular.averaged_torque import PrecessionConstant, Tides, pull
 from earthspin.sky.orbit_table import OrbitTable, shipped
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.sky import BODY, SPIN
@@ -26,7 +26,7 @@ KYR = 1000 * JULIAN_YEAR
 #: Span, s, and the number of times.
 SPAN, TIMES = 1000 * KYR, 101
 #: Precession constants, geodesic precession and tides near those of the Earth.
-STRENGTH = Strength(
+STRENGTH = PrecessionConstant(
     sun=17.384 * ARCSEC_PER_YEAR,
     moon=37.555 * ARCSEC_PER_YEAR,
     eccentricity=0.0167,

@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 
 from earthspin.numerics.arrays import FloatArray
-from earthspin.top.motion import heavy_top_motion
+from earthspin.top.closed_form import heavy_top_motion
 from earthspin.top.start import HeavyTop
 from tests.benchmarks.accuracy.ladder import COARSE, FINE, Ladder, settings
 from tests.reference.heavy_top import integrate_heavy_top, state_of_angles

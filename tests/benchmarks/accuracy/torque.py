@@ -14,7 +14,7 @@ from skyfield.jpllib import SpiceKernel
 
 from earthspin.constants import J2000_JD, MAS
 from earthspin.numerics.arrays import FloatArray
-from earthspin.sky import iau
+from earthspin.sky import iau_models
 from earthspin.sky.poles import rotate
 from earthspin.sky.skyfield import Skyfield
 from tests.benchmarks.accuracy.ladder import Ladder, settings
@@ -41,10 +41,10 @@ def ladder() -> Ladder:
         series = {"2000A": erfa.nut06a, "2000B": erfa.nut00b}[model]
         angles = make_interp_spline(nodes, np.stack(series(J2000_JD, nodes), axis=-1), k=5)(DAYS)
         nutation = erfa.numat(erfa.obl06(J2000_JD, DAYS), *angles.T)
-        return _directions(erfa.rxr(nutation, iau.mean_equator(DAYS))), DAYS.size
+        return _directions(erfa.rxr(nutation, iau_models.mean_equator(DAYS))), DAYS.size
 
     def own_source() -> tuple[FloatArray, int]:
-        coordinates = source.radec(CODES, CENTRE, DAYS, iau.true_equator).values()
+        coordinates = source.radec(CODES, CENTRE, DAYS, iau_models.true_equator).values()
         return np.stack([unit_vectors(ra, dec) for ra, dec, _ in coordinates]), DAYS.size
 
     def skyfield() -> tuple[FloatArray, int]:
@@ -72,13 +72,15 @@ def ladder() -> Ladder:
                 "every {} d", partial(from_nodes, "2000B"), SPACINGS[2:5]
             ),
             "nutation at each epoch": {
-                "": partial(at_each, lambda: iau.Nutation(*ENDS, 1).true_equator(DAYS))
+                "": partial(at_each, lambda: iau_models.NutationSpline(*ENDS, 1).true_equator(DAYS))
             },
             'source = "skyfield"': {"": own_source},
             "ERFA, nutation IAU 2000B": {
                 "": partial(at_each, partial(erfa.pnm00b, J2000_JD, DAYS))
             },
-            "mean equator, no nutation": {"": partial(at_each, partial(iau.mean_equator, DAYS))},
+            "mean equator, no nutation": {
+                "": partial(at_each, partial(iau_models.mean_equator, DAYS))
+            },
             "Skyfield, radec of date": {"": skyfield},
         },
         bounds={

@@ -13,8 +13,8 @@ from earthspin.numerics.arrays import BoolArray, ComplexArray, FloatArray
 from earthspin.top.azimuth import mean_precession_rate, shared_rate, turned_at
 from earthspin.top.height import (
     AxisHeight,
-    Nutation,
     Place,
+    TopNutation,
     height_at,
     nutation_of,
     nutation_period,
@@ -147,7 +147,7 @@ def heavy_top_motion(top: HeavyTop, times: ArrayLike) -> HeavyTopMotion:
 
 
 def _phi_and_psi(
-    top: HeavyTop, nutation: Nutation, times: FloatArray, place: Place
+    top: HeavyTop, nutation: TopNutation, times: FloatArray, place: Place
 ) -> tuple[Angle, Angle]:
     """Euler angles phi and psi at given times: initial values plus the advance since the start."""
     quarters, rest = turned_at(nutation, place)
@@ -182,7 +182,7 @@ def _attitude(theta: FloatArray, phi: Angle, psi: Angle) -> FloatArray:
     return np.stack([upright.real, tilted.real, tilted.imag, upright.imag], axis=-1)
 
 
-def _omega_body(top: HeavyTop, nutation: Nutation, height: AxisHeight, psi: Angle) -> FloatArray:
+def _omega_body(top: HeavyTop, nutation: TopNutation, height: AxisHeight, psi: Angle) -> FloatArray:
     """Angular velocity of a top along its body axes, from rates of its Euler angles."""
     start = nutation.start
     sine = np.sqrt(height.below * height.above)

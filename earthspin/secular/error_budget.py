@@ -17,8 +17,15 @@ import numpy as np
 
 from earthspin.constants import JULIAN_YEAR, NORMAL_95
 from earthspin.numerics.arrays import FloatArray, Numeric
-from earthspin.secular.orbit import ModifiedOrbit, Orbit, Shape, Strength, Tides, reference_axes
-from earthspin.secular.trajectory import Trajectory, solve
+from earthspin.secular.averaged_torque import (
+    ChangingOrbit,
+    ModifiedOrbit,
+    PrecessionConstant,
+    Shape,
+    Tides,
+    reference_axes,
+)
+from earthspin.secular.trajectory import AxisTrajectory, solve
 from earthspin.torque.gravity import cross, dot
 
 # --- random variation of all error sources together -----------------------------------------------
@@ -102,19 +109,19 @@ OF_THE_EARTH = ("J2 rate", "tides", "ellipticity")
 
 
 @dataclass(frozen=True)
-class Setting:
+class AxisInputs:
     """Inputs of one integration of the spin axis: torque, orbit and initial axis.
 
     Attributes
     ----------
-    strength : Strength
-    orbit : Orbit
+    strength : PrecessionConstant
+    orbit : ChangingOrbit
     start : ndarray, shape (3,) or (3, ...)
         Unit vector of the axis at J2000.0, or of the axes of all members.
     """
 
-    strength: Strength
-    orbit: Orbit
+    strength: PrecessionConstant
+    orbit: ChangingOrbit
     start: FloatArray
 
 
@@ -148,22 +155,22 @@ class Uncertainty:
 
 
 @dataclass(frozen=True)
-class Solved:
+class SolvedAxes:
     """Nominal trajectory of the spin axis, and one trajectory for each varied error source.
 
     Attributes
     ----------
-    path : Trajectory
-    setting : Setting
+    path : AxisTrajectory
+    setting : AxisInputs
     uncertainty : Uncertainty
-    others : tuple of (str, Trajectory, Setting)
+    others : tuple of (str, AxisTrajectory, AxisInputs)
         Trajectory with one cause changed, and its setting, by cause.
     """
 
-    path: Trajectory
-    setting: Setting
+    path: AxisTrajectory
+    setting: AxisInputs
     uncertainty: Uncertainty
-    others: tuple[tuple[str, Trajectory, Setting], ...]
+    others: tuple[tuple[str, AxisTrajectory, AxisInputs], ...]
 
     @property
     def steps(self) -> int:
@@ -171,14 +178,14 @@ class Solved:
         return self.path.steps + sum(path.steps for _, path, _ in self.others)
 
 
-def solved(setting: Setting, span: tuple[float, float], uncertainty: Uncertainty) -> Solved:
+def solved(setting: AxisInputs, span: tuple[float, float], uncertainty: Uncertainty) -> SolvedAxes:
     """Integrate the spin axis with nominal inputs, and again with each error source varied.
 
     A further integration with windows of twice the length gives the error of the method.
 
     Parameters
     ----------
-    setting : Setting
+    setting : AxisInputs
     span : tuple of float
         s from J2000.0 TDB.
     uncertainty : Uncertainty
@@ -188,15 +195,15 @@ def solved(setting: Setting, span: tuple[float, float], uncertainty: Uncertainty
     for cause, varied in (("method", setting), *changes(setting, uncertainty)):
         varied_path = solve(varied.strength, varied.orbit, varied.start, span, near=path)
         others.append((cause, varied_path, varied))
-    return Solved(path, setting, uncertainty, tuple(others))
+    return SolvedAxes(path, setting, uncertainty, tuple(others))
 
 
-def shifted_orbit(orbit: Orbit, error: HalfWidths, ways: Sequence[float]) -> ModifiedOrbit:
+def shifted_orbit(orbit: ChangingOrbit, error: HalfWidths, ways: Sequence[float]) -> ModifiedOrbit:
     """Orbit whose normal and eccentricity are shifted by multiples of their half-widths.
 
     Parameters
     ----------
-    orbit : Orbit
+    orbit : ChangingOrbit
     error : callable
     ways : sequence of float
         Shifts in half-widths along each of two directions perpendicular to the normal of J2000.0.
@@ -217,12 +224,12 @@ def shifted_orbit(orbit: Orbit, error: HalfWidths, ways: Sequence[float]) -> Mod
     return ModifiedOrbit(orbit, change)
 
 
-def inclined_axis(setting: Setting, angles: Sequence[float]) -> FloatArray:
+def inclined_axis(setting: AxisInputs, angles: Sequence[float]) -> FloatArray:
     """Initial spin axis rotated by small angles towards and perpendicular to the orbit normal.
 
     Parameters
     ----------
-    setting : Setting
+    setting : AxisInputs
     angles : sequence of float
         Angles towards the normal of the orbit and, if there are two, perpendicular to that, rad.
     """
@@ -234,7 +241,7 @@ def inclined_axis(setting: Setting, angles: Sequence[float]) -> FloatArray:
     return np.asarray((other / np.sqrt(dot(other, other))).reshape(setting.start.shape))
 
 
-def changes(setting: Setting, uncertainty: Uncertainty) -> tuple[tuple[str, Setting], ...]:
+def changes(setting: AxisInputs, uncertainty: Uncertainty) -> tuple[tuple[str, AxisInputs], ...]:
     """Return, for each error source, the inputs with only this source varied by its half-width.
 
     The orbit is varied in two directions.
@@ -246,12 +253,12 @@ def changes(setting: Setting, uncertainty: Uncertainty) -> tuple[tuple[str, Sett
     )
 
 
-def changed(setting: Setting, uncertainty: Uncertainty, amounts: FloatArray) -> Setting:
+def changed(setting: AxisInputs, uncertainty: Uncertainty, amounts: FloatArray) -> AxisInputs:
     """Inputs with every error source varied by a given multiple of its half-width.
 
     Parameters
     ----------
-    setting : Setting
+    setting : AxisInputs
     uncertainty : Uncertainty
     amounts : ndarray, shape (k,)
         Changes in half-widths, in the order of `Uncertainty.causes`.
@@ -275,4 +282,4 @@ def changed(setting: Setting, uncertainty: Uncertainty, amounts: FloatArray) -> 
         j2_band=j2,
         ellipticity_drift=drift * ELLIPTICITY_DRIFT,
     )
-    return Setting(strength, orbit, start)
+    return AxisInputs(strength, orbit, start)

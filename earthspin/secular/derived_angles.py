@@ -17,9 +17,14 @@ from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import ApartError, UndefinedError
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation.analysis import followed, general_precession
-from earthspin.secular.budget import Quantiles, Setting, Solved, changed, draws
-from earthspin.secular.orbit import Orbit, broadcast_over_members, moons_height, reference_axes
-from earthspin.secular.trajectory import Trajectory, solve
+from earthspin.secular.averaged_torque import (
+    ChangingOrbit,
+    broadcast_over_members,
+    moons_height,
+    reference_axes,
+)
+from earthspin.secular.error_budget import AxisInputs, Quantiles, SolvedAxes, changed, draws
+from earthspin.secular.trajectory import AxisTrajectory, solve
 from earthspin.torque.gravity import dot
 
 # --- obliquity and precession angles from a spin axis and an orbit --------------------------------
@@ -37,7 +42,7 @@ from earthspin.torque.gravity import dot
 Numeric = float | FloatArray
 
 
-class Seasons(NamedTuple):
+class SeasonalElements(NamedTuple):
     """Obliquity, eccentricity e, climatic precession e sin(w), and coprecession e cos(w).
 
     The angle w is the longitude of perihelion. Each array has the shape (n,).
@@ -57,7 +62,7 @@ class Seasons(NamedTuple):
     coprecession: FloatArray
 
 
-def seasons(axis: FloatArray, normal: FloatArray, eccentricity: FloatArray) -> Seasons:
+def seasons(axis: FloatArray, normal: FloatArray, eccentricity: FloatArray) -> SeasonalElements:
     """Compute obliquity, e, e sin(w), e cos(w) from spin axis, orbit normal, eccentricity vector.
 
     Parameters
@@ -68,7 +73,7 @@ def seasons(axis: FloatArray, normal: FloatArray, eccentricity: FloatArray) -> S
     equinox = np.cross(axis, normal, axis=0)
     sine = np.sqrt(np.sum(equinox**2, axis=0))
     upright = np.where(sine > 0, sine, np.nan)
-    return Seasons(
+    return SeasonalElements(
         np.arctan2(sine, np.sum(axis * normal, axis=0)),
         np.sqrt(np.sum(eccentricity**2, axis=0)),
         np.sum(eccentricity * axis, axis=0) / upright,
@@ -255,12 +260,12 @@ def together(shares: dict[str, FloatArray]) -> FloatArray:
     return np.sqrt(sum(share**2 for share in shares.values()))
 
 
-def readings(solved: Solved, times: FloatArray, fixed: FloatArray) -> Readings:
+def readings(solved: SolvedAxes, times: FloatArray, fixed: FloatArray) -> Readings:
     """Derive angles and rates, with errors, from the nominal and all varied solutions.
 
     Parameters
     ----------
-    solved : Solved
+    solved : SolvedAxes
     times : ndarray, shape (n,)
         s from J2000.0 TDB.
     fixed : ndarray, shape (3, 3)
@@ -290,7 +295,7 @@ def readings(solved: Solved, times: FloatArray, fixed: FloatArray) -> Readings:
     return replace(linear, weight=weight, sampled=_sampled(solved, mine, times, fixed, perihelion))
 
 
-def phase_error(solved: Solved, times: FloatArray) -> FloatArray:
+def phase_error(solved: SolvedAxes, times: FloatArray) -> FloatArray:
     """Largest error of the precession angle between J2000.0 and each time, rad, (..., n).
 
     It is the half-width of the axis divided by the sine of its obliquity. The largest value up to
@@ -313,7 +318,7 @@ def phase_error(solved: Solved, times: FloatArray) -> FloatArray:
 
 
 def _sampled(
-    solved: Solved, mine: Read, times: FloatArray, fixed: FloatArray, perihelion: FloatArray
+    solved: SolvedAxes, mine: Read, times: FloatArray, fixed: FloatArray, perihelion: FloatArray
 ) -> dict[str, FloatArray]:
     """95 % half-widths of all quantities from solutions with randomly varied inputs."""
     names = [name for name in mine.values if name not in OF_THE_ORBIT]
@@ -328,14 +333,18 @@ def _sampled(
 
 
 def read(
-    path: Trajectory, setting: Setting, times: FloatArray, fixed: FloatArray, orbits: FloatArray
+    path: AxisTrajectory,
+    setting: AxisInputs,
+    times: FloatArray,
+    fixed: FloatArray,
+    orbits: FloatArray,
 ) -> Read:
     """Compute angles, pole and precession rates from one trajectory at given times.
 
     Parameters
     ----------
-    path : Trajectory
-    setting : Setting
+    path : AxisTrajectory
+    setting : AxisInputs
         Setting of the trajectory.
     times : ndarray, shape (n,)
         s.
@@ -380,7 +389,11 @@ def read(
 
 
 def _followed_precession(
-    path: Trajectory, setting: Setting, times: FloatArray, fixed: FloatArray, angles: FloatArray
+    path: AxisTrajectory,
+    setting: AxisInputs,
+    times: FloatArray,
+    fixed: FloatArray,
+    angles: FloatArray,
 ) -> FloatArray:
     """Precession angles p_A and psi_A since J2000.0, with whole turns counted, rad."""
     # along the nodes, which are close enough to unwrap precession
@@ -405,7 +418,7 @@ def _turns(axis: FloatArray, normal: FloatArray, fixed: FloatArray) -> FloatArra
     return np.stack([general_precession(pole, ecliptic), psi])
 
 
-def followed_perihelion(orbit: Orbit, times: FloatArray, fixed: FloatArray) -> FloatArray:
+def followed_perihelion(orbit: ChangingOrbit, times: FloatArray, fixed: FloatArray) -> FloatArray:
     """Longitude of perihelion of the orbit in fixed axes, continuous over many turns, rad."""
     first, last = np.floor(min(times.min(), 0.0) / LOOK), np.ceil(max(times.max(), 0.0) / LOOK)
     looks = np.clip(LOOK * np.arange(first, last + 1), *orbit.coverage)

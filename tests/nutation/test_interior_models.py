@@ -10,13 +10,13 @@ from earthspin.interior.layers import PREM
 from earthspin.interior.named import CORE_ELLIPTICITY, CORE_NUTATION
 from earthspin.interior.ocean_and_anelasticity import WAVES, diurnal_response, wave_response
 from earthspin.motion.effects import RIGID
-from earthspin.nutation import ladder
+from earthspin.nutation import interior_models
 from tests import shipped
 from tests.conftest import load_pins
 
 PINS = load_pins("nutation")
 H = EARTH.dynamical_flattening
-SETTING = ladder.Setting(PREM, H / (1 - H), float(EARTH.spin_rate), 0.0453, 0.09)
+SETTING = interior_models.InteriorInputs(PREM, H / (1 - H), float(EARTH.spin_rate), 0.0453, 0.09)
 
 
 @pytest.fixture(scope="module")
@@ -26,8 +26,8 @@ def tree() -> xr.DataTree:
 
 
 @pytest.fixture(scope="module")
-def rungs() -> dict[str, ladder.Rung]:
-    return ladder.climb(SETTING, coupling=True)
+def rungs() -> dict[str, interior_models.Rung]:
+    return interior_models.climb(SETTING, coupling=True)
 
 
 def test_what_is_left_beside_an_independent_computation(tree: xr.DataTree) -> None:
@@ -96,7 +96,7 @@ def test_merged_amplitudes_are_named_as_such(tree: xr.DataTree) -> None:
 
 
 def test_the_error_of_a_rung_holds_the_period_of_the_core_nutation(
-    tree: xr.DataTree, rungs: dict[str, ladder.Rung]
+    tree: xr.DataTree, rungs: dict[str, interior_models.Rung]
 ) -> None:
     """The observed period, 1.1 half-widths away, moves the rms by 1.5 mas."""
     period = tree["modes"].to_dataset().sel(mode="anelastic free_core_nutation")
@@ -110,24 +110,26 @@ def test_the_error_of_a_rung_holds_the_period_of_the_core_nutation(
     assert float(tree.rms_error.sel(rung="rigid")) < 0.01
 
 
-def test_the_core_that_coupling_leaves_is_the_published_one(rungs: dict[str, ladder.Rung]) -> None:
+def test_the_core_that_coupling_leaves_is_the_published_one(
+    rungs: dict[str, interior_models.Rung],
+) -> None:
     """e_f = 2.6456e-3 (Mathews, Herring & Buffett 2002, table 2)."""
     # of the core and of its coupling in phase: 2.6456e-3 + 0.0223e-3; measured: 7e-7
     assert abs(rungs["coupling"].core_ellipticity - CORE_ELLIPTICITY.value) < 2e-6
 
 
-def test_every_rung_keeps_precession(rungs: dict[str, ladder.Rung]) -> None:
+def test_every_rung_keeps_precession(rungs: dict[str, interior_models.Rung]) -> None:
     for name, rung in rungs.items():
         found = rung.transfer(np.array([-1.0]), SETTING.e)
         assert abs(found[0] - 1) < (2e-2 if name == "hydrostatic" else 1e-13), name
 
 
-def test_rigid_has_transfer_one(rungs: dict[str, ladder.Rung]) -> None:
+def test_rigid_has_transfer_one(rungs: dict[str, interior_models.Rung]) -> None:
     sigma = -1 + np.array([-0.1, -1e-3, 1e-3, 0.1])
     assert np.allclose(rungs["rigid"].transfer(sigma, SETTING.e), 1, rtol=1e-13, atol=0)
 
 
-def test_free_modes_lose_energy(rungs: dict[str, ladder.Rung]) -> None:
+def test_free_modes_lose_energy(rungs: dict[str, interior_models.Rung]) -> None:
     for name in ("ocean", "anelastic", "core-ellipticity", "coupling"):
         for mode, s in rungs[name].modes().items():
             assert s.imag > -1e-9, (name, mode)
@@ -144,7 +146,9 @@ def test_an_ocean_of_a_day_lags_and_falls_short() -> None:
     assert at[2] == wave_response(WAVES["Q1"])
 
 
-def test_the_response_of_a_sphere_across_the_resonance(rungs: dict[str, ladder.Rung]) -> None:
+def test_the_response_of_a_sphere_across_the_resonance(
+    rungs: dict[str, interior_models.Rung],
+) -> None:
     """k of O1, P1, K1 and psi1 beside Wahr 1981 (not verified), on an ellipse that turns."""
     from earthspin.interior.love import elastic
     from earthspin.interior.modes import system

@@ -16,8 +16,8 @@ from earthspin.constants import (
     PSI_A_RATE,
 )
 from earthspin.motion.effects import EFFECTS
-from earthspin.nutation import budget
-from earthspin.sky.iau import precession_rates
+from earthspin.nutation import rate_budget
+from earthspin.sky.iau_models import precession_rates
 from tests import shipped
 
 #: Place of each angle in what erfa.p06e returns.
@@ -57,7 +57,7 @@ def test_identity_of_the_general_precession() -> None:
 
 
 def test_effects_are_words_of_the_grammar_the_largest_first() -> None:
-    effects = budget.published_effects()
+    effects = rate_budget.published_effects()
     assert set(effects) <= set(EFFECTS)
     sizes = [abs(v) for v in effects.values()]
     assert sizes == sorted(sizes, reverse=True)
@@ -87,13 +87,13 @@ def test_the_period_without_the_observed_precession(precession_tree: xr.DataTree
 def test_the_closure_is_a_sum() -> None:
     """Of the five published effects, in 1e-5 arcsec/yr (Capitaine et al. 2003, table 3)."""
     total = (-1919.883 - 46.78 + 31.367 - 21.05 + 2.60) * 1e-5 * ARCSEC_PER_YEAR
-    assert budget.closure(0.0, 0.0) == pytest.approx(total, rel=1e-15, abs=0)
-    assert budget.closure(2e-12, 5e-12) == pytest.approx(total - 3e-12, rel=1e-15, abs=0)
+    assert rate_budget.closure(0.0, 0.0) == pytest.approx(total, rel=1e-15, abs=0)
+    assert rate_budget.closure(2e-12, 5e-12) == pytest.approx(total - 3e-12, rel=1e-15, abs=0)
 
 
 def test_the_published_first_order() -> None:
     """54.94062986 cos(eps0) less what J2's rate and the tilt take, 269.43e-5 arcsec/yr."""
-    shares = budget.published_contributions(["first-order", "geodesic", "j3"])
+    shares = rate_budget.published_contributions(["first-order", "geodesic", "j3"])
     # cos(84381.406 arcsec) = 0.917482143065
     expected = 54.94062986 * 0.917482143065 - 269.43e-5
     assert shares["first-order"] / ARCSEC_PER_YEAR == pytest.approx(expected, rel=1e-12, abs=0)

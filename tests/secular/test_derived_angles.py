@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from earthspin.secular.reading import Read, Readings
+from earthspin.secular.derived_angles import Read, Readings
 
 TURN, NOTHING = 2 * np.pi, np.zeros((3, 1))
 

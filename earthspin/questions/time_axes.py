@@ -28,7 +28,7 @@ Seconds = Annotated[FloatArray, Numbers("s", "1 s", (None,))]
 SPAN_DOC = "first and last date, TDB; the last is included if the step meets it"
 
 
-class Series(PerturbedBody):
+class DateSeries(PerturbedBody):
     """Base class of computations whose results are time series at given dates."""
 
     exclusive = ((("times",), ("span", "step")),)
@@ -44,7 +44,7 @@ class Dated(Variables, along=("time",)):
     time = labels("time (TDB)", standard_name="time", axis="T")
 
 
-class FromStart(Variables, along=("time",)):
+class TimesFromStart(Variables, along=("time",)):
     """Base class of results at times after the start of a motion, s; vectors are along x, y, z."""
 
     time = labels("time from the start", "s")

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from earthspin.constants import COMPUTED, DAY, Constant
-from earthspin.interior.equilibrium import Figure, figure
+from earthspin.interior.equilibrium import HydrostaticFigure, figure
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import Yielding, elastic, yielding
 from earthspin.interior.modes import MODES, Parts, all_fluid, free_modes, mode_period, transfer
@@ -106,7 +106,7 @@ class Rung:
 
 
 @dataclass(frozen=True)
-class Setting:
+class InteriorInputs:
     """Inputs that all models of a body's interior share: layers, ellipticity, spin and ocean.
 
     Attributes
@@ -142,7 +142,7 @@ class Setting:
     factors: Mapping[str, float] = field(default_factory=dict)
 
     @property
-    def figure(self) -> Figure:
+    def figure(self) -> HydrostaticFigure:
         """Hydrostatic figure (shape and ellipticities) of the layers of the body."""
         return figure(self.layers, self.spin_rate)
 
@@ -163,7 +163,7 @@ class Setting:
 _yielding = lru_cache(maxsize=64)(yielding)
 
 
-def parts_of(setting: Setting, love: Yielding, e: float | None = None) -> Parts:
+def parts_of(setting: InteriorInputs, love: Yielding, e: float | None = None) -> Parts:
     """Ellipticities, moments and compliances that determine the nutation of a layered body.
 
     The internal figures are hydrostatic, except for the factors of the setting, and the outer
@@ -171,7 +171,7 @@ def parts_of(setting: Setting, love: Yielding, e: float | None = None) -> Parts:
 
     Parameters
     ----------
-    setting : Setting
+    setting : InteriorInputs
     love : Yielding
     e : float, optional
         (C - A)/A of the whole body, the observed value by default.
@@ -185,7 +185,7 @@ def parts_of(setting: Setting, love: Yielding, e: float | None = None) -> Parts:
     return replace(parts, **changed)
 
 
-def with_ocean(parts: Parts, setting: Setting, love: Yielding, sigma: Array) -> Parts:
+def with_ocean(parts: Parts, setting: InteriorInputs, love: Yielding, sigma: Array) -> Parts:
     """Add the effect of an ocean, which follows the equipotential and loads the ground.
 
     A wobble of the body, its core or its inner core changes the height of the equipotential above
@@ -205,12 +205,12 @@ def without_core(parts: Parts) -> Parts:
     return replace(parts, fluid=0.0, inner=0.0)
 
 
-def climb(setting: Setting, coupling: bool = False) -> dict[str, Rung]:
+def climb(setting: InteriorInputs, coupling: bool = False) -> dict[str, Rung]:
     """Build all interior models: those of increasing detail (rungs), and some for comparison.
 
     Parameters
     ----------
-    setting : Setting
+    setting : InteriorInputs
     coupling : bool
         Whether to include the rung with the coupling inferred from nutation.
     """
@@ -245,14 +245,14 @@ def climb(setting: Setting, coupling: bool = False) -> dict[str, Rung]:
     return {name: rungs[name] for name in (*RUNGS, *BESIDE) if name in rungs}
 
 
-def at_observed_period(rung: Rung, setting: Setting) -> Rung:
+def at_observed_period(rung: Rung, setting: InteriorInputs) -> Rung:
     """Adjust the core flattening of an interior model to the observed free core nutation period.
 
     Parameters
     ----------
     rung : Rung
         Model; its core flattening is the first estimate.
-    setting : Setting
+    setting : InteriorInputs
         Its observed period and spin rate are used.
     """
     wanted = 1 / (setting.core_nutation * DAY * setting.spin_rate / (2 * np.pi)) - 1
@@ -310,13 +310,13 @@ _PUBLISHED = {
 
 
 def changed(
-    setting: Setting, uncertainty: Mapping[str, float], deviations: Mapping[str, float]
-) -> Setting:
+    setting: InteriorInputs, uncertainty: Mapping[str, float], deviations: Mapping[str, float]
+) -> InteriorInputs:
     """Change inputs of the models by given multiples of their standard uncertainties.
 
     Parameters
     ----------
-    setting : Setting
+    setting : InteriorInputs
     uncertainty : mapping of str to float
         Relative standard uncertainties of the numbers of the interior.
     deviations : mapping of str to float
@@ -370,19 +370,19 @@ class Spread:
 
     Attributes
     ----------
-    setting : Setting
+    setting : InteriorInputs
         Nominal inputs.
     rungs : dict of str to Rung
         Nominal models.
-    nodes : list of (Setting, dict of str to Rung)
+    nodes : list of (InteriorInputs, dict of str to Rung)
         Inputs with one of them changed, and their models.
     weights : ndarray, shape (nodes, draws)
         Weights of the changes at the nodes in the change of each draw.
     """
 
-    setting: Setting
+    setting: InteriorInputs
     rungs: dict[str, Rung]
-    nodes: list[tuple[Setting, dict[str, Rung]]]
+    nodes: list[tuple[InteriorInputs, dict[str, Rung]]]
     weights: FloatArray
 
     def transfer_changes(self, name: str, frequency: FloatArray) -> ComplexArray:
@@ -462,12 +462,14 @@ def _half_width(changes: Array) -> FloatArray:
     return np.asarray(np.quantile(np.abs(changes), 0.95, axis=0))
 
 
-def spread_of(setting: Setting, rungs: dict[str, Rung], uncertainty: Mapping[str, float]) -> Spread:
+def spread_of(
+    setting: InteriorInputs, rungs: dict[str, Rung], uncertainty: Mapping[str, float]
+) -> Spread:
     """Compute interior models, each with one input changed, and weights for random inputs.
 
     Parameters
     ----------
-    setting : Setting
+    setting : InteriorInputs
     rungs : dict of str to Rung
         The nominal models, as `climb` gives them.
     uncertainty : mapping of str to float

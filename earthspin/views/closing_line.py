@@ -13,7 +13,7 @@ from earthspin.engine.question import Question
 from earthspin.engine.run import IMPORTS
 from earthspin.engine.variables import error_of, from_si, largest_of
 from earthspin.errors import listed
-from earthspin.rounded import plain, shown_unit
+from earthspin.number_text import plain, shown_unit
 from earthspin.scenes import QUESTIONS, run_tree
 
 #: A plain answer, or one with sections beside it.

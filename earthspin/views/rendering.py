@@ -28,10 +28,10 @@ from earthspin.views import (
     torque,
     wobble,
 )
+from earthspin.views.closing_line import Result, answer_of, changes_of, question_of, section
 from earthspin.views.drawing import Drawing, Figure, T, Views, style
-from earthspin.views.reading import Result, answer_of, changes_of, question_of, section
 from earthspin.views.solids import Solid
-from earthspin.views.tables import BRACKETS, Table, along
+from earthspin.views.tables import BRACKETS, TextTable, along
 
 if TYPE_CHECKING:
     from earthspin.engine.accessor import Answer
@@ -59,7 +59,7 @@ PAGES = {
 ERRORS = ("work_precision", "Error against run time")
 
 
-def tables_for(tree: Result) -> list[Table]:
+def tables_for(tree: Result) -> list[TextTable]:
     """Tables of a result and its sections, in reading order.
 
     Parameters
@@ -69,7 +69,7 @@ def tables_for(tree: Result) -> list[Table]:
 
     Returns
     -------
-    list of Table
+    list of TextTable
         Those of the question's own views, then one or more for the answer and for each
         section that these do not show. What the model leaves out stands below the errors that do
         not hold it, or else below the first table.
@@ -82,7 +82,7 @@ def tables_for(tree: Result) -> list[Table]:
     return tables.numbered([replace(first, note="\n".join(filter(None, note))), *others])
 
 
-def _tables(tree: Result) -> list[Table]:
+def _tables(tree: Result) -> list[TextTable]:
     """Tables designed for this type of result, then general tables of the other sections."""
     special = _views(tree).tables
     shown = {name for sections, _ in special for name in sections.split() or [""]}
@@ -249,14 +249,14 @@ def page_of(
     )
 
 
-def what_ran(*trees: Result) -> list[Table]:
+def what_ran(*trees: Result) -> list[TextTable]:
     """Table of the computations that ran for the results, with run times.
 
     For a single result it also lists the computations that were left out, with reasons.
 
     Returns
     -------
-    list of Table
+    list of TextTable
         One, or none if the answers do not carry their plans.
     """
     plans = [parts for tree in trees if (parts := section(tree, "plan")) is not None]
@@ -272,7 +272,7 @@ def what_ran(*trees: Result) -> list[Table]:
     title = "Parts that ran, and parts left out" if len(trees) == 1 else "Parts that ran"
     headers = "part", "what it computes", "ms"
     cost = f"{sum(float(parts.run_time.sum()) for parts in plans):.2f} s in total"
-    return [Table(title, headers, rows, words=(0, 1), cost=cost)] if plans else []
+    return [TextTable(title, headers, rows, words=(0, 1), cost=cost)] if plans else []
 
 
 def _explained(tree: Result) -> str:

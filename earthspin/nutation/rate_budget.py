@@ -72,7 +72,7 @@ def published_contributions(effects: Sequence[str]) -> dict[str, float]:
 
 
 @dataclass(frozen=True)
-class Budget:
+class RateBudget:
     """Contributions of effects to the rates of psi_A and omega_A at J2000.0, rad/s.
 
     The first-order rate comes first.
@@ -122,7 +122,7 @@ def budget_of(
     off: Sequence[str],
     psi_iau: float,
     u_h: float,
-) -> Budget:
+) -> RateBudget:
     """Contribution of each effect to the precession rates, from solutions without that effect.
 
     Parameters
@@ -153,7 +153,7 @@ def budget_of(
         of_h = {FIRST_ORDER: NORMAL_95 * u_h * abs(shares[FIRST_ORDER])}
         return {e: 0.0 if e in none else math.hypot(missed, of_h.get(e, 0.0)) for e in shares}
 
-    return Budget(
+    return RateBudget(
         psi=psi,
         psi_published=published_contributions(list(psi)),
         omega=omega,
@@ -203,7 +203,7 @@ class Flattening(NamedTuple):
     moment_uncertainty: float
 
 
-def inferred_h(budget: Budget, h: float) -> tuple[float, float]:
+def inferred_h(budget: RateBudget, h: float) -> tuple[float, float]:
     """Value of H that makes computed and IAU precession rates equal, and its standard uncertainty.
 
     The standard uncertainty follows from the root sum square of the differences between computed
@@ -211,7 +211,7 @@ def inferred_h(budget: Budget, h: float) -> tuple[float, float]:
 
     Parameters
     ----------
-    budget : Budget
+    budget : RateBudget
     h : float
         H used in the budget.
     """
@@ -224,13 +224,13 @@ def inferred_h(budget: Budget, h: float) -> tuple[float, float]:
 
 
 def compared_flattenings(
-    budget: Budget, h: float, j2: float, radius: float, *, u_h: float, u_j2: float
+    budget: RateBudget, h: float, j2: float, radius: float, *, u_h: float, u_j2: float
 ) -> dict[str, Flattening]:
     """Values of H and C/(M a2) by source: published, from the IAU precession rate, and from PREM.
 
     Parameters
     ----------
-    budget : Budget
+    budget : RateBudget
     h, j2 : float
         Values used in the budget.
     radius : float

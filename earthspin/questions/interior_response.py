@@ -14,7 +14,7 @@ from earthspin.interior import named
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.ocean_and_anelasticity import FES2004_SOURCE
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.nutation import ladder
+from earthspin.nutation import interior_models
 from earthspin.questions.reasons import no_iau_model
 from earthspin.wobble.ladder import Spin
 
@@ -120,20 +120,20 @@ class Prediction:
     ----------
     rungs : dict of str to Rung
         Rungs of the ladder, and additional models.
-    setting : Setting
+    setting : InteriorInputs
         Inputs that the models share.
     uncertainty : mapping of str to float
         Relative standard uncertainties of the numbers of the interior, and of e.
     """
 
-    rungs: dict[str, ladder.Rung]
-    setting: ladder.Setting
+    rungs: dict[str, interior_models.Rung]
+    setting: interior_models.InteriorInputs
     uncertainty: Mapping[str, float]
 
     @property
     def ladder(self) -> list[str]:
         """Names of the models in order of detail (rungs), except those used only for comparison."""
-        return [name for name in self.rungs if name not in ladder.BESIDE]
+        return [name for name in self.rungs if name not in interior_models.BESIDE]
 
     def transfer(self, name: str, frequency: FloatArray) -> ComplexArray:
         """Transfer function (non-rigid over rigid nutation) of one model, at frequencies in rad/s.
@@ -177,8 +177,10 @@ def predict(body: Body, coupling: bool, anelastic_exponent: float) -> Prediction
         spin = Spin(body.number("gm"), body.number("radius"), body.number("spin_period"))
         mean = (interior.ocean[0][0] + interior.ocean[1][1]) / 2
         ocean = mean / spin.centrifugal(interior.layers.radius)
-    setting = ladder.Setting(interior.layers, e, spin_rate, ocean, anelastic_exponent)
-    rungs = ladder.climb(setting, coupling)
+    setting = interior_models.InteriorInputs(
+        interior.layers, e, spin_rate, ocean, anelastic_exponent
+    )
+    rungs = interior_models.climb(setting, coupling)
     of_e = body.relative_uncertainty.get("dynamical_flattening", 0.0) / (1 - h)
     return Prediction(rungs, setting, {**interior.relative_uncertainty, "ellipticity": of_e})
 

@@ -235,7 +235,7 @@ def _nodes_of(days: FloatArray) -> FloatArray:
     return _nodes(float(np.min(days)), float(np.max(days)))
 
 
-class Nutation:
+class NutationSpline:
     """Nutation of IAU 2000A, interpolated in time, for use with IAU 2006 precession.
 
     `erfa.nut06a` takes about 30 us per epoch. A quintic spline with one node per day takes a few

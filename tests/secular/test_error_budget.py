@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from earthspin.constants import ARCSEC, JULIAN_YEAR, NORMAL_95
-from earthspin.secular.budget import Setting, Uncertainty, changed, changes, shifted_orbit
+from earthspin.secular.error_budget import AxisInputs, Uncertainty, changed, changes, shifted_orbit
 from earthspin.secular.trajectory import solve
 from tests.secular.setting import EARTHS, KYR, POLE, arcsec, earths
 
-SETTING = Setting(earths(), EARTHS, POLE)
+SETTING = AxisInputs(earths(), EARTHS, POLE)
 TILT = NORMAL_95 * 0.001 * ARCSEC
 
 
@@ -22,7 +22,7 @@ def uncertainty(
 
 def causes(
     constant: float = 1e-6, earth: bool = True, start: tuple[float, ...] = (TILT,)
-) -> dict[str, Setting]:
+) -> dict[str, AxisInputs]:
     """By cause; of the orbit's two ways the second."""
     return dict(changes(SETTING, uncertainty(constant, earth, start)))
 

@@ -18,13 +18,13 @@ from earthspin.engine.question import key, part
 from earthspin.errors import EarthspinError, KernelError, UndefinedError, Where, one_line
 from earthspin.mass.figure import inverse_polar_moment
 from earthspin.motion.effects import EFFECTS, GEODESIC, NONRIGID, PLANETS, RIGID
-from earthspin.motion.forces import Figure, Forces, Places, RateLaw, Torque
+from earthspin.motion.forces import FigureOfBody, Forces, Places, RateLaw, Torque
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.polynomials import Windows
-from earthspin.questions.elements import all_by_elements
+from earthspin.questions.ellipse_chains import all_by_elements
 from earthspin.questions.satellites import carried, common_turn, obliquity_of
 from earthspin.questions.sky import KernelName, Sky, places, sky
-from earthspin.questions.times import Series, epochs
+from earthspin.questions.time_axes import DateSeries, epochs
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.protocol import Place
 from earthspin.torque.gravity import cross
@@ -65,7 +65,7 @@ EFFECTS_DOC = (
 )
 
 
-class AxisMotion(Series):
+class AxisMotion(DateSeries):
     """Base class of computations that follow the motion of a body's axes under torques."""
 
     by_body = ("effects",)
@@ -227,11 +227,11 @@ def turning(rate: FloatArray) -> Torque:
     return over
 
 
-def figure_of(body: Body, spin_rate: float) -> Figure:
-    """Make a `Figure`: flattening, spin rate, inverse polar moment and radius of a body."""
+def figure_of(body: Body, spin_rate: float) -> FigureOfBody:
+    """Make a `FigureOfBody`: flattening, spin rate, inverse polar moment and radius of a body."""
     h, radius, meridian = map(body.number, ("dynamical_flattening", "radius", "meridian"))
     inverse = inverse_polar_moment(body.number("j2"), h)
-    return Figure(
+    return FigureOfBody(
         h=h, spin_rate=spin_rate, inverse_polar_moment=inverse, radius=radius, meridian=meridian
     )
 

@@ -8,7 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from earthspin.numerics.arrays import FloatArray
-from earthspin.top.motion import HeavyTopMotion, heavy_top_motion
+from earthspin.top.closed_form import HeavyTopMotion, heavy_top_motion
 from earthspin.top.start import HeavyTop, top_constants
 from tests.conftest import load_pins
 from tests.reference.heavy_top import integrate_heavy_top

@@ -77,7 +77,7 @@ class Tides:
 
 
 @dataclass(frozen=True)
-class Strength:
+class PrecessionConstant:
     """Constant of precession at J2000.0, with parameters of its change in time.
 
     Attributes
@@ -205,7 +205,7 @@ def _falling(times: FloatArray, start: float, end: float) -> FloatArray:
 Shape: TypeAlias = "tuple[FloatArray, FloatArray, FloatArray]"
 
 
-class Orbit(Protocol):
+class ChangingOrbit(Protocol):
     """Interface of an orbit that changes in time: normal and eccentricity at any covered time."""
 
     @property
@@ -226,12 +226,12 @@ class ModifiedOrbit:
 
     Attributes
     ----------
-    orbit : Orbit
+    orbit : ChangingOrbit
     change : callable
         Function of times (s) and the shape at these times that returns the changed shape.
     """
 
-    orbit: Orbit
+    orbit: ChangingOrbit
     change: Callable[[FloatArray, Shape], Shape]
 
     @property
@@ -257,7 +257,7 @@ def reference_axes(normal: FloatArray) -> FloatArray:
     return np.concatenate([first, cross(third, first), third], axis=1).T
 
 
-class Pull(NamedTuple):
+class AveragedTorque(NamedTuple):
     """Averaged torque on a spin axis: torque axis, constant of precession, geodesic rotation.
 
     The spin axis moves by ds/dt = (g n - a (m.s) m) x s.
@@ -277,7 +277,7 @@ class Pull(NamedTuple):
     geodesic: FloatArray
 
 
-def pull(strength: Strength, shape: Shape, times: FloatArray) -> Pull:
+def pull(strength: PrecessionConstant, shape: Shape, times: FloatArray) -> AveragedTorque:
     """Compute the torque of Sun and Moon on a spin axis, averaged over their orbits.
 
     The node of the Moon regresses about an orbit that moves; its mean torque acts about n + (n x
@@ -287,7 +287,7 @@ def pull(strength: Strength, shape: Shape, times: FloatArray) -> Pull:
     normal, eccentricity, turning = shape
     e2 = dot(eccentricity, eccentricity)
     aside = cross(normal, turning) / strength.node_rate
-    return Pull(
+    return AveragedTorque(
         normal + strength.moons_share * aside,
         strength.constant(times, e2),
         strength.geodesic_rate(e2) * normal,

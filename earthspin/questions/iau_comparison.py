@@ -23,13 +23,13 @@ from earthspin.motion.forces import fastest_sweep
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import analysis
 from earthspin.nutation.analysis import Circles, PoleAnalysis, Secular
-from earthspin.nutation.budget import published_effects
+from earthspin.nutation.rate_budget import published_effects
 from earthspin.progress import progress
-from earthspin.questions import satellites, times
-from earthspin.questions.axis_motion import AxisMotion, Pulls, forces_of, own_kernel
-from earthspin.questions.interiors import CHOSEN, Prediction, no_layers, prediction
+from earthspin.questions import satellites, time_axes
+from earthspin.questions.effects_and_torques import AxisMotion, Pulls, forces_of, own_kernel
+from earthspin.questions.interior_response import CHOSEN, Prediction, no_layers, prediction
 from earthspin.questions.reasons import no_iau_model, not_the_iaus_earth
-from earthspin.sky import iau
+from earthspin.sky import iau_models
 from earthspin.sky.kernel import DRIFT_FROM, growth
 
 if TYPE_CHECKING:
@@ -268,12 +268,12 @@ def iau_nutation(
     EarthspinError
         If the series does not fit into memory, or lies outside the source of positions.
     """
-    days = times.days_of(epochs)
+    days = time_axes.days_of(epochs)
     first, last = epochs.span()
     ends = np.array([min(first, 0.0), max(last, 0.0)])
     pulls.sky.check_times(ends, pulls.targets)
-    pole = iau.at_days(iau.true_pole, days)
-    return days, ends, pole, analysis.complex_nutation(iau.nutation_of(pole, days))
+    pole = iau_models.at_days(iau_models.true_pole, days)
+    return days, ends, pole, analysis.complex_nutation(iau_models.nutation_of(pole, days))
 
 
 def residual_error(
@@ -285,7 +285,7 @@ def residual_error(
     """
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     error = math.hypot(analysed.path.error, NORMAL_95 * u_h * float(np.max(np.abs(eta))))
-    between_nodes = iau.node_error(days)
+    between_nodes = iau_models.node_error(days)
     return math.hypot(error, between_nodes) if between_nodes else error
 
 
@@ -348,10 +348,12 @@ def iau_pole(pulls: Pulls) -> IAUPole:
         problem = f"the positions cover {years:.1f} years near J2000.0"
         problem += f", and the analysis of nutation needs {needed:.0f}"
         raise UndefinedError(f"{problem}; give a longer ephemeris, or remove the effect nonrigid")
-    arguments = iau.delaunay_arguments(days)
-    analyse = PoleAnalysis(days, arguments, iau.delaunay_rates(), iau.fixed_ecliptic())
-    pole, original = iau.pole_and_nutation(days)
-    nutation = analysis.complex_nutation(iau.nutation_of(pole, days))
+    arguments = iau_models.delaunay_arguments(days)
+    analyse = PoleAnalysis(
+        days, arguments, iau_models.delaunay_rates(), iau_models.fixed_ecliptic()
+    )
+    pole, original = iau_models.pole_and_nutation(days)
+    nutation = analysis.complex_nutation(iau_models.nutation_of(pole, days))
     circles = analyse.circles(analysis.complex_nutation(original))
     return IAUPole(days, nutation, analyse, analyse.secular(pole), circles)
 
@@ -376,7 +378,7 @@ def pole_analysis(pulls: Pulls, effects: tuple[str, ...], iau_pole: IAUPole) -> 
         start = analysis.shifted_start(start, ours, iau_pole.secular, analyse.ecliptic, centuries)
         path, pole = integrate(start)
         advance(1)
-    eta = analysis.complex_nutation(iau.nutation_of(pole, days))
+    eta = analysis.complex_nutation(iau_models.nutation_of(pole, days))
     return PoleComparison(
         days=days,
         start=start,
@@ -404,7 +406,7 @@ def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp
     """
     ours = analysed.our_circles
     order = np.argsort(-np.abs(ours.amplitude))[:count]
-    sky = iau.delaunay_rates(), iau.delaunay_arguments(np.zeros(1))[:, 0]
+    sky = iau_models.delaunay_rates(), iau_models.delaunay_arguments(np.zeros(1))[:, 0]
     names, amplitude = analysis.neighbours_of(ours.multiples, ours.frequency, *sky)
     neighbour_in, neighbour_out = analysis.phases(amplitude[order])
     return order, {
@@ -485,7 +487,7 @@ def response_apart(
         rest = [effect for effect in effects if effect != GEODESIC.name]
         path = path_over(pulls, rest, pole_analysis.start, pole_analysis.days)
         pole = steady_figure(path, pole_analysis.days)
-        eta = analysis.complex_nutation(iau.nutation_of(pole, pole_analysis.days))
+        eta = analysis.complex_nutation(iau_models.nutation_of(pole, pole_analysis.days))
         torques = pole_analysis.analysis.circles(eta).amplitude
     theirs = theirs - (ours.amplitude - torques)
     added = added_to(ours.multiples)
@@ -528,11 +530,11 @@ class Shift:
         Nutation does not move the angular momentum.
         """
         precession = self.rate * (days * DAY - self.epoch)
-        nutation = self.circles.at(iau.delaunay_arguments(days))
+        nutation = self.circles.at(iau_models.delaunay_arguments(days))
         for name, axis in directions.items():
             nutates = 0.0 if name == "angular_momentum" else 1.0
             shift = precession + nutates * nutation
-            directions[name] = iau.moved_by_nutation(axis, shift, days)
+            directions[name] = iau_models.moved_by_nutation(axis, shift, days)
 
     def half_width(self, days: FloatArray) -> FloatArray:
         """95 % half-width of axis directions due to errors of the response and rates, rad."""
@@ -550,7 +552,7 @@ def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[
     # listed as neglected, and are not part of the error.
     missing = sum(rate for name, rate in published.items() if name not in rigid(effects))
     since = analysed.days * DAY - analysed.epoch
-    difference = analysed.difference + circles.at(iau.delaunay_arguments(analysed.days))
+    difference = analysed.difference + circles.at(iau_models.delaunay_arguments(analysed.days))
     difference += missing * sine * since
     pair = np.stack([difference.real, difference.imag], axis=1)
     closure = float(np.linalg.norm(np.polynomial.polynomial.polyfit(since, pair, 1)[1]))
