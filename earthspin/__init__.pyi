@@ -81,8 +81,6 @@ def precession(
     source: Literal["jplephem", "skyfield"] | None = ...,
     span: tuple[Date, Date] | SkyfieldTime | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 def torque_series(
     start: Date | None = ...,
@@ -101,8 +99,6 @@ def torque_series(
     times: Dates | None = ...,
     equator: Literal["mean", "true"] | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 def pole(
     start: Date | None = ...,
@@ -131,8 +127,6 @@ def pole(
     | None = ...,
     response: Literal["fitted", "predicted"] | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 def compare_iau(
     start: Date | None = ...,
@@ -160,8 +154,6 @@ def compare_iau(
     ]
     | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 def nutation_ladder(
     start: Date | None = ...,
@@ -191,8 +183,6 @@ def nutation_ladder(
     coupling: Literal["none", "inferred"] | None = ...,
     anelastic_exponent: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 def long_term(
     start: Date | None = ...,
@@ -216,8 +206,6 @@ def long_term(
     obliquity_shift: Value | None = ...,
     longitude_shift: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 def insolation(
     start: Date | None = ...,
@@ -246,8 +234,6 @@ def insolation(
     window: Value | None = ...,
     solar_constant: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 def rotation(
     start: Date | None = ...,
@@ -279,8 +265,6 @@ def rotation(
     torque: Callable[[np.ndarray, np.ndarray, np.ndarray], ArrayLike] | None = ...,
     tolerance: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 def wobble_ladder(
     *,
@@ -292,8 +276,6 @@ def wobble_ladder(
     core_ellipticity: Value | None = ...,
     ocean_love_number: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 def polar_motion(
     *,
@@ -304,8 +286,6 @@ def polar_motion(
     method: Literal["burg", "likelihood"] | None = ...,
     window: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 def pole_offsets(
     *,
@@ -315,8 +295,6 @@ def pole_offsets(
     kind: Literal["c04", "c01", "finals2000A"] | None = ...,
     window: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 def forecast(
     days: Value | None = ...,
@@ -329,8 +307,6 @@ def forecast(
     parameters: Literal["shipped", "fitted"] | None = ...,
     excitation: xr.Dataset | pd.DataFrame | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 def free_rotor(
     moments: Values | Mapping[str, Value],
@@ -340,8 +316,6 @@ def free_rotor(
     duration: Value | None = ...,
     points: int | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 def heavy_top(
     times: Values | None = ...,
@@ -358,8 +332,6 @@ def heavy_top(
     phi: Value | None = ...,
     psi: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 def spheroid_field(
     position: Values,
@@ -367,16 +339,12 @@ def spheroid_field(
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     point_mass: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 def cassini_states(
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     orbit: Orbit | Mapping[str, Any] | None = ...,
     *,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 def love_numbers(
     interior: str | LayeredBody | Mapping[str, Any] | None = ...,
@@ -385,8 +353,6 @@ def love_numbers(
     body: Body | str | Mapping[str, Any] | VectorFunction | None = ...,
     anelastic_exponent: Value | None = ...,
     members: int | Mapping[str, Any] | xr.Dataset | str | None = ...,
-    uncertainty: Literal["linear", "sample"] | None = ...,
-    n: int | None = ...,
 ) -> xr.Dataset: ...
 
 __all__ = [

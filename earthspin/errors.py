@@ -430,8 +430,13 @@ def nearest(word: object, allowed: Iterable[str]) -> str:
     return f"{hint}allowed: {', '.join(words)}"
 
 
-def checked(function: Callable[_P, _T]) -> Callable[_P, _T]:
-    """Decorate a function: wrong arguments raise an `ArgumentError` that shows a corrected call."""
+def checked(
+    function: Callable[_P, _T], hint: Callable[[str, list[str]], str] = nearest
+) -> Callable[_P, _T]:
+    """Decorate a function: wrong arguments raise an `ArgumentError` that shows a corrected call.
+
+    `hint` makes the advice for an unknown argument, from its name and the allowed names.
+    """
     signature, name = inspect.signature(function), function.__name__
 
     def problem(error: TypeError, args: tuple[Any, ...], keywords: Mapping[str, Any]) -> str:
@@ -441,7 +446,7 @@ def checked(function: Callable[_P, _T]) -> Callable[_P, _T]:
         named = [p.name for p in parameters if p.kind is p.KEYWORD_ONLY and p.name not in keywords]
         unknown = [word for word in keywords if word not in signature.parameters]
         if unknown:
-            return f"has no argument '{unknown[0]}'; {nearest(unknown[0], [*free, *named])}"
+            return f"has no argument '{unknown[0]}'; {hint(unknown[0], [*free, *named])}"
         if len(args) > len(free) and named:
             if os.path.splitext(str(args[len(free)]))[1]:  # a file
                 named.sort(key=lambda name: name != "file")

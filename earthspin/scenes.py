@@ -23,7 +23,7 @@ from earthspin.engine.blocks import BlockSeries
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.members import ENDLESS, LARGEST_SEED, MOST_PARTS, TWICE, Members
 from earthspin.engine.question import BLOCK as BY_BLOCK
-from earthspin.engine.question import Question, keys_of, scene_of
+from earthspin.engine.question import REMOVED, Question, keys_of, scene_of
 from earthspin.engine.run import Plan, Run
 from earthspin.engine.store import open as open_file
 from earthspin.errors import OutputError, SceneError, Where, nearest, no_plain_file
@@ -66,6 +66,7 @@ BLOCK = 1 << 17
 VERSIONS = (
     "earthspin_version", "numpy_version", "jplephem_version", "skyfield_version", "pyerfa_version",
     "ephemeris_sha256", "orbit_sha256", "table_sha256",
+    "sampled",  # of earlier versions, whose answers had errors from a sample on request
 )  # fmt: skip
 
 
@@ -197,6 +198,8 @@ def _load(scene: Any, changes: Mapping[str, Any] | None, *, typed: bool) -> Ques
         raise SceneError(named, source, f"it is not TOML: {error}") from None
     except (ValueError, RecursionError) as error:
         raise SceneError(named, source, f"it cannot be read: {error}") from None
+    if stored:
+        table = {name: value for name, value in table.items() if name not in REMOVED}
     own_body = table.get("body", "earth")
     with_units = set() if stored else _names(table)
     changed = _names(changes) | {part for key in changes for part in str(key).split(".")[:2]}
@@ -439,9 +442,6 @@ def _series(question: Question) -> BlockSeries:
         raise SceneError("compute", question.word, problem)
     if question.members is not None:
         raise question.error("members", "...", "give the scene and the path to earthspin.ensemble")
-    if question.uncertainty == "sample":
-        problem = "a series in blocks has no sampled errors; leave it out, or use earthspin.run"
-        raise question.error("uncertainty", "sample", problem)
     return BlockSeries(question, size, max(1, BLOCK // members_of(question)))
 
 

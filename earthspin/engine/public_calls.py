@@ -8,23 +8,14 @@ import textwrap
 from collections.abc import Callable, Iterable
 from typing import Any
 
-import numpy as np
-
 from earthspin._lazy import xr
 from earthspin.engine.ensemble import Ensemble
-from earthspin.engine.members import MEMBER, Members
-from earthspin.engine.question import ALL, NEGLECTED, Key, Question, define_parts, keys_of
+from earthspin.engine.question import ALL, NEGLECTED, Key, Question, define_parts, hint, keys_of
 from earthspin.engine.run import Run
 from earthspin.errors import SceneError, checked
 from earthspin.progress import progress
 
 # --- answers --------------------------------------------------------------------------------------
-
-#: Default number of members of a sample.
-MEMBERS = 1000
-#: Quantiles at the ends of the central 95 % interval.
-_ENDS = (0.025, 0.975)
-_NO_ERROR = "no number of this answer has an error that can be sampled; leave it out"
 
 
 @progress("answer")
@@ -38,8 +29,7 @@ def answer(question: Question) -> xr.Dataset:
     Returns
     -------
     Dataset
-        With dimension `member` if the question has members; with sampled errors if
-        ``uncertainty = "sample"``.
+        With dimension `member` if the question has members.
 
     Raises
     ------
@@ -48,8 +38,7 @@ def answer(question: Question) -> xr.Dataset:
     """
     if question.members is not None:
         return Ensemble(question, in_memory=True).hold()
-    result = Run(question).answer()
-    return _with_sample(question, result) if question.uncertainty == "sample" else result
+    return Run(question).answer()
 
 
 @progress("answer with sections")
@@ -79,76 +68,7 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
         if named:
             nodes[NEGLECTED] = work.nominal_run.tree(NEGLECTED).earthspin.section(NEGLECTED)
         return xr.DataTree.from_dict(nodes)
-    tree = Run(question).tree(sections)
-    if question.uncertainty == "sample":
-        tree.dataset = _with_sample(question, tree.to_dataset())
-    return tree
-
-
-def _with_sample(question: Question, answer: xr.Dataset) -> xr.Dataset:
-    """Add errors to a result, estimated by repeating the computation with random inputs.
-
-    Parameters
-    ----------
-    question : Question
-        With ``uncertainty = "sample"``.
-    answer : Dataset
-
-    Returns
-    -------
-    Dataset
-        The answer with a variable ``<name>_error_sampled`` for each number with an error, its own
-        or one that it shares with other numbers: half the width of the central 95 % interval of
-        the members. Its attributes hold the largest difference from the linear error if that has
-        the same unit, and the largest difference between the median of the sample and the value.
-
-    Raises
-    ------
-    EarthspinError
-        If the members cannot be computed, or no number of the answer has an error.
-    """
-    linear_errors = {
-        str(name): error
-        for name, array in answer.data_vars.items()
-        if array.dtype.kind == "f"
-        and (error := _linear_error(answer, str(name))) is not None
-        # the error of a vector is an angle or a length, not that of a component
-        and not {*array.dims}.difference(error.dims) & {"component", "quaternion"}
-    }
-    if not linear_errors:
-        raise question.error("uncertainty", "sample", _NO_ERROR)
-    count = MEMBERS if question.n is None else question.n
-    members = Members(n=count, published=True)
-    drawn = question.replace(uncertainty=None, n=None, members=members)
-    sample = Ensemble(drawn, in_memory=True).hold()
-    sampled: dict[str, Any] = {}
-    for name, linear in linear_errors.items():
-        number, values = answer[name], sample[name]
-        units, width, shift = number.attrs.get("units", "1"), np.zeros(number.shape), 0.0
-        if MEMBER in values.dims:
-            low, middle, high = np.quantile(values.values, (_ENDS[0], 0.5, _ENDS[1]), axis=0)
-            width = (high - low) / 2
-            shift = float(np.max(np.abs(middle - number.values)))
-        meaning = f"95 % half-width of the {number.attrs['long_name']}"
-        attrs = {
-            "long_name": f"{meaning} from {count} members",
-            "units": units,
-            "members": count,
-            "middle_of_the_sample": f"{shift:.3g} {units} at most from {name}",
-        }
-        if linear.attrs.get("units") == units and linear.dims == number.dims:
-            size = float(np.max(np.abs(linear.values - width), initial=0.0))
-            attrs["difference_from_linear"] = f"{size:.3g} {units} at most from {linear.name}"
-        sampled[f"{name}_error_sampled"] = (number.dims, width, attrs)
-    inputs = ", ".join(str(c.attrs["input"]) for c in sample.coords.values() if "input" in c.attrs)
-    return answer.assign(sampled).assign_attrs(sampled=f"{count} members in {inputs}")
-
-
-def _linear_error(answer: xr.Dataset, name: str) -> xr.DataArray | None:
-    """Return the error of a variable due to inputs, or else its total or shared error, or None."""
-    shared = str(answer[name].attrs.get("ancillary_variables", "")).split()
-    names = (f"{name}_error_input", f"{name}_error", *shared)
-    return next((answer[error] for error in names if error in answer), None)
+    return Run(question).tree(sections)
 
 
 # --- the public function of a question ------------------------------------------------------------
@@ -187,7 +107,7 @@ def public_call(question: type[Question], **parts: Any) -> Callable[..., xr.Data
     call.__module__ = question.__module__
     call.__signature__ = signature  # type: ignore[attr-defined]
     call.question = question  # type: ignore[attr-defined]
-    return checked(call)
+    return checked(call, hint)
 
 
 def arguments_of(question: type[Question]) -> dict[str, Key | None]:

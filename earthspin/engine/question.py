@@ -20,7 +20,7 @@ from collections.abc import Callable, Collection, Hashable, Iterable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from functools import cache, cached_property, partial, update_wrapper
 from threading import Lock
-from typing import Any, ClassVar, Generic, Literal, NamedTuple, ParamSpec, Self, TypeVar, overload
+from typing import Any, ClassVar, Generic, NamedTuple, ParamSpec, Self, TypeVar, overload
 
 from earthspin.engine.members import Members
 from earthspin.engine.variables import Variables
@@ -34,6 +34,17 @@ NEGLECTED = "neglected"
 ALL = "all"
 #: Attribute of an answer that holds the complete question as the text of a scene file.
 SCENE = "scene"
+#: Keys of earlier versions, each with what to give instead. Stored scenes are read without them.
+REMOVED = dict.fromkeys(
+    ("uncertainty", "n"),
+    "for errors from a sample, give members: "
+    "earthspin.ensemble('precession', 1000).earthspin.quantiles()",
+)
+
+
+def hint(name: str, allowed: Iterable[str]) -> str:
+    """Say what to give instead of a key that a question does not have."""
+    return REMOVED.get(name) or nearest(name, allowed)
 
 
 def key(default: Any = MISSING, *, doc: str) -> Any:
@@ -190,12 +201,6 @@ class Question:
         doc="run an ensemble: which inputs vary, and how; a whole number draws that many members "
         "from the published uncertainties of the bodies",
     )
-    uncertainty: Literal["linear", "sample"] | None = key(
-        None,
-        doc="how errors from the uncertainties of the inputs are computed: by linear propagation, "
-        "or also from a sample of the bodies' published uncertainties",
-    )
-    n: int | None = key(None, doc="number of members of the sample, 1000 by default")
 
     def __init_subclass__(
         cls, word: str = "", call: str = "", table: str = "", positional: tuple[str, ...] = ()
@@ -226,7 +231,7 @@ class Question:
         for name, value in values.items():
             if name not in keys:
                 problem = f"compute = '{self.word}' has no such key: delete or rename it"
-                problem += f"; {nearest(name, keys)}"
+                problem += f"; {hint(name, keys)}"
                 raise SceneError(name, value, problem, source=source)
         chosen = {name: value for name, value in values.items() if value is not None}
         object.__setattr__(self, "given", frozenset({*chosen, *known}))
@@ -249,11 +254,6 @@ class Question:
             if len(used) > 1:
                 ways = ", or ".join(" and ".join(group) for group in groups)
                 raise self.error(used[0][0], "...", f"give either {ways}")
-        if self.uncertainty == "sample" and self.members is not None:
-            problem = "an ensemble is a sample already; give either members or uncertainty"
-            raise self.error("uncertainty", "sample", problem)
-        if self.n is not None and self.uncertainty != "sample":
-            raise self.error("n", self.n, "it is only used with uncertainty = 'sample'")
         self.check()
         return self
 

@@ -90,9 +90,6 @@ class NutationLadder(
         super().check()
         if self.body.labelled:
             raise self.error("body", self.body.name, "give single numbers here, no labelled arrays")
-        if self.uncertainty == "sample":
-            text = "the errors of the ladder are from a sample of its inputs already; leave it out"
-            raise self.error("uncertainty", "sample", text)
         if why := no_layers(self.body):
             raise self.error("body", self.body.name, f"{why}; leave it out")
 

@@ -13,7 +13,7 @@ from astropy import units
 from scipy import stats
 
 import earthspin
-from earthspin import EARTH, MOON, SUN, EarthspinError, SceneError
+from earthspin import EARTH, MOON, SUN, ArgumentError, EarthspinError, SceneError
 from earthspin.engine.ensemble import ROW, Ensemble
 from earthspin.engine.members import Distribution, Members, draw, standard_normal
 from earthspin.errors import Where
@@ -276,61 +276,19 @@ def test_published_uncertainties_are_the_bodies_own() -> None:
 # --- what they tell ------------------------------------------------------------------------------
 
 
-def test_a_sample_stands_beside_the_errors_of_the_same_numbers_alone() -> None:
-    """The error of a direction or an attitude is an angle, not one of its components."""
-    millennia = earthspin.long_term("-3 kyr", "0 kyr", "1 kyr", uncertainty="sample", n=3)
-    assert "obliquity_error_sampled" in millennia
-    assert "pole_error_sampled" not in millennia
-    with pytest.raises(SceneError, match="no number of this answer has an error"):
-        earthspin.rotation("2000-01-01", "2000-01-02", "8 h", uncertainty="sample", n=3)
-
-
 def test_quantiles_and_linear_errors_agree() -> None:
-    answer = earthspin.precession(uncertainty="sample", n=4000)
-    sampled, linear = answer.precession_rate_error_sampled, answer.precession_rate_error_input
-    np.testing.assert_allclose(sampled, linear, rtol=0.04, atol=0)  # 4000 members: 2 % of one sigma
-    words = sampled.attrs["difference_from_linear"]
-    assert words.endswith("arcsec/yr at most from precession_rate_error_input")
-    apart = float(abs(sampled - linear).max())
-    assert float(words.split()[0]) == pytest.approx(apart, rel=5e-3, abs=0)  # three digits
-    assert sampled.attrs["members"] == 4000
-    assert earthspin.run(answer).identical(answer)
-    plain = earthspin.precession()
-    for name in plain.data_vars:
-        assert answer[name].identical(plain[name])
     ends = earthspin.ensemble("precession", 4000).earthspin.quantiles([0.025, 0.975])
     half = ends.precession_rate.diff("quantile").squeeze("quantile", drop=True) / 2
-    np.testing.assert_allclose(half, sampled, rtol=1e-12, atol=0)
+    linear = earthspin.precession().precession_rate_error_input
+    np.testing.assert_allclose(half, linear, rtol=0.04, atol=0)  # 4000 members: 2 % of one sigma
 
 
-def test_numbers_that_share_an_error_are_sampled_too() -> None:
-    """X, Y, Z and the angles of a pole have the error of its direction."""
-    pole = earthspin.pole(times=["2000-01-01", "2010-01-01"], uncertainty="sample", n=3)
-    sampled = {name for name in pole.data_vars if str(name).endswith("_error_sampled")}
-    assert sampled == {f"{name}_error_sampled" for name in ("X", "Y", "Z", "psi", "eps")}
-    assert pole.X_error_sampled.dims == pole.X.dims
-    field = earthspin.run(earthspin.load_scene("spheroid", {"uncertainty": "sample", "n": 3}))
-    # the error of the field is relative
-    assert "difference_from_linear" not in field.potential_error_sampled.attrs
-
-
-@pytest.mark.parametrize(
-    ("word", "message"),
-    [
-        ("nutation", "errors of the ladder are from a sample of its inputs already"),
-        ("love-numbers", "no number of this answer has an error"),
-    ],
-)
-def test_a_sample_that_would_give_no_error_is_refused(word: str, message: str) -> None:
-    with pytest.raises(SceneError, match=message):
-        earthspin.run(earthspin.load_scene(word, {"uncertainty": "sample", "n": 3}))
-
-
-def test_sections_stand_beside_a_sample() -> None:
-    question = earthspin.load_scene("precession", {"uncertainty": "sample", "n": 50})
-    tree = earthspin.run_tree(question, "seasons")
-    assert "precession_rate_error_sampled" in tree.data_vars
-    assert "general_precession" in tree["seasons"]
+def test_quantiles_give_the_half_width_of_the_period() -> None:
+    """The same number as `uncertainty = "sample"` of earlier versions gave, to all its digits."""
+    ends = earthspin.ensemble("precession", 1000).earthspin.quantiles()
+    period = ends.precession_period.sel(perturber="total")
+    half = float(period.sel(quantile=0.975) - period.sel(quantile=0.025)) / 2
+    assert half == pytest.approx(0.0159277, abs=5e-8)
 
 
 def test_the_share_of_h_in_the_rate_is_that_of_the_linear_errors() -> None:
@@ -485,11 +443,13 @@ test_bad_members_are_refused = refused(
 )
 
 
-def test_a_sample_beside_members_is_refused() -> None:
-    with pytest.raises(SceneError, match="give either members or"):
-        earthspin.precession(members=3, uncertainty="sample")
-    with pytest.raises(SceneError, match="only used with uncertainty"):
-        earthspin.precession(n=3)
+@pytest.mark.parametrize("key", [{"uncertainty": "sample"}, {"uncertainty": "linear"}, {"n": 3}])
+def test_keys_of_earlier_versions_are_refused_with_what_to_type(key: dict[str, Any]) -> None:
+    words = r"give members: earthspin\.ensemble\('precession', 1000\)\.earthspin\.quantiles\(\)$"
+    with pytest.raises(ArgumentError, match=words):
+        earthspin.pole(**key)
+    with pytest.raises(SceneError, match=words):
+        load_scene("pole", key)
 
 
 def test_inputs_have_their_units_and_names() -> None:

@@ -31,7 +31,7 @@ def test_every_key_is_used_by_some_part(question: type[Question]) -> None:
     parts = question.graph.parts.values()
     used = {name for part in parts for name in (*part.needs, *part.uses)}
     used |= {name for part in parts for why in part.unless for name in signature(why).parameters}
-    of_the_engine = {"title", "members", "uncertainty", "n"}
+    of_the_engine = {"title", "members"}
     assert set(keys_of(question)) - used == of_the_engine
     graph = question.graph
     assert used <= {*keys_of(question), *graph.parts, BLOCK}

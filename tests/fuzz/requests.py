@@ -75,8 +75,6 @@ def request(
             table[key.name] = value
     if rng.random() < odd / 2:
         scene["members"] = _members(rng, scene)
-    if scene.get("uncertainty") == "sample":
-        scene.setdefault("n", 3)
     return scene
 
 
@@ -223,7 +221,7 @@ def _argument(rng: Random, action: Any, scene: dict[str, Any], folder: Path) -> 
 def _setting(rng: Random, scene: dict[str, Any]) -> str:
     """A change of one key, as ``--set`` takes it."""
     question = QUESTIONS[scene["compute"]]
-    key = rng.choice([one for one in keys_of(question).values() if one.name != "uncertainty"])
+    key = rng.choice([*keys_of(question).values()])
     name = f"{question.table}.{key.name}" if key.setting else key.name
     try:
         return tomli_w.dumps({"x": fresh(rng, key, 0.3)}).replace("x = ", f"{name}=", 1).strip()
