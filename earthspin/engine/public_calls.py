@@ -5,13 +5,23 @@ from __future__ import annotations
 import inspect
 import re
 import textwrap
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from earthspin._lazy import xr
 from earthspin.engine.ensemble import Ensemble
-from earthspin.engine.question import ALL, NEGLECTED, Key, Question, define_parts, hint, keys_of
+from earthspin.engine.question import (
+    ALL,
+    NEGLECTED,
+    Graph,
+    Key,
+    Question,
+    define_parts,
+    hint,
+    keys_of,
+)
 from earthspin.engine.run import Run
+from earthspin.engine.variables import Variable
 from earthspin.errors import SceneError, checked
 from earthspin.progress import progress
 
@@ -163,13 +173,54 @@ def docstring_of(question: type[Question]) -> str:
     notes = "\n".join(SOURCE_TEXT) if _NUMBERED.search(text + "".join(of_class.values())) else ""
     examples = of_class.pop("Examples", "")
     ordered = {
-        "Parameters": "\n".join(parameters), **of_class, "Raises": "\n".join(raises),
-        "Notes": notes, "Examples": examples,
+        "Parameters": "\n".join(parameters), "Returns": "\n".join(_returns(question.graph)),
+        **of_class, "Raises": "\n".join(raises), "Notes": notes, "Examples": examples,
     }  # fmt: skip
     blocks = (
         f"{title}\n{'-' * len(title)}\n{body.rstrip()}" for title, body in ordered.items() if body
     )
     return "\n\n".join([text, *blocks, ""])
+
+
+def _returns(graph: Graph) -> list[str]:
+    """Lines of "Returns": variables of the answer, and sections with the names of their own."""
+    lines = ["Dataset", f"    {_VARIABLES}", ""]
+    for name, variable, shares in _described(graph, graph.answer):
+        place = "; ".join(filter(None, (variable.units.strip("1"), ", ".join(variable.dims))))
+        more = "; shares of the error: " + ", ".join(shares) if shares else ""
+        lines += _entry(f"{name} ({place})" if place else name, variable.long_name + more)
+    lines += ["", "    Sections, from `earthspin.run_tree`:", ""]
+    for section, parts in graph.sections.items():
+        names = ", ".join(name for name, _, _ in _described(graph, parts))
+        does = graph.parts[parts[0]].does
+        lines += _entry(f"`{section}`", f"{does} ({names})" if names else does)
+    return lines
+
+
+#: Explains the marks of the lines below.
+_VARIABLES = (
+    "Variables, with units and dimensions; ± has ``<name>_error``, a 95 % half-width or a bound:"
+)
+
+
+def _described(graph: Graph, parts: Iterable[str]) -> Iterator[tuple[str, Variable, list[str]]]:
+    """Yield each variable that parts declare: its name, marked ± if it has an error, and shares.
+
+    Shares are the suffixes of further errors, such as `_error_input`.
+    """
+    declared = {name: entry for part in parts for name, entry in graph.parts[part].gives.items()}
+    for name, entry in declared.items():
+        before, error, _ = name.partition("_error")
+        if not (error and before in declared):
+            errors = [other for other in declared if other.startswith(f"{name}_error")]
+            shares = [f"`{other.removeprefix(name)}`" for other in errors[1:]]
+            yield f"`{name}`\N{NO-BREAK SPACE}±" if errors else f"`{name}`", entry, shares
+
+
+def _entry(name: str, meaning: str) -> list[str]:
+    """Lines of one entry of a list in a docstring."""
+    text = f"- {name}: {meaning}"
+    return textwrap.wrap(text, 96, initial_indent="    ", subsequent_indent="      ")
 
 
 #: Errors that several questions raise: the key that a question must have, if any, and the case.

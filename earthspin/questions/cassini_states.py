@@ -29,12 +29,7 @@ class CassiniStates(
     The node of the orbit moves at a constant rate. The spin may be free, or locked to the orbit, as
     that of the Moon (one rotation per orbit) and of Mercury (three in two orbits).
 
-    Returns
-    -------
-    Dataset
-        Over `state` (1 to 4, or 2 and 3, after Peale 1969): `obliquity` to the body's own orbit,
-        `tilt`, the angle to the mean orbit normal (deg), each with its error, and whether the state
-        is `stable`.
+    The label `state` is 1 to 4, or 2 and 3, after Peale (1969).
 
     Raises
     ------

@@ -67,14 +67,7 @@ class Forecast(
 
     Only observed rows up to the origin are used. The attributes of `time` name the newest one.
 
-    Returns
-    -------
-    Dataset
-        Over `time`, from a step after `start`: `x`, `y` (arcsec) with their 95 % half-widths,
-        and `correlation_xy`, the correlation of the errors. `earthspin.run_tree` adds `components`
-        (Chandler, annual and semiannual wobble, slow pole), the measured `skill` by horizon,
-        `bulletin_a`, the prediction of Bulletin A from the same table if it has one, and
-        `pole_offsets`, the forecast of the celestial pole offsets from the same table.
+    The first time of the answer is a step after `start`.
 
     Raises
     ------

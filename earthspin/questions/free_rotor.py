@@ -85,13 +85,7 @@ class FreeRotor(
 ):
     """Motion of a rigid body without torque, in closed form (source text, I.4 to I.6).
 
-    Returns
-    -------
-    Dataset
-        Over `time` (s): `omega_body`, `angular_momentum_body`, `omega_inertial` (along
-        `component`), `attitude` (unit quaternion along `quaternion`, body to inertial; the
-        inertial axes are those of the body at t = 0), `energy`. For one start
-        `earthspin.run_tree` adds Poinsot's ellipsoids, polhode and herpolhode.
+    The label `time` is in seconds. The inertial axes are those of the body at t = 0.
 
     Raises
     ------

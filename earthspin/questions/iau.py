@@ -65,16 +65,9 @@ LARGEST = 30
 class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop", "step")):
     """Computed pole compared with IAU 2006/2000A: rates, residuals in time, nutation terms.
 
-    Returns
-    -------
-    Dataset
-        Over `effect`: `psi_rate`, `psi_rate_published`, `omega_rate` (arcsec/yr, at J2000.0), and
-        `closure` (arcsec/yr), after the published non-linear term. `earthspin.run_tree(answer)`
-        adds sections: `residuals` (over `time`: `dX`, `dY`, the computed pole minus that of the
-        IAU, mas), the largest nutations, the free core nutation, the angles of precession, and H
-        and C as implied by the rate of the IAU. ``earthspin.compare_iau().earthspin.plot()[0]``
-        draws `dX` and `dY`. They contain the response of the interior, which is fitted to IAU
-        2000A; ``effects="rigid"`` leaves it out.
+    ``earthspin.compare_iau().earthspin.plot()[0]`` draws `dX` and `dY` of the section `residuals`.
+    They contain the response of the interior, which is fitted to IAU 2000A; ``effects="rigid"``
+    leaves it out.
 
     Examples
     --------

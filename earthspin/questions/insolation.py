@@ -106,13 +106,9 @@ class Insolation(
     longitude of (day - 80)/365.2422 turns (Huybers & Eisenman 2006). Other seasons then begin on
     days that change with the perihelion.
 
-    Returns
-    -------
-    Dataset
-        Over `epoch` (Julian years from J2000.0 TDB), and over `latitude` and `longitude` or `day`
-        if these are lists: `insolation` (W m-2) with its error from those of obliquity,
-        eccentricity and perihelion, which are treated as independent. Sections: `long_term`, the
-        answer of `long_term`; `budget` of its errors.
+    The answer is also along `latitude`, and along `longitude` or `day`, if these are lists. The
+    label `epoch` is in Julian years from J2000.0 TDB. The error follows from those of obliquity,
+    eccentricity and perihelion, which are treated as independent.
 
     Raises
     ------

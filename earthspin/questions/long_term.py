@@ -128,17 +128,9 @@ class LongTerm(
     published contributions that they leave out), geodesic precession, tides, and a rate of J2 that
     fades turn it about the normal of an orbit that comes as a table.
 
-    Returns
-    -------
-    Dataset
-        Over `epoch` (Julian years from J2000.0 TDB): `obliquity`, `longitude_of_perihelion` (from
-        the moving equinox, unwrapped), `general_precession`, `psi_A`, `omega_A` (deg),
-        `eccentricity`, `climatic_precession`, `coprecession`, `pole` and `ecliptic_pole` (unit
-        vectors in the GCRS, over `component`), `precession_rate` (arcsec/yr) and
-        `precession_period` (yr) over `perturber`; each with its error. Where the phase of
-        precession is uncertain by more than 0.1 rad, for the Earth beyond a million years, errors
-        are quantiles over a sample of solutions. Sections: `budget` of the error by cause,
-        `matrices` from J2000.0 to mean equator and equinox of date.
+    The label `epoch` is in Julian years from J2000.0 TDB; `pole` and `ecliptic_pole` refer to the
+    GCRS. Where the phase of precession is uncertain by more than 0.1 rad, for the Earth beyond a
+    million years, errors are quantiles over a sample of solutions.
 
     Raises
     ------

@@ -33,15 +33,10 @@ class LoveNumbers(
 ):
     """Love numbers and load Love numbers of degree two of a layered body.
 
-    Returns
-    -------
-    Dataset
-        Along `love` (k2, h2, l2 of a tide, k2_load, h2_load, l2_load): `love_number`, and
-        `love_number_imaginary`, negative if the deformation lags. `earthspin.run_tree` adds the
-        sections `by_period`; `compliances`, in the notation of Mathews et al. (1991): kappa to nu,
-        e, e_f and e_s of hydrostatic equilibrium, the coupling numbers a1 to a3, and A_f/A and
-        A_s/A as `fluid` and `inner`, without those of regions that the body does not have; and
-        `modes`, the periods of its free modes.
+    The label `love` is k2, h2, l2 of a tide, or k2_load, h2_load, l2_load. The section
+    `compliances` is in the notation of Mathews et al. (1991): kappa to nu, e, e_f and e_s of
+    hydrostatic equilibrium, the coupling numbers a1 to a3, and A_f/A and A_s/A as `fluid` and
+    `inner`, without those of regions that the body does not have.
 
     Raises
     ------

@@ -53,14 +53,6 @@ class NutationLadder(
     `interior` of the body. All models use the observed dynamical flattening H. Only rungs that say
     so contain numbers fitted to nutation.
 
-    Returns
-    -------
-    Dataset
-        Along `rung`: `rms_dpsi_sineps` and `rms_deps` (mas), the residuals from IAU 2000A after
-        removal of a constant and a rate, and `adds`, what the rung adds. `earthspin.run_tree` adds
-        the sections: two models outside the ladder, the main circular terms, the free modes, and
-        the transfer function.
-
     Raises
     ------
     SceneError

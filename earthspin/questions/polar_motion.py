@@ -43,12 +43,7 @@ OCEAN_TIDES = 0.027 + 0.142 + 0.056 + 0.171 + 0.058 + 0.331 + 0.158 + 0.040
 class PolarMotion(tables.OfTable, word="polar-motion", call="polar_motion", table="polar_motion"):
     """Observed polar motion, and the free wobble in it.
 
-    Returns
-    -------
-    Dataset
-        Over `time`: `x`, `y` (arcsec) with their 95 % half-widths. `earthspin.run_tree` adds the
-        sections `chandler`, the result of `fit_chandler` over `middle`, the middles of sliding
-        windows, and `spectrum`, the amplitudes over `frequency`.
+    The section `chandler` is the result of `fit_chandler`, over the middles of sliding windows.
 
     Raises
     ------

@@ -43,13 +43,9 @@ class Pole(WithInterior, word="pole", call="pole", positional=("start", "stop", 
     are such that their mean pole agrees with that of the IAU, and all axes receive the published
     contribution of the non-rigid Earth to the rate of precession.
 
-    Returns
-    -------
-    Dataset
-        Over `time` and `axis` (``angular_momentum``, ``rotation``, ``figure``): `X`, `Y`, `Z`
-        (unit vectors), `psi` and `eps` (arcsec, on the fixed orbit of J2000.0) where they are
-        defined; over `time` `direction_error` (arcsec) and its shares, with `nonrigid` also
-        `direction_error_response`, and for a body with satellites `direction_error_satellites`.
+    The label `axis` is ``angular_momentum``, ``rotation`` or ``figure``. The angles `psi` and `eps`
+    are given where they are defined, `direction_error_response` with `nonrigid`, and
+    `direction_error_satellites` for a body with satellites.
 
     Raises
     ------

@@ -30,14 +30,6 @@ class PoleOffsets(tables.OfTable, word="pole-offsets", call="pole_offsets", tabl
     The offsets dX, dY are X, Y observed by very long baseline interferometry minus those of IAU
     2006/2000A. Predicted rows, and rows before the first observation, are left out.
 
-    Returns
-    -------
-    Dataset
-        Over `time`: `dX`, `dY` (mas) with their 95 % half-widths. `earthspin.run_tree` gives the
-        amplitude and phase of the free core nutation as the section `core_nutation`, over
-        `middle`, the middles of sliding windows, and its period, from the series since 1984, as the
-        section `period`.
-
     Raises
     ------
     SeriesError

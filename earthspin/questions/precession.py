@@ -45,15 +45,6 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     A body with satellites precesses together with them, each in its Laplace plane; the rate is then
     the mean over the nodes of the satellites.
 
-    Returns
-    -------
-    Dataset
-        Along `perturber`: `precession_rate` (arcsec/yr), `precession_period` (yr) and
-        `mean_torque` (N m), each with its 95 % half-width `_error`, referred to
-        `reference_epoch`. `earthspin.run_tree` adds the sections: convergence of the
-        average, models of the figure, the free wobble, the seasons, IAU 2006, standstills of the
-        Moon, and what is neglected.
-
     Examples
     --------
     >>> import earthspin

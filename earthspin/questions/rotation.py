@@ -50,13 +50,7 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
     `start_omega`. The effects `second-order` and `triaxiality` are always included; `nonrigid` is
     not available.
 
-    Returns
-    -------
-    Dataset
-        Over `time`: `attitude` (unit quaternion along `quaternion`, body to ICRF), `omega` (rad/s)
-        along the principal axes and `angular_momentum` (kg m2/s) along the ICRF, each along
-        `component`, with their errors, the largest up to that time. `earthspin.run_tree` adds
-        `divergence`, the growth of the distance between neighbouring rotations.
+    Errors are the largest up to that time.
 
     Examples
     --------

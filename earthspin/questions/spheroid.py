@@ -24,11 +24,6 @@ class Spheroid(
     Its `gm`, `radius` and `flattening` are used; the flattening may be negative (prolate) or zero
     (sphere).
 
-    Returns
-    -------
-    Dataset
-        Along `point`: `potential`, `attraction`, `torque`.
-
     Raises
     ------
     EarthspinError

@@ -34,12 +34,7 @@ Rate = Annotated[float, Number("rad/s", "200 rad/s")]
 class Top(Question, word="top", call="heavy_top", table="top", positional=("times",)):
     """Motion of a heavy symmetric top, by elliptic functions (source text, I.7).
 
-    Returns
-    -------
-    Dataset
-        Over `time` (s): `theta`, `phi`, `psi` (rad), `attitude`, `omega_body`; `pattern` (wave,
-        cusp, loop, sleeping, steady), `nutation_period`, `mean_precession_rate`.
-        `earthspin.run_tree` adds the turning angles and the effective potential.
+    The label `time` is in seconds.
 
     Raises
     ------

@@ -26,13 +26,6 @@ from earthspin.torque.gravity import largest_torque_on_figure, torque_error, tor
 class Torque(DateSeries, word="torque", call="torque_series", positional=("start", "stop", "step")):
     """Declination, distance and torque of each perturber in time (source text, I.8.7).
 
-    Returns
-    -------
-    Dataset
-        Over `time` and `perturber`: `right_ascension`, `declination` (deg), `distance` (m),
-        `torque` (N m, `component` x, y, z), `torque_magnitude` and its error; bounds on
-        directions and distances for each perturber.
-
     Examples
     --------
     >>> import earthspin

@@ -38,13 +38,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
     Each model (rung) adds one effect to the model before. The `interior` of the body determines the
     last model.
 
-    Returns
-    -------
-    Dataset
-        Along `rung` (flattening, rigid, triaxial, elastic, fluid-core, ocean, anelastic):
-        `period_solar` (d of 86400 s) with its 95 % half-width, `period_sidereal`, `factor`,
-        `quality_factor`. `earthspin.run_tree` adds the sections: the observed period, the
-        sensitivity of the last model, the free core nutation, and the Love numbers.
+    The rungs are flattening, rigid, triaxial, elastic, fluid-core, ocean and anelastic.
 
     Examples
     --------

@@ -11,6 +11,7 @@ import xarray as xr
 import earthspin
 from earthspin import EARTH, Scene, load_scene
 from earthspin.bodies.planets import MEAN_SUN
+from earthspin.engine.question import NEGLECTED
 from earthspin.scenes import shipped_scenes
 from tests import shipped
 
@@ -41,6 +42,28 @@ def test_an_answer_names_what_it_neglects(answer: xr.Dataset) -> None:
     else:
         unknown = sizes.attrs.get("of_unknown_size")
         assert words == (f"of unknown size: {unknown}" if unknown else sizes.attrs["long_name"])
+
+
+def names_in(text: str) -> set[str]:
+    """Names in a docstring, with those that ± stands for; shares of an error are suffixes."""
+    with_error = re.findall(r"`(\w+)`\s±", text)
+    return {*re.findall(r"`(\w+)`", text), *(f"{name}_error" for name in with_error)}
+
+
+@pytest.mark.parametrize("name", shipped_scenes())
+def test_the_docstring_names_each_variable_and_each_section(name: str) -> None:
+    question, tree = type(load_scene(name)), shipped.tree(name)
+    text = getattr(earthspin, question.call).__doc__
+    returns = text.partition("\nReturns\n")[2].partition("\nRaises\n")[0]
+    answer, _, sections = returns.partition("Sections, from `earthspin.run_tree`:")
+    assert re.findall(r"- `(\w+)`: ", sections) == [*question.graph.sections]
+    assert set(tree.children) - {"plan"} <= set(question.graph.sections)
+    names = names_in(answer)
+    for variable in map(str, tree.data_vars):
+        name, _, share = variable.partition("_error_")
+        assert variable in names or {f"{name}_error", f"_error_{share}"} <= names
+    for section in set(tree.children) - {"plan", NEGLECTED}:
+        assert set(tree[section].data_vars) <= names_in(sections)
 
 
 def test_what_is_neglected_for_many_bodies_says_why_it_has_no_size() -> None:
