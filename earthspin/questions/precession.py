@@ -53,7 +53,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     [81259. 37614. 25712.]
     """
 
-    page, headline = "theory", "precession_rate"
+    page, headline = "precession", "precession_rate"
     with_satellites = True
 
     source: SourceName = key("skyfield", doc=SOURCE_DOC)

@@ -34,7 +34,7 @@ class Torque(DateSeries, word="torque", call="torque_series", positional=("start
     23.439
     """
 
-    page, headline = "theory", "torque_magnitude"
+    page, headline = "torques", "torque_magnitude"
     with_satellites = True
 
     span: Span = key(("2000-01-01T12:00:00", "2001-01-01T12:00:00"), doc=SPAN_DOC)

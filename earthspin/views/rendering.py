@@ -45,7 +45,8 @@ VIEWS: dict[str, Views] = {
 
 #: Titles of the pages of the documentation that explain the method of a question, by their files.
 PAGES = {
-    "theory": "Precession, from the torque to the period",
+    "precession": "Precession: rate and period",
+    "torques": "Torques and declinations in time",
     "pole": "The path of the pole, and its comparison with the IAU",
     "wobble": "From 304 to 433 days: the free wobble",
     "rotors": "Rotors and tops, from the tensor to the torque",
