@@ -30,7 +30,7 @@ class Equilibrium:
     k : float
         Love number of the whole liquid body.
     core_k : float
-        Contribution of the core's masses to the Love number, as `Yielding.core_k`.
+        Contribution of the core's masses to the Love number, as `DegreeTwoLoveNumbers.core_k`.
     tops : ndarray, shape (n,)
         Outer radii of the layers, divided by R.
     potential : ndarray, shape (n,)
@@ -70,10 +70,10 @@ def equilibrium(body: LayeredBody) -> Equilibrium:
     y5, y7 = (5 / pair[1, 0] * np.array(solutions)).T
     tops = np.array(profile.tops)
     enclosed = tops**3 * (y5 - tops * y7 / 5)
-    at_core = profile.tops.index(profile.core) if profile.core else None
+    core_index = profile.tops.index(profile.core) if profile.core else None
     return Equilibrium(
         k=float(y5[-1] - 1),
-        core_k=0.0 if at_core is None else float(enclosed[at_core]),
+        core_k=0.0 if core_index is None else float(enclosed[core_index]),
         tops=tops,
         potential=y5,
         enclosed=enclosed,
@@ -170,14 +170,14 @@ def figure(layers: LayeredBody, spin_rate: float) -> HydrostaticFigure:
         )
     if not spin_rate**2 * layers.radius**3 / (G.value * layers.mass) > np.finfo(float).tiny:
         raise UndefinedError("the body spins too slowly to be flattened; give it a shorter period")
-    rest = equilibrium(layers)
+    liquid_response = equilibrium(layers)
     scale = tidal_inertia(layers, spin_rate)  # over the mean moment
-    whole = float(scale * rest.enclosed[-1])
-    core = float(scale * rest.core_k)
+    whole = float(scale * liquid_response.enclosed[-1])
+    core = float(scale * liquid_response.core_k)
     moment = layers.moment_of_inertia()
-    excess, share = {"core": core, "inner": 0.0}, {"core": 0.0, "inner": 0.0}
+    moment_difference, mean_moment = {"core": core, "inner": 0.0}, {"core": 0.0, "inner": 0.0}
     if layers.core_radius:
-        share["core"] = layers.core_fraction
+        mean_moment["core"] = layers.core_fraction
     a1 = a2 = a3 = 0.0
     gravity = G.value * layers.mass / layers.radius**2
     centrifugal = spin_rate**2 * layers.radius / gravity
@@ -185,36 +185,36 @@ def figure(layers: LayeredBody, spin_rate: float) -> HydrostaticFigure:
         profile = Profile(layers)
         r = profile.inner_core
         i = profile.tops.index(r)
-        excess["inner"] = float(scale * rest.enclosed[i])
-        share["inner"] = layers.moment_of_inertia(layers.inner_core_radius) / moment
-        ellipticity = centrifugal * rest.potential[i] / (2 * profile.gravity(i, r) * r)
+        moment_difference["inner"] = float(scale * liquid_response.enclosed[i])
+        mean_moment["inner"] = layers.moment_of_inertia(layers.inner_core_radius) / moment
+        ellipticity = centrifugal * liquid_response.potential[i] / (2 * profile.gravity(i, r) * r)
         density = float(profile.density(i + 1, r))
         # C - A of a homogeneous fluid spheroid, (8 pi/15) rho eps r5, in units of (3/5) (C -
         # A)/unit.
         liquid_excess = 8 * np.pi / 15 * density * profile.density_unit * ellipticity
         liquid_excess *= layers.inner_core_radius**5 / moment
-        a1 = float(liquid_excess / excess["inner"])
+        a1 = float(liquid_excess / moment_difference["inner"])
         a3 = 1 - a1
         # 8 pi G rho eps/(5 Omega2), for the fluid displaced by the inner core
-        aside = 2 * FOUR_PI_G / 5 * density * ellipticity / centrifugal
-        a2 = float(a1 - a3 * (rest.outside[i] - 1 + aside))
+        displaced = 2 * FOUR_PI_G / 5 * density * ellipticity / centrifugal
+        a2 = float(a1 - a3 * (liquid_response.outside[i] - 1 + displaced))
     e = _over_equatorial(whole, 1.0)
-    e_s = _over_equatorial(excess["inner"], share["inner"])
-    fluid_share = share["core"] - share["inner"]
-    e_f = _over_equatorial(excess["core"] - excess["inner"], fluid_share)
+    e_s = _over_equatorial(moment_difference["inner"], mean_moment["inner"])
+    fluid_share = mean_moment["core"] - mean_moment["inner"]
+    e_f = _over_equatorial(moment_difference["core"] - moment_difference["inner"], fluid_share)
     equatorial = 1 / (1 + e / 3)  # A over the mean moment
     return HydrostaticFigure(
         e=e,
         e_f=e_f,
         e_s=e_s,
-        e_core=_over_equatorial(core, share["core"]),
+        e_core=_over_equatorial(core, mean_moment["core"]),
         fluid=fluid_share / (1 + e_f / 3) / equatorial,
-        inner=share["inner"] / (1 + e_s / 3) / equatorial,
+        inner=mean_moment["inner"] / (1 + e_s / 3) / equatorial,
         a1=a1,
         a2=a2,
         a3=a3,
         unit=float(scale / equatorial),
-        surface=float(centrifugal * rest.potential[-1] / 2),
+        surface=float(centrifugal * liquid_response.potential[-1] / 2),
     )
 
 

@@ -83,8 +83,8 @@ class LayeredBody:
 
     def moment_of_inertia(self, radius: float | None = None) -> float:
         """Moment of inertia of the mass inside a radius, by default of the whole body, kg m2."""
-        outer = self.radius if radius is None else radius
-        return float(8 * math.pi / 3 * self._radial_moment(4, outer))
+        outer_radius = self.radius if radius is None else radius
+        return float(8 * math.pi / 3 * self._radial_moment(4, outer_radius))
 
     @property
     def moment_factor(self) -> float:

@@ -65,32 +65,32 @@ class Profile:
         """Gravity at radius r in layer i, in normalised units with 4 pi G = 3."""
         return (self._mass[i](r) + self._below[i]) / r**2
 
-    def moduli(self, i: int, r: Any, strain: Array) -> tuple[Array, Array]:
-        """Lame parameters lambda and mu of layer i at radii r, normalised, shape (strain, r) each.
+    def moduli(self, i: int, r: Any, modulus_change: Array) -> tuple[Array, Array]:
+        """Lame parameters lambda and mu of layer i at radii r, normalised, shape (changes, r) each.
 
-        There is one row for each value of `strain` and one column for each radius in `r`.
+        There is one row for each value of `modulus_change` and one column for each radius in `r`.
         """
         layer, rho = self.layers[i], polyval(r, self.layers[i].density)
         seismic = rho * polyval(r, layer.vs) ** 2 / self.modulus_unit
         bulk = rho * polyval(r, layer.vp) ** 2 / self.modulus_unit - 4 / 3 * seismic
-        mu = seismic * (1 + strain / layer.shear_q)[:, None]
+        mu = seismic * (1 + modulus_change / layer.shear_q)[:, None]
         return bulk - 2 / 3 * mu, mu
 
 
-def solid(profile: Profile, i: int, strain: Array) -> Callable[[Array], Array]:
+def solid(profile: Profile, i: int, modulus_change: Array) -> Callable[[Array], Array]:
     """Function of r that returns the matrix M of the equations dy/dr = M y in solid layer i.
 
-    The function takes an array of radii and returns an array of shape (strain, r, 6, 6).
+    The function takes an array of radii and returns an array of shape (changes, r, 6, 6).
 
     The equations are those of degree two.
     """
 
     def matrix(r: Array) -> Array:
         rho, g = profile.density(i, r), profile.gravity(i, r)
-        lam, mu = profile.moduli(i, r, strain)
+        lam, mu = profile.moduli(i, r, modulus_change)
         p = lam + 2 * mu
         shear = 2 * mu * (3 * lam + 2 * mu) / p / r**2
-        m = np.zeros((strain.size, r.size, 6, 6), dtype=strain.dtype)
+        m = np.zeros((modulus_change.size, r.size, 6, 6), dtype=modulus_change.dtype)
         m[..., 0, 0], m[..., 0, 1], m[..., 0, 2] = -2 * lam / (p * r), 1 / p, 6 * lam / (p * r)
         m[..., 1, 0], m[..., 1, 1] = 2 * shear - 4 * rho * g / r, -4 * mu / (p * r)
         m[..., 1, 2], m[..., 1, 3] = 6 * (rho * g / r - shear), 6 / r
@@ -123,12 +123,12 @@ def liquid(profile: Profile, i: int) -> Callable[[Array], Array]:
     return matrix
 
 
-def solid_centre(profile: Profile, strain: Array) -> Array:
-    """Three regular solutions of the deformation equations near a solid centre, (strain, 6, 3)."""
+def solid_centre(profile: Profile, modulus_change: Array) -> Array:
+    """Three regular solutions of the deformation equations near a solid centre, (changes, 6, 3)."""
     r, i = START, profile.first
-    lam, mu = (modulus[:, 0] for modulus in profile.moduli(i, np.array([r]), strain))
+    lam, mu = (modulus[:, 0] for modulus in profile.moduli(i, np.array([r]), modulus_change))
     rho = profile.density(i, r)
-    y = np.zeros((strain.size, 6, 3), dtype=strain.dtype)
+    y = np.zeros((modulus_change.size, 6, 3), dtype=modulus_change.dtype)
     y[:, 0, 0], y[:, 1, 0], y[:, 2, 0], y[:, 3, 0] = 2 * r, 4 * mu, r, 2 * mu
     y[:, 5, 0] = -2 * FOUR_PI_G * rho * r
     y[:, 4, 1], y[:, 5, 1] = r**2, 5 * r
@@ -152,10 +152,10 @@ _LOAD = 3
 
 
 @dataclass(frozen=True)
-class Yielding:
+class DegreeTwoLoveNumbers:
     """Degree-two Love numbers of a layered body, and responses of its core regions.
 
-    Arrays have the shape of the given `strain`.
+    Arrays have the shape of the given `modulus_change`.
 
     Attributes
     ----------
@@ -163,11 +163,11 @@ class Yielding:
         Love numbers of a tide.
     k_load, h_load, l_load : array
         Load Love numbers.
-    answers : array, shape (..., 3, 3)
+    response : array, shape (..., 3, 3)
         [i, j]: potential at the surface due to the displaced masses of region i, if a potential of
         unit size at the surface is applied in region j only. The regions are the whole body, its
         fluid core and its inner core. Symmetric by Betti's theorem; [0, 0] is k.
-    lift : array, shape (..., 3)
+    tilt_factor : array, shape (..., 3)
         Height of the equipotential surface above the ground for each applied potential, relative to
         it: 1 + k - h for a tide.
     """
@@ -178,13 +178,13 @@ class Yielding:
     k_load: Array
     h_load: Array
     l_load: Array
-    answers: Array
-    lift: Array
+    response: Array
+    tilt_factor: Array
 
     @property
     def core_k(self) -> Array:
         """Contribution of mass displacements in the whole core to the tidal Love number k."""
-        return np.asarray(self.answers[..., 1:, 0].sum(axis=-1))
+        return np.asarray(self.response[..., 1:, 0].sum(axis=-1))
 
     @property
     def k_pressure(self) -> Array:
@@ -192,23 +192,23 @@ class Yielding:
 
         Such a potential is due to a tilt of the rotation axis of the core.
         """
-        return np.asarray(self.answers[..., 0, 1:].sum(axis=-1))
+        return np.asarray(self.response[..., 0, 1:].sum(axis=-1))
 
     @property
     def core_k_pressure(self) -> Array:
         """Contribution of mass displacements in the whole core to `k_pressure`."""
-        return np.asarray(self.answers[..., 1:, 1:].sum(axis=(-1, -2)))
+        return np.asarray(self.response[..., 1:, 1:].sum(axis=(-1, -2)))
 
 
-def yielding(body: LayeredBody, strain: Any = 0.0) -> Yielding:
+def solve_love_numbers(body: LayeredBody, modulus_change: Any = 0.0) -> DegreeTwoLoveNumbers:
     """Compute Love numbers of a layered body, and responses to potentials in each region.
 
     Parameters
     ----------
     body : LayeredBody
-    strain : complex or array
+    modulus_change : complex or array
         Relative change of the shear modulus at quality factor 1; a layer's modulus is multiplied by
-        1 + strain/shear_q. 0 is the elastic body at seismic periods.
+        1 + modulus_change/shear_q. 0 is the elastic body at seismic periods.
 
     Raises
     ------
@@ -221,33 +221,35 @@ def yielding(body: LayeredBody, strain: Any = 0.0) -> Yielding:
         is_liquid and not below_liquid for below_liquid, is_liquid in pairwise([False, *fluid])
     )
     if fluid[-1] or liquids > 1:
-        what = "ends in a liquid" if fluid[-1] else f"has {liquids} liquids with solids between"
+        fault = "ends in a liquid" if fluid[-1] else f"has {liquids} liquids with solids between"
         raise UndefinedError(
-            f"interior '{body.name}' {what}; Love numbers need a solid surface and at most one "
+            f"interior '{body.name}' {fault}; Love numbers need a solid surface and at most one "
             "liquid under it, with or without a solid in that: leave out the others, or give them "
             "a vs"
         )
-    for what, radius in (("an inner core", body.inner_core_radius), ("a core", body.core_radius)):
+    for fault, radius in (("an inner core", body.inner_core_radius), ("a core", body.core_radius)):
         if 0 < radius < SMALLEST_CORE * body.radius:
             raise UndefinedError(
-                f"interior '{body.name}': {what} of {radius / 1000:.4g} km is less than a "
+                f"interior '{body.name}': {fault} of {radius / 1000:.4g} km is less than a "
                 "hundredth of the radius, too small to have an effect; leave it out"
             )
-    strain = np.asarray(strain)
-    flat = np.atleast_1d(strain).ravel()
-    solution = _solved(Profile(body), flat)
-    return Yielding(*(value.reshape((*strain.shape, *value.shape[1:])) for value in solution))
+    modulus_change = np.asarray(modulus_change)
+    flat_change = np.atleast_1d(modulus_change).ravel()
+    solution = _solved(Profile(body), flat_change)
+    return DegreeTwoLoveNumbers(
+        *(value.reshape((*modulus_change.shape, *value.shape[1:])) for value in solution)
+    )
 
 
 @lru_cache(maxsize=32)
-def elastic(layers: LayeredBody) -> Yielding:
+def elastic(layers: LayeredBody) -> DegreeTwoLoveNumbers:
     """Compute Love numbers and responses of a layered body with its elastic moduli."""
-    return yielding(layers)
+    return solve_love_numbers(layers)
 
 
-#: Range of strains of the interpolation of Love numbers, and the number of nodes.
-_STRAIN_RANGE = (-40.0, 2.0)
-_STRAIN_NODES = 10
+#: Interpolation of Love numbers: range of the change of the shear modulus, and number of nodes.
+_MODULUS_CHANGES = (-40.0, 2.0)
+_SOFTENING_NODES = 10
 
 
 @lru_cache(maxsize=8)
@@ -256,17 +258,21 @@ def softening(layers: LayeredBody) -> tuple[Chebyshev, ...]:
 
     The Love numbers are `k`, `core_k`, `k_pressure` and `core_k_pressure`.
 
-    The variable is the strain of `yielding`, which may be complex, because Love numbers are
-    analytic in the modulus. The error relative to the integration is at most 1e-8.
+    The variable is `modulus_change` of `solve_love_numbers`, which may be complex, because Love
+    numbers are analytic in the modulus. The error relative to the integration is at most 1e-8.
     """
-    grid = np.polynomial.chebyshev.chebpts1(_STRAIN_NODES)
-    low, high = _STRAIN_RANGE
-    strain = (low + high) / 2 + (high - low) / 2 * grid
-    love, reference = yielding(layers, strain), elastic(layers)
+    grid = np.polynomial.chebyshev.chebpts1(_SOFTENING_NODES)
+    low, high = _MODULUS_CHANGES
+    modulus_change = (low + high) / 2 + (high - low) / 2 * grid
+    love, reference = solve_love_numbers(layers, modulus_change), elastic(layers)
     ratios = []
     for name in ("k", "core_k", "k_pressure", "core_k_pressure"):
         ratio = getattr(love, name) / float(getattr(reference, name))
-        ratios.append(Chebyshev.fit(strain, ratio, _STRAIN_NODES - 1, domain=list(_STRAIN_RANGE)))
+        ratios.append(
+            Chebyshev.fit(
+                modulus_change, ratio, _SOFTENING_NODES - 1, domain=list(_MODULUS_CHANGES)
+            )
+        )
     return tuple(ratios)
 
 
@@ -276,19 +282,19 @@ def softening(layers: LayeredBody) -> tuple[Chebyshev, ...]:
 # potential differs by d across a boundary, y5 jumps by d r2, and y6 by 5 d r.
 
 
-def _solved(profile: Profile, strain: Array) -> tuple[Array, ...]:
-    """Solve the deformation equations for all potentials; return the fields of `Yielding`."""
+def _solved(profile: Profile, modulus_change: Array) -> tuple[Array, ...]:
+    """Solve the deformation equations for all potentials; return the Love numbers in order."""
     if not profile.core:
-        y = _across(profile, profile.first, solid_centre(profile, strain), strain)
-        bottom = y = np.concatenate([y, np.zeros((strain.size, 6, 4))], axis=-1)
+        y = _across(profile, profile.first, solid_centre(profile, modulus_change), modulus_change)
+        bottom = y = np.concatenate([y, np.zeros((modulus_change.size, 6, 4))], axis=-1)
         conditions: list[Array] = []
         inner = core = None
     else:
-        first, inner, conditions = _through_inner_core(profile, strain)
+        first, inner, conditions = _through_inner_core(profile, modulus_change)
         pair, i = _through_liquid(profile, first)
         bottom = _onto_mantle(profile, pair)
         core = bottom
-        y = _across(profile, i, bottom, strain)
+        y = _across(profile, i, bottom, modulus_change)
     sources = np.zeros((3, 4))
     sources[0, _LOAD] = -5 / 3  # weight of the load
     sources[2] = 5 * _ACTS_IN[2]
@@ -297,20 +303,22 @@ def _solved(profile: Profile, strain: Array) -> tuple[Array, ...]:
     required = np.zeros((boundary.shape[1], 4))
     required[-3:] = sources
     weights = np.linalg.solve(boundary[..., :unknowns], required - boundary[..., unknowns:])
-    weights = np.concatenate([weights, np.broadcast_to(np.eye(4), (strain.size, 4, 4))], axis=1)
+    weights = np.concatenate(
+        [weights, np.broadcast_to(np.eye(4), (modulus_change.size, 4, 4))], axis=1
+    )
     top = y @ weights
-    answers = np.zeros((strain.size, 3, 4), dtype=top.dtype)
-    answers[:, 0] = top[:, 4] - _ACTS_IN[2]
+    response = np.zeros((modulus_change.size, 3, 4), dtype=top.dtype)
+    response[:, 0] = top[:, 4] - _ACTS_IN[2]
     if core is not None:
-        answers[:, 1] = _inside(core @ weights, profile.core)
+        response[:, 1] = _inside(core @ weights, profile.core)
     if inner is not None:
-        answers[:, 2] = _inside(inner @ weights, profile.inner_core)
-        answers[:, 1] -= answers[:, 2]
-    lift = top[:, 4] - top[:, 0]
+        response[:, 2] = _inside(inner @ weights, profile.inner_core)
+        response[:, 1] -= response[:, 2]
+    tilt_factor = top[:, 4] - top[:, 0]
     return (
-        answers[:, 0, 0], top[:, 0, 0], top[:, 2, 0],
-        answers[:, 0, _LOAD], top[:, 0, _LOAD], top[:, 2, _LOAD],
-        answers[..., :_LOAD], lift[:, :_LOAD],
+        response[:, 0, 0], top[:, 0, 0], top[:, 2, 0],
+        response[:, 0, _LOAD], top[:, 0, _LOAD], top[:, 2, _LOAD],
+        response[..., :_LOAD], tilt_factor[:, :_LOAD],
     )  # fmt: skip
 
 
@@ -319,7 +327,7 @@ def _inside(state: Array, r: float) -> Array:
     return np.asarray(r**3 * (state[:, 4] - r * state[:, 5] / 5))
 
 
-def _across(profile: Profile, first: int, y: Array, strain: Array) -> Array:
+def _across(profile: Profile, first: int, y: Array, modulus_change: Array) -> Array:
     """Integrate the deformation equations through solid layers, up to a liquid or the surface."""
     r = START if first == profile.first else profile.tops[first - 1]
     for i in range(first, len(profile.tops)):
@@ -327,23 +335,31 @@ def _across(profile: Profile, first: int, y: Array, strain: Array) -> Array:
             break
         # From the centre, solutions may be recombined until the next boundary sets conditions on
         # all.
-        y = carry(solid(profile, i, strain), r, profile.tops[i], y, together=first == profile.first)
+        y = carry(
+            solid(profile, i, modulus_change),
+            r,
+            profile.tops[i],
+            y,
+            together=first == profile.first,
+        )
         r = profile.tops[i]
     return y
 
 
-def _through_inner_core(profile: Profile, strain: Array) -> tuple[Array, Array | None, list[Array]]:
+def _through_inner_core(
+    profile: Profile, modulus_change: Array
+) -> tuple[Array, Array | None, list[Array]]:
     """Integrate the deformation equations through the inner core, from the centre outwards.
 
     Return (y5, y7) in the liquid, the state at the top of the inner core, and conditions there.
     """
     if not profile.inner_core:
-        pair = np.zeros((strain.size, 2, 3 + 4), dtype=strain.dtype)
+        pair = np.zeros((modulus_change.size, 2, 3 + 4), dtype=modulus_change.dtype)
         pair[:, :, 0] = liquid_centre(profile, profile.first)
         return pair, None, []
-    y = _across(profile, profile.first, solid_centre(profile, strain), strain)
-    blank = np.zeros((strain.size, 6, 2 + 4))
-    y = np.concatenate([y, blank], axis=-1)
+    y = _across(profile, profile.first, solid_centre(profile, modulus_change), modulus_change)
+    applied = np.zeros((modulus_change.size, 6, 2 + 4))
+    y = np.concatenate([y, applied], axis=-1)
     r = profile.inner_core
     i = profile.tops.index(r) + 1
     rho, g = profile.density(i, r), profile.gravity(i, r)

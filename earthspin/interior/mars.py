@@ -63,10 +63,15 @@ def four_layers(core_radius: float = CORE_RADIUS.value) -> LayeredBody:
     volume, moment = (np.diff(tops**n, prepend=0.0) for n in (3, 5))
     volume, moment = 4 * np.pi / 3 * volume, 8 * np.pi / 15 * moment
     fixed = np.array([CORE_DENSITY.value, 0.0, 0.0, CRUST_DENSITY.value])
-    wanted = [mass - volume @ fixed, MOMENT * mass * MEAN_RADIUS.value**2 - moment @ fixed]
-    lower, upper = np.linalg.solve([volume[1:3], moment[1:3]], wanted)
-    crust, above, below = (speed.value for speed in SHEAR_SPEEDS)
-    solids = zip(tops[1:], (lower, upper, CRUST_DENSITY.value), (below, above, crust), strict=True)
+    required = [mass - volume @ fixed, MOMENT * mass * MEAN_RADIUS.value**2 - moment @ fixed]
+    lower, upper = np.linalg.solve([volume[1:3], moment[1:3]], required)
+    crust_speed, upper_speed, lower_speed = (speed.value for speed in SHEAR_SPEEDS)
+    solids = zip(
+        tops[1:],
+        (lower, upper, CRUST_DENSITY.value),
+        (lower_speed, upper_speed, crust_speed),
+        strict=True,
+    )
     return LayeredBody(
         "mars",
         (

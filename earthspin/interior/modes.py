@@ -13,7 +13,7 @@ potential phi in the units of the wobbles (Mathews, Buffett, Herring & Shapiro 1
 
 c, c_f, c_s are the products of inertia of the whole body, the fluid core and the inner core,
 divided by the A of each. They are linear in (m - phi, m_f, m_s), with coefficients from
-`love.Yielding`.
+`love.DegreeTwoLoveNumbers`.
 
 The second and the third row have the same derivation. Let S be a region of the core within a fluid
 that rotates at w, in equilibrium with the potential Psi of gravity, tide and centrifugal force. The
@@ -42,8 +42,11 @@ from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import elastic
 from earthspin.numerics.arrays import Array, Numeric
 
-#: Names of the free modes, in the order in which regions are added.
-MODES = ("chandler_wobble", "free_core_nutation", "inner_core_nutation", "inner_core_wobble")
+#: Names of the free modes: first the one of mantle or fluid core, then that of the inner core.
+WOBBLES = ("chandler_wobble", "inner_core_wobble")
+NUTATIONS = ("free_core_nutation", "inner_core_nutation")
+#: Names of all free modes, in the order in which regions are added.
+MODES = (WOBBLES[0], *NUTATIONS, WOBBLES[1])
 
 
 @dataclass(frozen=True)
@@ -52,7 +55,7 @@ class Parts(Regions):
 
     Attributes
     ----------
-    answers : array, shape (..., 3, 3), complex
+    inertia_products : array, shape (..., 3, 3), complex
         Products of inertia, divided by A, of the whole body, fluid core and inner core, for unit
         wobbles m, m_f and m_s.
     k_cmb, k_icb : complex
@@ -60,7 +63,7 @@ class Parts(Regions):
         in the units of e_f and e_s (Buffett, Mathews & Herring 2002, JGR 107(B4), 2070).
     """
 
-    answers: Array
+    inertia_products: Array
     k_cmb: Numeric = 0.0
     k_icb: Numeric = 0.0
 
@@ -76,12 +79,12 @@ class Parts(Regions):
         Each is normalised by the equatorial moment A of its region.
         """
         rows = (("kappa", "xi", "zeta"), ("gamma", "beta", "delta"), ("theta", "chi", "nu"))
-        over = (1.0, self.fluid, self.inner)
-        size = 1 + bool(np.any(self.fluid)) + bool(np.any(self.inner))
+        moments = (1.0, self.fluid, self.inner)
+        regions = 1 + bool(np.any(self.fluid)) + bool(np.any(self.inner))
         return {
-            name: self.answers[..., i, j] / over[i]
-            for i, row in enumerate(rows[:size])
-            for j, name in enumerate(row[:size])
+            name: self.inertia_products[..., i, j] / moments[i]
+            for i, row in enumerate(rows[:regions])
+            for j, name in enumerate(row[:regions])
         }
 
 
@@ -94,12 +97,20 @@ def all_fluid(parts: Parts, e_core: Numeric) -> Parts:
     e_core : float
         (C - A)/A of the whole core.
     """
-    lump = np.array([[1.0, 0.0], [0.0, 1.0], [0.0, 1.0]])
-    answers = np.zeros((*np.shape(parts.answers)[:-2], 3, 3), dtype=np.asarray(parts.answers).dtype)
-    answers[..., :2, :2] = lump.T @ parts.answers @ lump
+    regions = np.array([[1.0, 0.0], [0.0, 1.0], [0.0, 1.0]])
+    inertia_products = np.zeros(
+        (*np.shape(parts.inertia_products)[:-2], 3, 3),
+        dtype=np.asarray(parts.inertia_products).dtype,
+    )
+    inertia_products[..., :2, :2] = regions.T @ parts.inertia_products @ regions
     none = dict.fromkeys(("e_s", "inner", "a1", "a2", "a3"), 0.0)
     return replace(
-        parts, e_f=e_core, fluid=parts.fluid + parts.inner, answers=answers, k_icb=0.0, **none
+        parts,
+        e_f=e_core,
+        fluid=parts.fluid + parts.inner,
+        inertia_products=inertia_products,
+        k_icb=0.0,
+        **none,
     )
 
 
@@ -116,15 +127,16 @@ def system(parts: Parts) -> tuple[Array, Array, Array, Array]:
     """
     o = parts
     shape = np.broadcast_shapes(
-        np.shape(o.answers)[:-2], *(np.shape(v) for v in (o.e, o.e_f, o.fluid, o.k_cmb, o.k_icb))
+        np.shape(o.inertia_products)[:-2],
+        *(np.shape(v) for v in (o.e, o.e_f, o.fluid, o.k_cmb, o.k_icb)),
     )
     p, q = (np.zeros((*shape, 4, 4), dtype=complex) for _ in range(2))
     right, left = (np.zeros((*shape, 4), dtype=complex) for _ in range(2))
-    c = np.asarray(o.answers)
-    share = (None, o.fluid, o.inner)
+    c = np.asarray(o.inertia_products)
+    moments = (None, o.fluid, o.inner)
     # The whole body: c and the angular momentum of the core enter with (1 + sigma).
     for j in range(3):
-        p[..., 0, j] = q[..., 0, j] = c[..., 0, j] + (1.0 if j == 0 else share[j])
+        p[..., 0, j] = q[..., 0, j] = c[..., 0, j] + (1.0 if j == 0 else moments[j])
     q[..., 0, 0] -= 1 + o.e
     p[..., 0, 3] = q[..., 0, 3] = o.inner * o.a3 * o.e_s
     right[..., 0], left[..., 0] = c[..., 0, 0], c[..., 0, 0] - o.e
@@ -151,8 +163,8 @@ def system(parts: Parts) -> tuple[Array, Array, Array, Array]:
 def wobble_response(parts: Parts, sigma: Array) -> Array:
     """Wobble m of the mantle per unit tidal potential, at frequencies in cycles per rotation."""
     p, q, right, left = system(parts)
-    at = np.asarray(sigma)[..., None]
-    solution = np.linalg.solve(at[..., None] * p + q, (at * right + left)[..., None])
+    frequency = np.asarray(sigma)[..., None]
+    solution = np.linalg.solve(frequency[..., None] * p + q, (frequency * right + left)[..., None])
     return np.asarray(solution[..., 0, 0])
 
 
@@ -182,16 +194,16 @@ def free_modes(parts: Parts) -> dict[str, complex]:
     nutations: list[tuple[float, complex]] = []
     for s, x in zip(roots, vectors.T, strict=True):
         # Relative amplitude of the inner core: of its axis, or of its rotation.
-        share = abs(x[3] / x[0]) if s.real > -0.5 and x.size > 2 else 0.0
-        share = abs(x[2] / x[1]) if s.real <= -0.5 and x.size > 2 else share
-        (wobbles if s.real > -0.5 else nutations).append((share, complex(s)))
-    by_share = itemgetter(0)
-    modes = dict(zip(MODES[::3], (s for _, s in sorted(wobbles, key=by_share)), strict=False))
-    modes |= zip(MODES[1:3], (s for _, s in sorted(nutations, key=by_share)), strict=False)
+        amplitude = abs(x[3] / x[0]) if s.real > -0.5 and x.size > 2 else 0.0
+        amplitude = abs(x[2] / x[1]) if s.real <= -0.5 and x.size > 2 else amplitude
+        (wobbles if s.real > -0.5 else nutations).append((amplitude, complex(s)))
+    by_amplitude = itemgetter(0)
+    modes = dict(zip(WOBBLES, (s for _, s in sorted(wobbles, key=by_amplitude)), strict=False))
+    modes |= zip(NUTATIONS, (s for _, s in sorted(nutations, key=by_amplitude)), strict=False)
     return {name: modes[name] for name in MODES if name in modes}
 
 
-def parts_of(layers: LayeredBody, spin_rate: float, answers: Array, e: float) -> Parts:
+def parts_of(layers: LayeredBody, spin_rate: float, response: Array, e: float) -> Parts:
     """Parameters of coupled rotation: hydrostatic core, and given (C - A)/A of the whole body.
 
     Parameters
@@ -199,14 +211,14 @@ def parts_of(layers: LayeredBody, spin_rate: float, answers: Array, e: float) ->
     layers : LayeredBody
     spin_rate : float
         rad/s.
-    answers : ndarray, shape (..., 3, 3)
-        Responses from `love.Yielding`.
+    response : ndarray, shape (..., 3, 3)
+        Responses from `love.DegreeTwoLoveNumbers`.
     e : float
         (C - A)/A of the whole body.
     """
     f = figure(layers, spin_rate)
     regions = {field.name: getattr(f, field.name) for field in fields(Regions)}
-    return Parts(**regions | {"e": e}, answers=f.unit * answers)
+    return Parts(**regions | {"e": e}, inertia_products=f.unit * response)
 
 
 def numbers_of(layers: LayeredBody, spin_rate: float) -> dict[str, float]:
@@ -221,7 +233,7 @@ def numbers_of(layers: LayeredBody, spin_rate: float) -> dict[str, float]:
         rad/s.
     """
     f = figure(layers, spin_rate)
-    parts = parts_of(layers, spin_rate, elastic(layers).answers, f.e)
+    parts = parts_of(layers, spin_rate, elastic(layers).response, f.e)
     numbers = {name: float(value) for name, value in parts.compliances.items()} | {"e": f.e}
     if parts.count > 1:
         numbers |= {"e_f": f.e_f, "fluid": f.fluid}
@@ -232,5 +244,5 @@ def numbers_of(layers: LayeredBody, spin_rate: float) -> dict[str, float]:
 
 def mode_period(name: str, mode: Numeric, spin_rate: float) -> Numeric:
     """Period of a free mode, s: in space for a nutation, relative to the body for a wobble."""
-    turns = 1 / (1 + mode.real) if name.endswith("nutation") else 1 / mode.real
-    return turns * 2 * np.pi / abs(spin_rate)
+    rotations = 1 / (1 + mode.real) if name.endswith("nutation") else 1 / mode.real
+    return rotations * 2 * np.pi / abs(spin_rate)

@@ -86,21 +86,21 @@ class Interior:
         return self.k2, self.core_fraction, self.core_ellipticity
 
 
-def with_layers(layers: LayeredBody, known: Interior | None = None) -> Interior:
+def with_layers(layers: LayeredBody, base: Interior | None = None) -> Interior:
     """Make an interior from layers; take ocean and uncertainties from a known interior, if any.
 
     Parameters
     ----------
     layers : LayeredBody
-    known : Interior, optional
+    base : Interior, optional
         Another interior of the same body. Its ocean, observed core ellipticity and uncertainties
         are kept. Its Love number and core numbers are replaced by those of the layers, and its
         neglected effects are dropped, as their sizes are unknown for these layers.
     """
-    if known is None:
+    if base is None:
         return Interior(layers.name, layers.reference, layers)
     return replace(
-        known,
+        base,
         name=layers.name,
         reference=layers.reference,
         layers=layers,

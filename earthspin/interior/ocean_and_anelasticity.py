@@ -19,7 +19,7 @@ from earthspin.numerics.arrays import Array, Numeric
 ABSORPTION_BAND = 200.0
 
 
-def anelastic_strain(period: Numeric, exponent: Numeric) -> Numeric:
+def shear_modulus_change(period: Numeric, exponent: Numeric) -> Numeric:
     """Relative change of the shear modulus from 1 s to a longer period, for quality factor 1.
 
     For another quality factor, divide the change by that quality factor.
@@ -40,12 +40,12 @@ def anelastic_strain(period: Numeric, exponent: Numeric) -> Numeric:
         alpha, zero or more.
     """
     log = np.log(np.asarray(period) / ABSORPTION_BAND)
-    grown = np.exp(exponent * log)
+    power = np.exp(exponent * log)
     # cot(alpha pi/2) (1 - x^alpha), written as a product that is regular at alpha = 0.
     angle = np.asarray(exponent) * np.pi / 2
-    growth = np.where(angle == 0, log, _expm1_over(exponent, log))
+    power_excess = np.where(angle == 0, log, _expm1_over(exponent, log))
     cosine = np.cos(angle) / np.sinc(angle / np.pi)
-    return -2 / np.pi * (np.log(ABSORPTION_BAND) + cosine * growth) + 1j * grown
+    return -2 / np.pi * (np.log(ABSORPTION_BAND) + cosine * power_excess) + 1j * power
 
 
 def _expm1_over(exponent: Numeric, log: Numeric) -> Numeric:
@@ -96,9 +96,9 @@ def global_ocean(layers: LayeredBody, density: float = SEA_WATER.value) -> float
     """
     love = elastic(layers)
     mean_density = layers.mass / (4 / 3 * math.pi * layers.radius**3)
-    pull = 3 * density / (5 * mean_density)
+    load_factor = 3 * density / (5 * mean_density)
     k, h, k_load, h_load = (float(v) for v in (love.k, love.h, love.k_load, love.h_load))
-    return (1 + k_load) * pull * (1 + k - h) / (1 - pull * (1 + k_load - h_load))
+    return (1 + k_load) * load_factor * (1 + k - h) / (1 - load_factor * (1 + k_load - h_load))
 
 
 # --- diurnal ocean tides --------------------------------------------------------------------------
@@ -162,8 +162,8 @@ def wave_response(wave: Wave) -> complex:
 
     The Conventions give the complex conjugate, for a phase that increases with time.
     """
-    over = -1j * PER_METRE.value * wave.height
-    return complex(np.conj((wave.cosine - 1j * wave.sine) * _UNIT / over))
+    equilibrium = -1j * PER_METRE.value * wave.height
+    return complex(np.conj((wave.cosine - 1j * wave.sine) * _UNIT / equilibrium))
 
 
 def diurnal_response(sigma: Array) -> Array:
@@ -176,8 +176,11 @@ def diurnal_response(sigma: Array) -> Array:
     sigma : ndarray
         Frequencies near -1.
     """
-    turn = WAVES["K1"].degrees
-    at = np.array([wave.degrees / turn for wave in WAVES.values()])
+    rotation_rate = WAVES["K1"].degrees
+    wave_frequency = np.array([wave.degrees / rotation_rate for wave in WAVES.values()])
     change = np.array([wave_response(wave) for wave in WAVES.values()])
-    near = np.abs(np.asarray(sigma, dtype=float))
-    return np.asarray(np.interp(near, at, change.real) + 1j * np.interp(near, at, change.imag))
+    frequency = np.abs(np.asarray(sigma, dtype=float))
+    return np.asarray(
+        np.interp(frequency, wave_frequency, change.real)
+        + 1j * np.interp(frequency, wave_frequency, change.imag)
+    )

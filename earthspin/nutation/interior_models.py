@@ -16,11 +16,11 @@ import numpy as np
 from earthspin.constants import COMPUTED, DAY, Constant
 from earthspin.interior.equilibrium import HydrostaticFigure, figure
 from earthspin.interior.layers import LayeredBody
-from earthspin.interior.love import Yielding, elastic, yielding
+from earthspin.interior.love import DegreeTwoLoveNumbers, elastic, solve_love_numbers
 from earthspin.interior.modes import MODES, Parts, all_fluid, free_modes, mode_period, transfer
 from earthspin.interior.modes import parts_of as interior_parts
 from earthspin.interior.named import CORE_NUTATION, EXPONENT_RANGE, K_CMB_OUT_OF_PHASE, K_ICB
-from earthspin.interior.ocean_and_anelasticity import anelastic_strain, diurnal_response
+from earthspin.interior.ocean_and_anelasticity import diurnal_response, shear_modulus_change
 from earthspin.numerics.arrays import Array, ComplexArray, FloatArray
 from earthspin.numerics.polynomials import lagrange
 
@@ -146,7 +146,7 @@ class InteriorInputs:
         """Hydrostatic figure (shape and ellipticities) of the layers of the body."""
         return figure(self.layers, self.spin_rate)
 
-    def softened(self, sigma: Array) -> Yielding:
+    def softened(self, sigma: Array) -> DegreeTwoLoveNumbers:
         """Love numbers of the anelastic body, for diurnal frequencies or for the Chandler wobble.
 
         One diurnal value is used for all nutations: within the diurnal band the moduli change by a
@@ -155,15 +155,15 @@ class InteriorInputs:
         turn = 2 * np.pi / abs(self.spin_rate)
         slow = bool(np.all(np.abs(sigma) < 0.5))
         period = turn / float(np.mean(np.abs(sigma))) if slow else turn
-        strain = complex(anelastic_strain(period, self.exponent))
+        modulus_change = complex(shear_modulus_change(period, self.exponent))
         # retrograde motion: negative frequency, so the complex conjugate
-        return _yielding(self.layers, strain if slow else strain.conjugate())
+        return _love_numbers(self.layers, modulus_change if slow else modulus_change.conjugate())
 
 
-_yielding = lru_cache(maxsize=64)(yielding)
+_love_numbers = lru_cache(maxsize=64)(solve_love_numbers)
 
 
-def parts_of(setting: InteriorInputs, love: Yielding, e: float | None = None) -> Parts:
+def parts_of(setting: InteriorInputs, love: DegreeTwoLoveNumbers, e: float | None = None) -> Parts:
     """Ellipticities, moments and compliances that determine the nutation of a layered body.
 
     The internal figures are hydrostatic, except for the factors of the setting, and the outer
@@ -172,12 +172,12 @@ def parts_of(setting: InteriorInputs, love: Yielding, e: float | None = None) ->
     Parameters
     ----------
     setting : InteriorInputs
-    love : Yielding
+    love : DegreeTwoLoveNumbers
     e : float, optional
         (C - A)/A of the whole body, the observed value by default.
     """
     whole = setting.e if e is None else e
-    parts = interior_parts(setting.layers, setting.spin_rate, love.answers, whole)
+    parts = interior_parts(setting.layers, setting.spin_rate, love.response, whole)
     changed = {name: factor * getattr(parts, name) for name, factor in setting.factors.items()}
     if "a3" in changed:  # another excess of density, and the same gravity of the masses outside
         a3 = changed["a3"]
@@ -185,7 +185,9 @@ def parts_of(setting: InteriorInputs, love: Yielding, e: float | None = None) ->
     return replace(parts, **changed)
 
 
-def with_ocean(parts: Parts, setting: InteriorInputs, love: Yielding, sigma: Array) -> Parts:
+def with_ocean(
+    parts: Parts, setting: InteriorInputs, love: DegreeTwoLoveNumbers, sigma: Array
+) -> Parts:
     """Add the effect of an ocean, which follows the equipotential and loads the ground.
 
     A wobble of the body, its core or its inner core changes the height of the equipotential above
@@ -194,10 +196,10 @@ def with_ocean(parts: Parts, setting: InteriorInputs, love: Yielding, sigma: Arr
     """
     slow = np.abs(sigma) < 0.5
     added = np.where(slow, setting.ocean, setting.diurnal_ocean * diurnal_response(sigma))
-    added = added / love.lift[..., 0] ** 2
-    lift = love.lift[..., :, None] * love.lift[..., None, :]
-    water = setting.figure.unit * added[..., None, None] * lift
-    return replace(parts, answers=parts.answers + water)
+    added = added / love.tilt_factor[..., 0] ** 2
+    tilt_product = love.tilt_factor[..., :, None] * love.tilt_factor[..., None, :]
+    water = setting.figure.unit * added[..., None, None] * tilt_product
+    return replace(parts, inertia_products=parts.inertia_products + water)
 
 
 def without_core(parts: Parts) -> Parts:
@@ -218,13 +220,13 @@ def climb(setting: InteriorInputs, coupling: bool = False) -> dict[str, Rung]:
     firm = parts_of(setting, love)
 
     def wet(sigma: Array, soft: bool) -> Parts:
-        yields = setting.softened(sigma) if soft else love
-        return with_ocean(parts_of(setting, yields), setting, yields, sigma)
+        numbers = setting.softened(sigma) if soft else love
+        return with_ocean(parts_of(setting, numbers), setting, numbers, sigma)
 
     anelastic = Rung(lambda sigma: wet(sigma, soft=True))
 
     e_core = f.e_core * setting.factors.get("e_f", 1.0)
-    stiff = replace(firm, answers=np.zeros((3, 3)))
+    stiff = replace(firm, inertia_products=np.zeros((3, 3)))
     rungs = {
         "rigid": Rung(lambda sigma: without_core(stiff)),
         "elastic": Rung(lambda sigma: without_core(firm)),
@@ -291,7 +293,7 @@ _EXPONENTS = np.linspace(*EXPONENT_RANGE, 3)
 
 #: Relative uncertain inputs, and the field of `Parts` that each scales.
 _FACTORS = {
-    "k2": "answers",
+    "k2": "inertia_products",
     "core_fraction": "fluid",
     "core_ellipticity": "e_f",
     "inner_core_fraction": "inner",

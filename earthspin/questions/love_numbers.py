@@ -13,10 +13,10 @@ from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import Question, key, part
 from earthspin.engine.variables import Neglected, Variables, labels, number
 from earthspin.interior.layers import LayeredBody
-from earthspin.interior.love import Yielding, elastic, yielding
+from earthspin.interior.love import DegreeTwoLoveNumbers, elastic, solve_love_numbers
 from earthspin.interior.modes import free_modes, mode_period, numbers_of, parts_of
 from earthspin.interior.named import ANELASTIC_EXPONENT
-from earthspin.interior.ocean_and_anelasticity import anelastic_strain
+from earthspin.interior.ocean_and_anelasticity import shear_modulus_change
 from earthspin.mass.figure import ellipticity_from_h
 from earthspin.numerics.arrays import ComplexArray
 from earthspin.questions.interior_response import (
@@ -74,11 +74,11 @@ class LoveNumbers(
         require_layers(self, self.interior, self.body)
 
 
-#: Where `Yielding` keeps each number.
+#: Field of `DegreeTwoLoveNumbers` that holds each number.
 _FIELDS = {f"{name}2{load}": f"{name}{load}" for load in ("", "_load") for name in "khl"}
 
 
-def _numbers(response: Yielding) -> ComplexArray:
+def _numbers(response: DegreeTwoLoveNumbers) -> ComplexArray:
     """Array of the complex Love numbers of a body: its response to a tide and to a surface load."""
     return np.array([getattr(response, field) for field in _FIELDS.values()], dtype=complex)
 
@@ -98,8 +98,10 @@ class Love(Variables, along=("love",), no_error=FROM_LAYERS):
 @part
 def love(layers: LayeredBody, period: float | None, anelastic_exponent: float) -> Love:
     """Compute the Love numbers of tide and load, by integration from the centre to the surface."""
-    strain = 0.0 if period is None else complex(anelastic_strain(period, anelastic_exponent))
-    values = _numbers(yielding(layers, strain))
+    modulus_change = (
+        0.0 if period is None else complex(shear_modulus_change(period, anelastic_exponent))
+    )
+    values = _numbers(solve_love_numbers(layers, modulus_change))
     sources = [layers.reference]
     if period is not None and anelastic_exponent == ANELASTIC_EXPONENT.value:
         sources.append(ANELASTIC_EXPONENT.source)
@@ -125,7 +127,7 @@ class ByPeriod(Variables, along=("love", "love_period"), no_error=FROM_LAYERS):
 @part
 def by_period(layers: LayeredBody, anelastic_exponent: float) -> ByPeriod:
     """Compute the complex Love numbers for periods from minutes to decades."""
-    values = _numbers(yielding(layers, anelastic_strain(PERIODS, anelastic_exponent)))
+    values = _numbers(solve_love_numbers(layers, shear_modulus_change(PERIODS, anelastic_exponent)))
     return ByPeriod(
         elastic_love_number=_numbers(elastic(layers)).real,
         love_number_by_period=values.real,
@@ -186,7 +188,7 @@ def modes(layers: LayeredBody, body: Body) -> ElasticModes:
     refuse_break_up(body)
     e = float(ellipticity_from_h(body.number("dynamical_flattening")))
     spin_rate = abs(float(body.spin_rate))
-    frequencies = free_modes(parts_of(layers, spin_rate, elastic(layers).answers, e))
+    frequencies = free_modes(parts_of(layers, spin_rate, elastic(layers).response, e))
     return ElasticModes(
         compliance_mode_period=[mode_period(n, s, spin_rate) for n, s in frequencies.items()],
         free_mode=list(frequencies),

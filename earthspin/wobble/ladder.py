@@ -19,7 +19,7 @@ from earthspin.errors import UndefinedError
 from earthspin.interior.equilibrium import hydrostatic_core
 from earthspin.interior.love import elastic, softening
 from earthspin.interior.named import ANELASTIC_EXPONENT, Interior
-from earthspin.interior.ocean_and_anelasticity import anelastic_strain, global_ocean
+from earthspin.interior.ocean_and_anelasticity import global_ocean, shear_modulus_change
 from earthspin.mass.figure import ellipticity_from_h, polar_moment_factor
 from earthspin.numerics.arrays import Array, Numeric
 
@@ -315,7 +315,7 @@ def roots(
         Omega2 R5/(3 G A).
     compliance : tuple of float or complex
         k2, and in the same unit: of the core alone, of the whole body under the core's
-        pressure, of the core under its own (`Yielding`).
+        pressure, of the core under its own (`DegreeTwoLoveNumbers`).
     ocean : array, shape (..., 2, 2), optional
         Products of inertia over A per radian of wobble, symmetric.
     """
@@ -419,8 +419,8 @@ def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -
     moment = polar_moment_factor(inputs.j2, inputs.dynamical_flattening) - inputs.j2
     unit = spin.centrifugal(love_radius(interior, spin)) / moment
     compliance = _compliance(interior, inputs)
-    yielding = unit * (inputs.k2 + inputs.ocean)
-    if np.any(yielding >= ellipticity_from_h(inputs.dynamical_flattening)):
+    deformation = unit * (inputs.k2 + inputs.ocean)
+    if np.any(deformation >= ellipticity_from_h(inputs.dynamical_flattening)):
         raise UndefinedError(
             f"interior '{interior.name}' yields by more than the body's bulge: it would not "
             "wobble forwards; take a body with a larger H, or set its interior to 'none'"
@@ -459,9 +459,9 @@ def _soften(
     assert interior.layers is not None
     compliance = _compliance(interior, inputs)
     for _ in range(3):  # each pass shrinks the error by a factor of a thousand
-        strain = anelastic_strain(turns * abs(spin.period), inputs.anelastic_exponent)
+        modulus_change = shear_modulus_change(turns * abs(spin.period), inputs.anelastic_exponent)
         softer = tuple(
-            value * ratio(strain)
+            value * ratio(modulus_change)
             for value, ratio in zip(compliance, softening(interior.layers), strict=True)
         )
         root = roots(inputs, unit, softer, water)

@@ -119,7 +119,7 @@ def test_near_resonance() -> Distances:
     Hard because: four modes that each grow without limit must be separated
     Compared with: sum of the partial fractions of the system, relative
     """
-    parts = parts_of(PREM, SPIN, elastic(PREM).answers, H / (1 - H))
+    parts = parts_of(PREM, SPIN, elastic(PREM).response, H / (1 - H))
     p, q, right, left = system(parts)
     modes, vectors = np.linalg.eig(np.linalg.solve(p, -q))
     for mode in modes.real:

@@ -147,7 +147,7 @@ def other_answers(
     kind: type[np.floating[Any]] = np.float64,
     start: float = START,
 ) -> Array:
-    """Answers [i, j] of whole, fluid and inner core, as `Yielding.answers`.
+    """Answers [i, j] of whole, fluid and inner core, as `DegreeTwoLoveNumbers.response`.
 
     Of a body with one liquid in one layer or many, under a solid, with or without one in it: an
     Earth, a Mars whose core is liquid to the centre, a moon with an ocean between rock and ice.

@@ -5,7 +5,7 @@ import numpy as np
 from earthspin import EARTH
 from earthspin.interior.equilibrium import equilibrium, hydrostatic_core
 from earthspin.interior.layers import PREM, tidal_inertia
-from earthspin.interior.love import elastic, yielding
+from earthspin.interior.love import elastic, solve_love_numbers
 from tests.conftest import load_pins
 from tests.interior.shells import sphere
 
@@ -15,7 +15,7 @@ SPIN = 2 * np.pi / EARTH.spin_period
 
 def test_without_rigidity_the_body_takes_clairauts_shape() -> None:
     soft = sphere((3.5e6, 11000.0, 0.0), (6.4e6, 4500.0, 1e5))
-    found = yielding(soft)
+    found = solve_love_numbers(soft)
     assert np.isclose(found.k, equilibrium(soft).k, rtol=1e-5, atol=0)
     assert np.isclose(found.h, 1 + found.k, rtol=1e-5, atol=0)
     assert np.isclose(found.core_k, equilibrium(soft).core_k, rtol=1e-5, atol=0)

@@ -157,12 +157,12 @@ def test_the_response_of_a_sphere_across_the_resonance(
              "psi1": (15.08214, 0.466)}  # fmt: skip
     parts = rungs["inner-core"].parts(np.array(-1.0))
     p, q, right, left = system(parts)
-    answers = elastic(PREM).answers
+    response = elastic(PREM).response
     for wave, (degrees, published) in waves.items():
         sigma = -degrees / 15.04107
         x = np.linalg.solve(sigma * p + q, sigma * right + left).real
         # the potential of tide and wobble that the whole body yields to is that of phi - m
-        k = answers[0] @ np.array([1 - x[0], -x[1], -x[2]])
+        k = response[0] @ np.array([1 - x[0], -x[1], -x[2]])
         assert abs(k / published - 1) < 0.02, wave  # measured: 0.015
 
 

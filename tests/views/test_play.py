@@ -14,7 +14,7 @@ from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.errors import UndefinedError
 from earthspin.interior.layers import PREM
 from earthspin.interior.love import softening
-from earthspin.interior.ocean_and_anelasticity import anelastic_strain
+from earthspin.interior.ocean_and_anelasticity import shear_modulus_change
 from earthspin.numerics.quaternion import rotate
 from earthspin.rotor.triaxial import free_rotation
 from earthspin.scenes import run
@@ -226,8 +226,8 @@ def test_the_wobble_is_the_librarys(browser: str, tmp_path: Path) -> None:
         slow = wet.turns
         try:
             for _ in range(3):
-                strain = anelastic_strain(slow * day, inputs["anelastic_exponent"])
-                ratios = (ratio(strain) for ratio in soft)
+                modulus_change = shear_modulus_change(slow * day, inputs["anelastic_exponent"])
+                ratios = (ratio(modulus_change) for ratio in soft)
                 softer = tuple(v * ratio for v, ratio in zip(inner, ratios, strict=True))
                 slow = roots(Inputs(**inputs, core_fraction=core), unit, softer, water).turns
         except UndefinedError:

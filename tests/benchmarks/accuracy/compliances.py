@@ -88,7 +88,7 @@ def _compliances(carry: Carry, setting: float) -> tuple[Array, int]:
         return carry(at, start, stop, y, setting)
 
     with patch.object(love, "carry", counted):
-        return love.yielding(PREM).answers, radii
+        return love.solve_love_numbers(PREM).response, radii
 
 
 def _by_scipy(name: str, matrix: Matrix, start: float, stop: float, y: Array, rtol: float) -> Array:
