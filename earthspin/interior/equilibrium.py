@@ -129,14 +129,14 @@ class HydrostaticFigure(Regions):
     ----------
     e_core : float
         (C - A)/A of the fluid core and inner core together.
-    unit : float
-        Omega2 R5/(3 G A): product of inertia over A per radian and unit of a Love number.
+    tidal_inertia : float
+        Omega2 R5/(3 G A): product of inertia over A per radian and unit of the Love number k.
     surface : float
         Flattening of the surface.
     """
 
     e_core: float
-    unit: float
+    tidal_inertia: float
     surface: float
 
 
@@ -190,7 +190,7 @@ def figure(layers: LayeredBody, spin_rate: float) -> HydrostaticFigure:
         ellipticity = centrifugal * liquid_response.potential[i] / (2 * profile.gravity(i, r) * r)
         density = float(profile.density(i + 1, r))
         # C - A of a homogeneous fluid spheroid, (8 pi/15) rho eps r5, in units of (3/5) (C -
-        # A)/unit.
+        # A)/tidal_inertia.
         liquid_excess = 8 * np.pi / 15 * density * profile.density_unit * ellipticity
         liquid_excess *= layers.inner_core_radius**5 / moment
         a1 = float(liquid_excess / moment_difference["inner"])
@@ -213,7 +213,7 @@ def figure(layers: LayeredBody, spin_rate: float) -> HydrostaticFigure:
         a1=a1,
         a2=a2,
         a3=a3,
-        unit=float(scale / equatorial),
+        tidal_inertia=float(scale / equatorial),
         surface=float(centrifugal * liquid_response.potential[-1] / 2),
     )
 

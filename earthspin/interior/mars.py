@@ -65,13 +65,9 @@ def four_layers(core_radius: float = CORE_RADIUS.value) -> LayeredBody:
     fixed = np.array([CORE_DENSITY.value, 0.0, 0.0, CRUST_DENSITY.value])
     required = [mass - volume @ fixed, MOMENT * mass * MEAN_RADIUS.value**2 - moment @ fixed]
     lower, upper = np.linalg.solve([volume[1:3], moment[1:3]], required)
-    crust_speed, upper_speed, lower_speed = (speed.value for speed in SHEAR_SPEEDS)
-    solids = zip(
-        tops[1:],
-        (lower, upper, CRUST_DENSITY.value),
-        (lower_speed, upper_speed, crust_speed),
-        strict=True,
-    )
+    densities = (lower, upper, CRUST_DENSITY.value)
+    speeds = (speed.value for speed in reversed(SHEAR_SPEEDS))
+    solids = zip(tops[1:], densities, speeds, strict=True)
     return LayeredBody(
         "mars",
         (

@@ -55,7 +55,7 @@ class Parts(Regions):
 
     Attributes
     ----------
-    inertia_products : array, shape (..., 3, 3), complex
+    inertia : array, shape (..., 3, 3), complex
         Products of inertia, divided by A, of the whole body, fluid core and inner core, for unit
         wobbles m, m_f and m_s.
     k_cmb, k_icb : complex
@@ -63,7 +63,7 @@ class Parts(Regions):
         in the units of e_f and e_s (Buffett, Mathews & Herring 2002, JGR 107(B4), 2070).
     """
 
-    inertia_products: Array
+    inertia: Array
     k_cmb: Numeric = 0.0
     k_icb: Numeric = 0.0
 
@@ -82,7 +82,7 @@ class Parts(Regions):
         moments = (1.0, self.fluid, self.inner)
         regions = 1 + bool(np.any(self.fluid)) + bool(np.any(self.inner))
         return {
-            name: self.inertia_products[..., i, j] / moments[i]
+            name: self.inertia[..., i, j] / moments[i]
             for i, row in enumerate(rows[:regions])
             for j, name in enumerate(row[:regions])
         }
@@ -98,19 +98,11 @@ def all_fluid(parts: Parts, e_core: Numeric) -> Parts:
         (C - A)/A of the whole core.
     """
     regions = np.array([[1.0, 0.0], [0.0, 1.0], [0.0, 1.0]])
-    inertia_products = np.zeros(
-        (*np.shape(parts.inertia_products)[:-2], 3, 3),
-        dtype=np.asarray(parts.inertia_products).dtype,
-    )
-    inertia_products[..., :2, :2] = regions.T @ parts.inertia_products @ regions
+    inertia = np.zeros((*np.shape(parts.inertia)[:-2], 3, 3), dtype=np.asarray(parts.inertia).dtype)
+    inertia[..., :2, :2] = regions.T @ parts.inertia @ regions
     none = dict.fromkeys(("e_s", "inner", "a1", "a2", "a3"), 0.0)
     return replace(
-        parts,
-        e_f=e_core,
-        fluid=parts.fluid + parts.inner,
-        inertia_products=inertia_products,
-        k_icb=0.0,
-        **none,
+        parts, e_f=e_core, fluid=parts.fluid + parts.inner, inertia=inertia, k_icb=0.0, **none
     )
 
 
@@ -127,12 +119,11 @@ def system(parts: Parts) -> tuple[Array, Array, Array, Array]:
     """
     o = parts
     shape = np.broadcast_shapes(
-        np.shape(o.inertia_products)[:-2],
-        *(np.shape(v) for v in (o.e, o.e_f, o.fluid, o.k_cmb, o.k_icb)),
+        np.shape(o.inertia)[:-2], *(np.shape(v) for v in (o.e, o.e_f, o.fluid, o.k_cmb, o.k_icb))
     )
     p, q = (np.zeros((*shape, 4, 4), dtype=complex) for _ in range(2))
     right, left = (np.zeros((*shape, 4), dtype=complex) for _ in range(2))
-    c = np.asarray(o.inertia_products)
+    c = np.asarray(o.inertia)
     moments = (None, o.fluid, o.inner)
     # The whole body: c and the angular momentum of the core enter with (1 + sigma).
     for j in range(3):
@@ -218,7 +209,7 @@ def parts_of(layers: LayeredBody, spin_rate: float, response: Array, e: float) -
     """
     f = figure(layers, spin_rate)
     regions = {field.name: getattr(f, field.name) for field in fields(Regions)}
-    return Parts(**regions | {"e": e}, inertia_products=f.unit * response)
+    return Parts(**regions | {"e": e}, inertia=f.tidal_inertia * response)
 
 
 def numbers_of(layers: LayeredBody, spin_rate: float) -> dict[str, float]:

@@ -155,9 +155,9 @@ class InteriorInputs:
         turn = 2 * np.pi / abs(self.spin_rate)
         slow = bool(np.all(np.abs(sigma) < 0.5))
         period = turn / float(np.mean(np.abs(sigma))) if slow else turn
-        modulus_change = complex(shear_modulus_change(period, self.exponent))
+        mu_change = complex(shear_modulus_change(period, self.exponent))
         # retrograde motion: negative frequency, so the complex conjugate
-        return _love_numbers(self.layers, modulus_change if slow else modulus_change.conjugate())
+        return _love_numbers(self.layers, mu_change if slow else mu_change.conjugate())
 
 
 _love_numbers = lru_cache(maxsize=64)(solve_love_numbers)
@@ -198,8 +198,8 @@ def with_ocean(
     added = np.where(slow, setting.ocean, setting.diurnal_ocean * diurnal_response(sigma))
     added = added / love.tilt_factor[..., 0] ** 2
     tilt_product = love.tilt_factor[..., :, None] * love.tilt_factor[..., None, :]
-    water = setting.figure.unit * added[..., None, None] * tilt_product
-    return replace(parts, inertia_products=parts.inertia_products + water)
+    water = setting.figure.tidal_inertia * added[..., None, None] * tilt_product
+    return replace(parts, inertia=parts.inertia + water)
 
 
 def without_core(parts: Parts) -> Parts:
@@ -226,7 +226,7 @@ def climb(setting: InteriorInputs, coupling: bool = False) -> dict[str, Rung]:
     anelastic = Rung(lambda sigma: wet(sigma, soft=True))
 
     e_core = f.e_core * setting.factors.get("e_f", 1.0)
-    stiff = replace(firm, inertia_products=np.zeros((3, 3)))
+    stiff = replace(firm, inertia=np.zeros((3, 3)))
     rungs = {
         "rigid": Rung(lambda sigma: without_core(stiff)),
         "elastic": Rung(lambda sigma: without_core(firm)),
@@ -293,7 +293,7 @@ _EXPONENTS = np.linspace(*EXPONENT_RANGE, 3)
 
 #: Relative uncertain inputs, and the field of `Parts` that each scales.
 _FACTORS = {
-    "k2": "inertia_products",
+    "k2": "inertia",
     "core_fraction": "fluid",
     "core_ellipticity": "e_f",
     "inner_core_fraction": "inner",

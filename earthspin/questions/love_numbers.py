@@ -98,10 +98,8 @@ class Love(Variables, along=("love",), no_error=FROM_LAYERS):
 @part
 def love(layers: LayeredBody, period: float | None, anelastic_exponent: float) -> Love:
     """Compute the Love numbers of tide and load, by integration from the centre to the surface."""
-    modulus_change = (
-        0.0 if period is None else complex(shear_modulus_change(period, anelastic_exponent))
-    )
-    values = _numbers(solve_love_numbers(layers, modulus_change))
+    mu_change = 0.0 if period is None else complex(shear_modulus_change(period, anelastic_exponent))
+    values = _numbers(solve_love_numbers(layers, mu_change))
     sources = [layers.reference]
     if period is not None and anelastic_exponent == ANELASTIC_EXPONENT.value:
         sources.append(ANELASTIC_EXPONENT.source)

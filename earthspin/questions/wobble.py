@@ -129,7 +129,7 @@ class Inside:
     Attributes
     ----------
     inputs, spin, interior
-        As `earthspin.wobble.ladder.climb` takes them.
+        As `earthspin.wobble.ladder.non_rigid` takes them.
     ocean : str
     dims : tuple of str
         Names of the arrays' dimensions.
@@ -138,14 +138,14 @@ class Inside:
     """
 
     inputs: ladder.Inputs
-    spin: ladder.Spin
+    spin: ladder.RotatingBody
     interior: Interior
     ocean: str
     dims: tuple[str, ...]
     uncertainty: Mapping[str, float]
 
     @property
-    def setting(self) -> tuple[ladder.Spin, Interior, str]:
+    def setting(self) -> tuple[ladder.RotatingBody, Interior, str]:
         """Return spin, interior and ocean, the arguments that all non-rigid models take."""
         return self.spin, self.interior, self.ocean
 
@@ -178,7 +178,7 @@ def inside(
     given = {name: body.needed(name) for name in (*_FIGURE, *_SPIN)} | own
     numbers = xr.broadcast(*map(xr.DataArray, given.values()))
     values = {name: number.values for name, number in zip(given, numbers, strict=True)}
-    spin = ladder.Spin(*(values.pop(name) for name in _SPIN))
+    spin = ladder.RotatingBody(*(values.pop(name) for name in _SPIN))
     changed = {name: values.pop(name) for name in own}
     inputs = replace(ladder.inputs_of(interior, spin, values, ocean), **changed)
     uncertainty = {**interior.relative_uncertainty, **body.relative_uncertainty}
@@ -217,16 +217,16 @@ class Rungs(
 def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
     """Compute the free wobble period for each model of the ladder, from rigid to deformable."""
     h, j2 = body.needed("dynamical_flattening"), body.needed("j2")
-    turns = ladder.rigid_turns(body.needed("flattening"), h, j2, body.triaxiality)
+    turns = ladder.rigid_periods(body.needed("flattening"), h, j2, body.triaxiality)
     quality: dict[str, Numeric] = dict.fromkeys(turns, np.inf)
     left_out = dict.fromkeys(ladder.RUNGS[3:], why_rigid(body) or "")
     spread = _rigid_spread(body, turns)
     if inside is not None:
         inputs, uncertainty, setting = inside.inputs, inside.uncertainty, inside.setting
-        climbed = ladder.climb(inputs, *setting)
-        left_out = climbed.left_out
+        models = ladder.non_rigid(inputs, *setting)
+        left_out = models.left_out
         sampled = propagation.sampled_half_widths(inputs, uncertainty, *setting)
-        pairs = ((turns, climbed.turns), (quality, climbed.quality_factor), (spread, sampled))
+        pairs = ((turns, models.rotations), (quality, models.quality_factor), (spread, sampled))
         for lower, upper in pairs:
             lower |= {name: inside.label(value) for name, value in upper.items()}
     sidereal, day = _stacked(turns, "rung"), abs(body.needed("spin_period"))
@@ -293,7 +293,7 @@ class Sensitivity(Variables, along=("input",), no_error="a part of an error, or 
 def sensitivity(inside: Inside) -> Sensitivity:
     """Derivative of the most detailed model's wobble period by each input, and input errors."""
     slopes = propagation.sensitivities(inside.inputs, *inside.setting)
-    anelastic = "anelastic" in ladder.climb(inside.inputs, *inside.setting).turns
+    anelastic = "anelastic" in ladder.non_rigid(inside.inputs, *inside.setting).rotations
     half_widths = propagation.half_widths(inside.inputs, inside.uncertainty, anelastic)
     slope, half_width = inside.stack(slopes, "input"), inside.stack(half_widths, "input")
     return Sensitivity(
@@ -330,7 +330,7 @@ def core_nutation(inside: Inside, body: Body) -> CoreNutationPeriod:
     turns: dict[str, Numeric] = {}
     half_widths: dict[str, Numeric] = {}
     for name, (inputs, spread) in shapes.items():
-        turns[name] = ladder.climb(inputs, *inside.setting).core_turns["fluid-core"]
+        turns[name] = ladder.non_rigid(inputs, *inside.setting).core_rotations["fluid-core"]
         half_widths[name] = propagation.core_nutation_half_width(inputs, spread, *inside.setting)
     nutation = inside.stack(turns, "core_shape") * body.needed("spin_period")
     error = inside.stack(half_widths, "core_shape") * abs(body.needed("spin_period"))

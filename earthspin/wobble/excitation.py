@@ -158,6 +158,6 @@ def fitted_start(time: FloatArray, p: ComplexArray, chi: ComplexArray, s: comple
         Result of `chandler_frequency`.
     """
     step = float((time[-1] - time[0]) / (time.size - 1))
-    left = p - polar_motion_from(chi, step, s)
-    free = np.exp(1j * s * (time - time[0]))
-    return complex(least_squares(np.column_stack([known_terms(time), free]), left)[-1])
+    residual = p - polar_motion_from(chi, step, s)
+    free_wobble = np.exp(1j * s * (time - time[0]))
+    return complex(least_squares(np.column_stack([known_terms(time), free_wobble]), residual)[-1])

@@ -67,12 +67,12 @@ class Autoregression:
     @classmethod
     def fitted(cls, innovations: ComplexArray) -> Autoregression:
         """Fit the autoregression to the last days of a series of innovations."""
-        last = innovations[-FITTED_OVER:]
-        filter_ = burg(last, ORDER)
-        residuals = np.convolve(last, filter_, mode="valid")
-        parts = np.array([residuals.real, residuals.imag])
+        recent = innovations[-FITTED_OVER:]
+        filter_ = burg(recent, ORDER)
+        residuals = np.convolve(recent, filter_, mode="valid")
+        components = np.array([residuals.real, residuals.imag])
         # a fit of so many coefficients leaves too small a residual
-        covariance = parts @ parts.T / residuals.size * (1 + ORDER / residuals.size)
+        covariance = components @ components.T / residuals.size * (1 + ORDER / residuals.size)
         return cls(filter_[1:], complex(residuals[-1]), covariance)
 
     def extended(self, series: ComplexArray, days: int) -> ComplexArray:
@@ -91,9 +91,9 @@ class Autoregression:
             Variance of the error in each coordinate, beyond that of other observations, mas
             squared.
         """
-        share = self.covariance @ np.linalg.inv(self.covariance + variance * np.eye(2))
-        real, imaginary = share @ [self.residual.real, self.residual.imag]
-        return complex(real, imaginary), self.covariance - share @ self.covariance
+        gain = self.covariance @ np.linalg.inv(self.covariance + variance * np.eye(2))
+        real, imaginary = gain @ [self.residual.real, self.residual.imag]
+        return complex(real, imaginary), self.covariance - gain @ self.covariance
 
 
 def forecast_covariance(
@@ -119,9 +119,9 @@ def forecast_covariance(
         innovation = side_by_side(np.array([[value]]))
         response[day] = model.observed @ state + innovation
         state = model.transition @ (state + gain @ innovation)
-    turned = np.swapaxes(response, 1, 2)
-    later = np.cumsum(response @ autoregression.covariance @ turned, axis=0)[:-1]
-    return np.asarray(later + response[1:] @ last @ turned[1:])
+    transposed = np.swapaxes(response, 1, 2)
+    residual_part = np.cumsum(response @ autoregression.covariance @ transposed, axis=0)[:-1]
+    return np.asarray(residual_part + response[1:] @ last @ transposed[1:])
 
 
 # --- the model and its forecast -------------------------------------------------------------------
@@ -228,26 +228,26 @@ def model(fast: FastExcitation = SHIPPED) -> StateSpace:
 
     The states are complex, in the order of `BEFORE`.
     """
-    rate = 1j * chandler_frequency(PERIOD, QUALITY)
-    year = 2j * np.pi / YEAR
+    wobble_rate = 1j * chandler_frequency(PERIOD, QUALITY)
+    annual_rate = 2j * np.pi / YEAR
     diagonal = [
-        rate,
+        wobble_rate,
         -fast.first_decay + 1j * fast.first_turn,
         -fast.second_decay + 1j * fast.second_turn,
         -1 / SLOW_MEMORY,
-        *(year, -year, 2 * year, -2 * year),
+        *(annual_rate, -annual_rate, 2 * annual_rate, -2 * annual_rate),
         *(0, 0),
     ]
     rates = np.diag(np.array(diagonal, dtype=complex))
-    rates[0, 2:4] = -rate
+    rates[0, 2:4] = -wobble_rate
     rates[2, 1] = fast.second_decay
     rates[8, 9] = 1
     slow = SLOW * np.sqrt(2 / SLOW_MEMORY)
-    driven = abs(rate) * fast.white
-    walks = [driven, 0, 0, slow, ANNUAL_WALK, ANNUAL_WALK, SEMIANNUAL_WALK, SEMIANNUAL_WALK]
-    size = len(BEFORE)
+    white_walk = abs(wobble_rate) * fast.white
+    walks = [white_walk, 0, 0, slow, ANNUAL_WALK, ANNUAL_WALK, SEMIANNUAL_WALK, SEMIANNUAL_WALK]
+    half_size = len(BEFORE)
     density = np.diag(np.tile([*walks, LEVEL_WALK, SLOPE_WALK], 2) ** 2)
-    density[np.ix_([1, 1 + size], [1, 1 + size])] = fast.density
+    density[np.ix_([1, 1 + half_size], [1, 1 + half_size])] = fast.density
     error = OBSERVATION**2 * np.eye(2)
     return StateSpace.sampled(rates, density, _OBSERVED, error, np.diag(np.tile(BEFORE, 2) ** 2))
 
@@ -323,35 +323,37 @@ def forecast(
     system, gain, covariance = kalman.model, kalman.gains[-1], kalman.covariance
     series = innovations @ np.array([1, 1j])
     autoregression = Autoregression.fitted(series)
-    unknown = np.zeros((2, 2))
+    last_covariance = np.zeros((2, 2))
     if newest:
-        residual, unknown = autoregression.without_error(NEWEST_DEVIATION**2)
+        residual, last_covariance = autoregression.without_error(NEWEST_DEVIATION**2)
         change = residual - autoregression.residual
         series[-1] += change
         state = state + gain @ [change.real, change.imag]
     extended = autoregression.extended(series, min(days, EXTRAPOLATED))
     future = np.column_stack([extended.real, extended.imag])
     rows = {name: _rows(states) for name, states in COMPONENTS.items()}
-    pole, spread = np.empty((days, 2)), np.empty((days, 2, 2))
-    parts = {name: np.empty((days, 2)) for name in rows}
+    pole, by_model = np.empty((days, 2)), np.empty((days, 2, 2))
+    poles = {name: np.empty((days, 2)) for name in rows}
     variances = {name: np.empty((days, 2)) for name in rows}
     for day in range(days):
         state = system.transition @ state
         covariance = system.propagated(covariance)
-        pole[day], spread[day] = system.observed @ state, system.of_observation(covariance)
+        pole[day], by_model[day] = system.observed @ state, system.of_observation(covariance)
         if day < len(future):
             pole[day] += future[day]
             state = state + gain @ future[day]
         for name, row in rows.items():
-            parts[name][day] = row @ state
+            poles[name][day] = row @ state
             variances[name][day] = np.diag(row @ covariance @ row.T)
-    observed = forecast_covariance(kalman, autoregression, unknown, days)
-    share = np.exp(-((np.arange(1, days + 1) / TAKEN_OVER) ** 2))[:, None, None]
+    by_innovations = forecast_covariance(kalman, autoregression, last_covariance, days)
+    weight = np.exp(-((np.arange(1, days + 1) / TAKEN_OVER) ** 2))[:, None, None]
     signs = np.array([[1, -1], [-1, 1]])  # of x and y, not of x and -y
-    spread *= signs
-    combined = share * observed * signs + (1 - share) * spread
-    complex_parts = {name: part @ np.array([1, 1j]) for name, part in parts.items()}
-    return PredictedPole(pole @ np.array([1, 1j]), combined, spread, complex_parts, variances, fast)
+    by_model *= signs
+    combined = weight * by_innovations * signs + (1 - weight) * by_model
+    complex_parts = {name: part @ np.array([1, 1j]) for name, part in poles.items()}
+    return PredictedPole(
+        pole @ np.array([1, 1j]), combined, by_model, complex_parts, variances, fast
+    )
 
 
 def last_of(p: ComplexArray, used: int = RECORD) -> ComplexArray:
@@ -392,7 +394,7 @@ def fit(p: ComplexArray, used: int = RECORD) -> FastExcitation:
     record = last_of(p, used)[::-1][::THINNED][::-1]
     data = np.column_stack([record.real, record.imag])
 
-    def height(free: FloatArray) -> float:
+    def minus_twice_log(free: FloatArray) -> float:
         system = model(FastExcitation.from_free(free)).every(THINNED)
         kalman = Filter.of(system, len(data))
         return kalman.minus_twice_log(kalman.run(data)[1])
@@ -400,7 +402,7 @@ def fit(p: ComplexArray, used: int = RECORD) -> FastExcitation:
     start = replace(SHIPPED, white=WHITE).free
     bounds = [*((v - 1, v + 1) for v in start[:-1]), tuple(np.log(WHITE_BOUNDS))]
     options: dict[str, Any] = {"maxiter": ITERATIONS, "eps": 1e-4}
-    best = minimize(height, start, method="L-BFGS-B", bounds=bounds, options=options)
+    best = minimize(minus_twice_log, start, method="L-BFGS-B", bounds=bounds, options=options)
     return FastExcitation.from_free(best.x)
 
 
@@ -441,16 +443,16 @@ def forecast_with_excitation(
             f"pole and excitation have {p.size} days up to the origin in common; a forecast needs "
             f"{SHORTEST_EXCITATION} ({SHORTEST_EXCITATION / YEAR:.0f} years)"
         )
-    smooth = np.concatenate([chi[:1], np.convolve(chi, SMOOTHING, mode="valid")])
-    driven = polar_motion_from(smooth, 1.0, chandler_frequency(PERIOD, QUALITY))
-    known, used = driven[: p.size + days], min(p.size, RECORD)
-    ahead = known.size - p.size
-    rest = p - known[: p.size]
-    left = forecast(rest, days, fit(rest, used), used, newest)
-    pole, covariance = left.pole.copy(), left.model_covariance.copy()
-    pole[:ahead] += known[p.size :]
-    if ahead < days:
-        later = forecast(known, days - ahead, fit(known, used), used)
-        pole[ahead:] += later.pole
-        covariance[ahead:] += later.model_covariance
-    return PredictedPole(pole, covariance, covariance, {}, {}, left.fast)
+    smoothed = np.concatenate([chi[:1], np.convolve(chi, SMOOTHING, mode="valid")])
+    driven = polar_motion_from(smoothed, 1.0, chandler_frequency(PERIOD, QUALITY))
+    driven_pole, length = driven[: p.size + days], min(p.size, RECORD)
+    known = driven_pole.size - p.size
+    residual_pole = p - driven_pole[: p.size]
+    remainder = forecast(residual_pole, days, fit(residual_pole, length), length, newest)
+    pole, covariance = remainder.pole.copy(), remainder.model_covariance.copy()
+    pole[:known] += driven_pole[p.size :]
+    if known < days:
+        later = forecast(driven_pole, days - known, fit(driven_pole, length), length)
+        pole[known:] += later.pole
+        covariance[known:] += later.model_covariance
+    return PredictedPole(pole, covariance, covariance, {}, {}, remainder.fast)

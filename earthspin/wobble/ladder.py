@@ -45,7 +45,7 @@ from earthspin.numerics.arrays import Array, Numeric
 # Fifty products a body, in the place of a matrix of four by four and its eigenvalues.
 
 
-def over(numerator: Numeric, denominator: Numeric) -> Numeric:
+def quotient(numerator: Numeric, denominator: Numeric) -> Numeric:
     """Quotient of two numbers; infinite if the denominator is zero."""
     with np.errstate(divide="ignore"):
         return np.divide(numerator, denominator)
@@ -67,7 +67,7 @@ class Roots:
     core: Array
 
     @property
-    def turns(self) -> Array:
+    def rotations(self) -> Array:
         """Period of the free wobble in rotations of the body."""
         return np.asarray(1 / self.wobble.real)
 
@@ -75,10 +75,10 @@ class Roots:
     def quality_factor(self) -> Array:
         """Quality factor of the free wobble; infinite without dissipation."""
         loss = self.wobble.imag
-        return np.asarray(over(self.wobble.real, 2 * loss))
+        return np.asarray(quotient(self.wobble.real, 2 * loss))
 
     @property
-    def core_turns_in_space(self) -> Array:
+    def core_rotations(self) -> Array:
         """Period of the free core nutation in space, in rotations; negative if retrograde."""
         return np.asarray(1 / (1 + self.core.real))
 
@@ -91,7 +91,7 @@ class Mantle:
     ----------
     ellipticity : float
         e = (C - (A + B)/2)/((A + B)/2).
-    half : float
+    equatorial_ellipticity : float
         (B - A)/(A + B).
     kappa : float or complex
         Products of inertia over (A + B)/2 per radian of wobble.
@@ -100,7 +100,7 @@ class Mantle:
     """
 
     ellipticity: Numeric
-    half: Numeric
+    equatorial_ellipticity: Numeric
     kappa: Numeric
     ocean: Array | None = None
 
@@ -109,17 +109,17 @@ class Mantle:
 
         The order is tr M, |M|, tr D, |D|.
         """
-        water = np.zeros((2, 2)) if self.ocean is None else self.ocean
-        first, second, off = water[..., 0, 0], water[..., 1, 1], water[..., 0, 1]
-        m1 = 1 - self.half + self.kappa + first
-        m2 = 1 + self.half + self.kappa + second
-        d1 = self.ellipticity + self.half - self.kappa - first
-        d2 = self.ellipticity - self.half - self.kappa - second
-        return m1 + m2, m1 * m2 - off**2, d1 + d2, d1 * d2 - off**2
+        ocean = np.zeros((2, 2)) if self.ocean is None else self.ocean
+        water_11, water_22, off_diagonal = ocean[..., 0, 0], ocean[..., 1, 1], ocean[..., 0, 1]
+        m1 = 1 - self.equatorial_ellipticity + self.kappa + water_11
+        m2 = 1 + self.equatorial_ellipticity + self.kappa + water_22
+        d1 = self.ellipticity + self.equatorial_ellipticity - self.kappa - water_11
+        d2 = self.ellipticity - self.equatorial_ellipticity - self.kappa - water_22
+        return m1 + m2, m1 * m2 - off_diagonal**2, d1 + d2, d1 * d2 - off_diagonal**2
 
 
 @dataclass(frozen=True)
-class CoreCoefficients:
+class FluidCore:
     """Coefficients of the core's equation of motion; floats or arrays of one shape.
 
     Attributes
@@ -141,7 +141,7 @@ class CoreCoefficients:
     xi: Numeric = 0.0
 
 
-def solve(mantle: Mantle, core: CoreCoefficients) -> Roots:
+def solve(mantle: Mantle, core: FluidCore) -> Roots:
     """Solve the equations of mantle and core for the wobble and core nutation frequencies.
 
     Raises
@@ -151,10 +151,10 @@ def solve(mantle: Mantle, core: CoreCoefficients) -> Roots:
     """
     trace_m, det_m, trace_d, det_d = mantle.traces_and_determinants()
     a, b, f = 1 + core.gamma, 1 + core.beta, 1 + core.ellipticity
-    pull = (core.fraction + core.xi) * a  # X a
+    x_a = (core.fraction + core.xi) * a  # X a
     constant = f**2 * det_d
-    linear = pull * (f * trace_m + (f - b) * trace_d - pull) - f**2 * det_m - b**2 * det_d
-    square = b**2 * det_m - pull * (b * trace_m - pull)
+    linear = x_a * (f * trace_m + (f - b) * trace_d - x_a) - f**2 * det_m - b**2 * det_d
+    square = b**2 * det_m - x_a * (b * trace_m - x_a)
     # The sum of the larger root first: the smaller one then follows without cancellation.
     larger = -linear + np.sqrt(linear**2 - 4 * constant * square)
     wobble, nutation = 2 * constant / larger, larger / (2 * square)
@@ -182,12 +182,12 @@ FORMULAS = {
 }
 
 
-def turns_rigid(h: Numeric) -> Numeric:
+def rigid_period(h: Numeric) -> Numeric:
     """Wobble period of a rigid axisymmetric body, in rotations: A/(C - A) (I.6.7)."""
-    return np.abs(over(1.0, ellipticity_from_h(h)))
+    return np.abs(quotient(1.0, ellipticity_from_h(h)))
 
 
-def turns_triaxial(h: Numeric, j2: Numeric, triaxiality: Numeric) -> Numeric:
+def triaxial_period(h: Numeric, j2: Numeric, triaxiality: Numeric) -> Numeric:
     """Wobble period of a rigid triaxial body, in rotations, for small wobbles.
 
     sqrt(A B/((C - A)(C - B))), linearised Euler equations (I.4.4), from differences only.
@@ -207,40 +207,40 @@ def turns_triaxial(h: Numeric, j2: Numeric, triaxiality: Numeric) -> Numeric:
         If the polar moment does not follow from J2 and H, or is not an extreme one.
     """
     if not np.any(triaxiality):
-        return turns_rigid(h)
+        return rigid_period(h)
     if np.any(np.equal(h, 0)):
         raise UndefinedError(
             "with H = 0 the polar moment does not follow from J2; set triaxiality to 0"
         )
     e = ellipticity_from_h(h)
     mean_equatorial = polar_moment_factor(j2, h) - j2
-    half = triaxiality / mean_equatorial / 2
-    if np.any(abs(half) > abs(e)):
+    asymmetry = triaxiality / mean_equatorial / 2
+    if np.any(abs(asymmetry) > abs(e)):
         raise UndefinedError(
             "the spin axis is the middle one of the three principal axes: it is not stable, "
             "so there is no wobble about it"
         )
-    return np.sqrt(over(1 - half**2, (e - half) * (e + half)))
+    return np.sqrt(quotient(1 - asymmetry**2, (e - asymmetry) * (e + asymmetry)))
 
 
-def rigid_turns(
+def rigid_periods(
     flattening: Numeric, h: Numeric, j2: Numeric, triaxiality: Numeric
 ) -> dict[str, Numeric]:
     """Wobble periods, in rotations, from the three rigid models of the ladder, by model name."""
     return {
-        "flattening": over(1.0, flattening),  # MacCullagh's formula (I.9.52)
-        "rigid": turns_rigid(h),
-        "triaxial": turns_triaxial(h, j2, triaxiality),
+        "flattening": quotient(1.0, flattening),  # MacCullagh's formula (I.9.52)
+        "rigid": rigid_period(h),
+        "triaxial": triaxial_period(h, j2, triaxiality),
     }
 
 
-def factors(turns: Numeric) -> Numeric:
+def factors(periods: Numeric) -> Numeric:
     """Ratio of each model's wobble period to the previous model's; 1 for the first model."""
-    values = np.asarray(turns)
+    values = np.asarray(periods)
     below, above = values[:-1], values[1:]
     with np.errstate(invalid="ignore"):  # a sphere has every rung at infinity
-        steps = np.where(above == below, 1.0, above / below)
-    return np.concatenate([np.ones_like(values[:1]), steps])
+        ratios = np.where(above == below, 1.0, above / below)
+    return np.concatenate([np.ones_like(values[:1]), ratios])
 
 
 # --- a body that yields ----------------------------------------------------------------------
@@ -277,7 +277,7 @@ class Inputs:
 
 
 @dataclass(frozen=True)
-class Spin:
+class RotatingBody:
     """GM, equatorial radius and rotation period of a body, in SI units.
 
     Attributes
@@ -323,17 +323,17 @@ def roots(
     moment = polar_moment_factor(inputs.j2, inputs.dynamical_flattening) - inputs.j2
     mantle = Mantle(
         ellipticity=ellipticity_from_h(inputs.dynamical_flattening),
-        half=inputs.triaxiality / moment / 2,
+        equatorial_ellipticity=inputs.triaxiality / moment / 2,
         kappa=unit * k,
         ocean=ocean,
     )
     has_core = np.not_equal(inputs.core_fraction, 0)
-    share = np.where(has_core, inputs.core_fraction, 1.0)
-    core = CoreCoefficients(
+    fraction = np.where(has_core, inputs.core_fraction, 1.0)
+    core = FluidCore(
         fraction=inputs.core_fraction,
         ellipticity=inputs.core_ellipticity,
-        gamma=unit * core_k / share,
-        beta=unit * core_k_pressure / share,
+        gamma=unit * core_k / fraction,
+        beta=unit * core_k_pressure / fraction,
         xi=np.where(has_core, unit * k_pressure, 0.0),
     )
     return solve(mantle, core)
@@ -345,63 +345,66 @@ class Ladder:
 
     Attributes
     ----------
-    turns : dict of str to array
-        Period of each rung in turns of the body.
+    rotations : dict of str to array
+        Wobble period of each rung in rotations of the body.
     quality_factor : dict of str to array
         Infinite where nothing is lost.
-    core_turns : dict of str to array
+    core_rotations : dict of str to array
         Free core nutation among the stars, of each rung that has a core.
     left_out : dict of str to str
         Why the other rungs are missing.
     """
 
-    turns: dict[str, Array]
+    rotations: dict[str, Array]
     quality_factor: dict[str, Array]
-    core_turns: dict[str, Array]
+    core_rotations: dict[str, Array]
     left_out: dict[str, str]
 
 
 def inputs_of(
-    interior: Interior, spin: Spin, figure: Mapping[str, Numeric], ocean: str = "real"
+    interior: Interior, body: RotatingBody, figure: Mapping[str, Numeric], ocean: str = "real"
 ) -> Inputs:
     """Collect the inputs of the non-rigid models: the figure of a body, its interior and ocean.
 
     Parameters
     ----------
     interior : Interior
-    spin : Spin
+    body : RotatingBody
     figure : mapping
         `dynamical_flattening`, `j2` and `triaxiality`.
     ocean : str
         ``"real"`` as published, ``"global"`` all over, ``"none"``.
     """
-    k2, fraction, flat = interior.values()
-    if flat is None:
+    k2, fraction, core_ellipticity = interior.values()
+    if core_ellipticity is None:
         assert interior.layers is not None
-        flat = hydrostatic_core(interior.layers, 2 * np.pi / spin.period)
+        core_ellipticity = hydrostatic_core(interior.layers, 2 * np.pi / body.period)
     if ocean == "global" and interior.ocean is not None and interior.layers is not None:
-        added = global_ocean(interior.layers)
+        ocean_k2 = global_ocean(interior.layers)
     elif ocean == "real" and interior.ocean is not None:
         mean = (interior.ocean[0][0] + interior.ocean[1][1]) / 2
-        added = mean / spin.centrifugal(love_radius(interior, spin))
+        ocean_k2 = mean / body.centrifugal(love_radius(interior, body))
     else:
-        added = 0.0
-    return Inputs(**figure, k2=k2, core_fraction=fraction, core_ellipticity=flat, ocean=added)
+        ocean_k2 = 0.0
+    core = {"core_fraction": fraction, "core_ellipticity": core_ellipticity}
+    return Inputs(**figure, k2=k2, **core, ocean=ocean_k2)
 
 
-def love_radius(interior: Interior, spin: Spin) -> Numeric:
+def love_radius(interior: Interior, body: RotatingBody) -> Numeric:
     """Reference radius of k2, m: outer radius of the layered model, else equatorial radius."""
-    return spin.radius if interior.layers is None else interior.layers.radius
+    return body.radius if interior.layers is None else interior.layers.radius
 
 
-def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -> Ladder:
+def non_rigid(
+    inputs: Inputs, body: RotatingBody, interior: Interior, ocean: str = "real"
+) -> Ladder:
     """Compute wobble periods and quality factors from all non-rigid models that an interior allows.
 
     Parameters
     ----------
     inputs : Inputs
         Floats or arrays.
-    spin : Spin
+    body : RotatingBody
     interior : Interior
     ocean : str
         See `inputs_of`; the response of the real ocean is scaled to `inputs.ocean`.
@@ -417,7 +420,7 @@ def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -
         If the body yields by more than its bulge.
     """
     moment = polar_moment_factor(inputs.j2, inputs.dynamical_flattening) - inputs.j2
-    unit = spin.centrifugal(love_radius(interior, spin)) / moment
+    unit = body.centrifugal(love_radius(interior, body)) / moment
     compliance = _compliance(interior, inputs)
     deformation = unit * (inputs.k2 + inputs.ocean)
     if np.any(deformation >= ellipticity_from_h(inputs.dynamical_flattening)):
@@ -425,7 +428,7 @@ def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -
             f"interior '{interior.name}' yields by more than the body's bulge: it would not "
             "wobble forwards; take a body with a larger H, or set its interior to 'none'"
         )
-    water = _water(interior, inputs, unit, ocean)
+    water = _ocean_products(interior, inputs, unit, ocean)
     models = {
         "elastic": roots(replace(inputs, core_fraction=0.0), unit, compliance),
         "fluid-core": roots(inputs, unit, compliance),
@@ -440,32 +443,32 @@ def climb(inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real") -
             f"interior '{interior.name}' has no layers; its k2, as observed, has anelasticity in it"
         )
     else:
-        elastic_turns = list(models.values())[-1].turns
-        models["anelastic"] = _soften(inputs, spin, interior, unit, water, elastic_turns)
+        elastic_period = list(models.values())[-1].rotations
+        models["anelastic"] = _softened(inputs, body, interior, unit, water, elastic_period)
     return Ladder(
-        turns={name: root.turns for name, root in models.items()},
+        rotations={name: root.rotations for name, root in models.items()},
         quality_factor={name: root.quality_factor for name, root in models.items()},
-        core_turns={
-            name: root.core_turns_in_space for name, root in models.items() if name != "elastic"
+        core_rotations={
+            name: root.core_rotations for name, root in models.items() if name != "elastic"
         },
         left_out=left_out,
     )
 
 
-def _soften(
-    inputs: Inputs, spin: Spin, interior: Interior, unit: Numeric, water: Any, turns: Array
+def _softened(
+    inputs: Inputs, body: RotatingBody, interior: Interior, unit: Numeric, water: Any, period: Array
 ) -> Roots:
     """Compute the wobble of the anelastic model by iteration, as rigidity depends on the period."""
     assert interior.layers is not None
     compliance = _compliance(interior, inputs)
     for _ in range(3):  # each pass shrinks the error by a factor of a thousand
-        modulus_change = shear_modulus_change(turns * abs(spin.period), inputs.anelastic_exponent)
-        softer = tuple(
-            value * ratio(modulus_change)
+        mu_change = shear_modulus_change(period * abs(body.period), inputs.anelastic_exponent)
+        softened = tuple(
+            value * ratio(mu_change)
             for value, ratio in zip(compliance, softening(interior.layers), strict=True)
         )
-        root = roots(inputs, unit, softer, water)
-        turns = root.turns
+        root = roots(inputs, unit, softened, water)
+        period = root.rotations
     return root
 
 
@@ -480,12 +483,12 @@ def _compliance(interior: Interior, inputs: Inputs) -> tuple[Numeric, ...]:
     )
 
 
-def _water(interior: Interior, inputs: Inputs, unit: Numeric, ocean: str) -> Array | None:
+def _ocean_products(interior: Interior, inputs: Inputs, unit: Numeric, ocean: str) -> Array | None:
     """Products of inertia of the ocean per radian of wobble, over A, (..., 2, 2), or None."""
     if interior.ocean is None or ocean == "none":
         return None
-    shape = np.eye(2)
+    matrix = np.eye(2)
     if ocean == "real":
-        shape = np.asarray(interior.ocean)
-        shape = shape / np.trace(shape) * 2
-    return np.asarray(inputs.ocean * unit)[..., None, None] * shape
+        matrix = np.asarray(interior.ocean)
+        matrix = matrix / np.trace(matrix) * 2
+    return np.asarray(inputs.ocean * unit)[..., None, None] * matrix

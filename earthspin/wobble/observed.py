@@ -58,16 +58,17 @@ def need_wobble(time: FloatArray, p: ComplexArray) -> None:
     UndefinedError
         If nothing is left beside drift and seasons, or what is left has no peak.
     """
-    t, means, _ = in_blocks(time, p, BLOCK)
-    rest = record.without_known_terms(t, means)
+    middles, means, _ = in_blocks(time, p, BLOCK)
+    rest = record.without_known_terms(middles, means)
     if np.max(abs(rest)) <= ROUNDING * np.max(abs(p)):
         raise UndefinedError("no free wobble: the pole stands still but for drift and seasons")
-    spectrum = Periodogram.of(t, rest)
-    ratio, needed = spectrum.ratio()
-    if ratio < needed:
+    spectrum = Periodogram.of(middles, rest)
+    ratio, threshold = spectrum.ratio()
+    if ratio < threshold:
         raise UndefinedError(
             f"no free wobble between {BAND[0]:.0f} and {BAND[1]:.0f} d stands out: the power there "
-            f"is {ratio:.2g} times that of a smooth spectrum, and {needed:.2g} times could be noise"
+            f"is {ratio:.2g} times that of a smooth spectrum, and {threshold:.2g} times could be "
+            "noise"
         )
     peak = spectrum.peak()
     if not BAND[0] <= peak <= BAND[1]:
@@ -101,8 +102,8 @@ class Periodogram:
 
     def between(self, longest: float, shortest: float) -> Periodogram:
         """Select the part of the power spectrum between two periods, d."""
-        inside = (self.frequency >= 1 / longest) & (self.frequency <= 1 / shortest)
-        return Periodogram(self.frequency[inside], self.power[inside])
+        selected = (self.frequency >= 1 / longest) & (self.frequency <= 1 / shortest)
+        return Periodogram(self.frequency[selected], self.power[selected])
 
     def ratio(self) -> tuple[float, float]:
         """Ratio of the power in the wobble band to expected noise power, and detection threshold.
@@ -110,18 +111,18 @@ class Periodogram:
         The ratio of pure noise exceeds the threshold with a probability of `FALSE_ALARM`.
         """
         band, slower, faster = (self.between(*ends) for ends in (BAND[::-1], SLOWER, FASTER))
-        at, low, high = (np.log(part.frequency).mean() for part in (band, slower, faster))
-        weight = (at - low) / (high - low)
+        centre, low, high = (np.log(part.frequency).mean() for part in (band, slower, faster))
+        weight = (centre - low) / (high - low)
         expected = slower.power.mean() ** (1 - weight) * faster.power.mean() ** weight
         # The expected power scatters as the two parts do, each with its weight.
         scatter = (1 - weight) ** 2 / slower.power.size + weight**2 / faster.power.size
-        needed = fdtri(2 * band.power.size, 2 / scatter, 1 - FALSE_ALARM)
-        return float(band.power.mean() / expected), float(needed)
+        threshold = fdtri(2 * band.power.size, 2 / scatter, 1 - FALSE_ALARM)
+        return float(band.power.mean() / expected), float(threshold)
 
     def peak(self) -> float:
         """Period of the largest power, from the wobble band down to shorter periods, d."""
-        part = self.between(BAND[1], FASTER[1])
-        return float(1 / part.frequency[np.argmax(part.power)])
+        power_range = self.between(BAND[1], FASTER[1])
+        return float(1 / power_range.frequency[np.argmax(power_range.power)])
 
 
 # --- Burg's autoregressive method -----------------------------------------------------------------
@@ -143,13 +144,13 @@ def fit_burg(time: FloatArray, p: ComplexArray) -> WobbleFit:
     time, p, step = in_blocks(time, p, BLOCK)
     poles = np.roots(burg(record.without_known_terms(time, p), ORDER))
     s = np.log(poles) / (1j * step)
-    inside = s[(s.real > 2 * np.pi / BAND[1]) & (s.real < 2 * np.pi / BAND[0])]
-    if inside.size == 0:
+    candidates = s[(s.real > 2 * np.pi / BAND[1]) & (s.real < 2 * np.pi / BAND[0])]
+    if candidates.size == 0:
         raise UndefinedError(
             f"no free wobble between {BAND[0]:.0f} and {BAND[1]:.0f} d stands out; take a longer "
             "or quieter span"
         )
-    wobble = inside[np.argmin(abs(inside.imag))]
+    wobble = candidates[np.argmin(abs(candidates.imag))]
     period, decay = 2 * np.pi / wobble.real, abs(wobble.imag)
     error = PERIOD_EXCESS * period * np.sqrt(decay / span) / wobble.real
     low, high = _decay_interval(decay, span)
@@ -221,9 +222,9 @@ class Likelihood:
     @staticmethod
     def _averaged(time: FloatArray, columns: ComplexArray) -> ComplexArray:
         """Block means of series after removal of the rotation at the expected wobble frequency."""
-        t, means, step = in_blocks(time, columns, SAMPLE)
-        turned = means * record.turning(t, -NEAR)[:, None]
-        return np.asarray(block_means(turned, max(1, round(LIKELIHOOD_BLOCK / step))))
+        middles, means, step = in_blocks(time, columns, SAMPLE)
+        derotated = means * record.turning(middles, -NEAR)[:, None]
+        return np.asarray(block_means(derotated, max(1, round(LIKELIHOOD_BLOCK / step))))
 
     def data(self, s: complex) -> ComplexArray:
         """Columns of block means: terms to fit, and the polar motion record as the last column."""
@@ -313,11 +314,11 @@ def _minus_twice_log(data: ComplexArray, factors: ComplexArray, lags: ComplexArr
         lower = cholesky_banded(diagonals, lower=True, check_finite=False)
     except LinAlgError:
         return IMPOSSIBLE
-    short = data.copy()
-    short[2:] += first * data[1:-1] + second * data[:-2]
-    white = solve_banded((2, 0), lower, short, check_finite=False)
+    shortened = data.copy()
+    shortened[2:] += first * data[1:-1] + second * data[:-2]
+    whitened = solve_banded((2, 0), lower, shortened, check_finite=False)
     # The last diagonal element of R is the length of what the columns do not explain.
-    triangle = abs(np.diag(np.linalg.qr(white, mode="r")))
+    triangle = abs(np.diag(np.linalg.qr(whitened, mode="r")))
     rows, columns = data.shape
     return float(
         4 * (rows - columns + 1) * np.log(triangle[-1])
@@ -328,10 +329,10 @@ def _minus_twice_log(data: ComplexArray, factors: ComplexArray, lags: ComplexArr
 
 def fit_likelihood(time: FloatArray, p: ComplexArray) -> WobbleFit:
     """Fit the free wobble by maximum likelihood, with 95 % intervals from profile likelihoods."""
-    return largest(Likelihood(time, p), "likelihood")
+    return fit_maximum(Likelihood(time, p), "likelihood")
 
 
-def lowest(
+def maximum_likelihood(
     likelihood: Likelihood, start: FloatArray = START, fixed: int | None = None
 ) -> tuple[FloatArray, float]:
     """Parameters of maximum likelihood, and minus twice the logarithm of this likelihood.
@@ -357,7 +358,7 @@ def lowest(
     return best.x * UNIT, float(best.fun)
 
 
-def largest(likelihood: Likelihood, method: str, widening: float = 1.0) -> WobbleFit:
+def fit_maximum(likelihood: Likelihood, method: str, widening: float = 1.0) -> WobbleFit:
     """Fit the free wobble at the maximum of a likelihood, with 95 % intervals.
 
     Parameters
@@ -368,7 +369,7 @@ def largest(likelihood: Likelihood, method: str, widening: float = 1.0) -> Wobbl
     widening : float
         Factor by which the intervals are made wider than those of the profile.
     """
-    best, least = lowest(likelihood)
+    best, minimum = maximum_likelihood(likelihood)
     period = 2 * np.pi / (MIDDLE + best[0])
     if min(abs(period - end) for end in BAND) < EDGE:
         raise UndefinedError(
@@ -379,40 +380,46 @@ def largest(likelihood: Likelihood, method: str, widening: float = 1.0) -> Wobbl
     # The best possible scatter of the rate is sqrt(decay/span); that of the decay is as large.
     scatter = NORMAL_95 * np.exp(-best[1] / 2) / np.sqrt(likelihood.span)
 
-    def ends(parameter: int, reach: float) -> tuple[float, float]:
+    def profile_interval(parameter: int, reach: float) -> tuple[float, float]:
         """Ends of the 95 % interval of one parameter, from the profile of the likelihood."""
-        nearby = best.copy()
+        last_best = best.copy()
 
         def profile(value: float) -> float:
             """Square root of the increase of -2 log(likelihood) if one parameter is fixed."""
-            nonlocal nearby
-            starts = [nearby.copy(), best.copy()]
+            nonlocal last_best
+            starts = [last_best.copy(), best.copy()]
             for start in starts:
                 start[parameter] = value
             # the last search may have ended far from this value
             start = min(starts, key=lambda z: likelihood(*z))
-            nearby, height = lowest(likelihood, start, fixed=parameter)
-            return float(np.sqrt(max(height - least, 0.0)))
+            last_best, minus_twice_log = maximum_likelihood(likelihood, start, fixed=parameter)
+            return float(np.sqrt(max(minus_twice_log - minimum, 0.0)))
 
-        def side(limit: float) -> float:
-            nonlocal nearby
-            nearby = best.copy()
-            return _risen(profile, float(best[parameter]), limit, reach, widening * NORMAL_95)
+        def interval_end(limit: float) -> float:
+            nonlocal last_best
+            last_best = best.copy()
+            return _profile_limit(
+                profile, float(best[parameter]), limit, reach, widening * NORMAL_95
+            )
 
-        return side(LOWEST[parameter]), side(HIGHEST[parameter])
+        return interval_end(LOWEST[parameter]), interval_end(HIGHEST[parameter])
 
-    slow, fast = (2 * np.pi / (MIDDLE + rate) for rate in ends(0, np.exp(best[1]) * scatter))
-    decays = np.exp(ends(1, min(scatter, 1.0)))
+    longest, shortest = (
+        2 * np.pi / (MIDDLE + rate) for rate in profile_interval(0, np.exp(best[1]) * scatter)
+    )
+    decays = np.exp(profile_interval(1, min(scatter, 1.0)))
     slowest, fastest = decays
     if slowest == np.exp(LOWEST[1]):  # even a wobble without any loss is likely enough
         slowest = 0.0
     with np.errstate(divide="ignore"):
         quality = np.pi / period / np.array([np.exp(best[1]), fastest, slowest])
     quality_factor, low, high = map(float, quality)
-    return WobbleFit(method, float(period), float((slow - fast) / 2), quality_factor, (low, high))
+    return WobbleFit(
+        method, float(period), float((longest - shortest) / 2), quality_factor, (low, high)
+    )
 
 
-def _risen(
+def _profile_limit(
     function: Callable[[float], float], best: float, limit: float, reach: float, target: float
 ) -> float:
     """Find where a function that increases from zero at `best` reaches a target value.
@@ -421,20 +428,20 @@ def _risen(
     """
 
     @cache
-    def height(value: float) -> float:
+    def increase(value: float) -> float:
         # A new search at the same value may end at another maximum, so none is repeated; the
         # height at the best value is zero by definition.
         return 0.0 if value == best else function(value)
 
-    room, sign, tolerance = abs(limit - best), np.sign(limit - best), 1e-2 * reach
-    near = best
-    while reach < room and height(best + sign * reach) < target:
-        near = best + sign * reach
+    range_size, sign, tolerance = abs(limit - best), np.sign(limit - best), 1e-2 * reach
+    inner = best
+    while reach < range_size and increase(best + sign * reach) < target:
+        inner = best + sign * reach
         reach *= 2
-    far = best + sign * min(reach, room)
-    if height(far) <= target:
+    outer = best + sign * min(reach, range_size)
+    if increase(outer) <= target:
         return limit
-    return float(brentq(lambda v: height(v) - target, near, far, xtol=tolerance))
+    return float(brentq(lambda v: increase(v) - target, inner, outer, xtol=tolerance))
 
 
 # --- fit by a named method ------------------------------------------------------------------------
@@ -495,4 +502,6 @@ def fit_with_excitation(time: FloatArray, p: ComplexArray, chi: ComplexArray) ->
     """
     record.check(time, p)
     need_wobble(time, p)
-    return largest(LikelihoodWithExcitation(time, p, chi), "likelihood with excitation", WIDENING)
+    return fit_maximum(
+        LikelihoodWithExcitation(time, p, chi), "likelihood with excitation", WIDENING
+    )

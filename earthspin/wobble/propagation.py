@@ -18,7 +18,7 @@ from earthspin.constants import DAY, NORMAL_95
 from earthspin.interior.named import EXPONENT_RANGE, Interior
 from earthspin.numerics.arrays import Array, Numeric
 from earthspin.numerics.polynomials import lagrange
-from earthspin.wobble.ladder import Inputs, Spin, climb
+from earthspin.wobble.ladder import Inputs, RotatingBody, non_rigid
 
 #: How often the inputs of each body are drawn, and from which seed.
 DRAWS, SEED = 1000, 1
@@ -68,7 +68,7 @@ def draw(
 def sampled_half_widths(
     inputs: Inputs,
     uncertainty: Mapping[str, float],
-    spin: Spin,
+    body: RotatingBody,
     interior: Interior,
     ocean: str = "real",
 ) -> dict[str, Numeric]:
@@ -83,18 +83,21 @@ def sampled_half_widths(
     uncertainty : mapping
         One standard deviation over value, by name of the input.
     spin, interior, ocean
-        As for `climb`.
+        As for `non_rigid`.
     """
     drawn = draw(uncertainty)
-    bodies = [getattr(record, item.name) for record in (inputs, spin) for item in fields(record)]
-    values = np.broadcast_arrays(*bodies)
+    columns = [getattr(record, item.name) for record in (inputs, body) for item in fields(record)]
+    values = np.broadcast_arrays(*columns)
     shape, flat = values[0].shape, [np.ravel(v) for v in values]
     inputs_count = len(fields(Inputs))
     widths: dict[str, list[Array]] = {}
     for start in range(0, flat[0].size, _BODIES_AT_ONCE):
         block = [v[start : start + _BODIES_AT_ONCE] for v in flat]
-        block_inputs, block_spin = Inputs(*block[:inputs_count]), Spin(*block[inputs_count:])
-        changes = _sampled(block_inputs, uncertainty, drawn, block_spin, interior, ocean)
+        block_inputs, block_body = (
+            Inputs(*block[:inputs_count]),
+            RotatingBody(*block[inputs_count:]),
+        )
+        changes = _sampled(block_inputs, uncertainty, drawn, block_body, interior, ocean)
         for name, change in changes.items():
             # the period is not in the middle of the draws, nor its exponent in that of its range
             widths.setdefault(name, []).append(np.quantile(np.abs(change), 0.95, axis=-1))
@@ -105,7 +108,7 @@ def _sampled(
     inputs: Inputs,
     uncertainty: Mapping[str, float],
     drawn: tuple[dict[str, Array], Array],
-    spin: Spin,
+    spin: RotatingBody,
     interior: Interior,
     ocean: str,
 ) -> dict[str, Array]:
@@ -124,7 +127,7 @@ def _sampled(
         basis += [z**2 / 6 - z / (2 * _STEP), z**2 / 6 + z / (2 * _STEP)]
     basis += list(lagrange(nodes, exponent))
     sampled = {}
-    for name, turns in climb(points, spin, interior, ocean).turns.items():
+    for name, turns in non_rigid(points, spin, interior, ocean).rotations.items():
         total = np.zeros((turns.shape[-1], exponent.size))
         # where no input of a rung is uncertain, nothing told its turns apart
         points_turns = np.broadcast_to(turns, (len(basis), total.shape[0]))
@@ -176,7 +179,7 @@ def half_widths(
 def core_nutation_half_width(
     inputs: Inputs,
     uncertainty: Mapping[str, float],
-    spin: Spin,
+    body: RotatingBody,
     interior: Interior,
     ocean: str = "real",
 ) -> Numeric:
@@ -192,25 +195,25 @@ def core_nutation_half_width(
     uncertainty : mapping
         One standard deviation over value, by name of the input.
     spin, interior, ocean
-        As for `climb`.
+        As for `non_rigid`.
     """
 
-    def turns(name: str, share: float) -> Numeric:
-        changed = replace(inputs, **{name: (1 + share) * getattr(inputs, name)})
-        return climb(changed, spin, interior, ocean).core_turns["fluid-core"]
+    def period(name: str, half_width: float) -> Numeric:
+        changed = replace(inputs, **{name: (1 + half_width) * getattr(inputs, name)})
+        return non_rigid(changed, body, interior, ocean).core_rotations["fluid-core"]
 
     names = [item.name for item in fields(Inputs)]
-    shares = {name: NORMAL_95 * uncertainty.get(name, 0.0) for name in names}
+    half_widths = {name: NORMAL_95 * uncertainty.get(name, 0.0) for name in names}
     squares = [
-        (turns(name, share) - turns(name, -share)) ** 2 / 4
-        for name, share in shares.items()
-        if share
+        (period(name, half_width) - period(name, -half_width)) ** 2 / 4
+        for name, half_width in half_widths.items()
+        if half_width
     ]
     return np.sqrt(np.sum(squares, axis=0))
 
 
 def sensitivities(
-    inputs: Inputs, spin: Spin, interior: Interior, ocean: str = "real"
+    inputs: Inputs, body: RotatingBody, interior: Interior, ocean: str = "real"
 ) -> dict[str, Numeric]:
     """Derivatives of the most detailed model's wobble period by the inputs, d per unit of input.
 
@@ -218,20 +221,20 @@ def sensitivities(
     ----------
     inputs : Inputs
         Floats.
-    spin : Spin
+    body : RotatingBody
     interior : Interior
     ocean : str
     """
 
-    def last_turns(changed: Inputs) -> Numeric:
-        return list(climb(changed, spin, interior, ocean).turns.values())[-1]
+    def last_period(changed: Inputs) -> Numeric:
+        return list(non_rigid(changed, body, interior, ocean).rotations.values())[-1]
 
-    slopes = {}
+    derivatives = {}
     for name in (f.name for f in fields(Inputs)):
         value = getattr(inputs, name)
         step = 1e-3 * np.where(np.equal(value, 0), 1.0, value)
-        difference = last_turns(replace(inputs, **{name: value + step})) - last_turns(
+        difference = last_period(replace(inputs, **{name: value + step})) - last_period(
             replace(inputs, **{name: value - step})
         )
-        slopes[name] = difference / (2 * step) * abs(spin.period) / DAY
-    return slopes
+        derivatives[name] = difference / (2 * step) * abs(body.period) / DAY
+    return derivatives

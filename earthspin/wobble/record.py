@@ -190,23 +190,23 @@ def envelope(
             f"a window of {length:.0f} d is not possible; it lies between one beat of the wobbles, "
             f"{beat:.0f} d, and the series' {time[-1] - time[0]:.0f} d"
         )
-    local = (np.arange(size) - (size - 1) / 2) * spacing
-    terms = (period, YEAR, -YEAR, YEAR / 2)
+    offsets = (np.arange(size) - (size - 1) / 2) * spacing
+    periods = (period, YEAR, -YEAR, YEAR / 2)
     # The mean over m samples in a block B reduces the amplitude of a sinusoid with the period T by
     # the factor sin(pi B/T)/(m sin(pi B/(m T))).
-    factors = [np.sinc(spacing / term) / np.sinc(sample / term) for term in terms]
-    waves = [turning(local, term) * factor for term, factor in zip(terms, factors, strict=True)]
-    columns = np.column_stack([np.ones(size), local / length, *waves])
+    factors = [np.sinc(spacing / term) / np.sinc(sample / term) for term in periods]
+    waves = [turning(offsets, term) * factor for term, factor in zip(periods, factors, strict=True)]
+    columns = np.column_stack([np.ones(size), offsets / length, *waves])
     solver = np.linalg.pinv(columns)
     starts = np.arange(0, time.size - size + 1, max(1, round(step / spacing)))
     series = np.lib.stride_tricks.sliding_window_view(p, size)[starts]
     # Plain sums: a BLAS rounds otherwise with another number of threads.
     sizes = np.einsum("ws,ks->wk", series, solver)
-    middle = time[starts] + local[-1]
+    middle = time[starts] + offsets[-1]
     residuals = series - np.einsum("wk,sk->ws", sizes, columns)
-    to_time_zero = np.exp(-2j * np.pi * middle[:, None] / np.array(terms[:3]))
-    turned = sizes[:, 2:5] * to_time_zero
-    chandler, annual, retrograde = turned.T
+    to_time_zero = np.exp(-2j * np.pi * middle[:, None] / np.array(periods[:3]))
+    amplitudes = sizes[:, 2:5] * to_time_zero
+    chandler, annual, retrograde = amplitudes.T
     error = _amplitude_error(residuals, spacing, 2 * np.pi / period)
     return Envelope(middle, chandler, annual, retrograde, sizes[:, 0], error)
 
@@ -219,8 +219,8 @@ def _amplitude_error(residuals: ComplexArray, spacing: float, rate: float) -> Fl
     """
     power = np.mean(abs(residuals) ** 2, axis=1)
     correlation = np.mean(residuals[:, 1:] * residuals[:, :-1].conj(), axis=1) / power
-    turned = abs(1 - correlation * np.exp(-1j * rate * spacing)) ** 2
-    density = power * (1 - abs(correlation) ** 2) / turned
+    whitening = abs(1 - correlation * np.exp(-1j * rate * spacing)) ** 2
+    density = power * (1 - abs(correlation) ** 2) / whitening
     return np.asarray(AMPLITUDE_EXCESS * NORMAL_95 * np.sqrt(density / (2 * residuals.shape[1])))
 
 

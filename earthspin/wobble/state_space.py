@@ -75,8 +75,8 @@ class StateSpace:
 
         matrix = side_by_side(rates)
         size = len(matrix)
-        block = np.block([[-matrix, density], [np.zeros_like(matrix), matrix.T]])
-        exponential = expm(block)
+        block_matrix = np.block([[-matrix, density], [np.zeros_like(matrix), matrix.T]])
+        exponential = expm(block_matrix)
         transition = exponential[size:, size:].T
         noise = transition @ exponential[:size, size:]
         return cls(transition, (noise + noise.T) / 2, side_by_side(observed), error, start)
@@ -120,17 +120,17 @@ class Filter:
     @classmethod
     def of(cls, model: StateSpace, count: int) -> Filter:
         """Build the Kalman filter of a state-space model, with a gain for each observation."""
-        predicted, after = model.start, model.start
+        predicted, updated = model.start, model.start
         gains = np.empty((count, len(predicted), len(model.observed)))
         innovation = np.empty((count, len(model.observed), len(model.observed)))
         for k in range(count):
-            across = predicted @ model.observed.T
-            innovation[k] = model.observed @ across + model.error
-            gains[k] = np.linalg.solve(innovation[k], across.T).T
-            after = predicted - gains[k] @ across.T
-            after = (after + after.T) / 2
-            predicted = model.propagated(after)
-        return cls(model, gains, innovation, after)
+            cross_covariance = predicted @ model.observed.T
+            innovation[k] = model.observed @ cross_covariance + model.error
+            gains[k] = np.linalg.solve(innovation[k], cross_covariance.T).T
+            updated = predicted - gains[k] @ cross_covariance.T
+            updated = (updated + updated.T) / 2
+            predicted = model.propagated(updated)
+        return cls(model, gains, innovation, updated)
 
     def run(self, data: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Filter observations: return the final state and the prediction errors (innovations).
@@ -145,20 +145,20 @@ class Filter:
         state : array, shape (m,)
         innovations : array, shape (n, k)
         """
-        state, after = np.zeros(len(self.model.start)), np.zeros(len(self.model.start))
+        state, updated = np.zeros(len(self.model.start)), np.zeros(len(self.model.start))
         innovations = np.empty_like(data)
         for k, (gain, row) in enumerate(zip(self.gains, data, strict=True)):
             innovations[k] = row - self.model.observed @ state
-            after = state + gain @ innovations[k]
-            state = self.model.transition @ after
-        return after, innovations
+            updated = state + gain @ innovations[k]
+            state = self.model.transition @ updated
+        return updated, innovations
 
     def minus_twice_log(self, innovations: FloatArray) -> float:
         """Minus twice the logarithm of the likelihood, from the prediction errors of `run`."""
         weighted = np.linalg.solve(self.innovation, innovations[..., None])[..., 0]
-        size = innovations.size * np.log(2 * np.pi)
+        constant = innovations.size * np.log(2 * np.pi)
         determinants = np.linalg.slogdet(self.innovation)[1].sum()
-        return float(size + determinants + np.sum(innovations * weighted))
+        return float(constant + determinants + np.sum(innovations * weighted))
 
 
 def burg(x: ComplexArray, order: int) -> ComplexArray:
@@ -178,8 +178,8 @@ def burg(x: ComplexArray, order: int) -> ComplexArray:
     for _ in range(order):
         power = np.vdot(forward, forward).real + np.vdot(backward, backward).real
         reflection = -2 * np.vdot(backward, forward) / power
-        longer = np.append(filter_, 0)
-        filter_ = longer + reflection * longer[::-1].conj()
+        padded = np.append(filter_, 0)
+        filter_ = padded + reflection * padded[::-1].conj()
         forward, backward = (
             (forward + reflection * backward)[1:],
             (backward + np.conj(reflection) * forward)[:-1],
@@ -230,9 +230,9 @@ class DrivenOscillator:
         """Stationary covariance of wobble and slowly varying part of polar motion, shape (2, 2)."""
         rates = self.rates
         # chi' = -chi/tau + n puts c chi into the slow mode and leaves p - c chi to the free one.
-        share = rates[0] / (rates[0] - rates[1])
-        into = np.array([-share, share])
-        noise = 2 / self.memory * self.red * np.outer(into, into.conj())
+        slow_share = rates[0] / (rates[0] - rates[1])
+        mode_shares = np.array([-slow_share, slow_share])
+        noise = 2 / self.memory * self.red * np.outer(mode_shares, mode_shares.conj())
         noise += np.diag([self.white, 2 / self.memory * self.background])
         return np.asarray(-noise / (rates[:, None] + rates.conj()))
 
@@ -256,7 +256,7 @@ class DrivenOscillator:
             Covariance at lags of none, one and two blocks.
         """
         x = (self.rates - 1j * reference) * length
-        size, factors = self.covariance.sum(axis=1), np.exp(x)
-        apart = size * (np.sinh(x / 2) / (x / 2)) ** 2
-        same = 2 * np.sum(size * (np.expm1(x) - x) / x**2).real
-        return factors, np.array([same, apart @ factors, apart @ factors**2])
+        mode_covariance, factors = self.covariance.sum(axis=1), np.exp(x)
+        lagged = mode_covariance * (np.sinh(x / 2) / (x / 2)) ** 2
+        zero_lag = 2 * np.sum(mode_covariance * (np.expm1(x) - x) / x**2).real
+        return factors, np.array([zero_lag, lagged @ factors, lagged @ factors**2])

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from earthspin.constants import UAS
 from earthspin.rotor.axisymmetric import free_wobble_period
 from earthspin.wobble import excitation as equation
-from earthspin.wobble.ladder import turns_rigid
+from earthspin.wobble.ladder import rigid_period
 from tests.extreme import Distances, holds, relative_error
 
 PERIOD = 433.0
@@ -81,7 +81,7 @@ def test_sphere() -> Distances:
     Compared with: infinite period, and no NaN
     """
     yield free_wobble_period(0.0, 86164.0) != np.inf
-    yield turns_rigid(0.0) != np.inf
+    yield rigid_period(0.0) != np.inf
 
 
 @holds(bound=5e-15)
@@ -93,7 +93,7 @@ def test_prolate() -> Distances:
     """
     h = np.array([0.3, 3e-3, 1e-9, 1e-15])
     for sign in (1, -1):
-        yield turns_rigid(sign * h) * h / (1 - sign * h) - 1
+        yield rigid_period(sign * h) * h / (1 - sign * h) - 1
 
 
 @holds(bound=2e-14)

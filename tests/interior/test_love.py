@@ -51,13 +51,13 @@ def test_kelvins_sphere(mu: float) -> None:
 @given(st.floats(-36, 0), st.floats(0, 12))
 @settings(max_examples=8)
 def test_interpolated_softening(real: float, imaginary: float) -> None:
-    modulus_change = complex(real, imaginary)
-    direct = solve_love_numbers(PREM, modulus_change)
+    mu_change = complex(real, imaginary)
+    direct = solve_love_numbers(PREM, mu_change)
     for name, ratio in zip(
         ("k", "core_k", "k_pressure", "core_k_pressure"), softening(PREM), strict=True
     ):
         expected = getattr(direct, name) / float(getattr(elastic(PREM), name))
-        assert abs(ratio(modulus_change) - expected) < 2e-8, name  # measured: 2e-9
+        assert abs(ratio(mu_change) - expected) < 2e-8, name  # measured: 2e-9
 
 
 def test_a_softer_body_yields_more_and_lags() -> None:
@@ -76,8 +76,8 @@ def test_love_numbers_need_a_solid_surface_and_one_core() -> None:
 
 def test_what_one_part_answers_to_another() -> None:
     """Betti's theorem: part i answers to a potential in part j as j to one in i."""
-    for modulus_change in (0.0, -14 + 3j):
-        found = solve_love_numbers(PREM, modulus_change).response
+    for mu_change in (0.0, -14 + 3j):
+        found = solve_love_numbers(PREM, mu_change).response
         sizes = np.sqrt(abs(np.diagonal(found)))
         off = (found - found.T) / np.outer(sizes, sizes)
         assert np.max(abs(off)) < 1e-11  # measured: 5e-13

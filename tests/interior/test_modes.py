@@ -28,7 +28,7 @@ DAYS = EARTH.spin_period / 86400
 F = figure(PREM, SPIN)
 OBSERVED = EARTH.dynamical_flattening / (1 - EARTH.dynamical_flattening)
 WHOLE = Parts(
-    F.e, F.e_f, F.e_s, F.fluid, F.inner, F.a1, F.a2, F.a3, F.unit * elastic(PREM).response
+    F.e, F.e_f, F.e_s, F.fluid, F.inner, F.a1, F.a2, F.a3, F.tidal_inertia * elastic(PREM).response
 )
 
 
@@ -62,7 +62,7 @@ def test_at_rest_in_space_the_inside_does_not_matter(real: float, loss: float, e
 
 @given(st.floats(-1.2, -0.8))
 def test_a_rigid_body_has_transfer_one(sigma: float) -> None:
-    bound = replace(WHOLE, e=OBSERVED, fluid=0.0, inner=0.0, inertia_products=np.zeros((3, 3)))
+    bound = replace(WHOLE, e=OBSERVED, fluid=0.0, inner=0.0, inertia=np.zeros((3, 3)))
     assert abs(transfer(bound, np.array(sigma), OBSERVED) - 1) < 1e-13
 
 
@@ -79,7 +79,7 @@ def test_the_transfer_function_is_the_sum_of_its_modes() -> None:
 
 def test_a_core_in_a_rigid_mantle() -> None:
     """Poincare 1910: 1 + sigma = -e_f A/A_m, and the Eulerian wobble sped up by A/A_m."""
-    rigid = all_fluid(replace(WHOLE, inertia_products=np.zeros((3, 3))), F.e_core)
+    rigid = all_fluid(replace(WHOLE, inertia=np.zeros((3, 3))), F.e_core)
     modes, mantle = free_modes(rigid), 1 - rigid.fluid
     nutation = 1 + modes["free_core_nutation"].real
     assert np.isclose(nutation, -F.e_core / mantle, rtol=1e-3, atol=0)
@@ -94,7 +94,7 @@ def test_motion_in_time_under_a_torque_of_one_frequency() -> None:
     the matrices of `system` are not used. The free motions are read off together with it.
     """
     w = replace(WHOLE, e=OBSERVED)
-    c, f, s = w.inertia_products, w.fluid, w.inner
+    c, f, s = w.inertia, w.fluid, w.inner
     sigma = -1 + 1 / 183.0
     phi_0 = 1.0
 

@@ -223,22 +223,22 @@ def test_the_wobble_is_the_librarys(browser: str, tmp_path: Path) -> None:
         elastic = roots(Inputs(**inputs, core_fraction=0.0), unit, (case["k2"], 0.0, 0.0, 0.0))
         fluid = roots(Inputs(**inputs, core_fraction=core), unit, inner)
         wet = roots(Inputs(**inputs, core_fraction=core), unit, inner, water)
-        slow = wet.turns
+        slow = wet.rotations
         try:
             for _ in range(3):
-                modulus_change = shear_modulus_change(slow * day, inputs["anelastic_exponent"])
-                ratios = (ratio(modulus_change) for ratio in soft)
+                mu_change = shear_modulus_change(slow * day, inputs["anelastic_exponent"])
+                ratios = (ratio(mu_change) for ratio in soft)
                 softer = tuple(v * ratio for v, ratio in zip(inner, ratios, strict=True))
-                slow = roots(Inputs(**inputs, core_fraction=core), unit, softer, water).turns
+                slow = roots(Inputs(**inputs, core_fraction=core), unit, softer, water).rotations
         except UndefinedError:
             assert one["anelastic"] is None  # the body would turn over
             slow = None
         for name, turns in (
             *((("anelastic", slow),) if slow is not None else ()),
-            ("elastic", elastic.turns),
-            ("fluidCore", fluid.turns),
-            ("ocean", wet.turns),
-            ("coreNutation", wet.core_turns_in_space),
+            ("elastic", elastic.rotations),
+            ("fluidCore", fluid.rotations),
+            ("ocean", wet.rotations),
+            ("coreNutation", wet.core_rotations),
         ):
             # measured: 1e-12
             assert one[name] == pytest.approx(float(turns), rel=SIX_DIGITS, abs=0), name

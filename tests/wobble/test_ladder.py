@@ -16,7 +16,7 @@ from tests.refusals import refused
 
 PINS = load_pins("precession") | load_pins("wobble")
 E = EARTH.dynamical_flattening / (1 - EARTH.dynamical_flattening)
-SPIN = ladder.Spin(EARTH.gm, EARTH.radius, EARTH.spin_period)
+SPIN = ladder.RotatingBody(EARTH.gm, EARTH.radius, EARTH.spin_period)
 FIGURE = {
     "dynamical_flattening": EARTH.dynamical_flattening,
     "j2": EARTH.j2,
@@ -48,7 +48,7 @@ def test_triaxial_rung_against_eulers_equations(h: float, share: float) -> None:
     mean = 0.4 - j2
     half = share * min(e, 0.5) * mean
     a, b, c = mean - half, mean + half, 0.4
-    turns = ladder.turns_triaxial(h, j2, 2 * half)
+    turns = ladder.triaxial_period(h, j2, 2 * half)
 
     def euler(t: float, w: np.ndarray) -> list[float]:
         return [
@@ -69,7 +69,7 @@ def test_triaxial_rung_against_eulers_equations(h: float, share: float) -> None:
 
 
 def test_a_round_body_has_the_axisymmetric_rung() -> None:
-    assert ladder.turns_triaxial(0.003, 0.001, 0.0) == ladder.turns_rigid(0.003)
+    assert ladder.triaxial_period(0.003, 0.001, 0.0) == ladder.rigid_period(0.003)
 
 
 def test_a_sphere_does_not_wobble() -> None:
@@ -96,7 +96,7 @@ def test_an_unstable_axis_is_refused() -> None:
     with pytest.raises(UndefinedError, match="middle one"):
         earthspin.wobble_ladder(body=EARTH.replace(triaxiality=0.01))
     with pytest.raises(UndefinedError, match="H = 0"):
-        ladder.turns_triaxial(0.0, 0.0, 1e-6)
+        ladder.triaxial_period(0.0, 0.0, 1e-6)
 
 
 # --- a body that yields ------------------------------------------------------------------------
@@ -134,15 +134,15 @@ def test_rungs_of_the_independent_calculation() -> None:
     compliance = (0.29830, gamma * 0.11368 / unit, gamma * 0.11368 / unit, beta * 0.11368 / unit)
     solid = ladder.roots(published(core_fraction=0.0), unit, compliance)
     kappa = unit * 0.29830
-    PINS["elastic, short form"].check(solid.turns / (1 + kappa))
+    PINS["elastic, short form"].check(solid.rotations / (1 + kappa))
     core = ladder.roots(published(), unit, compliance)
-    PINS["fluid core"].check(core.turns)
-    PINS["free core nutation, hydrostatic"].check(core.core_turns_in_space)
+    PINS["fluid core"].check(core.rotations)
+    PINS["free core nutation, hydrostatic"].check(core.core_rotations)
     observed = ladder.roots(published(core_ellipticity=2.668e-3), unit, compliance)
-    PINS["free core nutation, observed"].check(observed.core_turns_in_space)
-    assert abs(observed.turns - core.turns) < 0.01
+    PINS["free core nutation, observed"].check(observed.core_rotations)
+    assert abs(observed.rotations - core.rotations) < 0.01
     water = unit * np.array([[0.0505, -0.0011], [-0.0011, 0.0400]])
-    PINS["ocean"].check(ladder.roots(published(), unit, compliance, water).turns)
+    PINS["ocean"].check(ladder.roots(published(), unit, compliance, water).rotations)
 
 
 def test_the_published_ocean_is_the_independent_one() -> None:
@@ -155,7 +155,7 @@ def test_a_core_that_slips_under_a_rigid_mantle() -> None:
     found = ladder.roots(
         published(core_ellipticity=0.0, core_fraction=0.11368), 1.0, (0.0, 0.0, 0.0, 0.0)
     )
-    PINS["decoupled core, rigid mantle"].check(found.turns)
+    PINS["decoupled core, rigid mantle"].check(found.rotations)
 
 
 def test_without_yielding_the_roots_are_the_rigid_rungs() -> None:
@@ -163,8 +163,8 @@ def test_without_yielding_the_roots_are_the_rigid_rungs() -> None:
         ladder.Inputs(**FIGURE, k2=0, core_fraction=0.0, core_ellipticity=0), 1.0, (0, 0, 0, 0)
     )
     assert np.isclose(
-        rigid.turns,
-        ladder.turns_triaxial(
+        rigid.rotations,
+        ladder.triaxial_period(
             **{"h": EARTH.dynamical_flattening, "j2": EARTH.j2, "triaxiality": EARTH.triaxiality}
         ),
         rtol=1e-13,

@@ -98,7 +98,7 @@ def test_samples_have_the_covariance_of_the_state() -> None:
 
 def best_period(given: tuple[np.ndarray, np.ndarray]) -> float:
     """Where the likelihood is largest, without the ends of its interval."""
-    at, _ = observed.lowest(observed.Likelihood(*given))
+    at, _ = observed.maximum_likelihood(observed.Likelihood(*given))
     return float(2 * np.pi / (MIDDLE + at[0]))
 
 
@@ -246,5 +246,5 @@ def test_the_end_of_an_interval_if_a_search_at_the_best_value_fails() -> None:
     def profile(value: float) -> float:
         return abs(value) if value else 5.0
 
-    assert abs(observed._risen(profile, 0.0, 4.0, reach=8.0, target=1.96) - 1.96) < 0.1
-    assert observed._risen(profile, 0.0, -1.0, reach=8.0, target=1.96) == -1.0
+    assert abs(observed._profile_limit(profile, 0.0, 4.0, reach=8.0, target=1.96) - 1.96) < 0.1
+    assert observed._profile_limit(profile, 0.0, -1.0, reach=8.0, target=1.96) == -1.0

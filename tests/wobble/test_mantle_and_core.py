@@ -10,15 +10,23 @@ from earthspin.interior.equilibrium import figure
 from earthspin.interior.layers import PREM
 from earthspin.interior.love import solve_love_numbers
 from earthspin.interior.modes import all_fluid, free_modes, parts_of
-from earthspin.wobble.ladder import CoreCoefficients, Mantle, solve
+from earthspin.wobble.ladder import FluidCore, Mantle, solve
 
 
-def eigenvalues(mantle: Mantle, core: CoreCoefficients) -> np.ndarray:
+def eigenvalues(mantle: Mantle, core: FluidCore) -> np.ndarray:
     """s of d/dt (M m + X n) = J (D m - X n), d/dt (a m + b n) = -f J n, by numpy, sorted."""
     water = np.zeros((2, 2)) if mantle.ocean is None else mantle.ocean
     deformation = mantle.kappa * np.eye(2) + water
-    moments = np.diag([1 - mantle.half, 1 + mantle.half]) + deformation
-    differences = np.diag([mantle.ellipticity + mantle.half, mantle.ellipticity - mantle.half])
+    moments = (
+        np.diag([1 - mantle.equatorial_ellipticity, 1 + mantle.equatorial_ellipticity])
+        + deformation
+    )
+    differences = np.diag(
+        [
+            mantle.ellipticity + mantle.equatorial_ellipticity,
+            mantle.ellipticity - mantle.equatorial_ellipticity,
+        ]
+    )
     quarter, unit = np.array([[0.0, -1.0], [1.0, 0.0]]), np.eye(2)
     x = core.fraction + core.xi
     left = np.block([[moments, x * unit], [(1 + core.gamma) * unit, (1 + core.beta) * unit]])
@@ -54,11 +62,11 @@ def test_against_eigenvalues(
     first, second, off = (w * e for w in water)
     mantle = Mantle(
         ellipticity=e,
-        half=triaxial * 0.4 * e,
+        equatorial_ellipticity=triaxial * 0.4 * e,
         kappa=kappa * e * (1 - 1j * loss),
         ocean=np.array([[first, off], [off, second]]),
     )
-    inside = CoreCoefficients(fraction, *core)
+    inside = FluidCore(fraction, *core)
     found = solve(mantle, inside)
     low, _, wobble, _ = eigenvalues(mantle, inside)
     # The core's root is the faster one unless a very flat mantle outruns it.
@@ -71,18 +79,16 @@ def test_against_eigenvalues(
     assert found.wobble.real > 0 > found.core.real
 
 
-@pytest.mark.parametrize("modulus_change", [0.0, -14 + 3j])
-def test_it_is_a_case_of_the_system_of_all_parts(modulus_change: complex) -> None:
+@pytest.mark.parametrize("mu_change", [0.0, -14 + 3j])
+def test_it_is_a_case_of_the_system_of_all_parts(mu_change: complex) -> None:
     """The four by four with its inner core counted with the fluid, of PREM, with loss or not."""
     e, spin = 1 / 304.456, 7.292115e-5
     flat = figure(PREM, spin).e_core
-    parts = all_fluid(
-        parts_of(PREM, spin, solve_love_numbers(PREM, modulus_change).response, e), flat
-    )
+    parts = all_fluid(parts_of(PREM, spin, solve_love_numbers(PREM, mu_change).response, e), flat)
     name = parts.compliances
     found = solve(
         Mantle(e, 0.0, name["kappa"]),
-        CoreCoefficients(parts.fluid, flat, gamma=name["gamma"], beta=name["beta"], xi=name["xi"]),
+        FluidCore(parts.fluid, flat, gamma=name["gamma"], beta=name["beta"], xi=name["xi"]),
     )
     modes = free_modes(parts)
     assert abs(complex(found.wobble) - modes["chandler_wobble"]) < 1e-14
@@ -90,11 +96,11 @@ def test_it_is_a_case_of_the_system_of_all_parts(modulus_change: complex) -> Non
 
 
 def test_without_loss_the_roots_are_real() -> None:
-    found = solve(Mantle(3e-3, 1e-5, 1e-3), CoreCoefficients(0.1, 2.5e-3))
+    found = solve(Mantle(3e-3, 1e-5, 1e-3), FluidCore(0.1, 2.5e-3))
     assert found.wobble.dtype == found.core.dtype == np.float64
     assert np.isinf(found.quality_factor)
 
 
 def test_a_body_that_yields_by_more_than_one_of_its_bulges_is_refused() -> None:
     with pytest.raises(UndefinedError, match="turn over"):
-        solve(Mantle(3e-3, 2.5e-3, 1e-3), CoreCoefficients(0.1, 2.5e-3))
+        solve(Mantle(3e-3, 2.5e-3, 1e-3), FluidCore(0.1, 2.5e-3))

@@ -113,10 +113,10 @@ def test_inner_cores_of_our_own_layers() -> None:
     spin_rate = float(EARTH.spin_rate)
     e = float(ellipticity_from_h(EARTH.dynamical_flattening))
     free = parts_of(PREM, spin_rate, elastic(PREM).response, e)
-    products = np.array(free.inertia_products)
+    products = np.array(free.inertia)
     products[2, :] = products[:, 2] = 0
     none = dict.fromkeys(("e_s", "inner", "a1", "a2", "a3", "k_icb"), 0.0)
-    bound = replace(free, inertia_products=products, **none)
+    bound = replace(free, inertia=products, **none)
     fluid = all_fluid(free, figure(PREM, spin_rate).e_core)
     periods = [
         SIDEREAL_DAY / free_modes(parts)["chandler_wobble"].real for parts in (free, bound, fluid)

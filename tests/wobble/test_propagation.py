@@ -15,7 +15,7 @@ from earthspin.wobble import ladder, propagation
 def settings(body: Body) -> tuple[ladder.Inputs, dict[str, float], tuple]:
     """Inputs of a body, their uncertainties, and what the ladder is climbed with."""
     interior = INTERIORS[str(body.interior)]
-    spin = ladder.Spin(body.gm, body.radius, body.spin_period)
+    spin = ladder.RotatingBody(body.gm, body.radius, body.spin_period)
     figure = {n: body.needed(n) for n in ("dynamical_flattening", "j2", "triaxiality")}
     uncertainty = {**interior.relative_uncertainty, **body.relative_uncertainty}
     return ladder.inputs_of(interior, spin, figure), uncertainty, (spin, interior, "real")
@@ -29,8 +29,8 @@ def test_parabolas_against_the_ladder_climbed_for_every_draw(body: Body, toleran
     normal, exponent = propagation.draw(uncertainty)
     varied = {n: getattr(inputs, n) * (1 + uncertainty[n] * z) for n, z in normal.items()}
     drawn = replace(inputs, **varied, anelastic_exponent=exponent)
-    nominal = ladder.climb(inputs, *climbed_with).turns
-    for name, turns in ladder.climb(drawn, *climbed_with).turns.items():
+    nominal = ladder.non_rigid(inputs, *climbed_with).rotations
+    for name, turns in ladder.non_rigid(drawn, *climbed_with).rotations.items():
         half_width = np.quantile(np.abs(turns - nominal[name]), 0.95)
         np.testing.assert_allclose(ours[name], half_width, rtol=tolerance, atol=0)
 
@@ -44,10 +44,12 @@ def test_normal_inputs_against_propagation_in_line(rung: str) -> None:
         if name in {one.name for one in fields(inputs)}:
             step = 1e-3 * share * getattr(inputs, name)
             up, down = (
-                ladder.climb(replace(inputs, **{name: getattr(inputs, name) + s}), *climbed_with)
+                ladder.non_rigid(
+                    replace(inputs, **{name: getattr(inputs, name) + s}), *climbed_with
+                )
                 for s in (step, -step)
             )
-            variance += ((up.turns[rung] - down.turns[rung]) / 2e-3) ** 2
+            variance += ((up.rotations[rung] - down.rotations[rung]) / 2e-3) ** 2
     found = propagation.sampled_half_widths(inputs, uncertainty, *climbed_with)[rung]
     np.testing.assert_allclose(found, 1.96 * np.sqrt(variance), rtol=0.05, atol=0)
 
