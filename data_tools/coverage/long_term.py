@@ -15,8 +15,8 @@ from earthspin.questions import averages, long_term
 from earthspin.questions import long_term as question
 from earthspin.questions import sky as skies
 from earthspin.scenes import load_scene
-from earthspin.secular.derived_angles import angle, followed_perihelion, moved_by, read
-from earthspin.secular.error_budget import SolvedAxes, changed
+from earthspin.secular.derived_angles import angle, derive, difference, followed_perihelion
+from earthspin.secular.error_budget import AxisSolutions, changed
 from earthspin.secular.trajectory import solve
 
 #: Members, their seed, and the step between epochs, kyr.
@@ -71,7 +71,7 @@ def beside_iau() -> list[Row]:
     ]
 
 
-def solution(body: Body, times: FloatArray) -> SolvedAxes:
+def solution(body: Body, times: FloatArray) -> AxisSolutions:
     """The axis of a body at times (s), and with each cause changed, as the question solves it."""
     scene = load_scene("long-term")
     assert isinstance(scene, question.LongTerm)
@@ -95,7 +95,7 @@ def of_body(body: Body, reach: int, members: int = MEMBERS, seed: int = SEED) ->
     solved = solution(body, times)
     fixed = body.needed("pole").orbit_axes(body.orbit_pole)
     perihelion = followed_perihelion(solved.setting.orbit, np.append(times, 0.0), fixed)
-    mine = read(solved.path, solved.setting, times, fixed, perihelion)
+    mine = derive(solved.path, solved.setting, times, fixed, perihelion)
     half = {name: claimed[f"{name}_error"].values * unit for name, unit in QUANTITIES.items()}
     worst = {name: np.zeros(times.size) for name in QUANTITIES}
     inside = {name: np.zeros(times.size) for name in QUANTITIES}
@@ -104,12 +104,12 @@ def of_body(body: Body, reach: int, members: int = MEMBERS, seed: int = SEED) ->
         setting = changed(solved.setting, solved.uncertainty, amounts)
         span = float(times[0]), float(times[-1])
         path = solve(setting.strength, setting.orbit, setting.start, span)
-        member = read(path, setting, times, fixed, perihelion)
+        member = derive(path, setting, times, fixed, perihelion)
         for name, width in half.items():
             apart = (
                 angle(member.pole, mine.pole)
                 if name == "pole"
-                else np.abs(moved_by(member, mine, name))
+                else np.abs(difference(member, mine, name))
             )
             ratio = apart / width
             worst[name] = np.maximum(worst[name], ratio)

@@ -19,7 +19,7 @@ import numpy as np
 from earthspin.constants import ARCSEC, DAY, NORMAL_95
 from earthspin.errors import UndefinedError
 from earthspin.motion.forces import (
-    FigureOfBody,
+    DynamicalFigure,
     Forces,
     equatorial_basis,
     semidiurnal_amplitudes,
@@ -66,7 +66,7 @@ class Segment:
     floor : float
         Error of the slow manifold and of the semidiurnal amplitudes, which more nodes do not
         reduce, rad.
-    left : float
+    remaining : float
         Change of the axis that further Picard rounds would still make, rad.
     rounds : int
         Number of Picard rounds.
@@ -79,7 +79,7 @@ class Segment:
     turn: float
     tail: float
     floor: float
-    left: float
+    remaining: float
     rounds: int
 
     def momentum_at_end(self, forward: bool) -> FloatArray:
@@ -131,25 +131,25 @@ def solve(
         If the axis moves too fast for the iteration, or the body spins too slowly for its figure
         axis to stay near the angular momentum.
     """
-    law, tensor = forces.over(windows)
+    torque_law, tensor = forces.over(windows)
     tau = forces.figure.tau
-    since = windows.times - windows.edges[0 if forward else -1]
-    axis = momentum = start[:, None, None] + np.multiply.outer(mean_rate, since)
+    elapsed = windows.times - windows.edges[0 if forward else -1]
+    axis = momentum = start[:, None, None] + np.multiply.outer(mean_rate, elapsed)
     tilt = np.zeros_like(axis)
-    change = left = np.inf
+    change = remaining = np.inf
     rounds = 0
-    while left > _ROUND_OFF or rounds <= _ROUGH:
+    while remaining > _ROUND_OFF or rounds <= _ROUGH:
         rounds += 1
-        rate = law(axis, momentum)
-        begin = start + _at_edge(windows, tilt, forward) if is_figure else start
-        starts, momentum = _chain(windows, rate, begin, forward)
+        rate = torque_law(axis, momentum)
+        start_momentum = start + _at_edge(windows, tilt, forward) if is_figure else start
+        starts, momentum = _chain(windows, rate, start_momentum, forward)
         tilt, terms = tilt_of_figure(windows, axis, rate, tau, _FEW if rounds <= _ROUGH else _ALL)
         new_axis = momentum - tilt
         previous, change = change, float(np.max(np.abs(new_axis - axis)))
-        axis, left = new_axis, _remaining_change(change, previous)
+        axis, remaining = new_axis, _remaining_change(change, previous)
         if (rounds > 6 and change > 0.5 * previous) or not change < _RUNAWAY:
             break  # limited by rounding, or diverging: the next statement decides
-    if not left < 1e-13:
+    if not remaining < 1e-13:
         raise UndefinedError(
             f"the axis moves too fast for the iteration: after {rounds} rounds it still changes by "
             f"{change:.1g} rad; choose a slower precession or a shorter window"
@@ -168,7 +168,7 @@ def solve(
         turn=float(np.max(np.abs(rate)) * (windows.edges[-1] - windows.edges[0])),
         tail=_tail(series, windows),
         floor=terms[-1] + _fast_tail(fast),
-        left=left,
+        remaining=remaining,
         rounds=rounds,
     )
 
@@ -184,14 +184,14 @@ def _remaining_change(change: float, previous: float) -> float:
 
 
 def _chain(
-    windows: Windows, rate: FloatArray, begin: FloatArray, forward: bool
+    windows: Windows, rate: FloatArray, start: FloatArray, forward: bool
 ) -> tuple[FloatArray, FloatArray]:
     """Integrate the rate of a vector; return the vector at the window starts and at the nodes."""
-    to_nodes, whole = windows.integral(rate)
+    to_nodes, over_windows = windows.integral(rate)
     if forward:
-        starts = begin[:, None] + np.cumsum(whole, axis=1) - whole
+        starts = start[:, None] + np.cumsum(over_windows, axis=1) - over_windows
     else:
-        starts = begin[:, None] - np.cumsum(whole[:, ::-1], axis=1)[:, ::-1]
+        starts = start[:, None] - np.cumsum(over_windows[:, ::-1], axis=1)[:, ::-1]
     return starts, starts[..., None] + to_nodes
 
 
@@ -219,8 +219,8 @@ def _fast_tail(fast: ComplexArray | None) -> float:
     """
     if fast is None:
         return 0.0
-    last = max(1, fast.shape[-1] // 4)
-    return float(np.max(np.sum(np.abs(fast[..., -last:]), axis=-1)))
+    last_terms = max(1, fast.shape[-1] // 4)
+    return float(np.max(np.sum(np.abs(fast[..., -last_terms:]), axis=-1)))
 
 
 def _tail(series: FloatArray, windows: Windows) -> float:
@@ -229,8 +229,8 @@ def _tail(series: FloatArray, windows: Windows) -> float:
     The error at the ends of windows is much smaller, since Gauss's rule is exact to twice the
     degree.
     """
-    last = np.max(np.abs(series[..., -2:]), axis=(0, 2))
-    return float(np.max(last * windows.half[:, 0]) / (2 * windows.order))
+    last_terms = np.max(np.abs(series[..., -2:]), axis=(0, 2))
+    return float(np.max(last_terms * windows.half[:, 0]) / (2 * windows.order))
 
 
 # --- paths ----------------------------------------------------------------------------------------
@@ -259,7 +259,7 @@ class AxisPath:
         Legendre series of angular momentum minus figure axis, rad.
     fast : ndarray, shape (3, w, n), complex, or None
         Legendre series of the semidiurnal amplitudes of `AXES`, for a triaxial body.
-    body : FigureOfBody
+    body : DynamicalFigure
         Flattening, spin rate and meridian of the body.
     interpolation_error : float
         Error from interpolating the torques between nodes, rad.
@@ -274,7 +274,7 @@ class AxisPath:
     momentum: FloatArray
     tilt: FloatArray
     fast: ComplexArray | None
-    body: FigureOfBody
+    body: DynamicalFigure
     interpolation_error: float
     floor: float
     rounds: int
@@ -332,10 +332,10 @@ class AxisPath:
         """Semidiurnal displacements of momentum, rotation and figure axis, rad, shape (3, 3, t)."""
         assert self.fast is not None
         phase = np.exp(2j * (self.body.spin_rate * times + self.body.meridian))
-        move = self.windows.evaluate(self.fast, times) * phase
+        shift = self.windows.evaluate(self.fast, times) * phase
         towards_x, across_x = equatorial_basis(figure / np.sqrt(np.sum(figure * figure, axis=0)))
         return np.asarray(
-            move.real[:, np.newaxis] * towards_x + move.imag[:, np.newaxis] * across_x
+            shift.real[:, np.newaxis] * towards_x + shift.imag[:, np.newaxis] * across_x
         )
 
 
@@ -381,21 +381,21 @@ def axis_path(
     """
     segments: list[Segment] = []
     for edges, forward in _directions(epoch, span, limits, window):
-        start, mean_rate, solved = start_axis, np.zeros(3), 0
-        while solved < len(edges) - 1:
-            count = _segment_length(segments, len(edges) - 1 - solved, window)
-            windows = Windows(np.sort(edges[solved : solved + count + 1]), order)
+        start, mean_rate, solved_windows = start_axis, np.zeros(3), 0
+        while solved_windows < len(edges) - 1:
+            count = _segment_length(segments, len(edges) - 1 - solved_windows, window)
+            windows = Windows(np.sort(edges[solved_windows : solved_windows + count + 1]), order)
             segment = solve(
-                forces, windows, start, mean_rate, is_figure=solved == 0, forward=forward
+                forces, windows, start, mean_rate, is_figure=solved_windows == 0, forward=forward
             )
             segments.append(segment)
             start, mean_rate = segment.momentum_at_end(forward), segment.mean_rate()
-            solved += count
+            solved_windows += count
             if advance is not None:
                 advance(count)
     segments.sort(key=lambda segment: segment.windows.edges[0])
-    pieces = [segment.windows.edges[1:] for segment in segments]
-    edges = np.concatenate([segments[0].windows.edges[:1], *pieces])
+    ends = [segment.windows.edges[1:] for segment in segments]
+    edges = np.concatenate([segments[0].windows.edges[:1], *ends])
     fast = [s.fast for s in segments if s.fast is not None]
     rounding = np.finfo(float).eps * np.sqrt(len(edges) - 1)
     return AxisPath(
@@ -405,7 +405,7 @@ def axis_path(
         fast=np.concatenate(fast, axis=1) if fast else None,
         body=forces.figure,
         interpolation_error=max(s.tail for s in segments),
-        floor=max(s.floor for s in segments) + sum(s.left for s in segments) + float(rounding),
+        floor=max(s.floor for s in segments) + sum(s.remaining for s in segments) + float(rounding),
         rounds=max(s.rounds for s in segments),
     )
 
@@ -485,11 +485,11 @@ def _directions(
     return directions
 
 
-def _segment_length(segments: list[Segment], left: int, window: float) -> int:
+def _segment_length(segments: list[Segment], remaining: int, window: float) -> int:
     """Number of time windows to integrate together next, limited by the speed of the axis."""
     if not segments:
-        return min(left, 32)
-    last = segments[-1]
-    per_window = last.turn / len(last.windows.half)
-    allowed = SEGMENT_WINDOWS if per_window == 0 else int(SEGMENT_TURN / per_window)
-    return max(1, min(left, allowed, SEGMENT_WINDOWS))
+        return min(remaining, 32)
+    last_segment = segments[-1]
+    turn_per_window = last_segment.turn / len(last_segment.windows.half)
+    turn_limit = SEGMENT_WINDOWS if turn_per_window == 0 else int(SEGMENT_TURN / turn_per_window)
+    return max(1, min(remaining, turn_limit, SEGMENT_WINDOWS))

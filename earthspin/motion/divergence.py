@@ -52,18 +52,17 @@ class Divergence:
     def rate(self) -> tuple[float, float]:
         """Mean growth rate (Lyapunov exponent) of the distance, and its 95 % half-width, 1/s."""
         edges = np.linspace(self.times[0], self.times[-1], STRETCHES + 1)
-        rates = np.diff(np.interp(edges, self.times, self.growth)) / np.diff(edges)
-        late = rates[1:]
-        spread = students_t.ppf(0.975, late.size - 1) * late.std(ddof=1) / np.sqrt(late.size)
-        return float(late.mean()), float(spread)
+        rates = (np.diff(np.interp(edges, self.times, self.growth)) / np.diff(edges))[1:]
+        spread = students_t.ppf(0.975, rates.size - 1) * rates.std(ddof=1) / np.sqrt(rates.size)
+        return float(rates.mean()), float(spread)
 
     @property
     def is_chaotic(self) -> bool:
         """Return True if the distance between the two rotations grows exponentially."""
         middle = (self.times[0] + self.times[-1]) / 2
         rate, spread = self.rate
-        late = self.growth[-1] - np.interp(middle, self.times, self.growth)
-        return bool(late > CHAOTIC and rate > spread)
+        second_half_growth = self.growth[-1] - np.interp(middle, self.times, self.growth)
+        return bool(second_half_growth > CHAOTIC and rate > spread)
 
     def at(self, times: FloatArray) -> FloatArray:
         """Natural logarithm of distance over initial distance, interpolated at times in s."""
@@ -78,10 +77,10 @@ def divergence(
     Parameters
     ----------
     body : Rigid
-        Body, of which the first lane is used.
+        Body, of which the first column is used.
     masses : Masses
     start : State
-        Initial state, of which the first lane is used.
+        Initial state, of which the first column is used.
     end : float
         Last time, s from the start.
     direction : int
@@ -96,13 +95,13 @@ def divergence(
     pair = _neighbour_pair(state, rotation, np.zeros((3, 1)))
     times, growth, reached = [0.0], [0.0], 0.0
     while reached < end:
-        piece = solver.through(solver.next_edges(reached, end, WINDOWS), pair)
-        if len(piece.edges) < 2:
+        solution = solver.integrate(solver.next_edges(reached, end, WINDOWS), pair)
+        if len(solution.edges) < 2:
             continue
-        reached = float(piece.edges[-1])
-        turn, change, distance = _distance(piece.end)
+        reached = float(solution.edges[-1])
+        rotation, change, distance = _distance(solution.end)
         scale = ASIDE / distance
-        pair = _neighbour_pair(piece.end[:, :1], turn * scale, change * scale)
+        pair = _neighbour_pair(solution.end[:, :1], rotation * scale, change * scale)
         times.append(reached)
         growth.append(growth[-1] + float(np.log(distance / ASIDE)))
     return Divergence(np.array(times), np.array(growth))
@@ -113,10 +112,10 @@ def _neighbour_pair(state: FloatArray, rotation: FloatArray, momentum: FloatArra
 
     The neighbour has a small rotation and a relative change of the angular momentum.
     """
-    size = np.sqrt(np.sum(state[:3] ** 2))
+    norm = np.sqrt(np.sum(state[:3] ** 2))
     quaternion = rotations.rotation_about(rotation, np.ones(1))
-    moved = state[:3] + momentum * (size if size else 1.0)
-    other = np.concatenate([moved, rotations.times(quaternion, state[3:])])
+    other_momentum = state[:3] + momentum * (norm if norm else 1.0)
+    other = np.concatenate([other_momentum, rotations.times(quaternion, state[3:])])
     return np.concatenate([state, other], axis=1)
 
 
@@ -125,6 +124,6 @@ def _distance(pair: FloatArray) -> tuple[FloatArray, FloatArray, float]:
     state, other = pair[:, :1], pair[:, 1:]
     quaternion = 2 * rotations.times(other[3:], rotations.conjugate(state[3:]))
     rotation = quaternion[1:] * np.sign(quaternion[:1])
-    size = np.sqrt(np.sum(state[:3] ** 2))
-    momentum = (other[:3] - state[:3]) / (size if size else 1.0)
+    norm = np.sqrt(np.sum(state[:3] ** 2))
+    momentum = (other[:3] - state[:3]) / (norm if norm else 1.0)
     return rotation, momentum, float(np.sqrt(np.sum(rotation**2) + np.sum(momentum**2)))

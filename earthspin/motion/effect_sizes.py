@@ -72,14 +72,14 @@ def axis_displacements(
     rate = law(axis, axis)
     start = int(np.argmin(np.abs(windows.edges - epoch)))
     sizes = {}
-    for name, other in further.items():
+    for name, effect_forces in further.items():
         try:
-            law, tensor = other.over(windows)
-            moved = _running(windows, law(axis, axis) - rate)
-            moved -= moved[:, start : start + 1]
-            size = float(np.max(np.linalg.norm(moved, axis=0)))
-            if other.figure.triaxiality != forces.figure.triaxiality:
-                size += _semidiurnal(other, windows, tensor, axis, rate)
+            law, tensor = effect_forces.over(windows)
+            displacement = _running(windows, law(axis, axis) - rate)
+            displacement -= displacement[:, start : start + 1]
+            size = float(np.max(np.linalg.norm(displacement, axis=0)))
+            if effect_forces.figure.triaxiality != forces.figure.triaxiality:
+                size += _semidiurnal(effect_forces, windows, tensor, axis, rate)
         except EarthspinError:  # no positions of the planets, or a resonance
             continue
         sizes[name] = size
@@ -88,8 +88,8 @@ def axis_displacements(
 
 def _running(windows: Windows, rate: FloatArray) -> FloatArray:
     """Integrals of a rate from the first edge of the windows to each edge, shape (..., w + 1)."""
-    _, whole = windows.integral(rate)
-    total = np.cumsum(whole, axis=-1)
+    _, over_windows = windows.integral(rate)
+    total = np.cumsum(over_windows, axis=-1)
     return np.concatenate([np.zeros_like(total[..., :1]), total], axis=-1)
 
 
@@ -117,7 +117,7 @@ def attitude_displacements(
     ----------
     body : Rigid
     start : State
-        Initial state; only its first lane is used.
+        Initial state; only its first column is used.
     duration : float
         Time from the start, s.
     forces : Forces
@@ -133,36 +133,36 @@ def attitude_displacements(
     """
     if not further or duration == 0:
         return dict.fromkeys(further, 0.0)
-    across, along = float(np.hypot(*start.spin[:2, 0])), abs(float(start.spin[2, 0]))
-    if across > along or along == 0:
+    equatorial_spin, axial_spin = float(np.hypot(*start.spin[:2, 0])), abs(float(start.spin[2, 0]))
+    if equatorial_spin > axial_spin or axial_spin == 0:
         return {}
-    lever = float(np.max(np.abs(body.levers[:, 0])))
+    largest_difference = float(np.max(np.abs(body.moment_differences[:, 0])))
     edges = body.epoch + _edges(body, start, duration, forces)
     changes = {name: _Change(body, start) for name in further}
     for begin in range(0, len(edges) - 1, _TOGETHER):
         windows = Windows(edges[begin : begin + _TOGETHER + 1], NODES)
         matrix = _steady_rotation(start, windows.times - body.epoch)
         rate, tide = _rate_and_tide(forces, windows, matrix)
-        if 3 * lever * tide > along**2:
+        if 3 * largest_difference * tide > axial_spin**2:
             return {}
         for name, change in list(changes.items()):
             try:
-                other, _ = _rate_and_tide(further[name], windows, matrix)
+                effect_rate, _ = _rate_and_tide(further[name], windows, matrix)
             except EarthspinError:  # no positions of the planets
                 del changes[name]
                 continue
-            change.add(windows, other - rate, start)
+            change.add(windows, effect_rate - rate, start)
     return {name: min(change.largest, math.pi) for name, change in changes.items()}
 
 
 def _edges(body: Rigid, start: State, duration: float, forces: Forces) -> FloatArray:
     """Edges (s from start) of windows in which body and perturbers turn by at most about 90 deg."""
-    moments = body.epoch + np.array([0.0, 1e-5 * duration])
-    turned = [float(np.linalg.norm(start.spin[:, 0])) * 1e-5 * duration]
-    for place in forces.positions(moments).values():
-        sine = np.linalg.norm(np.cross(*place)) / np.prod(np.linalg.norm(place, axis=1))
-        turned.append(math.asin(min(1.0, float(sine))))
-    count = max(_FEWEST, math.ceil(1e5 * max(turned) / (np.pi / 2)))
+    times = body.epoch + np.array([0.0, 1e-5 * duration])
+    angles = [float(np.linalg.norm(start.spin[:, 0])) * 1e-5 * duration]
+    for pair in forces.positions(times).values():
+        sine = np.linalg.norm(np.cross(*pair)) / np.prod(np.linalg.norm(pair, axis=1))
+        angles.append(math.asin(min(1.0, float(sine))))
+    count = max(_FEWEST, math.ceil(1e5 * max(angles) / (np.pi / 2)))
     return np.linspace(0.0, duration, count + 1)
 
 
@@ -182,12 +182,12 @@ def _rate_and_tide(
     law, tensor = forces.over(windows)
     axis_a, axis_b, axis = (np.ascontiguousarray(matrix[:, column]) for column in range(3))
     figure = forces.figure
-    over = 3 * figure.triaxiality / figure.spin_rate * (1 + figure.j2_trend * windows.times)
-    on_a, on_b = apply(tensor, axis_a), apply(tensor, axis_b)
+    torque_scale = 3 * figure.triaxiality / figure.spin_rate * (1 + figure.j2_trend * windows.times)
+    tide_a, tide_b = apply(tensor, axis_a), apply(tensor, axis_b)
     # of the three moments, A and B differ from their mean by half of B - A
-    torque = dot(axis_b, on_a) * axis
-    torque -= (dot(axis, on_b) * axis_a + dot(axis, on_a) * axis_b) / 2
-    return law(axis, axis) + over * torque, float(np.max(tensor[:3].sum(axis=0)))
+    torque = dot(axis_b, tide_a) * axis
+    torque -= (dot(axis, tide_b) * axis_a + dot(axis, tide_a) * axis_b) / 2
+    return law(axis, axis) + torque_scale * torque, float(np.max(tensor[:3].sum(axis=0)))
 
 
 class _Change:
@@ -198,29 +198,31 @@ class _Change:
         spin, self._unit, self._epoch = start.spin[:, 0], abs(body.unit), body.epoch
         self._wobble = math.sqrt(max(0.0, (c - a) * (c - b) / (a * b))) * float(spin[2])
         self._momentum = float(np.linalg.norm(start.momentum[:, 0]))
-        along = (spin / np.linalg.norm(spin))[:, np.newaxis]
-        self._axis = rotations.rotated(start.attitude[:, :1], along)[:, 0]
-        self._moved, self._wobbled, self._phase = np.zeros(3), np.zeros(2), 0.0
+        direction = (spin / np.linalg.norm(spin))[:, np.newaxis]
+        self._axis = rotations.rotated(start.attitude[:, :1], direction)[:, 0]
+        self._drift, self._free_drift, self._phase = np.zeros(3), np.zeros(2), 0.0
         #: Largest change of the attitude so far, rad.
         self.largest = 0.0
 
     def add(self, windows: Windows, rate: FloatArray, start: State) -> None:
         """Add the change in further windows, from the added rate of momentum (3, w, n), s-1."""
-        since = windows.times - self._epoch
-        in_body = np.einsum("jiwn,jwn->iwn", _steady_rotation(start, since), rate)
-        across = (in_body[0] + 1j * in_body[1]) * np.exp(-1j * self._wobble * since)
-        moved = self._moved[:, np.newaxis] + _running(windows, rate)
-        sums = _running(windows, np.stack([across.real, across.imag]))
-        wobbled = self._wobbled[:, np.newaxis] + sums
-        along = self._axis @ moved
+        elapsed = windows.times - self._epoch
+        in_body = np.einsum("jiwn,jwn->iwn", _steady_rotation(start, elapsed), rate)
+        equatorial_rate = (in_body[0] + 1j * in_body[1]) * np.exp(-1j * self._wobble * elapsed)
+        drift = self._drift[:, np.newaxis] + _running(windows, rate)
+        sums = _running(windows, np.stack([equatorial_rate.real, equatorial_rate.imag]))
+        free_drift = self._free_drift[:, np.newaxis] + sums
+        axial_drift = self._axis @ drift
         to_nodes, _ = windows.integral(np.einsum("j,jwn->wn", self._axis, rate))
-        phase = self._phase + self._unit * _running(windows, along[:-1, np.newaxis] + to_nodes)
-        self._moved, self._wobbled, self._phase = moved[:, -1], wobbled[:, -1], float(phase[-1])
+        axial_drifts = axial_drift[:-1, np.newaxis] + to_nodes
+        phase = self._phase + self._unit * _running(windows, axial_drifts)
+        self._drift, self._free_drift = drift[:, -1], free_drift[:, -1]
+        self._phase = float(phase[-1])
 
-        now = windows.edges - self._epoch
-        turned = (wobbled[0] + 1j * wobbled[1]) * np.exp(1j * self._wobble * now)
-        matrix = _steady_rotation(start, now[:, np.newaxis])[..., 0]
-        wobble = matrix[:, 0] * turned.real + matrix[:, 1] * turned.imag
-        tilt = moved - np.outer(self._axis, along) - wobble
+        edges = windows.edges - self._epoch
+        free_wobble = (free_drift[0] + 1j * free_drift[1]) * np.exp(1j * self._wobble * edges)
+        matrix = _steady_rotation(start, edges[:, np.newaxis])[..., 0]
+        wobble = matrix[:, 0] * free_wobble.real + matrix[:, 1] * free_wobble.imag
+        tilt = drift - np.outer(self._axis, axial_drift) - wobble
         change = np.hypot(np.linalg.norm(tilt, axis=0) / self._momentum, phase)
         self.largest = max(self.largest, float(np.max(change)))

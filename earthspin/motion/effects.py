@@ -103,8 +103,8 @@ J4 = _zonal_harmonic(4)
 
 def _set_triaxiality(forces: Forces, body: BodyNumbers) -> Forces:
     figure = forces.figure
-    over_c = figure.inverse_polar_moment * body.number("triaxiality")
-    return replace(forces, figure=replace(figure, triaxiality=over_c))
+    triaxiality = figure.inverse_polar_moment * body.number("triaxiality")
+    return replace(forces, figure=replace(figure, triaxiality=triaxiality))
 
 
 TRIAXIALITY = add(Effect("triaxiality", _set_triaxiality, coefficient="triaxiality"))
@@ -145,14 +145,14 @@ def geodesic_rate(
     -------
     ndarray, shape (3, ...)
     """
-    own = -velocity[primary]
-    total = np.zeros_like(own)
+    body_velocity = -velocity[primary]
+    total = np.zeros_like(body_velocity)
     for name, mass in gm.items():
-        place = position[name]
-        distance = np.sqrt(dot(place, place))
+        offset = position[name]
+        distance = np.sqrt(dot(offset, offset))
         scale = mass / (SPEED_OF_LIGHT.value**2 * distance**3)
-        its_own = velocity[name] + own
-        total += scale * cross(2 * its_own - 1.5 * own, -place)
+        mass_velocity = velocity[name] + body_velocity
+        total += scale * cross(2 * mass_velocity - 1.5 * body_velocity, -offset)
     return total
 
 

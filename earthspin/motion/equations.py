@@ -14,8 +14,8 @@ rotation with the initial angular velocity \omega_0, fixed in the body or in spa
 
 If the spin is nearly constant, p changes slowly and few Picard iterations are needed. The torque of
 a mass at r is 3 GM/r5 r x I r (I.9.34). The differences of the moments are inputs, so they are not
-computed by subtraction. Arrays have the component first; lanes (several bodies with the same
-perturbers) follow one another in each row: shape (3, lanes * nodes).
+computed by subtraction. Arrays have the component first; several bodies with the same
+perturbers follow one another in each row: shape (3, bodies * nodes).
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ from earthspin.torque.gravity import cross, zonal_law
 #: quaternions (m, 4) and angular velocities along the body's axes, rad/s (m, 3).
 CustomTorque = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
 #: Contribution of an effect to l' along the sky's axes, s-1, from figure axis and angular momentum,
-#: each of shape (3, lanes, nodes).
+#: each of shape (3, bodies, nodes).
 SkyLaw = Callable[[FloatArray, FloatArray], FloatArray]
 
 
-#: Inputs that are changed in the lanes of neighbours, in this order.
-FLATTENING, TRIAXIALITY, PULL, ROUNDING = "flattening", "triaxiality", "pull", "rounding"
+#: Inputs that are changed in the neighbours of a body, in this order.
+FLATTENING, TRIAXIALITY, TIDE, ROUNDING = "flattening", "triaxiality", "tide", "rounding"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,9 +48,9 @@ class Rigid:
 
     Attributes
     ----------
-    c_minus_a, c_minus_b : ndarray, shape (lanes,)
+    c_minus_a, c_minus_b : ndarray, shape (bodies,)
         (C - A)/C and (C - B)/C.
-    tide : ndarray, shape (lanes,)
+    tide : ndarray, shape (bodies,)
         Factor on the tides of all masses.
     unit : float
         Unit of spin u, rad/s.
@@ -62,7 +62,7 @@ class Rigid:
         Relative rate of the differences of moments, s-1.
     epoch : float
         Start of the motion, s from J2000.0.
-    own : callable or None
+    custom_torque : callable or None
         Custom torque.
     """
 
@@ -74,7 +74,7 @@ class Rigid:
     radius: float = 0.0
     trend: float = 0.0
     epoch: float = 0.0
-    own: CustomTorque | None = None
+    custom_torque: CustomTorque | None = None
 
     @cached_property
     def moments(self) -> FloatArray:
@@ -82,23 +82,23 @@ class Rigid:
         return np.stack([1 - self.c_minus_a, 1 - self.c_minus_b, np.ones_like(self.c_minus_a)])
 
     @cached_property
-    def levers(self) -> FloatArray:
+    def moment_differences(self) -> FloatArray:
         """Ratios (C - B)/C, (A - C)/C, (B - A)/C of the moments of each body, shape (3, bodies)."""
         return np.stack([self.c_minus_b, -self.c_minus_a, self.c_minus_a - self.c_minus_b])
 
     @property
-    def lanes(self) -> int:
-        """Number of rigid bodies, each of which has one column (lane) in all arrays."""
+    def count(self) -> int:
+        """Number of rigid bodies, each of which has one column in all arrays."""
         return int(self.tide.size)
 
     def first(self, copies: int = 1) -> Rigid:
         """Return the first body only, repeated in a given number of columns."""
-        lanes = np.zeros(copies, dtype=int)
+        first = np.zeros(copies, dtype=int)
         return replace(
             self,
-            c_minus_a=self.c_minus_a[lanes],
-            c_minus_b=self.c_minus_b[lanes],
-            tide=self.tide[lanes],
+            c_minus_a=self.c_minus_a[first],
+            c_minus_b=self.c_minus_b[first],
+            tide=self.tide[first],
         )
 
     def spin(self, state: FloatArray) -> FloatArray:
@@ -115,7 +115,7 @@ class Rigid:
 
 
 @dataclass(frozen=True)
-class WindowMasses:
+class PerturbersAtNodes:
     """GM of the perturbing masses, and their positions at the nodes of one time window.
 
     Attributes
@@ -143,78 +143,83 @@ class WindowMasses:
 class Equations:
     """Euler's equations in one time window, for angular momentum and an attitude quaternion.
 
-    Several bodies under the same perturbers are integrated together; each is a *lane*. Arrays of
-    unknowns and of rates have the shape (7, lanes * n): the n times of the first body, then those
+    Several bodies under the same perturbers are integrated together. Arrays of
+    unknowns and of rates have the shape (7, bodies * n): the n times of the first body, then those
     of the next.
 
     Parameters
     ----------
     body : Rigid
-        The bodies, one in each lane.
-    pull : WindowMasses
+        The bodies, one in each column.
+    masses : PerturbersAtNodes
     in_space : bool
         True if the angular momentum is along the sky's axes, False if along the body's axes.
-    start : ndarray, shape (7, lanes)
+    start : ndarray, shape (7, bodies)
         Angular momentum and quaternion at the start of the window.
     since : ndarray, shape (n,)
         Times from the start of the window, s.
     """
 
     def __init__(
-        self, body: Rigid, pull: WindowMasses, in_space: bool, start: FloatArray, since: FloatArray
+        self,
+        body: Rigid,
+        masses: PerturbersAtNodes,
+        in_space: bool,
+        start: FloatArray,
+        elapsed: FloatArray,
     ) -> None:
-        self._body, self._pull, self._in_space = body, pull, in_space
-        self._lanes, self._nodes = start.shape[1], since.size
-        self._spin_per_momentum = self._rows(body.unit / body.moments)
-        self._levers = self._rows(3 / body.unit * body.levers)
-        self._places = self._in_lanes(pull.places)
-        square = np.einsum("ipm,ipm->pm", pull.places, pull.places)
-        strength = pull.gm[:, np.newaxis] / (square * square * np.sqrt(square))
-        strength = strength * (1 + body.trend * (body.epoch + pull.times))
-        self._strength = self._in_lanes(strength) * self._rows(body.tide)
+        self._body, self._masses, self._in_space = body, masses, in_space
+        self._count, self._nodes = start.shape[1], elapsed.size
+        self._spin_per_momentum = self._at_nodes(body.unit / body.moments)
+        self._moment_differences = self._at_nodes(3 / body.unit * body.moment_differences)
+        self._places = self._in_columns(masses.places)
+        r2 = np.einsum("ipm,ipm->pm", masses.places, masses.places)
+        tide = masses.gm[:, np.newaxis] / (r2 * r2 * np.sqrt(r2))
+        tide = tide * (1 + body.trend * (body.epoch + masses.times))
+        self._tide = self._in_columns(tide) * self._at_nodes(body.tide)
         zonal = {degree: coefficient / body.unit for degree, coefficient in body.zonal}
-        near = pull.gm[: pull.near, np.newaxis, np.newaxis]
-        places = pull.places[:, : pull.near, np.newaxis]
+        near = masses.gm[: masses.near, np.newaxis, np.newaxis]
+        places = masses.places[:, : masses.near, np.newaxis]
         self._on_harmonics = zonal_law(zonal, body.radius, near, places) if zonal else None
         matrix = rotations.matrices(start[3:])
         momentum = _into(matrix, start[:3]) if in_space else start[:3]
         spin = body.unit / body.moments * momentum
-        #: Angular velocity at the start of the window, rad/s, shape (3, lanes), along the same axes
-        #: as the angular momentum.
+        #: Angular velocity at the start of the window, rad/s, shape (3, bodies), along the same
+        #: axes as the angular momentum.
         self.steady = _out_of(matrix, spin) if in_space else spin
-        self._steady = self._rows(self.steady)
-        ahead = rotations.rotation_about(self._steady, self._in_lanes(since))
-        self._ahead = rotations.left(ahead) if in_space else rotations.right(ahead)
-        self._matrix_ahead = rotations.matrices(ahead)
+        self._steady = self._at_nodes(self.steady)
+        reference = rotations.rotation_about(self._steady, self._in_columns(elapsed))
+        self._reference = rotations.left(reference) if in_space else rotations.right(reference)
+        self._reference_matrix = rotations.matrices(reference)
 
-    def _rows(self, values: FloatArray) -> FloatArray:
-        """Repeat the value of each body (lane) for all nodes of the time window."""
+    def _at_nodes(self, values: FloatArray) -> FloatArray:
+        """Repeat the value of each body for all nodes of the time window."""
         return np.repeat(values, self._nodes, axis=-1)
 
-    def _in_lanes(self, values: FloatArray) -> FloatArray:
-        """Repeat the values at all nodes of the time window for each body (lane)."""
-        return np.concatenate([values] * self._lanes, axis=-1)
+    def _in_columns(self, values: FloatArray) -> FloatArray:
+        """Repeat the values at all nodes of the time window for each body."""
+        return np.concatenate([values] * self._count, axis=-1)
 
     def attitude(self, unknowns: FloatArray) -> FloatArray:
         """Attitude quaternions of all bodies from the unknowns, shape (4, bodies * nodes)."""
-        return np.asarray(np.einsum("abm,bm->am", self._ahead, unknowns[3:]))
+        return np.asarray(np.einsum("abm,bm->am", self._reference, unknowns[3:]))
 
     def unknowns(self, state: FloatArray) -> FloatArray:
         """Unknowns of the equations: angular momentum, and attitude relative to uniform rotation.
 
         `state`, shape (7, n), holds angular momentum and attitude of one body. They are repeated
-        for all bodies (lanes).
+        for all bodies.
 
         This is only valid for the form with the angular momentum along the sky's axes.
         """
-        q = self._in_lanes(state[3:])
-        p = np.einsum("bam,bm->am", self._ahead, q)  # the inverse of a rotation is its transpose
-        return np.concatenate([self._in_lanes(state[:3]), p])
+        q = self._in_columns(state[3:])
+        p = np.einsum("bam,bm->am", self._reference, q)  # the inverse is the transpose
+        return np.concatenate([self._in_columns(state[:3]), p])
 
     def rates(self, unknowns: FloatArray) -> FloatArray:
         """Time derivatives of the unknowns: angular momentum and relative attitude, s-1.
 
-        The shape is (7, lanes * n), with n values for each body (lane).
+        The shape is (7, bodies * n), with n values for each body.
         """
         momentum, q = unknowns[:3], self.attitude(unknowns)
         matrix = rotations.matrices(q)
@@ -222,17 +227,17 @@ class Equations:
         spin = self._spin_per_momentum * in_body
         torque = self._torque(q, matrix, spin)
         rate = _out_of(matrix, torque) if self._in_space else cross(momentum, spin) + torque
-        if self._body.zonal or self._pull.laws:
+        if self._body.zonal or self._masses.laws:
             in_space = momentum if self._in_space else _out_of(matrix, momentum)
-            further = self._further_torque(matrix, in_space)
-            rate = rate + (further if self._in_space else _into(matrix, further))
+            effects_torque = self._effects_torque(matrix, in_space)
+            rate = rate + (effects_torque if self._in_space else _into(matrix, effects_torque))
         if self._in_space:
-            extra = _into(self._matrix_ahead, _out_of(matrix, spin) - self._steady)
-            drift = rotations.vector_times(extra, unknowns[3:])
+            spin_change = _into(self._reference_matrix, _out_of(matrix, spin) - self._steady)
+            quaternion_rate = rotations.vector_times(spin_change, unknowns[3:])
         else:
-            extra = _out_of(self._matrix_ahead, spin - self._steady)
-            drift = rotations.times_vector(unknowns[3:], extra)
-        return np.concatenate([rate, 0.5 * drift])
+            spin_change = _out_of(self._reference_matrix, spin - self._steady)
+            quaternion_rate = rotations.times_vector(unknowns[3:], spin_change)
+        return np.concatenate([rate, 0.5 * quaternion_rate])
 
     def _torque(self, q: FloatArray, matrix: FloatArray, spin: FloatArray) -> FloatArray:
         """Tidal torque on the bulge plus custom torque, in body axes, per C and spin unit, s-1.
@@ -241,26 +246,26 @@ class Equations:
         """
         position = np.einsum("jim,jpm->ipm", matrix, self._places)
         products = position.take((1, 0, 0), 0) * position.take((2, 2, 1), 0)
-        torque = self._levers * np.einsum("pm,ipm->im", self._strength, products)
-        if self._body.own is not None:
-            times = self._in_lanes(self._pull.times)
-            torque += self._body.own(times, q.T, spin.T).T / self._body.unit
+        torque = self._moment_differences * np.einsum("pm,ipm->im", self._tide, products)
+        if self._body.custom_torque is not None:
+            times = self._in_columns(self._masses.times)
+            torque += self._body.custom_torque(times, q.T, spin.T).T / self._body.unit
         return np.asarray(torque)
 
-    def _further_torque(self, matrix: FloatArray, momentum: FloatArray) -> FloatArray:
+    def _effects_torque(self, matrix: FloatArray, momentum: FloatArray) -> FloatArray:
         """Torque on harmonics J_n and by other effects, in sky axes, per C and spin unit, s-1.
 
         The torque is divided by C u. C is the polar moment of inertia, and u the unit of spin.
         """
-        body, pull = self._body, self._pull
-        lanes = (3, self._lanes, self._nodes)
-        axis, along = matrix[:, 2].reshape(lanes), momentum.reshape(lanes)
-        total = np.zeros(lanes)
+        body, masses = self._body, self._masses
+        shape = (3, self._count, self._nodes)
+        axis, momentum_vectors = matrix[:, 2].reshape(shape), momentum.reshape(shape)
+        total = np.zeros(shape)
         if self._on_harmonics is not None:
             torque = np.sum(self._on_harmonics(axis[:, np.newaxis]), axis=1)
             total += body.tide[:, np.newaxis] * torque
-        for law in pull.laws:
-            total += law(axis, along)
+        for law in masses.laws:
+            total += law(axis, momentum_vectors)
         return total.reshape(3, -1)
 
 

@@ -27,7 +27,7 @@ Torque = Callable[["Forces", Windows, Places], RateLaw]
 
 
 @dataclass(frozen=True, kw_only=True)
-class FigureOfBody:
+class DynamicalFigure:
     """Parameters of a rotating body (H, spin, J_n) that determine the motion of its axes.
 
     Attributes
@@ -72,7 +72,7 @@ class Forces:
 
     Attributes
     ----------
-    figure : FigureOfBody
+    figure : DynamicalFigure
     gm : mapping of str to float
         GM of the perturbers, m3 s-2.
     positions : callable
@@ -90,7 +90,7 @@ class Forces:
         Name of the Sun, if it is among the perturbers.
     """
 
-    figure: FigureOfBody
+    figure: DynamicalFigure
     gm: Mapping[str, float]
     positions: Positions
     near: tuple[str, ...] = ()
@@ -115,34 +115,34 @@ class Forces:
         figure = self.figure
         shape = windows.times.shape
         positions = self.positions(windows.times.ravel())
-        place = {
+        positions_at_nodes = {
             name: np.ascontiguousarray(positions[name].T).reshape(3, *shape) for name in self.gm
         }
-        tensor = tidal_tensor((gm, place[name]) for name, gm in self.gm.items())
+        tensor = tidal_tensor((gm, positions_at_nodes[name]) for name, gm in self.gm.items())
         scale = figure.h / figure.spin_rate * (1 + figure.j2_trend * windows.times)
         scaled = tensor * scale
-        size = figure.inverse_polar_moment / figure.spin_rate
-        zonal = {degree: size * coefficient for degree, coefficient in figure.zonal.items()}
+        moment_scale = figure.inverse_polar_moment / figure.spin_rate
+        zonal = {degree: moment_scale * coefficient for degree, coefficient in figure.zonal.items()}
         on_harmonics = [
-            zonal_law(zonal, figure.radius, self.gm[name], place[name])
+            zonal_law(zonal, figure.radius, self.gm[name], positions_at_nodes[name])
             for name in (self.near if zonal else ())
         ]
-        further = [torque(self, windows, place) for torque in self.torques]
+        effect_laws = [torque(self, windows, positions_at_nodes) for torque in self.torques]
 
-        def on_figure(axis: FloatArray) -> FloatArray:
+        def figure_torque(axis: FloatArray) -> FloatArray:
             total = quadrupole_torque(scaled, axis)
             for law in on_harmonics:
                 total += law(axis)
             return total
 
-        constant: FloatArray | None = None
+        mean_torque: FloatArray | None = None
         if self.mean_pole is not None:
             pole = self.mean_pole(windows.times.ravel()).T
-            constant = on_figure(np.ascontiguousarray(pole).reshape(3, *shape))
+            mean_torque = figure_torque(np.ascontiguousarray(pole).reshape(3, *shape))
 
         def rate(axis: FloatArray, momentum: FloatArray) -> FloatArray:
-            total = on_figure(axis) if constant is None else constant.copy()
-            for law in further:
+            total = figure_torque(axis) if mean_torque is None else mean_torque.copy()
+            for law in effect_laws:
                 total += law(axis, momentum)
             return total
 
@@ -206,7 +206,7 @@ def tilt_of_figure(
     return tilt, sizes
 
 
-def fastest_sweep(h: float, spin_rate: float, pulls: Iterable[tuple[float, float]]) -> float:
+def fastest_sweep(h: float, spin_rate: float, perturbers: Iterable[tuple[float, float]]) -> float:
     """Largest speed of a precessing axis at any obliquity (reached at 45 degrees), rad/s.
 
     (3/4) H/Omega times the sum of GM/r3: the rate of precession in longitude, (3/2) H/Omega GM/r3
@@ -217,10 +217,10 @@ def fastest_sweep(h: float, spin_rate: float, pulls: Iterable[tuple[float, float
     h : float
     spin_rate : float
         rad/s.
-    pulls : iterable of (gm, distance)
+    perturbers : iterable of (gm, distance)
         m3 s-2 and m.
     """
-    return abs(0.75 * h / spin_rate) * sum(gm / distance**3 for gm, distance in pulls)
+    return abs(0.75 * h / spin_rate) * sum(gm / distance**3 for gm, distance in perturbers)
 
 
 # --- semidiurnal motion ---------------------------------------------------------------------------
@@ -266,7 +266,7 @@ def semidiurnal_amplitudes(
     tensor: FloatArray,
     direction: FloatArray,
     tilt: FloatArray,
-    figure: FigureOfBody,
+    figure: DynamicalFigure,
 ) -> ComplexArray:
     """Complex amplitudes of the semidiurnal motion of a triaxial body's axes, rad, (3, w, n).
 
@@ -282,7 +282,7 @@ def semidiurnal_amplitudes(
         Figure axis without this motion.
     tilt : ndarray, shape (3, w, n)
         Angular momentum minus figure axis, rad.
-    figure : FigureOfBody
+    figure : DynamicalFigure
 
     Returns
     -------
@@ -299,19 +299,19 @@ def semidiurnal_amplitudes(
     towards_x, across_x = equatorial_basis(direction)
     q = _on_equator(apply(tensor, direction), towards_x, across_x)
     torque = -1.5j * figure.triaxiality / spin_rate * np.conj(q)
-    half_turn = 2j * spin_rate
-    momentum = _series(windows, torque / half_turn, -1 / half_turn)
+    phase_rate = 2j * spin_rate
+    momentum = _series(windows, torque / phase_rate, -1 / phase_rate)
 
-    turn = tau * spin_rate  # A/C
-    away = 1 - 2 * turn  # from the free nutation, which a thin disc has at half a day
-    if abs(away) < NEAREST_RESONANCE:
+    ratio = tau * spin_rate  # A/C
+    detuning = 1 - 2 * ratio  # from the free nutation, which a thin disc has at half a day
+    if abs(detuning) < NEAREST_RESONANCE:
         raise UndefinedError(
-            f"A/C = {turn:.3g}: the semidiurnal torque on B - A resonates with the free nutation "
+            f"A/C = {ratio:.3g}: the semidiurnal torque on B - A resonates with the free nutation "
             f"(|1 - 2 A/C| under {NEAREST_RESONANCE}); remove the effect 'triaxiality' or set "
             f"the body's triaxiality to 0"
         )
-    uneven = figure.triaxiality / (2 * turn) * np.conj(_on_equator(tilt, towards_x, across_x))
-    axis = _series(windows, (momentum + uneven) / away, -1j * tau / away)
+    by_tilt = figure.triaxiality / (2 * ratio) * np.conj(_on_equator(tilt, towards_x, across_x))
+    axis = _series(windows, (momentum + by_tilt) / detuning, -1j * tau / detuning)
     rotation = -axis + 1j * windows.derivative(axis) / spin_rate
     return np.stack([momentum, rotation, axis])
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
-from earthspin.motion.equations import Equations, Rigid, SkyLaw, WindowMasses
+from earthspin.motion.equations import Equations, PerturbersAtNodes, Rigid, SkyLaw
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.polynomials import Windows, integrated, rule
@@ -66,24 +66,24 @@ class Masses:
     near: int = 0
     laws: Callable[[Windows, Mapping[str, FloatArray]], Sequence[SkyLaw]] | None = None
 
-    def over(self, windows: Windows) -> list[WindowMasses]:
-        """Make the `WindowMasses` of each time window: GM of the masses, and their positions."""
+    def over(self, windows: Windows) -> list[PerturbersAtNodes]:
+        """Make the `PerturbersAtNodes` of each time window: GM and positions of the masses."""
         times, gm = windows.times, np.array(list(self.gm.values()))
         if not self.gm:
-            nothing = np.zeros((3, 0, windows.order))
-            return [WindowMasses(row, gm, nothing) for row in times]
+            no_positions = np.zeros((3, 0, windows.order))
+            return [PerturbersAtNodes(window_times, gm, no_positions) for window_times in times]
         positions = self.positions(times.ravel())
         places = np.stack([positions[name].T for name in self.gm], axis=1)
         places = places.reshape(3, len(self.gm), *times.shape)
-        pulls = []
-        for w, row in enumerate(times):
+        masses_at_nodes = []
+        for w, window_times in enumerate(times):
             laws: Sequence[SkyLaw] = ()
             if self.laws is not None:
                 by_name = {name: places[:, m, w : w + 1] for m, name in enumerate(self.gm)}
                 laws = self.laws(Windows(windows.edges[w : w + 2], windows.order), by_name)
             place = np.ascontiguousarray(places[:, :, w])
-            pulls.append(WindowMasses(row, gm, place, self.near, laws))
-        return pulls
+            masses_at_nodes.append(PerturbersAtNodes(window_times, gm, place, self.near, laws))
+        return masses_at_nodes
 
 
 @dataclass(frozen=True)
@@ -94,14 +94,14 @@ class Piece:
     ----------
     edges : ndarray, shape (w + 1,)
         Edges of the windows, s.
-    series : ndarray, shape (7, lanes, w, n + 1)
+    series : ndarray, shape (7, bodies, w, n + 1)
         Legendre series of the unknowns.
-    steady : ndarray, shape (3, lanes, w)
+    steady : ndarray, shape (3, bodies, w)
         Reference angular velocity of each window, rad/s.
     in_space : bool
         True if angular momentum and reference angular velocity are along the sky's axes, False if
         along the body's axes.
-    end : ndarray, shape (7, lanes)
+    end : ndarray, shape (7, bodies)
         Angular momentum and attitude quaternion at the end.
     """
 
@@ -113,18 +113,18 @@ class Piece:
 
     def at(self, times: FloatArray) -> FloatArray:
         """Angular momentum and attitude quaternion of all bodies at given times, (7, bodies, t)."""
-        lanes = self.series.shape[1]
+        bodies = self.series.shape[1]
         windows = Windows(self.edges, self.series.shape[-1])
-        flat = windows.evaluate(self.series.reshape(7 * lanes, len(windows.half), -1), times)
-        unknowns = flat.reshape(7, lanes * times.size)
+        rows = windows.evaluate(self.series.reshape(7 * bodies, len(windows.half), -1), times)
+        unknowns = rows.reshape(7, bodies * times.size)
         window = np.clip(np.searchsorted(self.edges, times) - 1, 0, len(windows.half) - 1)
-        ahead = rotations.rotation_about(
-            self.steady[:, :, window].reshape(3, -1), np.tile(times - self.edges[window], lanes)
+        reference = rotations.rotation_about(
+            self.steady[:, :, window].reshape(3, -1), np.tile(times - self.edges[window], bodies)
         )
         p = unknowns[3:]
-        q = rotations.times(ahead, p) if self.in_space else rotations.times(p, ahead)
+        q = rotations.times(reference, p) if self.in_space else rotations.times(p, reference)
         q /= np.sqrt(np.sum(q * q, axis=0))
-        return np.concatenate([unknowns[:3], q]).reshape(7, lanes, times.size)
+        return np.concatenate([unknowns[:3], q]).reshape(7, bodies, times.size)
 
     def along_sky(self, times: FloatArray) -> FloatArray:
         """Angular momentum in sky axes and attitude quaternion of the first body, shape (7, t)."""
@@ -171,7 +171,7 @@ class Solver:
     def begin_with(self, spin: FloatArray) -> None:
         """Set the first and the shortest window length from the initial angular velocity.
 
-        The angular velocity is in rad/s and has the shape (3, lanes).
+        The angular velocity is in rad/s and has the shape (3, bodies).
         """
         fastest = max(float(np.max(np.sqrt(np.sum(spin**2, axis=0)))), abs(self.body.unit))
         self.window, self.shortest = FIRST_TURN / fastest, SHORTEST_TURN / fastest
@@ -189,63 +189,63 @@ class Solver:
                 f"{reached / DAY:.6g} d from the start the rotation changes too fast to be "
                 "integrated; check the custom torque and the distances of the perturbers"
             )
-        few = min(count, max(1, int(np.ceil((end - reached) / self.window - _HARDLY))))
-        edges = reached + self.window * np.arange(few + 1.0)
+        window_count = min(count, max(1, int(np.ceil((end - reached) / self.window - _HARDLY))))
+        edges = reached + self.window * np.arange(window_count + 1.0)
         edges[-1] = min(edges[-1], max(end, edges[-2]))
         return np.asarray(edges)
 
-    def through(self, edges: FloatArray, start: FloatArray, near: Piece | None = None) -> Piece:
+    def integrate(self, edges: FloatArray, start: FloatArray, other: Piece | None = None) -> Piece:
         """Integrate over consecutive windows; stop before a window that is too long to be accurate.
 
         Parameters
         ----------
         edges : ndarray, shape (w + 1,)
             s.
-        start : ndarray, shape (7, lanes)
-        near : Piece, optional
-            Approximate solution, whose first lane is the first estimate for the iteration.
+        start : ndarray, shape (7, bodies)
+        other : Piece, optional
+            Approximate solution, whose first body is the first estimate for the iteration.
 
         Returns
         -------
         Piece
             Solution over the windows that were solved; there may be none.
         """
-        windows, lanes = Windows(edges, self.order), start.shape[1]
+        windows, bodies = Windows(edges, self.order), start.shape[1]
         rates: list[FloatArray] = []
         starts: list[FloatArray] = []
         steady: list[FloatArray] = []
         worst = 0.0
         estimate: FloatArray | None = None
-        if near is not None:
-            state = near.along_sky(windows.times.ravel())
+        if other is not None:
+            state = other.along_sky(windows.times.ravel())
             estimate = np.asarray(state.reshape(7, *windows.times.shape))
-        for pull, begin, half in zip(
+        for masses, begin, half in zip(
             self.masses.over(windows), edges[:-1], windows.half[:, 0], strict=True
         ):
-            equations = Equations(self.body, pull, self.in_space, start, pull.times - begin)
+            equations = Equations(self.body, masses, self.in_space, start, masses.times - begin)
             guess = None if estimate is None else equations.unknowns(estimate[:, len(rates)])
-            rate, over = self._solve(equations, start, half, guess)
-            worst = max(worst, over)
-            if over > 1.0:
+            rate, error_ratio = self._solve(equations, start, half, guess)
+            worst = max(worst, error_ratio)
+            if error_ratio > 1.0:
                 break
             rates.append(rate)
             starts.append(start)
             steady.append(equations.steady)
             start = self._end(rate, equations, start, half)
-        done = len(rates)
-        self._resize(worst, complete=done == len(windows.half))
-        series = np.zeros((7 * lanes, 0, self.order + 1))
-        if done:
-            laid = np.reshape(rates, (done, 7 * lanes, -1)).swapaxes(0, 1)
+        solved = len(rates)
+        self._resize(worst, complete=solved == len(windows.half))
+        series = np.zeros((7 * bodies, 0, self.order + 1))
+        if solved:
+            rate_rows = np.reshape(rates, (solved, 7 * bodies, -1)).swapaxes(0, 1)
             series = integrated(
-                windows.coefficients(laid),
-                windows.half[:done],
-                np.reshape(starts, (done, 7 * lanes)).T,
+                windows.coefficients(rate_rows),
+                windows.half[:solved],
+                np.reshape(starts, (solved, 7 * bodies)).T,
             )
         return Piece(
-            edges[: done + 1],
-            series.reshape(7, lanes, done, self.order + 1),
-            np.reshape(steady, (done, 3, lanes)).transpose(1, 2, 0),
+            edges[: solved + 1],
+            series.reshape(7, bodies, solved, self.order + 1),
+            np.reshape(steady, (solved, 3, bodies)).transpose(1, 2, 0),
             self.in_space,
             start,
         )
@@ -259,15 +259,15 @@ class Solver:
         above 1.
         """
         gauss = rule(self.order)
-        rows = np.repeat(start, self.order, axis=1)
-        unknowns, change = rows if guess is None else guess, np.inf
+        start_rows = np.repeat(start, self.order, axis=1)
+        unknowns, change = start_rows if guess is None else guess, np.inf
         weighted = gauss.integrate * half
         for _ in range(MOST_ROUNDS):
             rates = equations.rates(unknowns)
             self.evaluations += 1
-            new = rows + (rates.reshape(-1, self.order) @ weighted).reshape(7, -1)
-            previous, change = change, float(np.max(np.abs(new - unknowns)))
-            unknowns = new
+            new_unknowns = start_rows + (rates.reshape(-1, self.order) @ weighted).reshape(7, -1)
+            previous, change = change, float(np.max(np.abs(new_unknowns - unknowns)))
+            unknowns = new_unknowns
             if not change < _RUNAWAY:
                 return rates, np.inf
             if change <= max(_ROUND_OFF, self.converged * self.tolerance) or (
@@ -276,29 +276,35 @@ class Solver:
                 break
         else:
             return rates, np.inf
-        last = np.sum(np.abs(rates.reshape(-1, self.order) @ gauss.project[:, -2:]), axis=1)
-        last = np.max(last.reshape(7, -1), axis=1)
+        last_terms = np.sum(np.abs(rates.reshape(-1, self.order) @ gauss.project[:, -2:]), axis=1)
+        last_terms = np.max(last_terms.reshape(7, -1), axis=1)
         size = float(np.max(np.abs(start[:3])))
-        share = max(float(np.max(last[:3])) / size if size else 0.0, float(np.max(last[3:])))
-        return rates, share * half / self.order / self.tolerance
+        error = max(
+            float(np.max(last_terms[:3])) / size if size else 0.0, float(np.max(last_terms[3:]))
+        )
+        return rates, error * half / self.order / self.tolerance
 
     def _end(
         self, rates: FloatArray, equations: Equations, start: FloatArray, half: float
     ) -> FloatArray:
         """Angular momentum and attitude quaternion at the end of a window, shape (7, bodies)."""
-        lanes = start.shape[1]
-        whole = rates.reshape(7, lanes, self.order) @ rule(self.order).weights * half
-        end = start + whole
-        ahead = rotations.rotation_about(equations.steady, np.full(lanes, 2 * half))
-        q = rotations.times(ahead, end[3:]) if self.in_space else rotations.times(end[3:], ahead)
+        bodies = start.shape[1]
+        change = rates.reshape(7, bodies, self.order) @ rule(self.order).weights * half
+        end = start + change
+        reference = rotations.rotation_about(equations.steady, np.full(bodies, 2 * half))
+        q = (
+            rotations.times(reference, end[3:])
+            if self.in_space
+            else rotations.times(end[3:], reference)
+        )
         return np.concatenate([end[:3], q / np.sqrt(np.sum(q * q, axis=0))])
 
-    def _resize(self, over: float, *, complete: bool) -> None:
+    def _resize(self, error_ratio: float, *, complete: bool) -> None:
         """Set the length of the next window from the ratio of truncation error to tolerance."""
-        if not np.isfinite(over):
+        if not np.isfinite(error_ratio):
             self.window *= 0.5
             return
-        factor = _CAREFUL * max(over, 1e-300) ** (-1 / self.order)
+        factor = _CAREFUL * max(error_ratio, 1e-300) ** (-1 / self.order)
         if complete:
             self.window *= min(max(factor, _SHRINK), _GROW)
         else:

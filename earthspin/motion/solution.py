@@ -17,8 +17,8 @@ import numpy as np
 
 from earthspin.motion.equations import (
     FLATTENING,
-    PULL,
     ROUNDING,
+    TIDE,
     TRIAXIALITY,
     CustomTorque,
     Rigid,
@@ -38,9 +38,9 @@ from earthspin.numerics.polynomials import Windows
 def rigid_bodies(
     forces: Forces,
     unit: float,
-    doubts: Mapping[str, float],
+    errors: Mapping[str, float],
     epoch: float = 0.0,
-    own: CustomTorque | None = None,
+    custom_torque: CustomTorque | None = None,
 ) -> tuple[Rigid, tuple[str, ...]]:
     """Make a rigid body, and copies of it that each have one uncertain input changed.
 
@@ -50,26 +50,26 @@ def rigid_bodies(
         Forces with the figure of the body and the effects that are switched on.
     unit : float
         Unit of spin, rad/s.
-    doubts : mapping of str to float
-        Relative half-widths by `FLATTENING`, `TRIAXIALITY`, `PULL` (errors of positions) and
+    errors : mapping of str to float
+        Relative half-widths by `FLATTENING`, `TRIAXIALITY`, `TIDE` (errors of positions) and
         `ROUNDING` (rounding of positions); an input with zero has no neighbour.
     epoch : float
         Start of the motion, s from J2000.0.
-    own : callable or None
+    custom_torque : callable or None
         Custom torque.
 
     Returns
     -------
     Rigid
-        The body in the first lane, and its neighbours.
+        The body in the first column, and its neighbours.
     tuple of str
-        Input that is changed in each further lane.
+        Input that is changed in each further column.
     """
     figure = forces.figure
-    names = (FLATTENING, TRIAXIALITY, PULL, ROUNDING)
-    changed = tuple(name for name in names if doubts.get(name, 0.0) > 0.0)
+    names = (FLATTENING, TRIAXIALITY, TIDE, ROUNDING)
+    changed = tuple(name for name in names if errors.get(name, 0.0) > 0.0)
     factor = {
-        name: np.array([1.0, *(1 + doubts[name] if name == other else 1.0 for other in changed)])
+        name: np.array([1.0, *(1 + errors[name] if name == other else 1.0 for other in changed)])
         if name in changed
         else np.ones(1 + len(changed))
         for name in names
@@ -80,13 +80,13 @@ def rigid_bodies(
     body = Rigid(
         c_minus_a=h + triaxiality / 2,
         c_minus_b=h - triaxiality / 2,
-        tide=factor[PULL] * factor[ROUNDING],
+        tide=factor[TIDE] * factor[ROUNDING],
         unit=unit,
         zonal=[(n, j * figure.inverse_polar_moment) for n, j in figure.zonal.items()],
         radius=figure.radius,
         trend=figure.j2_trend,
         epoch=epoch,
-        own=own,
+        custom_torque=custom_torque,
     )
     return body, changed
 
@@ -95,8 +95,8 @@ def masses(forces: Forces, epoch: float = 0.0) -> Masses:
     """Convert `Forces` to the `Masses` of the attitude solver, with times counted from `epoch`."""
 
     def laws(window: Windows, places: Mapping[str, FloatArray]) -> Sequence[SkyLaw]:
-        dated = Windows(window.edges + epoch, window.order)
-        return [torque(forces, dated, places) for torque in forces.torques]
+        sky_windows = Windows(window.edges + epoch, window.order)
+        return [torque(forces, sky_windows, places) for torque in forces.torques]
 
     near = {name: gm for name, gm in forces.gm.items() if name in forces.near}
     return Masses(
@@ -166,11 +166,11 @@ class State:
 
     Attributes
     ----------
-    momentum : ndarray, shape (3, lanes)
+    momentum : ndarray, shape (3, bodies)
         Angular momentum along the body's axes, in units of C u.
-    attitude : ndarray, shape (4, lanes)
+    attitude : ndarray, shape (4, bodies)
         Unit quaternion (w, x, y, z) from the axes of the body to those of the sky.
-    spin : ndarray, shape (3, lanes)
+    spin : ndarray, shape (3, bodies)
         Angular velocity along the body's axes, rad/s.
     """
 
@@ -191,9 +191,9 @@ class RotationSeries:
         Unit quaternion from the axes of the body to those of the sky.
     omega : ndarray, shape (t, 3)
         Angular velocity along the body's axes, rad/s.
-    error : ndarray, shape (lanes, 3, t)
+    error : ndarray, shape (causes, 3, t)
         Largest errors up to each time, by `KINDS`: first of the method, then the differences from
-        the neighbour in each further lane.
+        the neighbour in each further column.
     """
 
     momentum: FloatArray
@@ -213,18 +213,18 @@ def start_of(body: Rigid, attitude: FloatArray, omega: FloatArray) -> State:
     omega : ndarray, shape (3,)
         Angular velocity along the body's axes, rad/s.
     """
-    spin = np.repeat(omega[:, np.newaxis], body.lanes, axis=1)
-    q = np.repeat((attitude / np.linalg.norm(attitude))[:, np.newaxis], body.lanes, axis=1)
+    spin = np.repeat(omega[:, np.newaxis], body.count, axis=1)
+    q = np.repeat((attitude / np.linalg.norm(attitude))[:, np.newaxis], body.count, axis=1)
     return State(momentum=body.moments * spin / body.unit, attitude=q, spin=spin)
 
 
-class SteppedRotation:
+class AttitudeIntegrator:
     """Rotation of a body, integrated window by window; past time windows are discarded.
 
     Parameters
     ----------
     body : Rigid
-        The body, and in further lanes its neighbours with one uncertain number changed.
+        The body, and in further columns its neighbours with one uncertain number changed.
     masses : Masses
     start : State
     end : float
@@ -262,13 +262,13 @@ class SteppedRotation:
         self._coarse.begin_with(start.spin)
         speed = float(np.max(np.sqrt(np.sum(start.spin**2, axis=0))))
         self._rounding = _EPS * speed * self._end
-        self._pieces = self._march(
+        self._solutions = self._march(
             np.concatenate([rotations.rotated(start.attitude, start.momentum), start.attitude]),
             np.concatenate([start.momentum, start.attitude])[:, :1],
         )
-        self._current: tuple[Piece, Piece] | None = None
+        self._solution: tuple[Piece, Piece] | None = None
         self._last_time = 0.0
-        self._worst = np.zeros((body.lanes, len(KINDS), 1))
+        self._largest_errors = np.zeros((body.count, len(KINDS), 1))
 
     @property
     def order(self) -> int:
@@ -282,23 +282,25 @@ class SteppedRotation:
 
     def _march(self, fine: FloatArray, coarse: FloatArray) -> Iterator[tuple[Piece, Piece]]:
         """Yield two solutions of each batch of windows: with full and with half windows."""
-        reached = 0.0
+        time = 0.0
         while True:
-            rough = self._coarse.through(self._coarse.next_edges(reached, self._end), coarse)
-            if len(rough.edges) < 2:
+            full = self._coarse.integrate(self._coarse.next_edges(time, self._end), coarse)
+            if len(full.edges) < 2:
                 continue
-            middles = (rough.edges[1:] + rough.edges[:-1]) / 2
-            halves = np.sort(np.concatenate([rough.edges, middles]))
-            exact = self._fine.through(halves, fine, rough)
-            if exact.edges[-1] < rough.edges[-1]:
+            middles = (full.edges[1:] + full.edges[:-1]) / 2
+            halves = np.sort(np.concatenate([full.edges, middles]))
+            halved = self._fine.integrate(halves, fine, full)
+            if halved.edges[-1] < full.edges[-1]:
                 self._coarse.window /= 2
                 continue
-            coarse, fine, reached = rough.end, exact.end, float(rough.edges[-1])
-            yield rough, exact
-            if reached >= self._end:
+            coarse, fine, time = full.end, halved.end, float(full.edges[-1])
+            yield full, halved
+            if time >= self._end:
                 return
 
-    def at(self, times: FloatArray, tell: Callable[[float], None] | None = None) -> RotationSeries:
+    def at(
+        self, times: FloatArray, report: Callable[[float], None] | None = None
+    ) -> RotationSeries:
         """Angular momentum, attitude and angular velocity at given times, with errors.
 
         Parameters
@@ -306,7 +308,7 @@ class SteppedRotation:
         times : ndarray, shape (t,)
             Ascending times from the start, s. If the first one is before the last time of an
             earlier call, the integration is restarted.
-        tell : callable, optional
+        report : callable, optional
             Function that is called with the time reached, s, after each batch of windows.
 
         Returns
@@ -316,23 +318,23 @@ class SteppedRotation:
         if times[0] < self._last_time:
             self._restart()
         self._last_time = float(times[-1])
-        states, errors, done = [], [], 0
-        while done < times.size:
-            if self._current is None or times[done] > self._current[1].edges[-1]:
-                if self._current is not None:
-                    self._worst = self._errors_until(self._current[0].edges)[..., -1:]
-                self._current = next(self._pieces)
-                if tell is not None:
-                    tell(float(self._current[1].edges[-1]))
-            upto = int(np.searchsorted(times, self._current[1].edges[-1], side="right"))
-            part = times[done:upto]
-            edges = self._current[0].edges
-            last_edge = np.clip(np.searchsorted(edges, part) - 1, 0, None)
-            before = self._errors_until(edges)[..., last_edge]
-            state, error = self._state_and_errors(part)
+        states, errors, computed = [], [], 0
+        while computed < times.size:
+            if self._solution is None or times[computed] > self._solution[1].edges[-1]:
+                if self._solution is not None:
+                    self._largest_errors = self._errors_until(self._solution[0].edges)[..., -1:]
+                self._solution = next(self._solutions)
+                if report is not None:
+                    report(float(self._solution[1].edges[-1]))
+            next_index = int(np.searchsorted(times, self._solution[1].edges[-1], side="right"))
+            part_times = times[computed:next_index]
+            edges = self._solution[0].edges
+            last_edge = np.clip(np.searchsorted(edges, part_times) - 1, 0, None)
+            earlier_error = self._errors_until(edges)[..., last_edge]
+            state, error = self._state_and_errors(part_times)
             states.append(state)
-            errors.append(np.maximum(before, error))
-            done = upto
+            errors.append(np.maximum(earlier_error, error))
+            computed = next_index
         state = np.concatenate(states, axis=1)
         return RotationSeries(
             momentum=state[:3].T,
@@ -344,29 +346,29 @@ class SteppedRotation:
     def _errors_until(self, edges: FloatArray) -> FloatArray:
         """Largest errors of attitude, spin and momentum until each edge, (causes, 3, edges)."""
         errors = self._state_and_errors(edges)[1]
-        return np.maximum(np.maximum.accumulate(errors, axis=2), self._worst)
+        return np.maximum(np.maximum.accumulate(errors, axis=2), self._largest_errors)
 
     def _state_and_errors(self, times: FloatArray) -> tuple[FloatArray, FloatArray]:
         """State of the body at given times, and errors of attitude, spin and angular momentum.
 
-        The errors have the shape (lanes, kinds, t): the first lane has the error of the method,
-        each other lane that of one uncertain input.
+        The errors have the shape (causes, kinds, t): the first row has the error of the method,
+        each other row that of one uncertain input.
         """
-        assert self._current is not None
-        rough, exact = self._current
-        states = exact.at(times)
-        other = rough.along_sky(times)
-        method = TWICE * differences(self._body.first(), states[:, 0], other)
+        assert self._solution is not None
+        coarse, fine = self._solution
+        states = fine.at(times)
+        coarse_states = coarse.along_sky(times)
+        method = TWICE * differences(self._body.first(), states[:, 0], coarse_states)
         method += np.array([self._rounding + _EPS] + [0.0] * 2)[:, np.newaxis]
-        shares = [
-            differences(self._body, states[:, 0], states[:, lane])
-            for lane in range(1, states.shape[1])
+        input_errors = [
+            differences(self._body, states[:, 0], states[:, column])
+            for column in range(1, states.shape[1])
         ]
-        return states[:, 0].copy(), np.stack([method, *shares])
+        return states[:, 0].copy(), np.stack([method, *input_errors])
 
 
 def shares_of(
-    series: RotationSeries, changed: Sequence[str], doubt: float
+    series: RotationSeries, changed: Sequence[str], tide_error: float
 ) -> dict[str, FloatArray]:
     """Errors of a rotation due to method, inputs and kernel, and in total, shape (3, t).
 
@@ -374,8 +376,8 @@ def shares_of(
     ----------
     series : RotationSeries
     changed : sequence of str
-        Input that is changed in each further lane.
-    doubt : float
+        Input that is changed in each further column.
+    tide_error : float
         Relative error of the tides; NaN if it was not measured.
 
     Returns
@@ -384,11 +386,11 @@ def shares_of(
         Errors ``method``, ``input`` and ``kernel``, and the total under an empty name; an angle is
         at most pi.
     """
-    nothing = np.zeros_like(series.error[0])
+    zero = np.zeros_like(series.error[0])
     by_name = dict(zip(changed, series.error[1:], strict=True))
-    kernel = np.full_like(nothing, np.nan) if np.isnan(doubt) else by_name.get(PULL, nothing)
-    inputs = np.hypot(by_name.get(FLATTENING, nothing), by_name.get(TRIAXIALITY, nothing))
-    method = series.error[0] + by_name.get(ROUNDING, nothing)
+    kernel = np.full_like(zero, np.nan) if np.isnan(tide_error) else by_name.get(TIDE, zero)
+    inputs = np.hypot(by_name.get(FLATTENING, zero), by_name.get(TRIAXIALITY, zero))
+    method = series.error[0] + by_name.get(ROUNDING, zero)
     shares = {"method": method, "input": inputs, "kernel": kernel}
     shares[""] = np.sqrt(shares["method"] ** 2 + inputs**2 + kernel**2)
     for share in shares.values():
@@ -402,7 +404,7 @@ def differences(body: Rigid, state: FloatArray, other: FloatArray) -> FloatArray
     Parameters
     ----------
     body : Rigid
-        Body of the first lane.
+        Only the first body is used.
     state, other : ndarray, shape (7, t)
         Angular momentum along the sky's axes, in units of C u, and attitude.
 

@@ -18,7 +18,7 @@ from earthspin.engine.question import key, part
 from earthspin.errors import EarthspinError, KernelError, UndefinedError, Where, one_line
 from earthspin.mass.figure import inverse_polar_moment
 from earthspin.motion.effects import EFFECTS, GEODESIC, NONRIGID, PLANETS, RIGID
-from earthspin.motion.forces import FigureOfBody, Forces, Places, RateLaw, Torque
+from earthspin.motion.forces import DynamicalFigure, Forces, Places, RateLaw, Torque
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.polynomials import Windows
 from earthspin.questions.ellipse_chains import all_by_elements
@@ -227,11 +227,11 @@ def turning(rate: FloatArray) -> Torque:
     return over
 
 
-def figure_of(body: Body, spin_rate: float) -> FigureOfBody:
-    """Make a `FigureOfBody`: flattening, spin rate, inverse polar moment and radius of a body."""
+def figure_of(body: Body, spin_rate: float) -> DynamicalFigure:
+    """Make a `DynamicalFigure`: flattening, spin rate, inverse polar moment, radius of a body."""
     h, radius, meridian = map(body.number, ("dynamical_flattening", "radius", "meridian"))
     inverse = inverse_polar_moment(body.number("j2"), h)
-    return FigureOfBody(
+    return DynamicalFigure(
         h=h, spin_rate=spin_rate, inverse_polar_moment=inverse, radius=radius, meridian=meridian
     )
 

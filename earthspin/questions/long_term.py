@@ -29,7 +29,7 @@ from earthspin.secular.averaged_torque import (
     PrecessionConstant,
     Tides,
     geodesic_precession,
-    moons_height,
+    moon_rate_factor,
 )
 from earthspin.secular.derived_angles import equator_and_equinox, equinox_error, inclined_axis
 from earthspin.sky.columns import is_table
@@ -294,7 +294,7 @@ def strength(
     moon, published = numbers.columns("moon", "published")
     node_rate = 2 * math.pi / MOON.cycle
     pole = np.asarray(body.needed("pole").mean(np.zeros(1))[0])[:, np.newaxis]
-    by_lag = float((moons_height(now, pole, node_rate) / dot(now[0], pole)).item())
+    by_lag = float((moon_rate_factor(now, pole, node_rate) / dot(now[0], pole)).item())
     return PrecessionConstant(
         sun,
         (moon + published) / (cosine * by_lag),
@@ -324,7 +324,7 @@ def solved(
     wanted: FloatArray,
     body: Body,
     mean_rates: MeanRates,
-) -> solutions.SolvedAxes:
+) -> solutions.AxisSolutions:
     """Integrate the motion of the spin axis, and repeat it with each uncertain input changed.
 
     A further integration has windows of twice the length.
@@ -359,11 +359,11 @@ def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArr
 
 @part
 def readings(
-    solved: solutions.SolvedAxes, wanted: FloatArray, body: Body
-) -> derived_angles.Readings:
+    solved: solutions.AxisSolutions, wanted: FloatArray, body: Body
+) -> derived_angles.AnglesWithErrors:
     """Compute angles and rates, with their errors, from the integrated motions of the spin axis."""
     fixed = body.needed("pole").without_nutation().orbit_axes(body.orbit_pole)
-    return derived_angles.readings(solved, wanted, fixed)
+    return derived_angles.derive_with_errors(solved, wanted, fixed)
 
 
 # --- the answer ----------------------------------------------------------------------------------
@@ -417,18 +417,18 @@ _READ = (
 
 @part
 def series(
-    readings: derived_angles.Readings,
+    readings: derived_angles.AnglesWithErrors,
     numbers: SideBySide,
     wanted: FloatArray,
-    solved: solutions.SolvedAxes,
+    solved: solutions.AxisSolutions,
     orbit_table: OrbitTable,
     body: Body,
     perturbers: tuple[Body, ...],
 ) -> LongTermSeries:
     """Return obliquity, precession, eccentricity, poles and rates at every epoch, with errors."""
-    nominal, lay = readings.mine, numbers.lay
+    nominal, lay = readings.nominal, numbers.lay
     pole_error = readings.direction_half_width("pole")
-    with_moon = solved.setting.strength.node_rate < math.inf
+    with_moon = solved.setting.precession.node_rate < math.inf
     names = ["sun", "moon", "total"] if with_moon else ["sun", "total"]
     rate = np.stack([nominal.values[name] for name in names], axis=-2)
     error = np.stack([readings.half_width(name) for name in names], axis=-2)
@@ -489,7 +489,7 @@ class ErrorShares(Variables, along=("cause", "epoch"), no_error="a share of an e
 
 @part
 def budget(
-    readings: derived_angles.Readings, numbers: SideBySide, series: xr.Dataset
+    readings: derived_angles.AnglesWithErrors, numbers: SideBySide, series: xr.Dataset
 ) -> ErrorShares:
     """Compute the contribution of each error source to errors of obliquity, perihelion and pole."""
 
@@ -497,10 +497,10 @@ def budget(
         shares = np.broadcast_arrays(*by_cause.values())
         return numbers.lay(np.stack(shares, axis=-2), "cause", "epoch")
 
-    by_pole = readings.poles_apart("pole")
+    by_pole = readings.direction_changes("pole")
     return ErrorShares(
-        obliquity_share=lay(readings.apart("obliquity")),
-        longitude_share=lay(readings.apart("longitude_of_perihelion")),
+        obliquity_share=lay(readings.changes("obliquity")),
+        longitude_share=lay(readings.changes("longitude_of_perihelion")),
         pole_share=lay(by_pole),
         cause=list(by_pole),
         epoch=series.epoch,
@@ -521,14 +521,14 @@ class Matrices(FromPole, along=("epoch", "axis", "component"), error="matrix_err
 
 @part
 def matrices(
-    readings: derived_angles.Readings, numbers: SideBySide, series: xr.Dataset, body: Body
+    readings: derived_angles.AnglesWithErrors, numbers: SideBySide, series: xr.Dataset, body: Body
 ) -> Matrices:
     """Compute the precession matrices from the GCRS to mean equator and equinox of date."""
-    matrix = equator_and_equinox(readings.mine.pole, readings.mine.normal)
+    matrix = equator_and_equinox(readings.nominal.pole, readings.nominal.normal)
     error = equinox_error(
         readings.direction_half_width("pole"),
         readings.direction_half_width("normal"),
-        np.sin(readings.mine.values["obliquity"]),
+        np.sin(readings.nominal.values["obliquity"]),
     )
     return Matrices(
         matrix=numbers.lay(matrix, "epoch", "axis", "component"),

@@ -18,10 +18,10 @@ from earthspin.mass.figure import polar_moment
 from earthspin.motion import solution
 from earthspin.motion.effect_sizes import attitude_displacements
 from earthspin.motion.effects import NONRIGID, SECOND_ORDER
-from earthspin.motion.equations import FLATTENING, PULL, ROUNDING, TRIAXIALITY, Rigid
+from earthspin.motion.equations import FLATTENING, ROUNDING, TIDE, TRIAXIALITY, Rigid
 from earthspin.motion.forces import Forces
 from earthspin.motion.march import FINEST, Masses
-from earthspin.motion.solution import COARSEST, KINDS, RotationSeries, State, SteppedRotation
+from earthspin.motion.solution import COARSEST, KINDS, AttitudeIntegrator, RotationSeries, State
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress
 from earthspin.questions import effects_and_torques
@@ -270,7 +270,7 @@ def rotor(
     doubts = {
         FLATTENING: NORMAL_95 * u.get("dynamical_flattening", 0.0),
         TRIAXIALITY: NORMAL_95 * u.get("triaxiality", 0.0),
-        PULL: pulling.doubt,
+        TIDE: pulling.doubt,
         ROUNDING: pulling.rounding,
     }
     rigid, changed = solution.rigid_bodies(
@@ -287,9 +287,9 @@ def rotor(
 
 
 @part
-def motion(rotor: Rotor, tolerance: float) -> SteppedRotation:
+def motion(rotor: Rotor, tolerance: float) -> AttitudeIntegrator:
     """Prepare the integration of the rotation with the requested tolerance."""
-    return SteppedRotation(
+    return AttitudeIntegrator(
         rotor.body, rotor.masses, rotor.start, rotor.duration, tolerance=tolerance
     )
 
@@ -339,7 +339,7 @@ class Attitudes(Dated, along=("time", "component")):
 
 
 def _followed(
-    motion: SteppedRotation, rotor: Rotor, seconds: FloatArray, begin: float
+    motion: AttitudeIntegrator, rotor: Rotor, seconds: FloatArray, begin: float
 ) -> RotationSeries:
     """Integrate the rotation up to the given times (s), while a progress bar is shown."""
     total, shown = round(rotor.turns(float(seconds[-1]) - begin)), 0
@@ -356,7 +356,7 @@ def _followed(
 
 @part
 def turning(
-    motion: SteppedRotation,
+    motion: AttitudeIntegrator,
     rotor: Rotor,
     epochs: Epochs,
     body: Body,

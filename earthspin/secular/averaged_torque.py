@@ -94,9 +94,9 @@ class PrecessionConstant:
         Relative rate of change of the ellipticity, s-1.
     tides : Tides
     j2_rate : float
-        Relative rate of J2 at J2000.0, s-1; for its decay see `faded`.
+        Relative rate of J2 at J2000.0, s-1; for its decay see `rebound`.
     j2_band : float
-        Multiple of the half-width of J2 to add, 1 for a 95 % half-width; see `band`.
+        Multiple of the half-width of J2 to add, 1 for a 95 % half-width; see `rebound_error`.
     node_rate : float
         Rate of regression of the Moon's node, rad/s; infinite without a moon.
     """
@@ -133,17 +133,17 @@ class PrecessionConstant:
                 "tides at the present rate would have changed the spin or the Moon's motion by "
                 "half; give a smaller factor or a shorter span"
             )
-        of_sun = self.sun * ((1 - self.eccentricity**2) / (1 - e2)) ** 1.5
-        acted = faded(times) + (self.j2_band * band(times) if self.j2_band else 0.0)
-        figure = self.ellipticity * (1 + self.j2_rate * acted + self.ellipticity_drift * times)
-        return np.asarray(spin * figure * (of_sun + self.moon * moon**2))
+        sun = self.sun * ((1 - self.eccentricity**2) / (1 - e2)) ** 1.5
+        change = rebound(times) + (self.j2_band * rebound_error(times) if self.j2_band else 0.0)
+        figure = self.ellipticity * (1 + self.j2_rate * change + self.ellipticity_drift * times)
+        return np.asarray(spin * figure * (sun + self.moon * moon**2))
 
     def geodesic_rate(self, e2: FloatArray) -> FloatArray:
         """Rate of geodesic precession about the orbit normal for a squared eccentricity, rad/s."""
         return np.asarray(self.geodesic * (1 - self.eccentricity**2) / (1 - e2))
 
     @property
-    def moons_share(self) -> Numeric:
+    def moon_share(self) -> Numeric:
         """Fraction of the precession constant at J2000.0 that is due to the Moon."""
         return self.moon / (self.sun + self.moon)
 
@@ -168,7 +168,7 @@ def geodesic_precession(gm: float, motion: float, eccentricity: float) -> float:
     return float(1.5 * gm * motion / (SPEED_OF_LIGHT.value**2 * a * (1 - eccentricity**2)))
 
 
-def faded(times: FloatArray) -> FloatArray:
+def rebound(times: FloatArray) -> FloatArray:
     """Change of J2 since J2000.0, divided by the present rate of J2, s.
 
     It is t up to `FADES_FROM` and 0 beyond `FADES_TO`.
@@ -176,23 +176,23 @@ def faded(times: FloatArray) -> FloatArray:
     The *change* itself returns to zero in between: over ice ages J2 oscillates about a mean, which
     does not depend on its present rate.
     """
-    return np.asarray(times * _falling(times, FADES_FROM, FADES_TO))
+    return np.asarray(times * _cosine_taper(times, FADES_FROM, FADES_TO))
 
 
-def band(times: FloatArray) -> FloatArray:
-    """95 % half-width of `faded`, the change of J2 divided by its present rate, s.
+def rebound_error(times: FloatArray) -> FloatArray:
+    """95 % half-width of `rebound`, the change of J2 divided by its present rate, s.
 
     It is the fraction `J2_SHARE` of the time up to `FADES_FROM`, the whole time at `FADES_TO`, and
     zero beyond twice `FADES_TO`.
 
     Beyond twice `FADES_TO`, J2 has its present value apart from a drift of the mean (see `budget`).
     """
-    nominal = faded(times)
-    gone = (times - nominal) * _falling(times, FADES_TO, 2 * FADES_TO)
-    return np.asarray(J2_SHARE * nominal + gone)
+    nominal = rebound(times)
+    uncertain_fading = (times - nominal) * _cosine_taper(times, FADES_TO, 2 * FADES_TO)
+    return np.asarray(J2_SHARE * nominal + uncertain_fading)
 
 
-def _falling(times: FloatArray, start: float, end: float) -> FloatArray:
+def _cosine_taper(times: FloatArray, start: float, end: float) -> FloatArray:
     """Weight that falls from 1 at |t| = `start` to 0 at |t| = `end`, as a cosine taper."""
     phase = np.clip((np.abs(times) - start) / (end - start), 0.0, 1.0)
     return np.asarray(0.5 * (1 + np.cos(np.pi * phase)))
@@ -277,24 +277,26 @@ class AveragedTorque(NamedTuple):
     geodesic: FloatArray
 
 
-def pull(strength: PrecessionConstant, shape: Shape, times: FloatArray) -> AveragedTorque:
+def luni_solar_torque(
+    precession: PrecessionConstant, shape: Shape, times: FloatArray
+) -> AveragedTorque:
     """Compute the torque of Sun and Moon on a spin axis, averaged over their orbits.
 
     The node of the Moon regresses about an orbit that moves; its mean torque acts about n + (n x
     dn/dt)/|node rate|, which differs from n by 1.4 arcsec for the Earth. To first order the total
     torque of Sun and Moon acts about one axis, with this difference times the Moon's share.
     """
-    normal, eccentricity, turning = shape
+    normal, eccentricity, normal_rate = shape
     e2 = dot(eccentricity, eccentricity)
-    aside = cross(normal, turning) / strength.node_rate
+    moon_tilt = cross(normal, normal_rate) / precession.node_rate
     return AveragedTorque(
-        normal + strength.moons_share * aside,
-        strength.constant(times, e2),
-        strength.geodesic_rate(e2) * normal,
+        normal + precession.moon_share * moon_tilt,
+        precession.constant(times, e2),
+        precession.geodesic_rate(e2) * normal,
     )
 
 
-def moons_height(shape: Shape, axis: FloatArray, node_rate: float) -> FloatArray:
+def moon_rate_factor(shape: Shape, axis: FloatArray, node_rate: float) -> FloatArray:
     """Precession rate due to the Moon, divided by the Moon's constant of precession.
 
     The shape is (..., n).
@@ -310,10 +312,10 @@ def moons_height(shape: Shape, axis: FloatArray, node_rate: float) -> FloatArray
     node_rate : float
         rad/s.
     """
-    normal, _, turning = shape
-    moons, across = normal + cross(normal, turning) / node_rate, cross(axis, normal)
-    along = dot(cross(axis, moons), across) / np.maximum(dot(across, across), 1e-300)
-    return np.asarray(dot(moons, axis) * along)
+    normal, _, normal_rate = shape
+    moon_normal, equinox = normal + cross(normal, normal_rate) / node_rate, cross(axis, normal)
+    projection = dot(cross(axis, moon_normal), equinox) / np.maximum(dot(equinox, equinox), 1e-300)
+    return np.asarray(dot(moon_normal, axis) * projection)
 
 
 def broadcast_over_members(axis: FloatArray, vector: FloatArray) -> FloatArray:

@@ -20,10 +20,10 @@ from earthspin.nutation.analysis import followed, general_precession
 from earthspin.secular.averaged_torque import (
     ChangingOrbit,
     broadcast_over_members,
-    moons_height,
+    moon_rate_factor,
     reference_axes,
 )
-from earthspin.secular.error_budget import AxisInputs, Quantiles, SolvedAxes, changed, draws
+from earthspin.secular.error_budget import AxisInputs, AxisSolutions, Quantiles, changed, draws
 from earthspin.secular.trajectory import AxisTrajectory, solve
 from earthspin.torque.gravity import dot
 
@@ -111,37 +111,35 @@ def equinox_error(pole: FloatArray, normal: Numeric, sine: FloatArray) -> FloatA
     return np.asarray(np.hypot(pole, normal) / sine)
 
 
-def inclined_axis(
-    axis: FloatArray, normal: FloatArray, more: Numeric, turned: Numeric
-) -> FloatArray:
+def inclined_axis(axis: FloatArray, normal: FloatArray, tilt: Numeric, turn: Numeric) -> FloatArray:
     """Return a spin axis with its obliquity and longitude increased by given angles.
 
     Parameters
     ----------
     axis, normal : ndarray, shape (3,)
         Unit vectors.
-    more : float or ndarray, shape (...)
+    tilt : float or ndarray, shape (...)
         Increment of the obliquity, rad; if the obliquity becomes negative, the axis is on the other
         side of the normal.
-    turned : float or ndarray, shape (...)
+    turn : float or ndarray, shape (...)
         Increment of the longitude, in the sense of the orbital motion, rad.
 
     Returns
     -------
     ndarray, shape (3, ...)
     """
-    more, turned = np.broadcast_arrays(more, turned)
+    tilt, turn = np.broadcast_arrays(tilt, turn)
     first, _, n = reference_axes(normal)
     equinox = np.cross(n, axis)
     sine = float(np.linalg.norm(equinox))
-    towards = np.cross(equinox, n) / sine if sine > 0 else first
-    obliquity = np.arctan2(sine, axis @ n) + more
-    across = np.sin(obliquity)
+    node_normal = np.cross(equinox, n) / sine if sine > 0 else first
+    obliquity = np.arctan2(sine, axis @ n) + tilt
+    sin_obliquity = np.sin(obliquity)
     outer = np.multiply.outer
     return np.asarray(
         outer(n, np.cos(obliquity))
-        + outer(towards, across * np.cos(turned))
-        + outer(np.cross(n, towards), across * np.sin(turned))
+        + outer(node_normal, sin_obliquity * np.cos(turn))
+        + outer(np.cross(n, node_normal), sin_obliquity * np.sin(turn))
     )
 
 
@@ -162,7 +160,7 @@ _TURN = 2 * np.pi
 
 
 @dataclass(frozen=True)
-class Read:
+class DerivedAngles:
     """Angles, pole and precession rates derived from a trajectory of one or many spin axes.
 
     Axes of members precede the time axis.
@@ -184,13 +182,13 @@ class Read:
 
 
 @dataclass(frozen=True)
-class Readings:
+class AnglesWithErrors:
     """Angles and rates of the nominal trajectory, and of trajectories with a varied error source.
 
     Attributes
     ----------
-    mine : Read
-    moved : tuple of (str, Read)
+    nominal : DerivedAngles
+    varied : tuple of (str, DerivedAngles)
         Changed solutions by cause; a cause with independent directions occurs more than once.
     weight : ndarray, shape (..., n)
         Weight of the sampled half-widths, from 0 to 1.
@@ -199,52 +197,54 @@ class Readings:
         weights are 0.
     """
 
-    mine: Read
-    moved: tuple[tuple[str, Read], ...]
+    nominal: DerivedAngles
+    varied: tuple[tuple[str, DerivedAngles], ...]
     weight: FloatArray | float = 0.0
     sampled: Mapping[str, FloatArray] = field(default_factory=dict)
 
     def half_width(self, name: str) -> FloatArray:
         """95 % half-width of a derived quantity, by name, from all error sources."""
-        return self._with_sampled(name, together(self.apart(name)))
+        return self._with_sampled(name, root_sum_square(self.changes(name)))
 
     def direction_half_width(self, which: Literal["pole", "normal"]) -> FloatArray:
         """95 % half-width of the direction of the spin axis or the orbit normal, rad."""
-        return self._with_sampled(which, together(self.poles_apart(which)))
+        return self._with_sampled(which, root_sum_square(self.direction_changes(which)))
 
     def _with_sampled(self, name: str, linear: FloatArray) -> FloatArray:
         if name not in self.sampled:
             return linear
         return linear + self.weight * (self.sampled[name] - linear)
 
-    def apart(self, name: str) -> dict[str, FloatArray]:
+    def changes(self, name: str) -> dict[str, FloatArray]:
         """Size of the change of a derived quantity due to each error source, by source name."""
-        return _by_cause((cause, moved_by(varied, self.mine, name)) for cause, varied in self.moved)
-
-    def poles_apart(self, which: Literal["pole", "normal"]) -> dict[str, FloatArray]:
-        """Change in direction, rad, of spin axis or orbit normal due to each error source."""
-        nominal = getattr(self.mine, which)
         return _by_cause(
-            (cause, angle(getattr(varied, which), nominal)) for cause, varied in self.moved
+            (cause, difference(varied, self.nominal, name)) for cause, varied in self.varied
+        )
+
+    def direction_changes(self, which: Literal["pole", "normal"]) -> dict[str, FloatArray]:
+        """Change in direction, rad, of spin axis or orbit normal due to each error source."""
+        nominal = getattr(self.nominal, which)
+        return _by_cause(
+            (cause, angle(getattr(varied, which), nominal)) for cause, varied in self.varied
         )
 
 
-def moved_by(varied: Read, nominal: Read, name: str) -> FloatArray:
+def difference(varied: DerivedAngles, nominal: DerivedAngles, name: str) -> FloatArray:
     """Difference of a derived quantity between a varied and the nominal solution."""
-    moved = varied.values[name] - nominal.values[name]
+    change = varied.values[name] - nominal.values[name]
     if name != "longitude_of_perihelion":
-        return moved
+        return change
     # the perihelion of a nearly circular orbit may differ by whole turns between solutions, which
     # is no physical change
-    by_axis = varied.values["general_precession"] - nominal.values["general_precession"]
-    by_orbit = moved - by_axis
-    return np.asarray(by_axis + by_orbit - _TURN * np.rint(by_orbit / _TURN))
+    precession = varied.values["general_precession"] - nominal.values["general_precession"]
+    orbital = change - precession
+    return np.asarray(precession + orbital - _TURN * np.rint(orbital / _TURN))
 
 
 def angle(varied: FloatArray, nominal: FloatArray) -> FloatArray:
     """Angle between unit vectors of two arrays, rad; the first axis holds x, y, z."""
-    half = np.linalg.norm(varied - nominal, axis=0) / 2
-    return np.asarray(2 * np.arcsin(np.minimum(half, 1.0)))
+    half_chord = np.linalg.norm(varied - nominal, axis=0) / 2
+    return np.asarray(2 * np.arcsin(np.minimum(half_chord, 1.0)))
 
 
 def _by_cause(shares: Iterable[tuple[str, FloatArray]]) -> dict[str, FloatArray]:
@@ -255,17 +255,19 @@ def _by_cause(shares: Iterable[tuple[str, FloatArray]]) -> dict[str, FloatArray]
     return totals
 
 
-def together(shares: dict[str, FloatArray]) -> FloatArray:
+def root_sum_square(shares: dict[str, FloatArray]) -> FloatArray:
     """Root sum square of the changes due to all error sources."""
     return np.sqrt(sum(share**2 for share in shares.values()))
 
 
-def readings(solved: SolvedAxes, times: FloatArray, fixed: FloatArray) -> Readings:
+def derive_with_errors(
+    solved: AxisSolutions, times: FloatArray, fixed: FloatArray
+) -> AnglesWithErrors:
     """Derive angles and rates, with errors, from the nominal and all varied solutions.
 
     Parameters
     ----------
-    solved : SolvedAxes
+    solved : AxisSolutions
     times : ndarray, shape (n,)
         s from J2000.0 TDB.
     fixed : ndarray, shape (3, 3)
@@ -279,23 +281,25 @@ def readings(solved: SolvedAxes, times: FloatArray, fixed: FloatArray) -> Readin
     """
     setting = solved.setting
     perihelion = followed_perihelion(setting.orbit, np.append(times, 0.0), fixed)
-    mine = read(solved.path, setting, times, fixed, perihelion)
-    _refuse_upright(mine.values["obliquity"], times)
-    linear = Readings(
-        mine,
+    nominal = derive(solved.path, setting, times, fixed, perihelion)
+    _refuse_upright(nominal.values["obliquity"], times)
+    linear = AnglesWithErrors(
+        nominal,
         tuple(
-            (cause, read(path, changed_setting, times, fixed, perihelion))
-            for cause, path, changed_setting in solved.others
+            (cause, derive(path, changed_setting, times, fixed, perihelion))
+            for cause, path, changed_setting in solved.varied
         ),
     )
     phase = phase_error(solved, times)
     weight = np.clip((phase - LINEAR_TO) / (SAMPLED_FROM - LINEAR_TO), 0.0, 1.0)
     if not np.any(weight > 0):
         return linear
-    return replace(linear, weight=weight, sampled=_sampled(solved, mine, times, fixed, perihelion))
+    return replace(
+        linear, weight=weight, sampled=_sampled(solved, nominal, times, fixed, perihelion)
+    )
 
 
-def phase_error(solved: SolvedAxes, times: FloatArray) -> FloatArray:
+def phase_error(solved: AxisSolutions, times: FloatArray) -> FloatArray:
     """Largest error of the precession angle between J2000.0 and each time, rad, (..., n).
 
     It is the half-width of the axis divided by the sine of its obliquity. The largest value up to
@@ -306,39 +310,43 @@ def phase_error(solved: SolvedAxes, times: FloatArray) -> FloatArray:
     axis = solved.path.at(edges)
     normal = broadcast_over_members(axis, solved.setting.orbit.at(edges)[0])
     sine = np.maximum(np.linalg.norm(np.cross(axis, normal, axis=0), axis=0), NO_EQUINOX)
-    squares = sum(angle(path.at(edges), axis) ** 2 for _, path, _ in solved.others)
+    squares = sum(angle(path.at(edges), axis) ** 2 for _, path, _ in solved.varied)
     error = np.sqrt(squares) / sine
     past, future = edges <= 0, edges >= 0
     error[..., future] = np.maximum.accumulate(error[..., future], axis=-1)
     backward = np.maximum.accumulate(error[..., past][..., ::-1], axis=-1)
     error[..., past] = backward[..., ::-1]
     after = np.clip(np.searchsorted(edges, times), 1, len(edges) - 1)
-    share = (times - edges[after - 1]) / (edges[after] - edges[after - 1])
-    return np.asarray(error[..., after - 1] * (1 - share) + error[..., after] * share)
+    fraction = (times - edges[after - 1]) / (edges[after] - edges[after - 1])
+    return np.asarray(error[..., after - 1] * (1 - fraction) + error[..., after] * fraction)
 
 
 def _sampled(
-    solved: SolvedAxes, mine: Read, times: FloatArray, fixed: FloatArray, perihelion: FloatArray
+    solved: AxisSolutions,
+    nominal: DerivedAngles,
+    times: FloatArray,
+    fixed: FloatArray,
+    perihelion: FloatArray,
 ) -> dict[str, FloatArray]:
     """95 % half-widths of all quantities from solutions with randomly varied inputs."""
-    names = [name for name in mine.values if name not in OF_THE_ORBIT]
+    names = [name for name in nominal.values if name not in OF_THE_ORBIT]
     span, quantiles = (float(times.min()), float(times.max())), Quantiles()
     for amounts in draws(len(solved.uncertainty.causes)):
         member_setting = changed(solved.setting, solved.uncertainty, amounts)
-        path = solve(member_setting.strength, member_setting.orbit, member_setting.start, span)
-        member = read(path, member_setting, times, fixed, perihelion)
-        distances = {name: moved_by(member, mine, name) for name in names}
-        quantiles.add(distances | {"pole": angle(member.pole, mine.pole)})
+        path = solve(member_setting.precession, member_setting.orbit, member_setting.start, span)
+        member = derive(path, member_setting, times, fixed, perihelion)
+        deviations = {name: difference(member, nominal, name) for name in names}
+        quantiles.add(deviations | {"pole": angle(member.pole, nominal.pole)})
     return quantiles.at_probability()
 
 
-def read(
+def derive(
     path: AxisTrajectory,
     setting: AxisInputs,
     times: FloatArray,
     fixed: FloatArray,
     orbits: FloatArray,
-) -> Read:
+) -> DerivedAngles:
     """Compute angles, pole and precession rates from one trajectory at given times.
 
     Parameters
@@ -354,23 +362,23 @@ def read(
         Unwrapped longitude of perihelion in these axes at the times and at J2000.0, rad, of the
         nominal orbit.
     """
-    with_now = np.append(times, 0.0)
-    axis = path.at(with_now)
-    shape = setting.orbit.at(with_now)
+    all_times = np.append(times, 0.0)
+    axis = path.at(all_times)
+    shape = setting.orbit.at(all_times)
     normal, eccentricity, _ = shape
-    n, e, turning = (broadcast_over_members(axis, vector) for vector in shape)
+    n, e, normal_rate = (broadcast_over_members(axis, vector) for vector in shape)
     season = seasons(axis, n, e)
-    general, psi = _followed_precession(path, setting, with_now, fixed, _turns(axis, n, fixed))
+    general, psi = _followed_precession(path, setting, all_times, fixed, _turns(axis, n, fixed))
     # perihelion from the moving equinox is orbital perihelion plus precession, apart from the tilt
     perihelion = np.arctan2(season.climatic_precession, season.coprecession)
     perihelion = followed(perihelion, orbits + general)
     perihelion -= _TURN * np.floor(perihelion[..., -1:] / _TURN)
     e2 = np.sum(eccentricity**2, axis=0)
-    strength = setting.strength
-    by_sun = replace(strength, moon=0.0).constant(with_now, e2)
-    by_moon = strength.constant(with_now, e2) - by_sun
-    sun = by_sun * dot(n, axis)
-    moon = by_moon * moons_height((n, e, turning), axis, strength.node_rate)
+    precession = setting.precession
+    sun_constant = replace(precession, moon=0.0).constant(all_times, e2)
+    moon_constant = precession.constant(all_times, e2) - sun_constant
+    sun = sun_constant * dot(n, axis)
+    moon = moon_constant * moon_rate_factor((n, e, normal_rate), axis, precession.node_rate)
     values = {
         "obliquity": season.obliquity,
         "longitude_of_perihelion": perihelion,
@@ -382,10 +390,10 @@ def read(
         "coprecession": season.coprecession,
         "sun": sun,
         "moon": moon,
-        "total": sun + moon - strength.geodesic_rate(e2),
+        "total": sun + moon - precession.geodesic_rate(e2),
     }
     at_times = {name: value[..., :-1] for name, value in values.items()}
-    return Read(at_times, axis[..., :-1], normal[:, :-1])
+    return DerivedAngles(at_times, axis[..., :-1], normal[:, :-1])
 
 
 def _followed_precession(
@@ -399,13 +407,13 @@ def _followed_precession(
     # along the nodes, which are close enough to unwrap precession
     nodes = np.sort(np.append(path.windows.times.ravel(), 0.0))
     axis = path.at(nodes)
-    coarse = np.unwrap(
+    unwrapped = np.unwrap(
         _turns(axis, broadcast_over_members(axis, setting.orbit.at(nodes)[0]), fixed)
     )
-    origin = int(np.searchsorted(nodes, 0.0))
-    coarse -= _TURN * np.rint(coarse[..., origin : origin + 1] / _TURN)
+    now_index = int(np.searchsorted(nodes, 0.0))
+    unwrapped -= _TURN * np.rint(unwrapped[..., now_index : now_index + 1] / _TURN)
     nearest = np.searchsorted((nodes[1:] + nodes[:-1]) / 2, times)
-    return followed(angles, coarse[..., nearest])
+    return followed(angles, unwrapped[..., nearest])
 
 
 def _turns(axis: FloatArray, normal: FloatArray, fixed: FloatArray) -> FloatArray:
@@ -421,10 +429,10 @@ def _turns(axis: FloatArray, normal: FloatArray, fixed: FloatArray) -> FloatArra
 def followed_perihelion(orbit: ChangingOrbit, times: FloatArray, fixed: FloatArray) -> FloatArray:
     """Longitude of perihelion of the orbit in fixed axes, continuous over many turns, rad."""
     first, last = np.floor(min(times.min(), 0.0) / LOOK), np.ceil(max(times.max(), 0.0) / LOOK)
-    looks = np.clip(LOOK * np.arange(first, last + 1), *orbit.coverage)
-    angle, coarse = (np.arctan2(*(fixed[:2] @ orbit.at(at)[1])[::-1]) for at in (times, looks))
+    samples = np.clip(LOOK * np.arange(first, last + 1), *orbit.coverage)
+    angle, sampled = (np.arctan2(*(fixed[:2] @ orbit.at(t)[1])[::-1]) for t in (times, samples))
     nearest = np.rint(times / LOOK - first).astype(int)
-    return followed(angle, np.unwrap(coarse)[nearest])
+    return followed(angle, np.unwrap(sampled)[nearest])
 
 
 def _refuse_upright(obliquity: FloatArray, times: FloatArray) -> None:

@@ -68,21 +68,21 @@ class Quantiles:
     """
 
     def __init__(self) -> None:
-        place = PROBABILITY * MEMBERS - 0.5
-        self._share = place - math.floor(place)
-        self._count = MEMBERS - math.floor(place)
+        rank = PROBABILITY * MEMBERS - 0.5
+        self._share = rank - math.floor(rank)
+        self._count = MEMBERS - math.floor(rank)
         self._largest: dict[str, FloatArray] = {}
 
-    def add(self, distances: Mapping[str, FloatArray]) -> None:
+    def add(self, deviations: Mapping[str, FloatArray]) -> None:
         """Add the deviations of one random solution from the nominal one, by quantity."""
-        for name, distance in distances.items():
+        for name, deviation in deviations.items():
             if name not in self._largest:
-                self._largest[name] = np.zeros((self._count, *distance.shape))
-            rest = np.abs(distance)
+                self._largest[name] = np.zeros((self._count, *deviation.shape))
+            remainder = np.abs(deviation)
             for row in self._largest[name]:  # the largest first; faster than to sort them
-                row_before = row.copy()
-                np.maximum(row, rest, out=row)
-                rest = np.fmin(row_before, rest)  # NaN counts as the largest
+                previous_row = row.copy()
+                np.maximum(row, remainder, out=row)
+                remainder = np.fmin(previous_row, remainder)  # NaN counts as the largest
 
     def at_probability(self) -> dict[str, FloatArray]:
         """Return the quantile at `PROBABILITY` of the deviations of each quantity, by name."""
@@ -114,13 +114,13 @@ class AxisInputs:
 
     Attributes
     ----------
-    strength : PrecessionConstant
+    precession : PrecessionConstant
     orbit : ChangingOrbit
     start : ndarray, shape (3,) or (3, ...)
         Unit vector of the axis at J2000.0, or of the axes of all members.
     """
 
-    strength: PrecessionConstant
+    precession: PrecessionConstant
     orbit: ChangingOrbit
     start: FloatArray
 
@@ -150,12 +150,12 @@ class Uncertainty:
     @property
     def causes(self) -> tuple[str, ...]:
         """Names of the error sources; a source with two directions is listed twice."""
-        moved = ("constant", *(("start",) * len(self.start)), "orbit", "orbit")
-        return moved + OF_THE_EARTH if self.earth else moved
+        sources = ("constant", *(("start",) * len(self.start)), "orbit", "orbit")
+        return sources + OF_THE_EARTH if self.earth else sources
 
 
 @dataclass(frozen=True)
-class SolvedAxes:
+class AxisSolutions:
     """Nominal trajectory of the spin axis, and one trajectory for each varied error source.
 
     Attributes
@@ -163,22 +163,24 @@ class SolvedAxes:
     path : AxisTrajectory
     setting : AxisInputs
     uncertainty : Uncertainty
-    others : tuple of (str, AxisTrajectory, AxisInputs)
+    varied : tuple of (str, AxisTrajectory, AxisInputs)
         Trajectory with one cause changed, and its setting, by cause.
     """
 
     path: AxisTrajectory
     setting: AxisInputs
     uncertainty: Uncertainty
-    others: tuple[tuple[str, AxisTrajectory, AxisInputs], ...]
+    varied: tuple[tuple[str, AxisTrajectory, AxisInputs], ...]
 
     @property
     def steps(self) -> int:
         """Number of Newton steps, summed over the nominal and all varied trajectories."""
-        return self.path.steps + sum(path.steps for _, path, _ in self.others)
+        return self.path.steps + sum(path.steps for _, path, _ in self.varied)
 
 
-def solved(setting: AxisInputs, span: tuple[float, float], uncertainty: Uncertainty) -> SolvedAxes:
+def solved(
+    setting: AxisInputs, span: tuple[float, float], uncertainty: Uncertainty
+) -> AxisSolutions:
     """Integrate the spin axis with nominal inputs, and again with each error source varied.
 
     A further integration with windows of twice the length gives the error of the method.
@@ -190,36 +192,38 @@ def solved(setting: AxisInputs, span: tuple[float, float], uncertainty: Uncertai
         s from J2000.0 TDB.
     uncertainty : Uncertainty
     """
-    path = solve(setting.strength, setting.orbit, setting.start, span, pieces=2)
+    path = solve(setting.precession, setting.orbit, setting.start, span, pieces=2)
     others = []
     for cause, varied in (("method", setting), *changes(setting, uncertainty)):
-        varied_path = solve(varied.strength, varied.orbit, varied.start, span, near=path)
+        varied_path = solve(varied.precession, varied.orbit, varied.start, span, guess=path)
         others.append((cause, varied_path, varied))
-    return SolvedAxes(path, setting, uncertainty, tuple(others))
+    return AxisSolutions(path, setting, uncertainty, tuple(others))
 
 
-def shifted_orbit(orbit: ChangingOrbit, error: HalfWidths, ways: Sequence[float]) -> ModifiedOrbit:
+def shifted_orbit(
+    orbit: ChangingOrbit, error: HalfWidths, multiples: Sequence[float]
+) -> ModifiedOrbit:
     """Orbit whose normal and eccentricity are shifted by multiples of their half-widths.
 
     Parameters
     ----------
     orbit : ChangingOrbit
     error : callable
-    ways : sequence of float
+    multiples : sequence of float
         Shifts in half-widths along each of two directions perpendicular to the normal of J2000.0.
     """
     directions = reference_axes(orbit.at(np.zeros(1))[0][:, 0])[:2]
 
     def change(times: FloatArray, shape: Shape) -> Shape:
-        normal, eccentricity, turning = shape
-        towards = np.zeros_like(normal)
-        for direction, amount in zip(directions[:, :, np.newaxis], ways, strict=True):
-            along = direction - normal * np.sum(direction * normal, axis=0)
-            towards += amount * along / np.sqrt(np.sum(along**2, axis=0))
-        by_normal, by_shape = error(times)
-        tilted = normal + by_normal * towards
+        normal, eccentricity, normal_rate = shape
+        shift = np.zeros_like(normal)
+        for direction, amount in zip(directions[:, :, np.newaxis], multiples, strict=True):
+            tangent = direction - normal * np.sum(direction * normal, axis=0)
+            shift += amount * tangent / np.sqrt(np.sum(tangent**2, axis=0))
+        normal_error, eccentricity_error = error(times)
+        tilted = normal + normal_error * shift
         tilted = tilted / np.sqrt(np.sum(tilted**2, axis=0))
-        return tilted, eccentricity + by_shape * towards, turning
+        return tilted, eccentricity + eccentricity_error * shift, normal_rate
 
     return ModifiedOrbit(orbit, change)
 
@@ -234,11 +238,11 @@ def inclined_axis(setting: AxisInputs, angles: Sequence[float]) -> FloatArray:
         Angles towards the normal of the orbit and, if there are two, perpendicular to that, rad.
     """
     start = setting.start.reshape(3, -1)
-    across = cross(setting.orbit.at(np.zeros(1))[0], start)
-    other = start
-    for angle, direction in zip(angles, (cross(across, start), across), strict=False):
-        other = other + angle * direction / np.maximum(np.sqrt(dot(direction, direction)), 1e-300)
-    return np.asarray((other / np.sqrt(dot(other, other))).reshape(setting.start.shape))
+    node = cross(setting.orbit.at(np.zeros(1))[0], start)
+    axis = start
+    for angle, direction in zip(angles, (cross(node, start), node), strict=False):
+        axis = axis + angle * direction / np.maximum(np.sqrt(dot(direction, direction)), 1e-300)
+    return np.asarray((axis / np.sqrt(dot(axis, axis))).reshape(setting.start.shape))
 
 
 def changes(setting: AxisInputs, uncertainty: Uncertainty) -> tuple[tuple[str, AxisInputs], ...]:
@@ -266,20 +270,20 @@ def changed(setting: AxisInputs, uncertainty: Uncertainty, amounts: FloatArray) 
     remaining = iter(float(amount) for amount in amounts)
     constant = next(remaining)
     angles = [next(remaining) * half_width for half_width in uncertainty.start]
-    ways = [next(remaining), next(remaining)]
-    j2, tides, drift = remaining if uncertainty.earth else (0.0, 0.0, 0.0)
-    strength, start, orbit = setting.strength, setting.start, setting.orbit
+    multiples = [next(remaining), next(remaining)]
+    j2, tides, convection = remaining if uncertainty.earth else (0.0, 0.0, 0.0)
+    precession, start, orbit = setting.precession, setting.start, setting.orbit
     if any(angles):
         start = inclined_axis(setting, angles)
-    if any(ways):
-        orbit = shifted_orbit(orbit, uncertainty.orbit, ways)
-    stronger, faster = 1 + constant * uncertainty.constant, 1 + tides * TIDES_SHARE
-    strength = replace(
-        strength,
-        sun=strength.sun * stronger,
-        moon=strength.moon * stronger,
-        tides=Tides(strength.tides.moon * faster, strength.tides.spin * faster),
+    if any(multiples):
+        orbit = shifted_orbit(orbit, uncertainty.orbit, multiples)
+    torque_factor, tidal_factor = 1 + constant * uncertainty.constant, 1 + tides * TIDES_SHARE
+    precession = replace(
+        precession,
+        sun=precession.sun * torque_factor,
+        moon=precession.moon * torque_factor,
+        tides=Tides(precession.tides.moon * tidal_factor, precession.tides.spin * tidal_factor),
         j2_band=j2,
-        ellipticity_drift=drift * ELLIPTICITY_DRIFT,
+        ellipticity_drift=convection * ELLIPTICITY_DRIFT,
     )
-    return AxisInputs(strength, orbit, start)
+    return AxisInputs(precession, orbit, start)

@@ -77,10 +77,10 @@ def daylight(obliquity: FloatArray, latitude: FloatArray, longitude: FloatArray)
     It depends on the orbit only through the true longitude.
     """
     sine = np.sin(obliquity) * np.sin(longitude)
-    high, level = np.sin(latitude) * sine, np.cos(latitude) * np.sqrt(1 - sine * sine)
+    polar, equatorial = np.sin(latitude) * sine, np.cos(latitude) * np.sqrt(1 - sine * sine)
     # half the length of daylight is pi during a polar day and 0 during a polar night
-    half_day = np.arccos(np.clip(-high / np.maximum(level, 1e-300), -1.0, 1.0))
-    return np.asarray(half_day * high + level * np.sin(half_day))
+    half_day = np.arccos(np.clip(-polar / np.maximum(equatorial, 1e-300), -1.0, 1.0))
+    return np.asarray(half_day * polar + equatorial * np.sin(half_day))
 
 
 def true_longitude(season: Season, mean: FloatArray) -> FloatArray:
@@ -114,8 +114,8 @@ def over_days(
     middle = mean_longitude(season, longitude)
     total = np.zeros(np.broadcast_shapes(np.shape(middle), np.shape(latitude)))
     for node, weight in zip(nodes, weights / 2, strict=True):
-        at = true_longitude(season, middle + np.pi * days * node)
-        total = total + weight * daily(season, latitude, at)
+        true = true_longitude(season, middle + np.pi * days * node)
+        total = total + weight * daily(season, latitude, true)
     return np.asarray(total)
 
 
@@ -143,17 +143,17 @@ def with_error(
     """
     if is_true and days is None:
         # Obliquity changes only the daylight, eccentricity and perihelion only the distance.
-        def strength(season: Season) -> FloatArray:
+        def factor(season: Season) -> FloatArray:
             return inverse_square(season, longitude)
 
-        def light(season: Season) -> FloatArray:
+        def light_on_day(season: Season) -> FloatArray:
             return daylight(season.obliquity, latitude, longitude)
 
-        by_tilt = _squared_changes(light, season, half_widths, "obliquity")
-        by_orbit = _squared_changes(strength, season, half_widths, "eccentricity", "perihelion")
-        nearness, height = strength(season), light(season)
-        total = nearness**2 * by_tilt + height**2 * by_orbit
-        return nearness * height / np.pi, np.sqrt(total / np.pi**2)
+        by_tilt = _squared_changes(light_on_day, season, half_widths, "obliquity")
+        by_orbit = _squared_changes(factor, season, half_widths, "eccentricity", "perihelion")
+        nearness, light = factor(season), light_on_day(season)
+        total = nearness**2 * by_tilt + light**2 * by_orbit
+        return nearness * light / np.pi, np.sqrt(total / np.pi**2)
 
     def mean(season: Season) -> FloatArray:
         true = longitude if is_true else true_longitude(season, longitude)
@@ -169,18 +169,18 @@ def _squared_changes(
 ) -> FloatArray:
     """Sum of the squared changes of a function if each named element varies by its half-width."""
 
-    def moved(name: str, by: float) -> FloatArray:
-        value = getattr(season, name) + by * getattr(half_widths, name)
+    def varied(name: str, multiple: float) -> FloatArray:
+        value = getattr(season, name) + multiple * getattr(half_widths, name)
         return function(season._replace(**{name: value}))
 
     total: FloatArray = np.zeros(1)
     for name in names:
-        share = (moved(name, 1) - moved(name, -1)) / 2
-        half = getattr(half_widths, name)
-        if name == "perihelion" and np.any(half > SAMPLED_FROM):
+        change = (varied(name, 1) - varied(name, -1)) / 2
+        half_width = getattr(half_widths, name)
+        if name == "perihelion" and np.any(half_width > SAMPLED_FROM):
             value, quantiles = function(season), Quantiles()
-            for (by,) in draws(1):
-                quantiles.add({name: moved(name, float(by)) - value})
-            share = np.where(half <= SAMPLED_FROM, share, quantiles.at_probability()[name])
-        total = total + share**2
+            for (multiple,) in draws(1):
+                quantiles.add({name: varied(name, float(multiple)) - value})
+            change = np.where(half_width <= SAMPLED_FROM, change, quantiles.at_probability()[name])
+        total = total + change**2
     return total

@@ -25,7 +25,7 @@ from earthspin.secular.averaged_torque import (
     ChangingOrbit,
     PrecessionConstant,
     broadcast_over_members,
-    pull,
+    luni_solar_torque,
     reference_axes,
 )
 from earthspin.torque.gravity import dot
@@ -46,7 +46,7 @@ MOST_SWEEPS, SWEEPS_DIVERGE = 40, 1e6
 TINY = 1e-300
 
 
-class Turn(NamedTuple):
+class NodeTorque(NamedTuple):
     """Averaged torque on a spin axis at integration nodes: axis m, constant a, added rotation g.
 
     Vectors are resolved along a reference axis N; components perpendicular to N are complex.
@@ -68,7 +68,7 @@ class Turn(NamedTuple):
     constant: FloatArray
 
     @classmethod
-    def of(cls, torque: AveragedTorque, axes: FloatArray, windows: Windows) -> Turn:
+    def of(cls, torque: AveragedTorque, axes: FloatArray, windows: Windows) -> NodeTorque:
         """Resolve an averaged torque along and perpendicular to the reference axis N."""
         shape = windows.times.shape
 
@@ -80,7 +80,7 @@ class Turn(NamedTuple):
         return cls(*components(torque.axis), *components(torque.geodesic), constant)
 
 
-class Slope(NamedTuple):
+class Linearization(NamedTuple):
     """Rates of a spin axis's longitude and component along the reference axis, with derivatives.
 
     The shape is (..., w, n) for w windows of n nodes.
@@ -101,7 +101,7 @@ class Slope(NamedTuple):
     by_longitude: FloatArray
 
 
-def slope(torque: Turn, phi: FloatArray, z: FloatArray) -> Slope:
+def linearization(torque: NodeTorque, phi: FloatArray, z: FloatArray) -> Linearization:
     """Compute the rates of a spin axis's longitude (rad/s) and reference-axis component (1/s).
 
     The component along the reference axis is called height. The derivatives of both rates by
@@ -112,23 +112,24 @@ def slope(torque: Turn, phi: FloatArray, z: FloatArray) -> Slope:
     np.negative(np.sin(phi), out=rotation.imag)
     rho2 = 1 - z * z
     rho = np.sqrt(rho2)
-    slant = z / rho
-    axis = torque.axis * rotation
-    towards = axis.real.copy()
-    lift_by_phi, lift_by_z = rho * axis.imag, torque.axis_height - slant * towards
-    pull = torque.constant * (rho * towards + z * torque.axis_height)  # a L
-    turn = torque.drift * rotation - pull * axis
-    along = turn.real.copy()
-    across = turn.imag.copy()
+    minus_drho_dz = z / rho
+    m = torque.axis * rotation
+    m_rho = m.real.copy()
+    dl_dphi, dl_dz = rho * m.imag, torque.axis_height - minus_drho_dz * m_rho
+    a_l = torque.constant * (rho * m_rho + z * torque.axis_height)
+    df_ds = torque.drift * rotation - a_l * m
+    df_drho = df_ds.real.copy()
+    df_dphi_rho = df_ds.imag.copy()  # dF/dphi over rho
     rates = np.empty((2, *phi.shape))
-    np.subtract(torque.drift_height - pull * torque.axis_height, slant * along, out=rates[0])
-    np.multiply(rho, -across, out=rates[1])
-    steep = torque.constant * lift_by_z
-    return Slope(
+    df_dz = torque.drift_height - a_l * torque.axis_height
+    np.subtract(df_dz, minus_drho_dz * df_drho, out=rates[0])
+    np.multiply(rho, -df_dphi_rho, out=rates[1])
+    a_dl_dz = torque.constant * dl_dz
+    return Linearization(
         rates,
-        -steep * lift_by_phi - slant * across,
-        -steep * lift_by_z - along / (rho2 * rho),
-        torque.constant * lift_by_phi**2 + rho * along,
+        -a_dl_dz * dl_dphi - minus_drho_dz * df_dphi_rho,
+        -a_dl_dz * dl_dz - df_drho / (rho2 * rho),
+        torque.constant * dl_dphi**2 + rho * df_drho,
     )
 
 
@@ -140,13 +141,17 @@ def advance(
     Return the integrals from window starts to nodes, the states at window starts, and the final
     state. The shapes are (2, ..., w, n), (2, ..., w) and (2, ...).
     """
-    inside, across = windows.integral(rates)
-    ends = np.cumsum(np.concatenate([state[..., np.newaxis], across], axis=-1), axis=-1)
-    return inside, ends[..., :-1], ends[..., -1]
+    to_nodes, over_windows = windows.integral(rates)
+    ends = np.cumsum(np.concatenate([state[..., np.newaxis], over_windows], axis=-1), axis=-1)
+    return to_nodes, ends[..., :-1], ends[..., -1]
 
 
 def step(
-    windows: Windows, torque: Turn, values: FloatArray, state: FloatArray, left: FloatArray
+    windows: Windows,
+    torque: NodeTorque,
+    values: FloatArray,
+    state: FloatArray,
+    residual_share: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
     """Longitude and reference-axis component of a spin axis after one Newton step; largest change.
 
@@ -157,12 +162,12 @@ def step(
     Parameters
     ----------
     windows : Windows
-    torque : Turn
+    torque : NodeTorque
     values : ndarray, shape (2, ..., w, n)
         Longitude and height.
     state : ndarray, shape (2, ...)
         Values at the start of the first window.
-    left : ndarray, shape (...)
+    residual_share : ndarray, shape (...)
         Fraction of the change that may remain for the next step.
 
     Returns
@@ -171,19 +176,19 @@ def step(
     change : ndarray, shape (...)
         Largest change; infinity if the linear equations could not be solved.
     """
-    slopes = slope(torque, *values)
-    inside, starts, _ = advance(windows, slopes.rates, state)
+    linear = linearization(torque, *values)
+    to_nodes, starts, _ = advance(windows, linear.rates, state)
     sides = np.zeros((2, 3, *values.shape[1:]))
-    np.subtract(starts[..., np.newaxis] + inside, values, out=sides[:, 0])
+    np.subtract(starts[..., np.newaxis] + to_nodes, values, out=sides[:, 0])
     sides[0, 1] = sides[1, 2] = 1.0
-    change, ends, settled = _linear(windows, slopes, sides, left)
-    by_phi, by_z = _shifts(ends)[..., np.newaxis]
-    total = change[:, 0] + change[:, 1] * by_phi + change[:, 2] * by_z
+    change, ends, settled = _linear(windows, linear, sides, residual_share)
+    phi_shift, z_shift = _shifts(ends)[..., np.newaxis]
+    total = change[:, 0] + change[:, 1] * phi_shift + change[:, 2] * z_shift
     return values + total, np.where(settled, np.abs(total).max(axis=(0, -2, -1)), np.inf)
 
 
 def _linear(
-    windows: Windows, slopes: Slope, sides: FloatArray, left: FloatArray
+    windows: Windows, linear: Linearization, sides: FloatArray, residual_share: FloatArray
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
     """Solve the linear equations of one Newton step, in every time window.
 
@@ -196,27 +201,27 @@ def _linear(
     """
     gauss = rule(windows.order)
     jacobian = np.empty((3, *sides.shape[1:]))  # as wide as the sides: broadcasting is slower
-    for wide, derivative in zip(
-        jacobian, (slopes.mixed, slopes.by_height, slopes.by_longitude), strict=True
+    for row, derivative in zip(
+        jacobian, (linear.mixed, linear.by_height, linear.by_longitude), strict=True
     ):
-        wide[:] = derivative * windows.half
+        row[:] = derivative * windows.half
     mixed, by_z, by_phi = jacobian
     phi, z = sides
     settled = np.zeros(sides.shape[2:-2], dtype=bool)
-    before = 1.0
+    previous = 1.0
     for _ in range(MOST_SWEEPS):
         height = sides[1] + (by_phi * phi - mixed * z) @ gauss.integrate
         longitude = sides[0] + (mixed * phi + by_z * height) @ gauss.integrate
         if settled.any():
-            kept = settled[..., np.newaxis, np.newaxis]
-            longitude, height = np.where(kept, phi, longitude), np.where(kept, z, height)
+            fixed = settled[..., np.newaxis, np.newaxis]
+            longitude, height = np.where(fixed, phi, longitude), np.where(fixed, z, height)
         size = np.abs(longitude).max(axis=(0, -2, -1))
         change = np.abs(longitude - phi).max(axis=(0, -2, -1)) / size
         phi, z = longitude, height
-        settled = settled | (change * np.minimum(change / before, 1.0) < left)
+        settled = settled | (change * np.minimum(change / previous, 1.0) < residual_share)
         if settled.all() or size.max() > SWEEPS_DIVERGE:
             break
-        before = np.maximum(change, TINY)
+        previous = np.maximum(change, TINY)
     ends = [rate @ gauss.weights for rate in (mixed * phi + by_z * z, by_phi * phi - mixed * z)]
     return np.array([phi, z]), np.array(ends), settled
 
@@ -230,11 +235,11 @@ def _shifts(ends: FloatArray) -> FloatArray:
         Change between start and end due to the defect, and due to unit changes of each component at
         the start.
     """
-    alone = ends.ndim == 3
+    single = ends.ndim == 3
     rows = ends.transpose(-1, *range(ends.ndim - 1))
-    phi = z = 0.0 if alone else np.zeros(ends.shape[2:-1])
+    phi = z = 0.0 if single else np.zeros(ends.shape[2:-1])
     shifts = []
-    for (d0, d00, d01), (d1, d10, d11) in rows.tolist() if alone else rows:
+    for (d0, d00, d01), (d1, d10, d11) in rows.tolist() if single else rows:
         shifts.append((phi, z))
         phi, z = phi + d0 + d00 * phi + d01 * z, z + d1 + d10 * phi + d11 * z
     return np.moveaxis(np.array(shifts), 0, -1)
@@ -290,25 +295,25 @@ class AxisTrajectory:
     def at(self, times: FloatArray) -> FloatArray:
         """Unit vectors of the spin axis at given times in s, in the GCRS, shape (3, ..., n)."""
         phi, z = self.about(times)
-        across = np.sqrt(1 - z * z)
-        components = np.array([across * np.cos(phi), across * np.sin(phi), z])
+        equatorial = np.sqrt(1 - z * z)
+        components = np.array([equatorial * np.cos(phi), equatorial * np.sin(phi), z])
         return np.stack([dot(column, components) for column in self.axes.T])
 
 
 def solve(
-    strength: PrecessionConstant,
+    precession: PrecessionConstant,
     orbit: ChangingOrbit,
     start: FloatArray,
     span: tuple[float, float],
     order: int = ORDER,
     pieces: int = 1,
-    near: AxisTrajectory | None = None,
+    guess: AxisTrajectory | None = None,
 ) -> AxisTrajectory:
     """Integrate one or several spin axes from J2000.0 in both directions of time.
 
     Parameters
     ----------
-    strength : PrecessionConstant
+    precession : PrecessionConstant
         Torque; for several axes, its arrays have shape (..., 1).
     orbit : ChangingOrbit
         Orbit, common to all axes.
@@ -320,7 +325,7 @@ def solve(
         Number of nodes per window.
     pieces : int
         Number of windows per window of the orbit.
-    near : AxisTrajectory, optional
+    guess : AxisTrajectory, optional
         Initial guess: the trajectory of a similar setting over the same span.
 
     Raises
@@ -331,10 +336,10 @@ def solve(
         If Newton's method does not converge for all of several axes, or they need different
         reference axes.
     """
-    axes = _axes(orbit, start, span) if near is None else near.axes
+    axes = _axes(orbit, start, span) if guess is None else guess.axes
     x, y, z = (dot(row, start) for row in axes)
     state = np.array([np.arctan2(y, x), z])
-    solver = _BlockSolver(strength, orbit, axes, order, near)
+    solver = _BlockSolver(precession, orbit, axes, order, guess)
     past, future = (solver.run(edges, state) for edges in _edges(orbit.edges, span, pieces))
     # The past was integrated backwards: restore ascending order.
     reversed_past = past[1][..., ::-1, :] * (-1.0) ** np.arange(order + 1)
@@ -371,10 +376,10 @@ def _axes(orbit: ChangingOrbit, start: FloatArray, span: tuple[float, float]) ->
     """
     times = np.linspace(min(span[0], 0.0), max(span[1], 0.0), 101)
     first, second, normal = reference_axes(np.mean(orbit.at(times)[0], axis=1))
-    near = np.abs(dot(normal, start)) >= TOO_NEAR
-    if not near.any():
+    is_near = np.abs(dot(normal, start)) >= TOO_NEAR
+    if not is_near.any():
         return np.stack([first, second, normal])
-    if not near.all():
+    if not is_near.all():
         raise ApartError("some of the axes are too near to the mean normal of the orbit")
     return np.stack([normal, first, second])
 
@@ -384,14 +389,14 @@ class _BlockSolver:
 
     def __init__(
         self,
-        strength: PrecessionConstant,
+        precession: PrecessionConstant,
         orbit: ChangingOrbit,
         axes: FloatArray,
         order: int,
-        near: AxisTrajectory | None = None,
+        guess: AxisTrajectory | None = None,
     ) -> None:
-        self.strength, self.orbit, self.axes, self.order = strength, orbit, axes, order
-        self.near, self.steps = near, 0
+        self.precession, self.orbit, self.axes, self.order = precession, orbit, axes, order
+        self.guess, self.steps = guess, 0
         self.height: FloatArray | None = None
 
     def run(self, edges: FloatArray, state: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -416,7 +421,7 @@ class _BlockSolver:
                     "axis may pass through the reference axis, or precess too fast for the windows"
                 )
             if settled is None:
-                self.near, size = None, max(size // 4, 1)
+                self.guess, size = None, max(size // 4, 1)
                 continue
             series, state = settled
             blocks.append(series)
@@ -429,49 +434,51 @@ class _BlockSolver:
         Return the Legendre series and the final longitude and height; None if Newton's method does
         not converge.
         """
-        torque = Turn.of(
-            self._pull(windows.times.ravel(), state[..., np.newaxis]), self.axes, windows
+        torque = NodeTorque.of(
+            self._torque(windows.times.ravel(), state[..., np.newaxis]), self.axes, windows
         )
-        values, before = self._guess(windows, torque, state), np.ones(state.shape[1:])
+        values, previous = self._first_guess(windows, torque, state), np.ones(state.shape[1:])
         settled = np.zeros(state.shape[1:], dtype=bool)
         for _ in range(MOST_STEPS):
             self.steps += 1
-            residual_share = SWEPT * np.minimum(before, 1.0)
+            residual_share = SWEPT * np.minimum(previous, 1.0)
             new, change = step(windows, torque, values, state, residual_share)
             if settled.any():
                 new = np.where(settled[..., np.newaxis, np.newaxis], values, new)
             values = new
             if not (np.all(change < STEPS_DIVERGE) and np.abs(values[1]).max() < 1):
                 return None
-            settled = settled | (change * np.maximum(change / before, residual_share) < SETTLED)
+            settled = settled | (change * np.maximum(change / previous, residual_share) < SETTLED)
             if settled.all():
                 self.height = values[1].mean(axis=(-2, -1))
-                rates = slope(torque, *values).rates
+                rates = linearization(torque, *values).rates
                 _, starts, end = advance(windows, rates, state)
                 return integrated(windows.coefficients(rates), windows.half, starts), end
-            before = np.maximum(change, TINY)
+            previous = np.maximum(change, TINY)
         return None
 
-    def _pull(self, times: FloatArray, state: FloatArray) -> AveragedTorque:
+    def _torque(self, times: FloatArray, state: FloatArray) -> AveragedTorque:
         """Averaged torque on one or many spin axes at given times."""
-        normal, eccentricity, turning = (
+        normal, eccentricity, normal_rate = (
             broadcast_over_members(state, vector) for vector in self.orbit.at(times)
         )
-        return pull(self.strength, (normal, eccentricity, turning), times)
+        return luni_solar_torque(self.precession, (normal, eccentricity, normal_rate), times)
 
-    def _guess(self, windows: Windows, torque: Turn, state: FloatArray) -> FloatArray:
+    def _first_guess(self, windows: Windows, torque: NodeTorque, state: FloatArray) -> FloatArray:
         """First guess of a spin axis at all times: longitude and reference-axis component.
 
         It is a neighbouring trajectory shifted to the initial state, or uniform precession.
         """
-        if self.near is None:
-            return self._at_one_height(windows, torque, state)
+        if self.guess is None:
+            return self._uniform_precession(windows, torque, state)
         times = np.append(windows.times, windows.edges[0])
-        values = self.near.about(times)
+        values = self.guess.about(times)
         values += state[..., np.newaxis] - values[..., -1:]
         return values[..., :-1].reshape(*state.shape, *windows.times.shape)
 
-    def _at_one_height(self, windows: Windows, torque: Turn, state: FloatArray) -> FloatArray:
+    def _uniform_precession(
+        self, windows: Windows, torque: NodeTorque, state: FloatArray
+    ) -> FloatArray:
         """First guess of the spin axis's motion: uniform precession about the reference axis.
 
         The height, the component along that axis, is constant: that of the start, or the mean of
@@ -481,8 +488,8 @@ class _BlockSolver:
         if self.height is not None:
             z = self.height[..., np.newaxis, np.newaxis]
         rate = torque.drift_height - torque.constant * z * torque.axis_height**2
-        inside, across = windows.integral(rate)
-        before = np.cumsum(across, axis=-1) - across
-        guess = np.empty((2, *inside.shape))
-        guess[0], guess[1] = phi + before[..., np.newaxis] + inside, z
+        to_nodes, over_windows = windows.integral(rate)
+        starts = np.cumsum(over_windows, axis=-1) - over_windows
+        guess = np.empty((2, *to_nodes.shape))
+        guess[0], guess[1] = phi + starts[..., np.newaxis] + to_nodes, z
         return guess

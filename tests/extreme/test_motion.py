@@ -14,7 +14,7 @@ import pytest
 from earthspin.bodies import MOON, SUN
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, JULIAN_YEAR, PUBLISHED_EFFECTS, UAS
 from earthspin.motion.axes import AxisPath, axis_path
-from earthspin.motion.forces import FigureOfBody, Forces
+from earthspin.motion.forces import DynamicalFigure, Forces
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation.analysis import on_fixed_ecliptic
 from earthspin.questions.averages import Samples, torque_samples
@@ -33,7 +33,7 @@ TRIAXIALITY = float(BODY.triaxiality) * H / J2
 NORTH = np.array([2e-5, -3e-5, 1.0]) / np.linalg.norm([2e-5, -3e-5, 1.0])
 
 
-def _path(days: float, body: FigureOfBody = ROUND, **settings: Any) -> AxisPath:
+def _path(days: float, body: DynamicalFigure = ROUND, **settings: Any) -> AxisPath:
     return axis_path(replace(FORCES, figure=body), NORTH, 0.0, (0.0, days * DAY), **settings)
 
 

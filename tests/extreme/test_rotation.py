@@ -6,7 +6,7 @@ from earthspin.bodies import Body
 from earthspin.constants import G
 from earthspin.motion.equations import Rigid
 from earthspin.motion.march import Masses
-from earthspin.motion.solution import SteppedRotation, start_of
+from earthspin.motion.solution import AttitudeIntegrator, start_of
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.rotation import rotation
 from earthspin.rotor.triaxial import free_rotation
@@ -27,7 +27,9 @@ def _free(moments: tuple[float, float], omega: tuple[float, ...], end: float) ->
     """Largest angle between an integrated free rotation and Jacobi's closed form, rad."""
     times = np.linspace(0.0, end, 50)
     body, alone = _body(*moments), Masses(gm={}, positions=lambda times: {})
-    result = SteppedRotation(body, alone, start_of(body, UPRIGHT, np.array(omega)), end).at(times)
+    result = AttitudeIntegrator(body, alone, start_of(body, UPRIGHT, np.array(omega)), end).at(
+        times
+    )
     true = free_rotation((*moments, 1.0), omega, times).attitude
     return _angle(result.attitude, true)
 
@@ -77,7 +79,7 @@ def test_close_passage() -> Distances:
     masses, end = Masses(gm={"mass": 1.0}, positions=places), np.array([9.0])
     start = start_of(body, UPRIGHT, np.array([0.1, 0.0, 1.0]))
     tight, loose = (
-        SteppedRotation(body, masses, start, 9.0, tolerance=tolerance).at(end)
+        AttitudeIntegrator(body, masses, start, 9.0, tolerance=tolerance).at(end)
         for tolerance in (1e-13, 1e-9)
     )
     apart = _angle(tight.attitude, loose.attitude)

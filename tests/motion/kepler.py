@@ -6,7 +6,7 @@ import numpy as np
 
 from earthspin.motion.equations import CustomTorque, Rigid
 from earthspin.motion.march import Masses
-from earthspin.motion.solution import State, SteppedRotation, start_of
+from earthspin.motion.solution import AttitudeIntegrator, State, start_of
 from earthspin.numerics.arrays import FloatArray
 
 AS_SKY = np.array([1.0, 0.0, 0.0, 0.0])
@@ -41,7 +41,7 @@ ALONE = Masses(gm={}, positions=lambda times: {})
 
 
 def rigid(
-    h: float, triaxiality: float, unit: float = 1.0, own: CustomTorque | None = None
+    h: float, triaxiality: float, unit: float = 1.0, custom_torque: CustomTorque | None = None
 ) -> Rigid:
     """One body."""
     return Rigid(
@@ -49,13 +49,13 @@ def rigid(
         c_minus_b=np.array([h - triaxiality / 2]),
         tide=np.ones(1),
         unit=unit,
-        own=own,
+        custom_torque=custom_torque,
     )
 
 
-def of_moments(a: float, b: float, c: float, own: CustomTorque | None = None) -> Rigid:
+def of_moments(a: float, b: float, c: float, custom_torque: CustomTorque | None = None) -> Rigid:
     """One body of three moments."""
-    return rigid((c - (a + b) / 2) / c, (b - a) / c, own=own)
+    return rigid((c - (a + b) / 2) / c, (b - a) / c, custom_torque=custom_torque)
 
 
 def start(body: Rigid, omega: tuple[float, ...], attitude: FloatArray = AS_SKY) -> State:
@@ -65,9 +65,9 @@ def start(body: Rigid, omega: tuple[float, ...], attitude: FloatArray = AS_SKY) 
 
 def followed(
     body: Rigid, masses: Masses, omega: tuple[float, ...], end: float, **settings: float
-) -> SteppedRotation:
+) -> AttitudeIntegrator:
     """A motion from time 0."""
-    return SteppedRotation(body, masses, start(body, omega), end, **settings)  # type: ignore[arg-type]
+    return AttitudeIntegrator(body, masses, start(body, omega), end, **settings)  # type: ignore[arg-type]
 
 
 def angle(p: FloatArray, q: FloatArray) -> FloatArray:

@@ -4,7 +4,7 @@ import numpy as np
 
 from earthspin.bodies import EARTH, MOON, SUN
 from earthspin.constants import ARCSEC, DAY
-from earthspin.motion.forces import FigureOfBody, Forces
+from earthspin.motion.forces import DynamicalFigure, Forces
 from earthspin.sky.ephemeris import Ephemeris
 
 UAS = 1e-6 * ARCSEC
@@ -14,13 +14,13 @@ CODES = {"sun": 10, "moon": 301}
 NORTH = np.array([2e-5, -3e-5, 1.0]) / np.linalg.norm([2e-5, -3e-5, 1.0])
 
 
-def figure(**changes: float) -> FigureOfBody:
+def figure(**changes: float) -> DynamicalFigure:
     """The round Earth, or one with some numbers changed."""
     numbers = {"h": EARTH.dynamical_flattening, "spin_rate": float(EARTH.spin_rate)} | changes
-    return FigureOfBody(**numbers)  # type: ignore[arg-type]
+    return DynamicalFigure(**numbers)  # type: ignore[arg-type]
 
 
-def forces(kernel: Ephemeris, body: FigureOfBody | None = None, **changes: object) -> Forces:
+def forces(kernel: Ephemeris, body: DynamicalFigure | None = None, **changes: object) -> Forces:
     """Sun and Moon on a body."""
     return Forces(
         figure=body or figure(),

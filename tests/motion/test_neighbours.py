@@ -7,12 +7,12 @@ from earthspin.bodies import EARTH
 from earthspin.constants import DAY
 from earthspin.motion.axes import axis_path
 from earthspin.motion.effects import EFFECTS, RIGID
-from earthspin.motion.forces import FigureOfBody, Forces
+from earthspin.motion.forces import DynamicalFigure, Forces
 from earthspin.motion.solution import (
     FLATTENING,
-    PULL,
+    TIDE,
     TRIAXIALITY,
-    SteppedRotation,
+    AttitudeIntegrator,
     masses,
     relative_tide_error,
     rigid_bodies,
@@ -24,13 +24,13 @@ from earthspin.sky.ephemeris import Ephemeris
 from tests.motion.kepler import AS_SKY, Ellipse, angle
 from tests.motion.sky import CODES, GM, NORTH, UAS, figure, forces
 
-FIGURE = FigureOfBody(h=0.2, spin_rate=1.0, triaxiality=0.1)
+FIGURE = DynamicalFigure(h=0.2, spin_rate=1.0, triaxiality=0.1)
 
 
 def test_each_neighbour_has_one_number_changed() -> None:
     bare = Forces(figure=FIGURE, gm={}, positions=lambda times: {})
     body, changed = rigid_bodies(
-        bare, 1.0, {FLATTENING: 0.01, TRIAXIALITY: 0.02, PULL: float("nan")}
+        bare, 1.0, {FLATTENING: 0.01, TRIAXIALITY: 0.02, TIDE: float("nan")}
     )
     assert changed == (FLATTENING, TRIAXIALITY)
     h = (body.c_minus_a + body.c_minus_b) / 2
@@ -46,29 +46,29 @@ def test_what_a_neighbour_is_away_by_is_what_the_number_does() -> None:
     pulled = Forces(
         figure=FIGURE, gm={"mass": 1.0}, positions=lambda t: {"mass": orbit.at(t)}, near=("mass",)
     )
-    doubts = {FLATTENING: 1e-3, PULL: 2e-3}
+    half_widths = {FLATTENING: 1e-3, TIDE: 2e-3}
 
-    def follow(doubts: dict[str, float], **changed: float) -> SteppedRotation:
+    def follow(half_widths: dict[str, float], **changed: float) -> AttitudeIntegrator:
         numbers = {"h": 0.2, "triaxiality": 0.1} | changed
         made = Forces(
-            figure=FigureOfBody(spin_rate=1.0, **numbers),
+            figure=DynamicalFigure(spin_rate=1.0, **numbers),
             gm={"mass": changed.pop("gm", 1.0)},
             positions=pulled.positions,
             near=("mass",),
         )
-        body, _ = rigid_bodies(made, 1.0, doubts)
-        return SteppedRotation(
+        body, _ = rigid_bodies(made, 1.0, half_widths)
+        return AttitudeIntegrator(
             body, masses(made), start_of(body, AS_SKY, np.array([0.1, 0.0, 1.1])), 20.0
         )
 
-    found = follow(doubts).at(times)
+    found = follow(half_widths).at(times)
     other = follow({}, h=0.2 * 1.001, triaxiality=0.1 * 1.001).at(times)
-    shares = shares_of(found, (FLATTENING, PULL), 2e-3)
+    shares = shares_of(found, (FLATTENING, TIDE), 2e-3)
     away = np.maximum.accumulate(angle(found.attitude, other.attitude))
     # the largest so far, between these times too
     np.testing.assert_allclose(shares["input"][0][40:], away[40:], rtol=0.02, atol=0)
     assert np.all(shares["kernel"][0][1:] > 0)
-    assert np.isnan(shares_of(found, (FLATTENING, PULL), float("nan"))["kernel"]).all()
+    assert np.isnan(shares_of(found, (FLATTENING, TIDE), float("nan"))["kernel"]).all()
     together = np.sqrt(sum(shares[of] ** 2 for of in ("method", "input", "kernel")))
     np.testing.assert_allclose(shares[""], together, rtol=1e-14, atol=0)
 
@@ -118,7 +118,7 @@ def test_the_earth_with_all_effects_against_the_solver_of_the_pole(de421: Epheme
         .apply(length * true["angular_momentum"][0])
     )
     omega = made.figure.spin_rate * momentum / body.moments[:, 0]
-    found = SteppedRotation(body, masses(made), start_of(body, attitude, omega), times[-1]).at(
+    found = AttitudeIntegrator(body, masses(made), start_of(body, attitude, omega), times[-1]).at(
         times
     )
     axis = Rotation.from_quat(found.attitude, scalar_first=True).as_matrix()[:, :, 2]

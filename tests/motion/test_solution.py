@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from scipy.special import ellipj, ellipk
 
 from earthspin.errors import UndefinedError
-from earthspin.motion.equations import Equations, WindowMasses
-from earthspin.motion.solution import SteppedRotation
+from earthspin.motion.equations import Equations, PerturbersAtNodes
+from earthspin.motion.solution import AttitudeIntegrator
 from earthspin.numerics import rotations
 from earthspin.rotor.triaxial import free_rotation
 from earthspin.top.closed_form import heavy_top_motion
@@ -113,8 +113,8 @@ def test_a_torque_of_ones_own_makes_a_heavy_top() -> None:
         up = np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)], axis=-1)
         return 1.5 / 1.2 * np.cross(up, [0.0, 0.0, 1.0])
 
-    body = of_moments(1.0, 1.0, 1.2, own=gravity)
-    motion = SteppedRotation(
+    body = of_moments(1.0, 1.0, 1.2, custom_torque=gravity)
+    motion = AttitudeIntegrator(
         body, ALONE, start(body, tuple(true.omega_body[0]), true.attitude[0]), 30.0
     )
     found = motion.at(times)
@@ -123,7 +123,7 @@ def test_a_torque_of_ones_own_makes_a_heavy_top() -> None:
 
 
 def test_friction_slows_a_spin_as_it_should() -> None:
-    body = of_moments(1.0, 1.5, 2.0, own=lambda times, q, omega: -0.1 * omega)
+    body = of_moments(1.0, 1.5, 2.0, custom_torque=lambda times, q, omega: -0.1 * omega)
     times = np.linspace(0.0, 50.0, 11)
     found = followed(body, ALONE, (0.0, 0.0, 2.0), 50.0).at(times)
     np.testing.assert_allclose(found.omega[:, 2], 2 * np.exp(-0.1 * times), rtol=1e-13, atol=0)
@@ -166,7 +166,7 @@ def test_both_forms_have_the_same_rates() -> None:
     turn = np.array([0.1, 0.7, -0.3, 0.6])
     turn /= np.linalg.norm(turn)
     place = np.array([[[1.2]], [[-0.3]], [[0.4]]])
-    pull = WindowMasses(
+    masses = PerturbersAtNodes(
         np.array([2.0]), np.array([0.9]), place, 1, [lambda axis, momentum: 0.3 * axis + momentum]
     )
     state = start(body, (0.3, -0.2, 0.9), turn)
@@ -174,15 +174,15 @@ def test_both_forms_have_the_same_rates() -> None:
     seen = np.concatenate([state.momentum, state.attitude])
     in_sky = np.concatenate([matrix @ state.momentum, state.attitude])
     since = np.zeros(1)
-    of_body = Equations(body, pull, False, seen, since).rates(seen)[:3, 0]
-    of_sky = Equations(body, pull, True, in_sky, since).rates(in_sky)[:3, 0]
+    of_body = Equations(body, masses, False, seen, since).rates(seen)[:3, 0]
+    of_sky = Equations(body, masses, True, in_sky, since).rates(in_sky)[:3, 0]
     # l' = R (m' + omega x m)
     carried = of_body + np.cross(state.spin[:, 0], state.momentum[:, 0])
     np.testing.assert_allclose(of_sky, matrix @ carried, rtol=0, atol=1e-14)
 
 
 def test_a_torque_that_runs_away_is_refused() -> None:
-    body = of_moments(1.0, 1.5, 2.0, own=lambda times, q, omega: omega**3)
+    body = of_moments(1.0, 1.5, 2.0, custom_torque=lambda times, q, omega: omega**3)
     with pytest.raises(UndefinedError, match="changes too fast"):
         followed(body, ALONE, (0.0, 0.0, 1.0), 10.0).at(np.array([0.0, 10.0]))
 

@@ -8,7 +8,7 @@ from numpy.polynomial import chebyshev
 
 from earthspin.bodies import EARTH, MOON, SUN
 from earthspin.constants import DAY
-from earthspin.motion.forces import FigureOfBody, Forces
+from earthspin.motion.forces import DynamicalFigure, Forces
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 
@@ -36,7 +36,9 @@ def positions(days: FloatArray) -> dict[str, FloatArray]:
 
 #: Torques of Sun and Moon on the axisymmetric body.
 FORCES = Forces(
-    figure=FigureOfBody(h=H, spin_rate=SPIN), gm=GM, positions=lambda times: positions(times / DAY)
+    figure=DynamicalFigure(h=H, spin_rate=SPIN),
+    gm=GM,
+    positions=lambda times: positions(times / DAY),
 )
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from earthspin.motion.equations import Rigid
 from earthspin.motion.march import Masses
-from earthspin.motion.solution import SteppedRotation, start_of
+from earthspin.motion.solution import AttitudeIntegrator, start_of
 from earthspin.numerics.arrays import FloatArray
 from tests.reference.sky import eccentric_anomaly
 
@@ -39,7 +39,7 @@ def places(t: FloatArray) -> FloatArray:
     return np.stack([np.cos(anomaly) - ECCENTRICITY, across, 0 * anomaly], axis=-1)
 
 
-def motion(end: float, tolerance: float) -> SteppedRotation:
+def motion(end: float, tolerance: float) -> AttitudeIntegrator:
     """Rotation of the moon from time 0 to the end, by the package's own solver."""
     body = Rigid(
         c_minus_a=np.array([H + TRIAXIALITY / 2]),
@@ -49,4 +49,4 @@ def motion(end: float, tolerance: float) -> SteppedRotation:
     )
     masses = Masses(gm={"planet": 1.0}, positions=lambda times: {"planet": places(times)})
     start = start_of(body, np.array([1.0, 0.0, 0.0, 0.0]), np.array(OMEGA))
-    return SteppedRotation(body, masses, start, float(end), tolerance=tolerance)
+    return AttitudeIntegrator(body, masses, start, float(end), tolerance=tolerance)

@@ -54,18 +54,18 @@ def test_the_start_is_moved_in_two_directions_across_one_another() -> None:
 def test_constant_tides_and_ellipticity_change_by_their_half_widths() -> None:
     found, now, e2 = causes(3e-6), np.zeros(1), np.array([0.0167**2])
     before = earths().constant(now, e2)
-    constant = found["constant"].strength.constant(now, e2)
+    constant = found["constant"].precession.constant(now, e2)
     assert constant / before - 1 == pytest.approx([3e-6], rel=1e-6, abs=0)
-    tides = found["tides"].strength.tides
+    tides = found["tides"].precession.tides
     assert tides.moon / earths().tides.moon == pytest.approx(1.2, rel=1e-14, abs=0)
     assert tides.spin / earths().tides.spin == pytest.approx(1.2, rel=1e-14, abs=0)
     far = np.array([-10e6 * JULIAN_YEAR])
-    drifted = found["ellipticity"].strength.constant(far, e2) / earths().constant(far, e2) - 1
+    drifted = found["ellipticity"].precession.constant(far, e2) / earths().constant(far, e2) - 1
     assert drifted == pytest.approx([-0.007], rel=1e-9, abs=0)
 
 
 def test_the_j2_band_widens_where_its_rate_has_faded() -> None:
-    found, e2 = causes()["J2 rate"].strength, np.array([0.0167**2])
+    found, e2 = causes()["J2 rate"].precession, np.array([0.0167**2])
     for years, acted in ((-1000, 0.2 * 1000), (-10_000, 10_000)):
         time = np.array([years * JULIAN_YEAR])
         more = found.constant(time, e2) / earths().constant(time, e2) - 1
@@ -102,7 +102,7 @@ def test_past_ten_thousand_years_the_earth_itself_counts_most() -> None:
     time = np.array([-100 * KYR])
     mine = solve(earths(), EARTHS, POLE, (time[0], 0.0)).at(time)
     off = {
-        cause: arcsec(solve(of.strength, of.orbit, of.start, (time[0], 0.0)).at(time), mine)
+        cause: arcsec(solve(of.precession, of.orbit, of.start, (time[0], 0.0)).at(time), mine)
         for cause, of in causes().items()
     }
     assert max(off, key=lambda cause: off[cause]) in {"tides", "ellipticity", "J2 rate"}
@@ -128,10 +128,10 @@ def test_all_causes_change_at_once() -> None:
     for place in (0, 4, 5, 6):
         alone = changed(SETTING, uncertainty(3e-6), amounts * (np.arange(7) == place))
         for at, time in enumerate((now, far)):
-            before = SETTING.strength.constant(time, e2)
-            factors[at] *= float((alone.strength.constant(time, e2) / before).item())
+            before = SETTING.precession.constant(time, e2)
+            factors[at] *= float((alone.precession.constant(time, e2) / before).item())
     for factor, time in zip(factors, (now, far), strict=True):
-        changed_by = together.strength.constant(time, e2) / SETTING.strength.constant(time, e2)
+        changed_by = together.precession.constant(time, e2) / SETTING.precession.constant(time, e2)
         # products of two changes are left out
         assert changed_by - 1 == pytest.approx([factor - 1], rel=1e-3, abs=0)
     assert arcsec(together.start, POLE) == pytest.approx(NORMAL_95 * 0.001, rel=1e-6, abs=0)

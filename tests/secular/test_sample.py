@@ -10,14 +10,14 @@ from earthspin.constants import ARCSEC, NORMAL_95
 from earthspin.secular.derived_angles import (
     LINEAR_TO,
     SAMPLED_FROM,
-    Readings,
+    AnglesWithErrors,
     angle,
+    derive,
+    derive_with_errors,
+    difference,
     followed_perihelion,
-    moved_by,
     phase_error,
-    read,
-    readings,
-    together,
+    root_sum_square,
 )
 from earthspin.secular.error_budget import (
     MEMBERS,
@@ -68,22 +68,28 @@ def test_the_quantile_of_a_sum_of_causes_is_its_half_width(weights: np.ndarray) 
     assert found == pytest.approx(float(np.linalg.norm(weights)), rel=0.15, abs=0)
 
 
-def _inside(found: Readings, times: np.ndarray, members: int, seed: int) -> dict[str, np.ndarray]:
+def _inside(
+    found: AnglesWithErrors, times: np.ndarray, members: int, seed: int
+) -> dict[str, np.ndarray]:
     """By name, share of fresh members inside the half-width, at each epoch."""
     perihelion = followed_perihelion(EARTHS, np.append(times, 0.0), FIXED)
     inside = {name: np.zeros(times.size) for name in (*NAMES, "pole")}
     for amounts in np.random.default_rng(seed).standard_normal((members, 7)) / NORMAL_95:
         of = changed(SETTING, UNCERTAINTY, amounts)
-        path = solve(of.strength, of.orbit, of.start, (times[0], times[-1]))
-        member = read(path, of, times, FIXED, perihelion)
+        path = solve(of.precession, of.orbit, of.start, (times[0], times[-1]))
+        member = derive(path, of, times, FIXED, perihelion)
         for name in NAMES:
-            inside[name] += np.abs(moved_by(member, found.mine, name)) <= found.half_width(name)
-        inside["pole"] += angle(member.pole, found.mine.pole) <= found.direction_half_width("pole")
+            inside[name] += np.abs(difference(member, found.nominal, name)) <= found.half_width(
+                name
+            )
+        inside["pole"] += angle(member.pole, found.nominal.pole) <= found.direction_half_width(
+            "pole"
+        )
     return {name: count / members for name, count in inside.items()}
 
 
-def _readings(times: np.ndarray) -> Readings:
-    return readings(solved(SETTING, (times[0], times[-1]), UNCERTAINTY), times, FIXED)
+def _readings(times: np.ndarray) -> AnglesWithErrors:
+    return derive_with_errors(solved(SETTING, (times[0], times[-1]), UNCERTAINTY), times, FIXED)
 
 
 @pytest.mark.slow
@@ -106,7 +112,7 @@ def test_half_widths_stay_where_the_phase_is_lost() -> None:
     by_million_years = found.half_width("obliquity").reshape(10, 50)
     growing = np.sqrt(np.mean(by_million_years[4:] ** 2, axis=1))
     assert np.all(np.diff(growing) < 0)  # from 6 million years back to the present
-    swing = np.std(found.mine.values["obliquity"].reshape(10, 50), axis=1)
+    swing = np.std(found.nominal.values["obliquity"].reshape(10, 50), axis=1)
     ratio = np.sqrt(np.mean(by_million_years**2, axis=1)) / swing
     assert np.all(ratio[:4] > 2)
     assert np.all(ratio < 3)
@@ -116,7 +122,7 @@ def test_half_widths_go_over_from_one_rule_to_the_other_without_a_step() -> None
     times = np.arange(-1500.0, -900.0, 4) * KYR
     found = _readings(times)
     phase = phase_error(solved(SETTING, (times[0], times[-1]), UNCERTAINTY), times)
-    precession = together(found.apart("general_precession"))
+    precession = root_sum_square(found.changes("general_precession"))
     # the largest so far, with what the obliquity is off: at most 6.6 % of difference
     assert phase == pytest.approx(precession, rel=0.1, abs=0)
     assert np.all(np.diff(phase) <= 1e-12)
@@ -124,7 +130,7 @@ def test_half_widths_go_over_from_one_rule_to_the_other_without_a_step() -> None
     assert np.array_equal(found.weight == 0, phase <= LINEAR_TO)
     assert np.all((found.weight[between] > 0) & (found.weight[between] < 1))
     for name in ("general_precession", "longitude_of_perihelion", "psi_A"):
-        linear = together(found.apart(name))
+        linear = root_sum_square(found.changes(name))
         # at most 2 % of difference was measured
         assert found.half_width(name) == pytest.approx(linear, rel=0.05, abs=0), name
 
@@ -133,7 +139,7 @@ def test_short_spans_are_solved_once_for_each_cause() -> None:
     found = _readings(np.arange(-900.0, 0.0, 100) * KYR)
     assert not found.sampled
     assert found.half_width("obliquity") == pytest.approx(
-        together(found.apart("obliquity")), rel=1e-15, abs=0
+        root_sum_square(found.changes("obliquity")), rel=1e-15, abs=0
     )
 
 
@@ -148,16 +154,16 @@ def test_an_epoch_has_the_same_half_width_whatever_span_is_asked_for() -> None:
 def test_members_side_by_side_have_the_half_widths_that_each_has_alone() -> None:
     times = np.array([-2500.0, -2000.0]) * KYR
     factors = np.array([1.0, 0.99])
-    many = SETTING.strength
+    many = SETTING.precession
     many = replace(many, moon=many.moon * factors[:, np.newaxis])
     start = np.repeat(POLE[:, np.newaxis], 2, axis=1)
-    together_ = readings(
+    together_ = derive_with_errors(
         solved(AxisInputs(many, EARTHS, start), (times[0], times[-1]), UNCERTAINTY), times, FIXED
     )
     for place, factor in enumerate(factors):
-        alone = replace(SETTING.strength, moon=SETTING.strength.moon * factor)
+        alone = replace(SETTING.precession, moon=SETTING.precession.moon * factor)
         setting = AxisInputs(alone, EARTHS, POLE)
-        one = readings(solved(setting, (times[0], times[-1]), UNCERTAINTY), times, FIXED)
+        one = derive_with_errors(solved(setting, (times[0], times[-1]), UNCERTAINTY), times, FIXED)
         for name in NAMES:
             assert together_.half_width(name)[place] == pytest.approx(
                 one.half_width(name), rel=1e-6, abs=0

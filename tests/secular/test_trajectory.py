@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from earthspin.constants import ARCSEC
 from earthspin.errors import ApartError, UndefinedError
-from earthspin.secular.averaged_torque import PrecessionConstant, Tides, pull
-from earthspin.secular.trajectory import Turn, slope, solve
+from earthspin.secular.averaged_torque import PrecessionConstant, Tides, luni_solar_torque
+from earthspin.secular.trajectory import NodeTorque, linearization, solve
 from tests.reference.spin_axis import spin_axis
 from tests.secular.setting import (
     E0,
@@ -33,11 +33,11 @@ def as_axis(phi: float, z: float) -> np.ndarray:
     return np.array([np.sqrt(1 - z * z) * np.cos(phi), np.sqrt(1 - z * z) * np.sin(phi), z])
 
 
-def a_turn(m: tuple[float, ...], g: tuple[float, ...], a: float) -> Turn:
+def a_turn(m: tuple[float, ...], g: tuple[float, ...], a: float) -> NodeTorque:
     def across(vector: tuple[float, ...]) -> np.ndarray:
         return np.array([complex(*vector[:2])])
 
-    return Turn(across(m), np.array([m[2]]), across(g), np.array([g[2]]), np.array([a]))
+    return NodeTorque(across(m), np.array([m[2]]), across(g), np.array([g[2]]), np.array([a]))
 
 
 @given(unit, unit, st.floats(0.1, 3.0), st.floats(-3, 3), st.floats(-0.95, 0.95))
@@ -46,7 +46,7 @@ def test_the_slope_is_that_of_the_vector_equation(
 ) -> None:
     s = as_axis(phi, z)
     rate = np.cross(np.array(g) - a * (np.array(m) @ s) * np.array(m), s)
-    rates = slope(a_turn(m, g, a), np.array([phi]), np.array([z])).rates
+    rates = linearization(a_turn(m, g, a), np.array([phi]), np.array([z])).rates
     rho2 = 1 - z * z
     assert abs(rates[1, 0] - rate[2]) < 1e-13
     assert abs(rates[0, 0] - (s[0] * rate[1] - s[1] * rate[0]) / rho2) < 1e-12
@@ -57,11 +57,11 @@ def test_its_derivatives_are_those_of_finite_differences(
     m: tuple[float, ...], g: tuple[float, ...], a: float, phi: float, z: float
 ) -> None:
     on, h = a_turn(m, g, a), 1e-5
-    told = slope(on, np.array([phi]), np.array([z]))
+    told = linearization(on, np.array([phi]), np.array([z]))
     by_phi, by_z = np.array([told.mixed, told.by_longitude]), [told.by_height, -told.mixed]
 
     def at(p: float, q: float) -> np.ndarray:
-        return slope(on, np.array([p]), np.array([q])).rates
+        return linearization(on, np.array([p]), np.array([q])).rates
 
     for column, (dp, dq) in ((by_phi, (h, 0.0)), (by_z, (0.0, h))):
         found = (at(phi + dp, z + dq) - at(phi - dp, z - dq)) / (2 * h)
@@ -176,7 +176,7 @@ def test_what_is_solved_is_the_equation() -> None:
     times, h = np.linspace(-59 * KYR, -1 * KYR, 57), 0.01 * KYR
     rate = (path.at(times + h) - path.at(times - h)) / (2 * h)
     s = path.at(times)
-    on = pull(earths(), EARTHS.at(times), times)
+    on = luni_solar_torque(earths(), EARTHS.at(times), times)
     turn = on.geodesic - on.constant * np.sum(on.axis * s, axis=0) * on.axis
     off = np.max(np.abs(rate - np.cross(turn, s, axis=0)))
     assert off / ARCSEC * KYR < 0.1  # arcsec in a thousand years, of 20,000
@@ -211,13 +211,13 @@ def test_a_member_has_the_same_bits_alone(obliquities: tuple[float, ...]) -> Non
     normal = EARTHS.at(np.zeros(1))[0][:, 0]
     starts = [inclined_axis(np.radians(degrees), normal) for degrees in obliquities]
     together = solve(strength, EARTHS, np.stack(starts, axis=1), span)
-    again = solve(strength, EARTHS, np.stack(starts, axis=1), span, near=together)
+    again = solve(strength, EARTHS, np.stack(starts, axis=1), span, guess=together)
     steps = []
     for member, start in enumerate(starts):
         alone = solve(one_of(strength, member), EARTHS, start, span)
         assert np.array_equal(together.coefficients[:, member], alone.coefficients)
         steps.append(alone.steps)
-        alone = solve(one_of(strength, member), EARTHS, start, span, near=alone)
+        alone = solve(one_of(strength, member), EARTHS, start, span, guess=alone)
         assert np.array_equal(again.coefficients[:, member], alone.coefficients)
     assert len(set(steps)) > 1 or len(starts) < 3, steps
 
@@ -232,7 +232,7 @@ def test_a_guess_saves_steps_and_moves_nothing() -> None:
     span, times = (-MYR, 0.0), np.linspace(-MYR, 0.0, 101)
     path = solve(earths(), EARTHS, POLE, span)
     other = replace(earths(), ellipticity=1.0005)
-    plain, guided = (solve(other, EARTHS, POLE, span, near=near) for near in (None, path))
+    plain, guided = (solve(other, EARTHS, POLE, span, guess=near) for near in (None, path))
     assert guided.steps < plain.steps
     assert arcsec(guided.at(times), plain.at(times)) < 1e-4
 

@@ -282,7 +282,7 @@ def first_number(words: str) -> float:
 
 
 def expected(name: str) -> Iterator[float]:
-    """Readings by the library, before and after a slider is moved."""
+    """AnglesWithErrors by the library, before and after a slider is moved."""
     given = PLAYS[name]()
     if name == "precession":
         pulls = [given["sun"], given["moon"]]

@@ -13,14 +13,14 @@ from earthspin.bodies import MOON
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, JULIAN_YEAR
 from earthspin.numerics.arrays import FloatArray
 from earthspin.secular import trajectory
-from earthspin.secular.averaged_torque import PrecessionConstant, Tides, pull
+from earthspin.secular.averaged_torque import PrecessionConstant, Tides, luni_solar_torque
 from earthspin.sky.orbit_table import OrbitTable, shipped
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.sky import BODY, SPIN
 from tests.reference.stepping import integrate
 from tests.reference.stored import load
 
-Slope = Callable[[float, FloatArray], FloatArray]
+Linearization = Callable[[float, FloatArray], FloatArray]
 
 KYR = 1000 * JULIAN_YEAR
 #: Span, s, and the number of times.
@@ -98,7 +98,7 @@ def _newton(start: FloatArray, pieces: int, order: int) -> tuple[FloatArray, int
 def orbit_slope(time: float, s: FloatArray) -> FloatArray:
     """Rate of change of the spin axis, s-1; each call evaluates the orbit table."""
     times = np.array([time])
-    torque = pull(STRENGTH, orbit().at(times), times)
+    torque = luni_solar_torque(STRENGTH, orbit().at(times), times)
     m = torque.axis[:, 0]
     return np.cross(torque.geodesic[:, 0] - torque.constant[0] * (m @ s) * m, s)
 
@@ -118,7 +118,7 @@ class FittedSlope:
         self.series = []
         for left, right in pairwise(edges):
             t = (left + right) / 2 + (right - left) / 2 * nodes
-            torque = pull(STRENGTH, orbit().at(t), t)
+            torque = luni_solar_torque(STRENGTH, orbit().at(t), t)
             root = np.sqrt(torque.constant) * torque.axis
             fit = legendre.legfit(nodes, np.concatenate([root, torque.geodesic]).T, 19)
             powers = [legendre.leg2poly(column) for column in fit.T]
@@ -137,7 +137,7 @@ class FittedSlope:
         return np.array([q * w - r * v, r * u - p * w, p * v - q * u])
 
 
-def _scipy(slope: Slope, start: FloatArray, rtol: float) -> tuple[FloatArray, int]:
+def _scipy(slope: Linearization, start: FloatArray, rtol: float) -> tuple[FloatArray, int]:
     states, evaluations = integrate(slope, start, times()[::-1], rtol)
     axes = states[::-1].T
     return axes / np.linalg.norm(axes, axis=0), evaluations
