@@ -68,12 +68,12 @@ def precession_angles(psi: FloatArray, omega: FloatArray, ecliptic_pole: FloatAr
     ecliptic_pole : ndarray, shape (n, 3)
         Pole of the moving ecliptic in the frame of the fixed one.
     """
-    u, e = pole_from(psi, omega), ecliptic_pole
-    across = np.cross(u, e)  # towards the equinox of date
-    obliquity = np.arctan2(np.linalg.norm(across, axis=1), np.sum(u * e, axis=1))
-    fixed_node = np.cross(u, [0.0, 0.0, 1.0])  # towards the node of the fixed ecliptic
-    chi = _angle_about(u, fixed_node, across)
-    general = _along_the_moving_ecliptic(across, e)
+    pole, ecliptic = pole_from(psi, omega), ecliptic_pole
+    equinox = np.cross(pole, ecliptic)  # towards the equinox of date
+    obliquity = np.arctan2(np.linalg.norm(equinox, axis=1), np.sum(pole * ecliptic, axis=1))
+    fixed_node = np.cross(pole, [0.0, 0.0, 1.0])  # towards the node of the fixed ecliptic
+    chi = _angle_about(pole, fixed_node, equinox)
+    general = _angle_from_origin(equinox, ecliptic)
     return np.stack([psi, omega, obliquity, chi, general], axis=-1)
 
 
@@ -85,17 +85,17 @@ def general_precession(pole: FloatArray, ecliptic_pole: FloatArray) -> FloatArra
     pole, ecliptic_pole : ndarray, shape (..., 3)
         Mean pole and pole of the moving ecliptic, in the frame of the fixed one.
     """
-    return _along_the_moving_ecliptic(np.cross(pole, ecliptic_pole), ecliptic_pole)
+    return _angle_from_origin(np.cross(pole, ecliptic_pole), ecliptic_pole)
 
 
-def _along_the_moving_ecliptic(equinox: FloatArray, e: FloatArray) -> FloatArray:
+def _angle_from_origin(equinox: FloatArray, ecliptic: FloatArray) -> FloatArray:
     """Angle along the moving ecliptic from the equinox of date to a non-rotating origin, rad.
 
     See Lieske 1977.
     """
     x, z = np.eye(3)[[0, 2]]
-    origin = x - (e[..., :1] / (1 + e[..., 2:])) * (e + z)
-    return _angle_about(e, equinox, origin)
+    origin = x - (ecliptic[..., :1] / (1 + ecliptic[..., 2:])) * (ecliptic + z)
+    return _angle_about(ecliptic, equinox, origin)
 
 
 def polynomials(t: FloatArray, angles: FloatArray, degree: int) -> FloatArray:
@@ -120,8 +120,8 @@ def polynomials(t: FloatArray, angles: FloatArray, degree: int) -> FloatArray:
 
 def _angle_about(axis: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
     """Angle from one direction to another, measured about a given axis, rad."""
-    across = np.sum(np.cross(start, end) * axis, axis=-1)
-    return np.asarray(np.arctan2(across, np.sum(start * end, axis=-1)))
+    sine = np.sum(np.cross(start, end) * axis, axis=-1)
+    return np.asarray(np.arctan2(sine, np.sum(start * end, axis=-1)))
 
 
 # --- circular terms -------------------------------------------------------------------------------
@@ -220,9 +220,9 @@ def responses(
     dict of str to ndarray, shape (t,), complex
         rad.
     """
-    sizes = np.array([factor * circles.amplitude for factor in factors.values()])
-    total = np.zeros((len(sizes), arguments.shape[1]), dtype=complex)
-    for multiple, amplitude in zip(circles.multiples, sizes.T, strict=True):
+    amplitudes = np.array([factor * circles.amplitude for factor in factors.values()])
+    total = np.zeros((len(amplitudes), arguments.shape[1]), dtype=complex)
+    for multiple, amplitude in zip(circles.multiples, amplitudes.T, strict=True):
         total += amplitude[:, np.newaxis] * np.exp(1j * (multiple @ arguments))
     return dict(zip(factors, total, strict=True))
 
@@ -248,10 +248,10 @@ class FrequencyAnalysis:
         # number of threads, and results must be reproducible to the bit.
         phase = np.einsum("kj,jt->kt", MULTIPLES, arguments)
         circles = np.concatenate([np.cos(phase), np.sin(phase)])
-        growing = [MULTIPLES.tolist().index([int(m) for m in t.split()]) for t in _GROWING]
-        drift = centuries * circles[[*growing, *(len(MULTIPLES) + k for k in growing)]]
+        terms = [MULTIPLES.tolist().index([int(m) for m in t.split()]) for t in _GROWING]
+        growing_rows = centuries * circles[[*terms, *(len(MULTIPLES) + k for k in terms)]]
         slow = centuries ** np.arange(SLOW_DEGREE + 1)[:, np.newaxis]
-        self._rows = np.concatenate([circles, slow, drift])
+        self._rows = np.concatenate([circles, slow, growing_rows])
         self._scale = np.linalg.norm(self._rows, axis=1)
         self._rows /= self._scale[:, np.newaxis]
         normal = np.empty((len(self._rows), len(self._rows)))
@@ -273,19 +273,19 @@ class FrequencyAnalysis:
         eta : ndarray, shape (t,), complex
             dpsi sin(eps0) + i deps, rad.
         """
-        both = np.stack([eta.real, eta.imag])
-        factors = self._solved(both)
-        residual = both - np.einsum("it,ci->ct", self._rows, factors)
+        components = np.stack([eta.real, eta.imag])
+        factors = self._solved(components)
+        residual = components - np.einsum("it,ci->ct", self._rows, factors)
         factors += self._solved(residual)
-        together: ComplexArray = factors[0] + 1j * factors[1]
-        together /= self._scale
-        x, y = together[: 2 * len(MULTIPLES)].reshape(2, -1)
+        coefficients: ComplexArray = factors[0] + 1j * factors[1]
+        coefficients /= self._scale
+        x, y = coefficients[: 2 * len(MULTIPLES)].reshape(2, -1)
         amplitude: ComplexArray = np.concatenate([x - 1j * y, x + 1j * y])
         amplitude /= 2
-        slow = together[2 * len(MULTIPLES) :][: SLOW_DEGREE + 1]
+        slow = coefficients[2 * len(MULTIPLES) :][: SLOW_DEGREE + 1]
         return Circles(self._multiples, self._frequency, amplitude, slow)
 
-    def _solved(self, both: FloatArray) -> FloatArray:
+    def _solved(self, components: FloatArray) -> FloatArray:
         """Solve the least-squares problem for real and imaginary part of nutation, shape (2, t).
 
         The solution is for rows of unit length. They are nearly orthogonal (condition number 20
@@ -294,8 +294,8 @@ class FrequencyAnalysis:
         """
         from scipy.sparse.linalg import cg
 
-        right = np.einsum("it,ct->ci", self._rows, both)
-        return np.array([cg(self._normal, part, rtol=NEAR_ENOUGH, atol=0.0)[0] for part in right])
+        sides = np.einsum("it,ct->ci", self._rows, components)
+        return np.array([cg(self._normal, side, rtol=NEAR_ENOUGH, atol=0.0)[0] for side in sides])
 
 
 def complex_nutation(angles: FloatArray) -> ComplexArray:
@@ -309,8 +309,8 @@ def phases(amplitude: ComplexArray) -> tuple[FloatArray, FloatArray]:
 
     eta = -i sum (in + i out) exp(i phi) (Mathews, Herring & Buffett 2002).
     """
-    turned = 1j * amplitude
-    return turned.real, turned.imag
+    rotated = 1j * amplitude
+    return rotated.real, rotated.imag
 
 
 def without_line(centuries: FloatArray, series: FloatArray) -> FloatArray:
@@ -389,9 +389,9 @@ def neighbours_of(
         for sign, size in ((1, forward), (-1, backward)):
             multiple = sign * np.array(term.multiples)
             nearest = int(np.argmin(np.abs(frequency - multiple @ rates)))
-            turned = np.exp(1j * ((multiple - multiples[nearest]) @ arguments))
+            phase_factor = np.exp(1j * ((multiple - multiples[nearest]) @ arguments))
             (names[nearest],) = term_names(multiple[np.newaxis])
-            amplitude[nearest] += size * turned
+            amplitude[nearest] += size * phase_factor
     return names, amplitude
 
 
@@ -488,7 +488,7 @@ class PoleAnalysis:
 
 
 def shifted_start(
-    start: FloatArray, ours: Secular, wanted: Secular, ecliptic: FloatArray, epoch: float
+    start: FloatArray, computed: Secular, wanted: Secular, ecliptic: FloatArray, epoch: float
 ) -> FloatArray:
     """Correct the initial axis of an integration so that the mean pole follows a wanted motion.
 
@@ -496,14 +496,14 @@ def shifted_start(
     ----------
     start : ndarray, shape (3,)
         Initial axis of the previous integration.
-    ours, wanted : Secular
+    computed, wanted : Secular
         Secular motion that `start` led to, and the motion to match.
     ecliptic : ndarray, shape (3, 3)
     epoch : float
         Time of the start, Julian centuries from J2000.0.
     """
     psi, omega = on_fixed_ecliptic(start[np.newaxis], ecliptic)[0]
-    our_psi, our_omega = ours.at(np.array([epoch]))
+    computed_psi, computed_omega = computed.at(np.array([epoch]))
     wanted_psi, wanted_omega = wanted.at(np.array([epoch]))
-    pole = pole_from(psi + wanted_psi - our_psi, omega + wanted_omega - our_omega)
+    pole = pole_from(psi + wanted_psi - computed_psi, omega + wanted_omega - computed_omega)
     return np.asarray(pole[0] @ ecliptic)

@@ -37,7 +37,7 @@ FALSE_ALARM = 1e-2
 
 
 @dataclass(frozen=True)
-class WindowAmplitudes:
+class CoreNutationAmplitudes:
     """Amplitudes of the free core nutation in sliding time windows, with errors.
 
     Attributes
@@ -93,7 +93,7 @@ def fit(
     window: float = WINDOW,
     step: float = STEP,
     period: float = PERIOD,
-) -> WindowAmplitudes:
+) -> CoreNutationAmplitudes:
     """Fit free core nutation, constant and trend to pole offsets in sliding time windows.
 
     The noise is not white, so its power is measured where it matters: at the same frequency in
@@ -120,36 +120,36 @@ def fit(
 
     spacing = (time[-1] - time[0]) / (time.size - 1)
     middles, means, length = in_blocks(time, eta, BLOCK)
-    count, size = means.size, round(window / length)
-    if window < SHORTEST * abs(period) or size > count:
+    count, width = means.size, round(window / length)
+    if window < SHORTEST * abs(period) or width > count:
         raise UndefinedError(
             f"a window of {window:.0f} d is not possible; it lies between "
             f"{SHORTEST * abs(period):.0f} d, {SHORTEST:g} periods of the free core nutation, and "
             f"the series' {count * length:.0f} d"
         )
-    local = (np.arange(size, dtype=float) - (size - 1) / 2) * length
+    offsets = (np.arange(width, dtype=float) - (width - 1) / 2) * length
     # A mean over a block shortens a circle.
-    shortened = np.sinc(length / period) / np.sinc(spacing / period)
-    columns = np.column_stack([np.ones(size), local / window, circle(local, period) * shortened])
-    starts = np.arange(0, count - size + 1, max(1, round(step / length)))
-    series = np.lib.stride_tricks.sliding_window_view(means, size)[starts]
+    factor = np.sinc(length / period) / np.sinc(spacing / period)
+    columns = np.column_stack([np.ones(width), offsets / window, circle(offsets, period) * factor])
+    starts = np.arange(0, count - width + 1, max(1, round(step / length)))
+    series = np.lib.stride_tricks.sliding_window_view(means, width)[starts]
     # Plain sums: a BLAS rounds otherwise with another number of threads.
     coefficients = np.einsum("ws,ks->wk", series, np.linalg.pinv(columns))
     residual = series - np.einsum("wk,sk->ws", coefficients, columns)
-    frequencies = 1 / abs(period) + np.array(NEIGHBOURS) / (size * length)
-    neighbours = np.exp(2j * np.pi * np.outer(local, frequencies))
+    frequencies = 1 / abs(period) + np.array(NEIGHBOURS) / (width * length)
+    neighbours = np.exp(2j * np.pi * np.outer(offsets, frequencies))
     noise = np.einsum("ws,ks->wk", residual, np.linalg.pinv(neighbours))
     power = EXCESS**2 * np.mean(np.abs(noise) ** 2, axis=1)
     freedom = 2 * len(NEIGHBOURS)
     limit, noise_alone = (
         np.sqrt(power * fdtri(2, freedom, chance)) for chance in (1 - FALSE_ALARM, 0.95)
     )
-    middle = middles[starts] + local[-1]
+    middle = middles[starts] + offsets[-1]
     amplitude = coefficients[:, 2] / circle(middle, period)
     half_width = np.sqrt(power / 2) * stdtrit(freedom, 0.975)
     # Below what noise alone gives, the true amplitude may be zero, and the estimate is too large.
     error = np.where(np.abs(amplitude) > noise_alone, half_width, noise_alone)
-    return WindowAmplitudes(middle, amplitude, error, limit, period)
+    return CoreNutationAmplitudes(middle, amplitude, error, limit, period)
 
 
 # --- prediction of celestial pole offsets, up to two years ahead ----------------------------------
@@ -194,13 +194,13 @@ class Fits:
 
     def ahead(self, horizon: float, days: slice | int) -> ComplexArray:
         """Predict celestial pole offsets `horizon` days after each of the selected days."""
-        then = circle(np.atleast_1d(self.time[days]) + horizon)
-        slow, fast = np.exp(-horizon / SLOW_FADE), np.exp(-horizon / FAST_FADE)
+        circle_ahead = circle(np.atleast_1d(self.time[days]) + horizon)
+        slow_factor, fast_factor = np.exp(-horizon / SLOW_FADE), np.exp(-horizon / FAST_FADE)
         return np.asarray(
             self.constant[days]
-            + self.amplitude[days] * then
-            + self.slow[days] * slow
-            + self.fast[days] * fast
+            + self.amplitude[days] * circle_ahead
+            + self.slow[days] * slow_factor
+            + self.fast[days] * fast_factor
         )
 
 
@@ -241,9 +241,9 @@ def predict(
     eta = dx + 1j * dy
     fits = fit_each_day(mjd, eta, 1 / (dx_error**2 + dy_error**2 + 2 * FLOOR))
     values = np.array([fits.ahead(h, mjd.size - 1)[0] for h in horizon])
-    whole = np.ceil(horizon).astype(int)
-    widths = {h: half_width(fits, eta, h) for h in np.unique(whole)}
-    return np.stack([values.real, values.imag], axis=1), np.array([widths[h] for h in whole])
+    whole_days = np.ceil(horizon).astype(int)
+    widths = {h: half_width(fits, eta, h) for h in np.unique(whole_days)}
+    return np.stack([values.real, values.imag], axis=1), np.array([widths[h] for h in whole_days])
 
 
 def fit_each_day(time: FloatArray, eta: ComplexArray, weight: FloatArray) -> Fits:
@@ -262,20 +262,20 @@ def fit_each_day(time: FloatArray, eta: ComplexArray, weight: FloatArray) -> Fit
     """
     from scipy.signal import lfilter
 
-    turned = circle(time)
+    circles = circle(time)
 
-    def total(values: ComplexArray | FloatArray, fall: float) -> ComplexArray:
-        return np.asarray(lfilter([1.0], [1.0, -fall], values.astype(complex)))
+    def total(values: ComplexArray | FloatArray, decay: float) -> ComplexArray:
+        return np.asarray(lfilter([1.0], [1.0, -decay], values.astype(complex)))
 
-    fall = 0.5 ** (1 / HALF_LIFE)
-    both, mixed = total(weight, fall), total(weight * turned, fall)
-    of_one, of_turned = total(weight * eta, fall), total(weight * np.conj(turned) * eta, fall)
-    determinant = both * both - np.abs(mixed) ** 2
+    decay = 0.5 ** (1 / HALF_LIFE)
+    weight_sum, circle_sum = total(weight, decay), total(weight * circles, decay)
+    eta_sum, turned_sum = (total(w * eta, decay) for w in (weight, weight * np.conj(circles)))
+    determinant = weight_sum * weight_sum - np.abs(circle_sum) ** 2
     # The first days alone determine nothing; no use is made of them.
     determinant[determinant == 0] = np.inf
-    constant = (both * of_one - mixed * of_turned) / determinant
-    amplitude = (both * of_turned - np.conj(mixed) * of_one) / determinant
-    residual = eta - constant - amplitude * turned
+    constant = (weight_sum * eta_sum - circle_sum * turned_sum) / determinant
+    amplitude = (weight_sum * turned_sum - np.conj(circle_sum) * eta_sum) / determinant
+    residual = eta - constant - amplitude * circles
     recent = np.exp(-1 / RECENT)
     slow = total(weight * residual, recent) / total(weight, recent)
     return Fits(time, constant, amplitude, slow, residual - slow)
@@ -287,8 +287,8 @@ def half_width(fits: Fits, eta: ComplexArray, horizon: int) -> FloatArray:
     The root mean square of the errors of the same prediction from earlier days, whose targets were
     observed by the last day.
     """
-    last = eta.size - horizon
-    days = slice(max(STARTING, last - JUDGED), last)
+    count = eta.size - horizon
+    days = slice(max(STARTING, count - JUDGED), count)
     error = fits.ahead(horizon, days) - eta[days.start + horizon : days.stop + horizon]
     return NORMAL_95 * np.sqrt([np.mean(error.real**2), np.mean(error.imag**2)])
 

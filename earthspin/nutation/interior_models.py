@@ -22,7 +22,7 @@ from earthspin.interior.modes import parts_of as interior_parts
 from earthspin.interior.named import CORE_NUTATION, EXPONENT_RANGE, K_CMB_OUT_OF_PHASE, K_ICB
 from earthspin.interior.ocean_and_anelasticity import diurnal_response, shear_modulus_change
 from earthspin.numerics.arrays import Array, ComplexArray, FloatArray
-from earthspin.numerics.polynomials import lagrange
+from earthspin.numerics.varied_inputs import half_width, normal_medians, one_at_a_time
 
 # --- the rungs ------------------------------------------------------------------------------------
 
@@ -39,7 +39,7 @@ RUNGS = {
     "coupling": "coupling at both boundaries of the fluid core, inferred from nutation",
 }
 #: Additional models for comparison with the rungs.
-BESIDE = {
+COMPARISONS = {
     "core-in-rigid-mantle": "a fluid core in a rigid mantle",
     "hydrostatic": "the inner-core rung with the H of hydrostatic equilibrium",
 }
@@ -95,10 +95,10 @@ class Rung:
             periods of 400 rotations and of one rotation.
         """
         refined_modes: dict[str, complex] = {}
-        for near in (1 / 400, -1.0):
-            modes = free_modes(self.parts(np.array(near)))
-            nearby = {name: s for name, s in modes.items() if (s.real > -0.5) == (near > 0)}
-            for name, s in nearby.items():
+        for sigma_start in (1 / 400, -1.0):
+            modes = free_modes(self.parts(np.array(sigma_start)))
+            group = {name: s for name, s in modes.items() if (s.real > -0.5) == (sigma_start > 0)}
+            for name, s in group.items():
                 refined_modes[name] = (
                     free_modes(self.parts(np.array(s.real)))[name] if refined else complex(s)
                 )
@@ -152,12 +152,12 @@ class InteriorInputs:
         One diurnal value is used for all nutations: within the diurnal band the moduli change by a
         thousandth of their change from one second to one day.
         """
-        turn = 2 * np.pi / abs(self.spin_rate)
-        slow = bool(np.all(np.abs(sigma) < 0.5))
-        period = turn / float(np.mean(np.abs(sigma))) if slow else turn
+        rotation_period = 2 * np.pi / abs(self.spin_rate)
+        is_wobble = bool(np.all(np.abs(sigma) < 0.5))
+        period = rotation_period / float(np.mean(np.abs(sigma))) if is_wobble else rotation_period
         mu_change = complex(shear_modulus_change(period, self.exponent))
         # retrograde motion: negative frequency, so the complex conjugate
-        return _love_numbers(self.layers, mu_change if slow else mu_change.conjugate())
+        return _love_numbers(self.layers, mu_change if is_wobble else mu_change.conjugate())
 
 
 _love_numbers = lru_cache(maxsize=64)(solve_love_numbers)
@@ -176,13 +176,13 @@ def parts_of(setting: InteriorInputs, love: DegreeTwoLoveNumbers, e: float | Non
     e : float, optional
         (C - A)/A of the whole body, the observed value by default.
     """
-    whole = setting.e if e is None else e
-    parts = interior_parts(setting.layers, setting.spin_rate, love.response, whole)
-    changed = {name: factor * getattr(parts, name) for name, factor in setting.factors.items()}
-    if "a3" in changed:  # another excess of density, and the same gravity of the masses outside
-        a3 = changed["a3"]
-        changed |= {"a1": 1 - a3, "a2": 1 - a3 - a3 * (parts.a1 - parts.a2) / parts.a3}
-    return replace(parts, **changed)
+    whole_e = setting.e if e is None else e
+    parts = interior_parts(setting.layers, setting.spin_rate, love.response, whole_e)
+    scaled = {name: factor * getattr(parts, name) for name, factor in setting.factors.items()}
+    if "a3" in scaled:  # another excess of density, and the same gravity of the masses outside
+        a3 = scaled["a3"]
+        scaled |= {"a1": 1 - a3, "a2": 1 - a3 - a3 * (parts.a1 - parts.a2) / parts.a3}
+    return replace(parts, **scaled)
 
 
 def with_ocean(
@@ -194,12 +194,12 @@ def with_ocean(
     the ground, and thereby the sea level; by reciprocity the same coefficients give the effect of
     the water's weight.
     """
-    slow = np.abs(sigma) < 0.5
-    added = np.where(slow, setting.ocean, setting.diurnal_ocean * diurnal_response(sigma))
-    added = added / love.tilt_factor[..., 0] ** 2
+    is_slow = np.abs(sigma) < 0.5
+    ocean_k2 = np.where(is_slow, setting.ocean, setting.diurnal_ocean * diurnal_response(sigma))
+    ocean_k2 = ocean_k2 / love.tilt_factor[..., 0] ** 2
     tilt_product = love.tilt_factor[..., :, None] * love.tilt_factor[..., None, :]
-    water = setting.figure.tidal_inertia * added[..., None, None] * tilt_product
-    return replace(parts, inertia=parts.inertia + water)
+    ocean_inertia = setting.figure.tidal_inertia * ocean_k2[..., None, None] * tilt_product
+    return replace(parts, inertia=parts.inertia + ocean_inertia)
 
 
 def without_core(parts: Parts) -> Parts:
@@ -207,7 +207,7 @@ def without_core(parts: Parts) -> Parts:
     return replace(parts, fluid=0.0, inner=0.0)
 
 
-def climb(setting: InteriorInputs, coupling: bool = False) -> dict[str, Rung]:
+def rungs_of(setting: InteriorInputs, coupling: bool = False) -> dict[str, Rung]:
     """Build all interior models: those of increasing detail (rungs), and some for comparison.
 
     Parameters
@@ -216,35 +216,35 @@ def climb(setting: InteriorInputs, coupling: bool = False) -> dict[str, Rung]:
     coupling : bool
         Whether to include the rung with the coupling inferred from nutation.
     """
-    f, love = setting.figure, elastic(setting.layers)
-    firm = parts_of(setting, love)
+    hydrostatic, elastic_love = setting.figure, elastic(setting.layers)
+    elastic_parts = parts_of(setting, elastic_love)
 
-    def wet(sigma: Array, soft: bool) -> Parts:
-        numbers = setting.softened(sigma) if soft else love
-        return with_ocean(parts_of(setting, numbers), setting, numbers, sigma)
+    def with_ocean_parts(sigma: Array, is_anelastic: bool) -> Parts:
+        love_numbers = setting.softened(sigma) if is_anelastic else elastic_love
+        return with_ocean(parts_of(setting, love_numbers), setting, love_numbers, sigma)
 
-    anelastic = Rung(lambda sigma: wet(sigma, soft=True))
+    anelastic = Rung(lambda sigma: with_ocean_parts(sigma, is_anelastic=True))
 
-    e_core = f.e_core * setting.factors.get("e_f", 1.0)
-    stiff = replace(firm, inertia=np.zeros((3, 3)))
+    e_core = hydrostatic.e_core * setting.factors.get("e_f", 1.0)
+    rigid_parts = replace(elastic_parts, inertia=np.zeros((3, 3)))
     rungs = {
-        "rigid": Rung(lambda sigma: without_core(stiff)),
-        "elastic": Rung(lambda sigma: without_core(firm)),
-        "fluid-core": Rung(lambda sigma: all_fluid(firm, e_core)),
-        "inner-core": Rung(lambda sigma: firm),
-        "ocean": Rung(lambda sigma: wet(sigma, soft=False)),
+        "rigid": Rung(lambda sigma: without_core(rigid_parts)),
+        "elastic": Rung(lambda sigma: without_core(elastic_parts)),
+        "fluid-core": Rung(lambda sigma: all_fluid(elastic_parts, e_core)),
+        "inner-core": Rung(lambda sigma: elastic_parts),
+        "ocean": Rung(lambda sigma: with_ocean_parts(sigma, is_anelastic=False)),
         "anelastic": anelastic,
         "core-ellipticity": at_observed_period(anelastic, setting),
-        "core-in-rigid-mantle": Rung(lambda sigma: all_fluid(stiff, e_core)),
-        "hydrostatic": Rung(lambda sigma: parts_of(setting, love, f.e)),
+        "core-in-rigid-mantle": Rung(lambda sigma: all_fluid(rigid_parts, e_core)),
+        "hydrostatic": Rung(lambda sigma: parts_of(setting, elastic_love, hydrostatic.e)),
     }
     if coupling:
         # The coupling was inferred from the resonance of the inner core nutation, 1 + sigma about
         # a2 e_s - K: another figure of the inner core would have given another K.
-        hydrostatic = parts_of(replace(setting, factors={}), love)
-        k_icb = setting.k_icb + firm.a2 * firm.e_s - hydrostatic.a2 * hydrostatic.e_s
+        balanced = parts_of(replace(setting, factors={}), elastic_love)
+        k_icb = setting.k_icb + elastic_parts.a2 * elastic_parts.e_s - balanced.a2 * balanced.e_s
         rungs["coupling"] = at_observed_period(anelastic.coupled(setting.k_cmb, k_icb), setting)
-    return {name: rungs[name] for name in (*RUNGS, *BESIDE) if name in rungs}
+    return {name: rungs[name] for name in (*RUNGS, *COMPARISONS) if name in rungs}
 
 
 def at_observed_period(rung: Rung, setting: InteriorInputs) -> Rung:
@@ -257,7 +257,7 @@ def at_observed_period(rung: Rung, setting: InteriorInputs) -> Rung:
     setting : InteriorInputs
         Its observed period and spin rate are used.
     """
-    wanted = 1 / (setting.core_nutation * DAY * setting.spin_rate / (2 * np.pi)) - 1
+    observed = 1 / (setting.core_nutation * DAY * setting.spin_rate / (2 * np.pi)) - 1
 
     def with_core(e_f: float) -> Rung:
         return Rung(lambda sigma: replace(rung.parts(sigma), e_f=e_f))
@@ -267,7 +267,7 @@ def at_observed_period(rung: Rung, setting: InteriorInputs) -> Rung:
     for _ in range(8):
         model = with_core(e_f)
         mode = free_modes(model.parts(np.array(-1.0)))["free_core_nutation"].real
-        e_f += mode - wanted
+        e_f += mode - observed
     return with_core(e_f)
 
 
@@ -279,15 +279,10 @@ def quality(mode: complex) -> float:
 
 
 # --- errors by random draws of all inputs together ------------------------------------------------
-# The models are not computed for every draw: each quantity is interpolated by a parabola in each
-# input, and the changes by the inputs are added. A half-width is the change that 95 % of the draws
-# do not exceed.
+# Each quantity is interpolated by a parabola in each input (`earthspin.numerics.varied_inputs`).
 
 #: Number of draws, and their seed.
 DRAWS, SEED = 4000, 1
-#: Nodes of the parabola of a normal input in standard deviations: those of Gauss's rule of three
-#: points, by which mean and variance of a parabola are exact.
-_NODES = np.array([-np.sqrt(3.0), 0.0, np.sqrt(3.0)])
 #: Nodes of the parabola in the anelastic exponent.
 _EXPONENTS = np.linspace(*EXPONENT_RANGE, 3)
 
@@ -332,8 +327,8 @@ def changed(
         if name in _FACTORS:
             factors[_FACTORS[name]] = 1 + uncertainty[name] * z
         elif name in _NUMBERS:
-            own = _NUMBERS[name]
-            numbers[own] = getattr(setting, own) * (1 + uncertainty[name] * z)
+            field = _NUMBERS[name]
+            numbers[field] = getattr(setting, field) * (1 + uncertainty[name] * z)
         elif name == "exponent":
             numbers[name] = z
         elif name.startswith("k_icb"):
@@ -349,21 +344,18 @@ def inputs_of(uncertainty: Mapping[str, float]) -> list[str]:
     return [*relative, *_PUBLISHED, "exponent"]
 
 
-def draw(
-    uncertainty: Mapping[str, float], draws: int = DRAWS, seed: int = SEED
-) -> dict[str, FloatArray]:
+def draw(uncertainty: Mapping[str, float]) -> dict[str, FloatArray]:
     """Draw random model inputs: deviations in standard uncertainties, or values of the exponent.
 
     Each input takes equally probable values in random order (a Latin hypercube), so that a half-
     width due to a single input has no sampling error.
     """
-    from scipy.special import ndtri
-
-    generator = np.random.default_rng(seed)
     names = inputs_of(uncertainty)
-    below = (generator.permuted(np.tile(np.arange(draws), (len(names), 1)), axis=1) + 0.5) / draws
+    order = np.tile(np.arange(DRAWS), (len(names), 1))
+    strata = np.random.default_rng(SEED).permuted(order, axis=1)
     low, high = EXPONENT_RANGE
-    return dict(zip(names, [*ndtri(below[:-1]), low + (high - low) * below[-1]], strict=True))
+    exponent = low + (high - low) * ((strata[-1] + 0.5) / DRAWS)
+    return dict(zip(names, [*normal_medians(strata[:-1], DRAWS), exponent], strict=True))
 
 
 @dataclass(frozen=True)
@@ -400,7 +392,7 @@ class Spread:
 
     def transfer_half_width(self, name: str, frequency: FloatArray) -> FloatArray:
         """95 % half-width of a model's transfer function at frequencies in space, rad/s."""
-        return _half_width(self._drawn(self.transfer_changes(name, frequency)))
+        return half_width(self._drawn(self.transfer_changes(name, frequency)))
 
     def period_half_widths(self, name: str) -> dict[str, float]:
         """95 % half-widths of the periods of a model's free modes, s."""
@@ -411,7 +403,7 @@ class Spread:
             drawn = s + self._drawn(np.array([modes[mode] - s for modes in varied]))
             period = mode_period(mode, drawn, self.setting.spin_rate)
             middle = mode_period(mode, s, self.setting.spin_rate)
-            half_widths[mode] = float(_half_width(period - middle))
+            half_widths[mode] = float(half_width(period - middle))
         return half_widths
 
     def rms_half_width(
@@ -451,17 +443,12 @@ class Spread:
             by_node = 2 * linear[:, np.newaxis] + np.einsum("nm,md->nd", square, self.weights)
             squares = nominal + np.sum(self.weights * by_node, axis=0)
             rms_change = np.sqrt(np.maximum(squares, 0.0)) - np.sqrt(nominal)
-            half_widths.append(float(_half_width(rms_change / np.sqrt(angle.size))))
+            half_widths.append(float(half_width(rms_change / np.sqrt(angle.size))))
         return max(half_widths)
 
     def _drawn(self, changes: Array) -> Array:
         """Interpolate the changes of the models to all random samples, shape (samples, ...)."""
         return np.asarray(np.einsum("nd,n...->d...", self.weights, changes))
-
-
-def _half_width(changes: Array) -> FloatArray:
-    """95 % quantile of the absolute changes over the random samples (first axis)."""
-    return np.asarray(np.quantile(np.abs(changes), 0.95, axis=0))
 
 
 def spread_of(
@@ -473,17 +460,14 @@ def spread_of(
     ----------
     setting : InteriorInputs
     rungs : dict of str to Rung
-        The nominal models, as `climb` gives them.
+        The nominal models, as `rungs_of` gives them.
     uncertainty : mapping of str to float
         Relative standard uncertainties of the numbers of the interior.
     """
     nodes, weights = [], []
-    for name, values in draw(uncertainty).items():
-        places, nominal = (_EXPONENTS, setting.exponent) if name == "exponent" else (_NODES, 0.0)
-        basis = lagrange(places, values) - lagrange(places, np.array([nominal]))
-        for place, weight in zip(places, basis, strict=True):
-            if place != nominal:
-                varied = changed(setting, uncertainty, {name: float(place)})
-                nodes.append((varied, climb(varied, "coupling" in rungs)))
-                weights.append(weight)
+    centre = {"exponent": setting.exponent}
+    for name, node, weight in one_at_a_time(draw(uncertainty), {"exponent": _EXPONENTS}, centre):
+        varied = changed(setting, uncertainty, {name: node})
+        nodes.append((varied, rungs_of(varied, "coupling" in rungs)))
+        weights.append(weight)
     return Spread(setting, rungs, nodes, np.array(weights))

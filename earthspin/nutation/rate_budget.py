@@ -59,8 +59,8 @@ def contributions(total: float, without: Mapping[str, float]) -> dict[str, float
     without : mapping of str to float
         Rate with one effect switched off, by effect.
     """
-    shares = {effect: total - rate for effect, rate in without.items()}
-    return {FIRST_ORDER: total - sum(shares.values())} | shares
+    effects = {effect: total - rate for effect, rate in without.items()}
+    return {FIRST_ORDER: total - sum(effects.values())} | effects
 
 
 def published_contributions(effects: Sequence[str]) -> dict[str, float]:
@@ -116,10 +116,10 @@ class RateBudget:
 
 
 def budget_of(
-    ours: Secular,
-    theirs: Secular,
+    computed: Secular,
+    iau: Secular,
     without: Mapping[str, Secular],
-    off: Sequence[str],
+    omitted: Sequence[str],
     psi_iau: float,
     u_h: float,
 ) -> RateBudget:
@@ -127,48 +127,48 @@ def budget_of(
 
     Parameters
     ----------
-    ours, theirs : Secular
+    computed, iau : Secular
         Secular motion of the computed pole with all effects, and of the IAU pole, from the same
         analysis.
     without : mapping of str to Secular
         Computed secular motion with one effect switched off, by effect.
-    off : sequence of str
+    omitted : sequence of str
         Effects that are not included or do not affect a rate; their contribution is zero.
     psi_iau : float
         Rate of psi_A at J2000.0 in IAU 2006, rad/s.
     u_h : float
         Relative standard uncertainty of H.
     """
-    none = dict.fromkeys(off, 0.0)
+    zeros = dict.fromkeys(omitted, 0.0)
     omega_iau = c.OMEGA_A_RATE.value * ARCSEC_PER_YEAR
     tides = c.TIDES_IN_OBLIQUITY.value * ARCSEC_PER_YEAR
-    psi = contributions(ours.psi_rate, {e: path.psi_rate for e, path in without.items()}) | none
-    omega = (
-        contributions(ours.omega_rate, {e: path.omega_rate for e, path in without.items()}) | none
-    )
-    psi_missed = abs(theirs.psi_rate - psi_iau)
-    omega_missed = abs(theirs.omega_rate - omega_iau)
+    psi_without = {e: path.psi_rate for e, path in without.items()}
+    omega_without = {e: path.omega_rate for e, path in without.items()}
+    psi = contributions(computed.psi_rate, psi_without) | zeros
+    omega = contributions(computed.omega_rate, omega_without) | zeros
+    psi_deviation = abs(iau.psi_rate - psi_iau)
+    omega_deviation = abs(iau.omega_rate - omega_iau)
 
-    def errors(shares: Mapping[str, float], missed: float) -> dict[str, float]:
+    def errors(shares: Mapping[str, float], deviation: float) -> dict[str, float]:
         of_h = {FIRST_ORDER: NORMAL_95 * u_h * abs(shares[FIRST_ORDER])}
-        return {e: 0.0 if e in none else math.hypot(missed, of_h.get(e, 0.0)) for e in shares}
+        return {e: 0.0 if e in zeros else math.hypot(deviation, of_h.get(e, 0.0)) for e in shares}
 
     return RateBudget(
         psi=psi,
         psi_published=published_contributions(list(psi)),
         omega=omega,
-        psi_error=errors(psi, psi_missed),
-        omega_error=errors(omega, omega_missed),
-        psi_total=ours.psi_rate,
-        omega_total=ours.omega_rate,
+        psi_error=errors(psi, psi_deviation),
+        omega_error=errors(omega, omega_deviation),
+        psi_total=computed.psi_rate,
+        omega_total=computed.omega_rate,
         psi_iau=psi_iau,
         omega_iau=omega_iau,
-        closure=ours.psi_rate + published_effects()["nonrigid"] - psi_iau,
-        omega_closure=ours.omega_rate - omega_iau,
-        omega_closure_with_tides=ours.omega_rate + tides - omega_iau,
+        closure=computed.psi_rate + published_effects()["nonrigid"] - psi_iau,
+        omega_closure=computed.omega_rate - omega_iau,
+        omega_closure_with_tides=computed.omega_rate + tides - omega_iau,
         psi_from_h=u_h * abs(psi[FIRST_ORDER]),
-        psi_analysis_error=psi_missed,
-        omega_analysis_error=omega_missed,
+        psi_analysis_error=psi_deviation,
+        omega_analysis_error=omega_deviation,
     )
 
 
@@ -218,9 +218,9 @@ def inferred_h(budget: RateBudget, h: float) -> tuple[float, float]:
     compared = [effect for effect in budget.psi if effect in COMPARED]
     spread = math.sqrt(sum((budget.psi[e] - budget.psi_published[e]) ** 2 for e in compared))
     # all effects except geodesic precession are proportional to H
-    grows = sum(rate for effect, rate in budget.psi.items() if effect != "geodesic")
-    uncertainty = abs(h / grows) * math.hypot(spread, budget.psi_analysis_error)
-    return h * (1 - budget.closure / grows), uncertainty
+    proportional_rate = sum(rate for effect, rate in budget.psi.items() if effect != "geodesic")
+    uncertainty = abs(h / proportional_rate) * math.hypot(spread, budget.psi_analysis_error)
+    return h * (1 - budget.closure / proportional_rate), uncertainty
 
 
 def compared_flattenings(

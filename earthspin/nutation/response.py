@@ -103,8 +103,8 @@ def added_half_width(response: Response, frequency: FloatArray, rigid: ComplexAr
         Rigid amplitudes, rad.
     """
     shifted = 2 * np.pi / (response.spin_rate * (response.period + response.period_error))
-    moved = replace(response, core_nutation=complex(shifted - 1, response.core_nutation.imag))
-    change = moved.transfer(frequency) - response.transfer(frequency)
+    other = replace(response, core_nutation=complex(shifted - 1, response.core_nutation.imag))
+    change = other.transfer(frequency) - response.transfer(frequency)
     return np.asarray(np.abs(change * rigid))
 
 

@@ -133,7 +133,7 @@ class Prediction:
     @property
     def ladder(self) -> list[str]:
         """Names of the models in order of detail (rungs), except those used only for comparison."""
-        return [name for name in self.rungs if name not in interior_models.BESIDE]
+        return [name for name in self.rungs if name not in interior_models.COMPARISONS]
 
     def transfer(self, name: str, frequency: FloatArray) -> ComplexArray:
         """Transfer function (non-rigid over rigid nutation) of one model, at frequencies in rad/s.
@@ -180,7 +180,7 @@ def predict(body: Body, coupling: bool, anelastic_exponent: float) -> Prediction
     setting = interior_models.InteriorInputs(
         interior.layers, e, spin_rate, ocean, anelastic_exponent
     )
-    rungs = interior_models.climb(setting, coupling)
+    rungs = interior_models.rungs_of(setting, coupling)
     of_e = body.relative_uncertainty.get("dynamical_flattening", 0.0) / (1 - h)
     return Prediction(rungs, setting, {**interior.relative_uncertainty, "ellipticity": of_e})
 

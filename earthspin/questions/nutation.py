@@ -210,13 +210,13 @@ def beside(left: dict[str, FloatArray]) -> ModelSizes:
 
     They are a fluid core in a rigid mantle, and a body with the H of hydrostatic equilibrium.
     """
-    longitude, obliquity, error = np.array([left[name] for name in interior_models.BESIDE]).T
+    longitude, obliquity, error = np.array([left[name] for name in interior_models.COMPARISONS]).T
     return ModelSizes(
         model_rms_dpsi_sineps=longitude,
         model_rms_deps=obliquity,
         model_rms_error=error,
-        model_adds=np.array(list(interior_models.BESIDE.values())),
-        model=list(interior_models.BESIDE),
+        model_adds=np.array(list(interior_models.COMPARISONS.values())),
+        model=list(interior_models.COMPARISONS),
     )
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from earthspin.constants import JULIAN_YEAR
 from earthspin.errors import ApartError, UndefinedError
 from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.varied_inputs import Quantiles, draws
 from earthspin.nutation.analysis import followed, general_precession
 from earthspin.secular.averaged_torque import (
     ChangingOrbit,
@@ -23,7 +24,7 @@ from earthspin.secular.averaged_torque import (
     moon_rate_factor,
     reference_axes,
 )
-from earthspin.secular.error_budget import AxisInputs, AxisSolutions, Quantiles, changed, draws
+from earthspin.secular.error_budget import AxisInputs, AxisSolutions, changed
 from earthspin.secular.trajectory import AxisTrajectory, solve
 from earthspin.torque.gravity import dot
 

@@ -8,14 +8,13 @@ Earth. If the changes become large, all causes are varied together (`draws`).
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
 
-from earthspin.constants import JULIAN_YEAR, NORMAL_95
+from earthspin.constants import JULIAN_YEAR
 from earthspin.numerics.arrays import FloatArray, Numeric
 from earthspin.secular.averaged_torque import (
     ChangingOrbit,
@@ -28,71 +27,10 @@ from earthspin.secular.averaged_torque import (
 from earthspin.secular.trajectory import AxisTrajectory, solve
 from earthspin.torque.gravity import cross, dot
 
-# --- random variation of all error sources together -----------------------------------------------
 # If the phase of precession is uncertain by a large fraction of a turn, a solution with one cause
 # changed may coincide with the nominal one, so its deviation is no half-width. Then the half-width
-# is a quantile of the deviations of many solutions, each with all causes drawn independently.
-#
-# The draws are a rank-1 lattice: member m has cause k at the median of stratum (m A^k + k B) mod N,
-# of N strata of equal probability. N is prime, so that each cause has one member in each stratum. A
-# and B were chosen by the scatter of the 95 % quantile of weighted sums of up to seven normal
-# causes: 6 % (rms) with arbitrary weights, and 1.4 % if one cause dominates, as it does far from
-# the present.
-
-#: Members N, a prime, and the numbers A and B of the lattice.
-MEMBERS, FACTOR, OFFSET = 61, 36, 57
-#: Probability of the half-widths.
-PROBABILITY = 0.95
-
-
-def draws(causes: int) -> FloatArray:
-    """Random changes of all error sources, in units of their half-widths, shape (MEMBERS, causes).
-
-    They are normally distributed, and reproducible.
-    """
-    from scipy.special import ndtri  # imported here because it takes 0.1 s
-
-    member, cause = np.arange(MEMBERS)[:, np.newaxis], np.arange(causes)
-    factors = np.array([pow(FACTOR, int(k), MEMBERS) for k in cause])
-    stratum = (member * factors + cause * OFFSET) % MEMBERS
-    return np.asarray(ndtri((stratum + 0.5) / MEMBERS) / NORMAL_95)
-
-
-class Quantiles:
-    """Quantile of deviations from a nominal value; random cases are added one at a time.
-
-    Only the largest deviations are stored.
-
-    The k-th smallest of N has the probability (k - 1/2)/N, with linear interpolation in between, as
-    in numpy's method "hazen".
-    """
-
-    def __init__(self) -> None:
-        rank = PROBABILITY * MEMBERS - 0.5
-        self._share = rank - math.floor(rank)
-        self._count = MEMBERS - math.floor(rank)
-        self._largest: dict[str, FloatArray] = {}
-
-    def add(self, deviations: Mapping[str, FloatArray]) -> None:
-        """Add the deviations of one random solution from the nominal one, by quantity."""
-        for name, deviation in deviations.items():
-            if name not in self._largest:
-                self._largest[name] = np.zeros((self._count, *deviation.shape))
-            remainder = np.abs(deviation)
-            for row in self._largest[name]:  # the largest first; faster than to sort them
-                previous_row = row.copy()
-                np.maximum(row, remainder, out=row)
-                remainder = np.fmin(previous_row, remainder)  # NaN counts as the largest
-
-    def at_probability(self) -> dict[str, FloatArray]:
-        """Return the quantile at `PROBABILITY` of the deviations of each quantity, by name."""
-        return {
-            name: largest[-1] + self._share * (largest[-2] - largest[-1])
-            for name, largest in self._largest.items()
-        }
-
-
-# --- one error source at a time -------------------------------------------------------------------
+# is a quantile of the deviations of many solutions, each with all causes drawn independently
+# (`draws` and `Quantiles` of `earthspin.numerics.varied_inputs`).
 
 #: Half-widths of an orbit's normal (rad) and eccentricity vector at times in s, shape (2, n).
 HalfWidths: TypeAlias = "Callable[[FloatArray], FloatArray]"

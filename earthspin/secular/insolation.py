@@ -23,7 +23,7 @@ import numpy as np
 
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.kepler import mean_anomaly, true_anomaly
-from earthspin.secular.error_budget import Quantiles, draws
+from earthspin.numerics.varied_inputs import Quantiles, draws
 
 #: Half-width of the longitude of perihelion, rad, above which its contribution is sampled.
 SAMPLED_FROM = 0.1

@@ -14,7 +14,7 @@ DRAWS = 400
 
 def simulated(
     name: str, amplitude: float, period: float = PERIOD
-) -> list[core_nutation.WindowAmplitudes]:
+) -> list[core_nutation.CoreNutationAmplitudes]:
     """One window of each of many series with a core nutation of phase 1 rad."""
     rng = np.random.default_rng(3)
     core = amplitude * np.exp(2j * np.pi * DAYS / PERIOD + 1j)

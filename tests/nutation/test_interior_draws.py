@@ -10,7 +10,7 @@ import earthspin
 from earthspin.engine.run import Run
 from earthspin.interior.modes import mode_period
 from earthspin.interior.named import EXPONENT_RANGE
-from earthspin.nutation.interior_models import changed, climb, inputs_of, spread_of
+from earthspin.nutation.interior_models import changed, inputs_of, rungs_of, spread_of
 from earthspin.questions.interior_response import Prediction
 from earthspin.questions.nutation import left
 
@@ -39,7 +39,7 @@ def drawn(models: Prediction) -> list[Prediction]:
         deviations = dict(zip(names, generator.standard_normal(len(names)), strict=True))
         deviations["exponent"] = generator.uniform(*EXPONENT_RANGE)
         setting = changed(models.setting, models.uncertainty, deviations)
-        predictions.append(replace(models, rungs=climb(setting, coupling=True), setting=setting))
+        predictions.append(replace(models, rungs=rungs_of(setting, coupling=True), setting=setting))
     return predictions
 
 

@@ -27,7 +27,7 @@ def tree() -> xr.DataTree:
 
 @pytest.fixture(scope="module")
 def rungs() -> dict[str, interior_models.Rung]:
-    return interior_models.climb(SETTING, coupling=True)
+    return interior_models.rungs_of(SETTING, coupling=True)
 
 
 def test_what_is_left_beside_an_independent_computation(tree: xr.DataTree) -> None:

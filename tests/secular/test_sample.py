@@ -7,6 +7,7 @@ import pytest
 from scipy.special import ndtr
 
 from earthspin.constants import ARCSEC, NORMAL_95
+from earthspin.numerics.varied_inputs import MEMBERS, Quantiles, draws
 from earthspin.secular.derived_angles import (
     LINEAR_TO,
     SAMPLED_FROM,
@@ -20,12 +21,9 @@ from earthspin.secular.derived_angles import (
     root_sum_square,
 )
 from earthspin.secular.error_budget import (
-    MEMBERS,
     AxisInputs,
-    Quantiles,
     Uncertainty,
     changed,
-    draws,
     solved,
 )
 from earthspin.secular.trajectory import solve
