@@ -15,8 +15,8 @@ from earthspin.questions import averages, long_term
 from earthspin.questions import long_term as question
 from earthspin.questions import sky as skies
 from earthspin.scenes import load_scene
-from earthspin.secular.derived_angles import angle, derive, difference, followed_perihelion
-from earthspin.secular.error_budget import AxisSolutions, changed
+from earthspin.secular.derived_angles import angle, change, derive, followed_perihelion
+from earthspin.secular.error_budget import AxisFamily, changed
 from earthspin.secular.trajectory import solve
 
 #: Members, their seed, and the step between epochs, kyr.
@@ -71,7 +71,7 @@ def beside_iau() -> list[Row]:
     ]
 
 
-def solution(body: Body, times: FloatArray) -> AxisSolutions:
+def solution(body: Body, times: FloatArray) -> AxisFamily:
     """The axis of a body at times (s), and with each cause changed, as the question solves it."""
     scene = load_scene("long-term")
     assert isinstance(scene, question.LongTerm)
@@ -109,7 +109,7 @@ def of_body(body: Body, reach: int, members: int = MEMBERS, seed: int = SEED) ->
             apart = (
                 angle(member.pole, mine.pole)
                 if name == "pole"
-                else np.abs(difference(member, mine, name))
+                else np.abs(change(member, mine, name))
             )
             ratio = apart / width
             worst[name] = np.maximum(worst[name], ratio)

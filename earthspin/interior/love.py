@@ -65,19 +65,19 @@ class Profile:
         """Gravity at radius r in layer i, in normalised units with 4 pi G = 3."""
         return (self._mass[i](r) + self._below[i]) / r**2
 
-    def moduli(self, i: int, r: Any, mu_change: Array) -> tuple[Array, Array]:
+    def moduli(self, i: int, r: Any, dmu: Array) -> tuple[Array, Array]:
         """Lame parameters lambda and mu of layer i at radii r, normalised, shape (changes, r) each.
 
-        There is one row for each value of `mu_change` and one column for each radius in `r`.
+        There is one row for each value of `dmu` and one column for each radius in `r`.
         """
         layer, rho = self.layers[i], polyval(r, self.layers[i].density)
         seismic = rho * polyval(r, layer.vs) ** 2 / self.modulus_unit
         bulk = rho * polyval(r, layer.vp) ** 2 / self.modulus_unit - 4 / 3 * seismic
-        mu = seismic * (1 + mu_change / layer.shear_q)[:, None]
+        mu = seismic * (1 + dmu / layer.shear_q)[:, None]
         return bulk - 2 / 3 * mu, mu
 
 
-def solid(profile: Profile, i: int, mu_change: Array) -> Callable[[Array], Array]:
+def solid(profile: Profile, i: int, dmu: Array) -> Callable[[Array], Array]:
     """Function of r that returns the matrix M of the equations dy/dr = M y in solid layer i.
 
     The function takes an array of radii and returns an array of shape (changes, r, 6, 6).
@@ -87,10 +87,10 @@ def solid(profile: Profile, i: int, mu_change: Array) -> Callable[[Array], Array
 
     def matrix(r: Array) -> Array:
         rho, g = profile.density(i, r), profile.gravity(i, r)
-        lam, mu = profile.moduli(i, r, mu_change)
+        lam, mu = profile.moduli(i, r, dmu)
         p = lam + 2 * mu
         shear = 2 * mu * (3 * lam + 2 * mu) / p / r**2
-        m = np.zeros((mu_change.size, r.size, 6, 6), dtype=mu_change.dtype)
+        m = np.zeros((dmu.size, r.size, 6, 6), dtype=dmu.dtype)
         m[..., 0, 0], m[..., 0, 1], m[..., 0, 2] = -2 * lam / (p * r), 1 / p, 6 * lam / (p * r)
         m[..., 1, 0], m[..., 1, 1] = 2 * shear - 4 * rho * g / r, -4 * mu / (p * r)
         m[..., 1, 2], m[..., 1, 3] = 6 * (rho * g / r - shear), 6 / r
@@ -123,12 +123,12 @@ def liquid(profile: Profile, i: int) -> Callable[[Array], Array]:
     return matrix
 
 
-def solid_centre(profile: Profile, mu_change: Array) -> Array:
+def solid_centre(profile: Profile, dmu: Array) -> Array:
     """Three regular solutions of the deformation equations near a solid centre, (changes, 6, 3)."""
     r, i = START, profile.first
-    lam, mu = (modulus[:, 0] for modulus in profile.moduli(i, np.array([r]), mu_change))
+    lam, mu = (modulus[:, 0] for modulus in profile.moduli(i, np.array([r]), dmu))
     rho = profile.density(i, r)
-    y = np.zeros((mu_change.size, 6, 3), dtype=mu_change.dtype)
+    y = np.zeros((dmu.size, 6, 3), dtype=dmu.dtype)
     y[:, 0, 0], y[:, 1, 0], y[:, 2, 0], y[:, 3, 0] = 2 * r, 4 * mu, r, 2 * mu
     y[:, 5, 0] = -2 * FOUR_PI_G * rho * r
     y[:, 4, 1], y[:, 5, 1] = r**2, 5 * r
@@ -155,7 +155,7 @@ _LOAD = 3
 class DegreeTwoLoveNumbers:
     """Degree-two Love numbers of a layered body, and responses of its core regions.
 
-    Arrays have the shape of the given `mu_change`.
+    Arrays have the shape of the given `dmu`.
 
     Attributes
     ----------
@@ -200,15 +200,15 @@ class DegreeTwoLoveNumbers:
         return np.asarray(self.response[..., 1:, 1:].sum(axis=(-1, -2)))
 
 
-def solve_love_numbers(body: LayeredBody, mu_change: Any = 0.0) -> DegreeTwoLoveNumbers:
+def solve_love_numbers(body: LayeredBody, dmu: Any = 0.0) -> DegreeTwoLoveNumbers:
     """Compute Love numbers of a layered body, and responses to potentials in each region.
 
     Parameters
     ----------
     body : LayeredBody
-    mu_change : complex or array
+    dmu : complex or array
         Relative change of the shear modulus at quality factor 1; a layer's modulus is multiplied by
-        1 + mu_change/shear_q. 0 is the elastic body at seismic periods.
+        1 + dmu/shear_q. 0 is the elastic body at seismic periods.
 
     Raises
     ------
@@ -233,11 +233,11 @@ def solve_love_numbers(body: LayeredBody, mu_change: Any = 0.0) -> DegreeTwoLove
                 f"interior '{body.name}': {core} of {radius / 1000:.4g} km is less than a "
                 "hundredth of the radius, too small to have an effect; leave it out"
             )
-    mu_change = np.asarray(mu_change)
-    flat_change = np.atleast_1d(mu_change).ravel()
-    solution = _solved(Profile(body), flat_change)
+    dmu = np.asarray(dmu)
+    flat = np.atleast_1d(dmu).ravel()
+    solution = _solved(Profile(body), flat)
     return DegreeTwoLoveNumbers(
-        *(value.reshape((*mu_change.shape, *value.shape[1:])) for value in solution)
+        *(value.reshape((*dmu.shape, *value.shape[1:])) for value in solution)
     )
 
 
@@ -248,7 +248,7 @@ def elastic(layers: LayeredBody) -> DegreeTwoLoveNumbers:
 
 
 #: Interpolation of Love numbers: range of the change of the shear modulus, and number of nodes.
-_MODULUS_CHANGES = (-40.0, 2.0)
+_DMU_RANGE = (-40.0, 2.0)
 _SOFTENING_NODES = 10
 
 
@@ -258,19 +258,17 @@ def softening(layers: LayeredBody) -> tuple[Chebyshev, ...]:
 
     The Love numbers are `k`, `core_k`, `k_pressure` and `core_k_pressure`.
 
-    The variable is `mu_change` of `solve_love_numbers`, which may be complex, because Love
+    The variable is `dmu` of `solve_love_numbers`, which may be complex, because Love
     numbers are analytic in the modulus. The error relative to the integration is at most 1e-8.
     """
     grid = np.polynomial.chebyshev.chebpts1(_SOFTENING_NODES)
-    low, high = _MODULUS_CHANGES
-    mu_change = (low + high) / 2 + (high - low) / 2 * grid
-    love, reference = solve_love_numbers(layers, mu_change), elastic(layers)
+    low, high = _DMU_RANGE
+    dmu = (low + high) / 2 + (high - low) / 2 * grid
+    love, reference = solve_love_numbers(layers, dmu), elastic(layers)
     ratios = []
     for name in ("k", "core_k", "k_pressure", "core_k_pressure"):
         ratio = getattr(love, name) / float(getattr(reference, name))
-        ratios.append(
-            Chebyshev.fit(mu_change, ratio, _SOFTENING_NODES - 1, domain=list(_MODULUS_CHANGES))
-        )
+        ratios.append(Chebyshev.fit(dmu, ratio, _SOFTENING_NODES - 1, domain=list(_DMU_RANGE)))
     return tuple(ratios)
 
 
@@ -280,19 +278,19 @@ def softening(layers: LayeredBody) -> tuple[Chebyshev, ...]:
 # potential differs by d across a boundary, y5 jumps by d r2, and y6 by 5 d r.
 
 
-def _solved(profile: Profile, mu_change: Array) -> tuple[Array, ...]:
+def _solved(profile: Profile, dmu: Array) -> tuple[Array, ...]:
     """Solve the deformation equations for all potentials; return the Love numbers in order."""
     if not profile.core:
-        y = _across(profile, profile.first, solid_centre(profile, mu_change), mu_change)
-        bottom = y = np.concatenate([y, np.zeros((mu_change.size, 6, 4))], axis=-1)
+        y = _across(profile, profile.first, solid_centre(profile, dmu), dmu)
+        bottom = y = np.concatenate([y, np.zeros((dmu.size, 6, 4))], axis=-1)
         conditions: list[Array] = []
         inner = core = None
     else:
-        first, inner, conditions = _through_inner_core(profile, mu_change)
+        first, inner, conditions = _through_inner_core(profile, dmu)
         pair, i = _through_liquid(profile, first)
         bottom = _onto_mantle(profile, pair)
         core = bottom
-        y = _across(profile, i, bottom, mu_change)
+        y = _across(profile, i, bottom, dmu)
     sources = np.zeros((3, 4))
     sources[0, _LOAD] = -5 / 3  # weight of the load
     sources[2] = 5 * _ACTS_IN[2]
@@ -301,9 +299,9 @@ def _solved(profile: Profile, mu_change: Array) -> tuple[Array, ...]:
     required = np.zeros((boundary.shape[1], 4))
     required[-3:] = sources
     weights = np.linalg.solve(boundary[..., :unknowns], required - boundary[..., unknowns:])
-    weights = np.concatenate([weights, np.broadcast_to(np.eye(4), (mu_change.size, 4, 4))], axis=1)
+    weights = np.concatenate([weights, np.broadcast_to(np.eye(4), (dmu.size, 4, 4))], axis=1)
     top = y @ weights
-    response = np.zeros((mu_change.size, 3, 4), dtype=top.dtype)
+    response = np.zeros((dmu.size, 3, 4), dtype=top.dtype)
     response[:, 0] = top[:, 4] - _ACTS_IN[2]
     if core is not None:
         response[:, 1] = _inside(core @ weights, profile.core)
@@ -323,7 +321,7 @@ def _inside(state: Array, r: float) -> Array:
     return np.asarray(r**3 * (state[:, 4] - r * state[:, 5] / 5))
 
 
-def _across(profile: Profile, first: int, y: Array, mu_change: Array) -> Array:
+def _across(profile: Profile, first: int, y: Array, dmu: Array) -> Array:
     """Integrate the deformation equations through solid layers, up to a liquid or the surface."""
     r = START if first == profile.first else profile.tops[first - 1]
     for i in range(first, len(profile.tops)):
@@ -331,26 +329,22 @@ def _across(profile: Profile, first: int, y: Array, mu_change: Array) -> Array:
             break
         # From the centre, solutions may be recombined until the next boundary sets conditions on
         # all.
-        y = carry(
-            solid(profile, i, mu_change), r, profile.tops[i], y, together=first == profile.first
-        )
+        y = carry(solid(profile, i, dmu), r, profile.tops[i], y, together=first == profile.first)
         r = profile.tops[i]
     return y
 
 
-def _through_inner_core(
-    profile: Profile, mu_change: Array
-) -> tuple[Array, Array | None, list[Array]]:
+def _through_inner_core(profile: Profile, dmu: Array) -> tuple[Array, Array | None, list[Array]]:
     """Integrate the deformation equations through the inner core, from the centre outwards.
 
     Return (y5, y7) in the liquid, the state at the top of the inner core, and conditions there.
     """
     if not profile.inner_core:
-        pair = np.zeros((mu_change.size, 2, 3 + 4), dtype=mu_change.dtype)
+        pair = np.zeros((dmu.size, 2, 3 + 4), dtype=dmu.dtype)
         pair[:, :, 0] = liquid_centre(profile, profile.first)
         return pair, None, []
-    y = _across(profile, profile.first, solid_centre(profile, mu_change), mu_change)
-    applied = np.zeros((mu_change.size, 6, 2 + 4))
+    y = _across(profile, profile.first, solid_centre(profile, dmu), dmu)
+    applied = np.zeros((dmu.size, 6, 2 + 4))
     y = np.concatenate([y, applied], axis=-1)
     r = profile.inner_core
     i = profile.tops.index(r) + 1

@@ -46,20 +46,14 @@ MOMENT = (c.MARS_POLAR_MOMENT.value - 2 / 3 * c.MARS_J2.value) * (
 ) ** 2
 
 
-def four_layers(core_radius: float = CORE_RADIUS.value) -> LayeredBody:
-    """Make a four-layer model of Mars with a fluid core of a given radius.
+def four_layers() -> LayeredBody:
+    """Make a four-layer model of Mars with a fluid core.
 
     The densities of upper and lower mantle follow from the mass and the moment of inertia.
-
-    Parameters
-    ----------
-    core_radius : float
-        Radius of the fluid core, m.
     """
     mass = c.MARS_GM.value / G.value
-    tops = np.array(
-        [core_radius, TRANSITION_RADIUS.value, MEAN_RADIUS.value - CRUST.value, MEAN_RADIUS.value]
-    )
+    crust_base = MEAN_RADIUS.value - CRUST.value
+    tops = np.array([CORE_RADIUS.value, TRANSITION_RADIUS.value, crust_base, MEAN_RADIUS.value])
     volume, moment = (np.diff(tops**n, prepend=0.0) for n in (3, 5))
     volume, moment = 4 * np.pi / 3 * volume, 8 * np.pi / 15 * moment
     fixed = np.array([CORE_DENSITY.value, 0.0, 0.0, CRUST_DENSITY.value])
@@ -71,7 +65,7 @@ def four_layers(core_radius: float = CORE_RADIUS.value) -> LayeredBody:
     return LayeredBody(
         "mars",
         (
-            Layer(core_radius, (CORE_DENSITY.value,), (CORE_SPEED.value,)),
+            Layer(CORE_RADIUS.value, (CORE_DENSITY.value,), (CORE_SPEED.value,)),
             *(
                 Layer(float(top), (float(rho),), (SPEED_RATIO.value * vs,), (vs,), SHEAR_Q.value)
                 for top, rho, vs in solids

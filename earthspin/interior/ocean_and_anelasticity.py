@@ -177,10 +177,8 @@ def diurnal_response(sigma: Array) -> Array:
         Frequencies near -1.
     """
     rotation_rate = WAVES["K1"].degrees
-    wave_frequency = np.array([wave.degrees / rotation_rate for wave in WAVES.values()])
+    waves = np.array([wave.degrees / rotation_rate for wave in WAVES.values()])
     change = np.array([wave_response(wave) for wave in WAVES.values()])
-    frequency = np.abs(np.asarray(sigma, dtype=float))
-    return np.asarray(
-        np.interp(frequency, wave_frequency, change.real)
-        + 1j * np.interp(frequency, wave_frequency, change.imag)
-    )
+    rate = np.abs(np.asarray(sigma, dtype=float))
+    real, imaginary = (np.interp(rate, waves, part) for part in (change.real, change.imag))
+    return np.asarray(real + 1j * imaginary)

@@ -74,12 +74,12 @@ def orthonormal_functions(n_max: int, z: ArrayLike, m: int = 0) -> FloatArray:
     functions[0] = np.sqrt(0.5)
     for k in range(1, m + 1):
         functions[0] *= -np.sqrt((2 * k + 1) / (2 * k)) * sine
-    before, share = np.zeros(x.shape), 0.0
+    before, weight = np.zeros(x.shape), 0.0
     for k, n in enumerate(range(m + 1, n_max + 1)):
         # z p_(n-1) = c_n p_n + c_(n-1) p_(n-2)
         c = math.sqrt((n * n - m * m) / (4 * n * n - 1))
-        functions[k + 1] = (x * functions[k] - share * before) / c
-        before, share = functions[k], c
+        functions[k + 1] = (x * functions[k] - weight * before) / c
+        before, weight = functions[k], c
     return functions
 
 
@@ -279,15 +279,15 @@ def exterior_multipoles(
     if r.ndim != 2:
         raise UndefinedError(f"positions have the shape {r.shape}; give one body, (k, 3)")
     farthest = float(np.max(np.sqrt(np.sum(r * r, axis=-1))))
-    outer = farthest if radius is None else float(radius)
-    if not outer >= farthest or outer == 0:
+    limit = farthest if radius is None else float(radius)
+    if not limit >= farthest or limit == 0:
         raise UndefinedError(
-            f"radius = {outer:g} m does not contain the mass at {farthest:g} m; give that or more"
+            f"radius = {limit:g} m does not contain the mass at {farthest:g} m; give that or more"
         )
     moments = np.zeros((degree("n_max", n_max) + 1, n_max + 1), dtype=complex)
-    for n, order, harmonic in solid_harmonics(r / outer, n_max):
+    for n, order, harmonic in solid_harmonics(r / limit, n_max):
         moments[n, order] = np.dot(m, np.conj(harmonic))
-    return Multipoles(moments, outer)
+    return Multipoles(moments, limit)
 
 
 def _near_and_far(
@@ -328,17 +328,16 @@ def _neumann(m: int) -> int:
 
 #: Successive numbers of Gauss points in the radius and in the cosine.
 _POINTS = (32, 64, 128, 256)
+#: Largest half-width of the integrals, as a fraction of the mass times the largest (r/s)^n in the
+#: body.
+ACCURACY = 1e-12
 
 DensityFunction = Callable[[FloatArray, FloatArray], FloatArray]
 PerimeterFunction = Callable[[FloatArray], FloatArray]
 
 
 def zonal_integrals(
-    density: DensityFunction,
-    perimeter: PerimeterFunction,
-    n_max: int,
-    radius: float,
-    accuracy: float = 1e-12,
+    density: DensityFunction, perimeter: PerimeterFunction, n_max: int, radius: float
 ) -> FloatArray:
     """Zonal integrals Z_n of the density of a body of revolution, to degree n_max (I.9.27).
 
@@ -354,9 +353,6 @@ def zonal_integrals(
         Last degree.
     radius : float
         Reference radius s, m.
-    accuracy : float
-        Largest half-width of the integrals, as a fraction of the mass times the largest (r/s)^n in
-        the body.
 
     Returns
     -------
@@ -366,7 +362,7 @@ def zonal_integrals(
     Raises
     ------
     AccuracyError
-        If 256 points in each dimension do not reach the accuracy, as for a density that is not
+        If 256 points in each dimension do not reach `ACCURACY`, as for a density that is not
         smooth.
     """
     scale = float(positive("body", "radius", radius))
@@ -375,11 +371,11 @@ def zonal_integrals(
     def harmonics(r: FloatArray, cosine: FloatArray) -> FloatArray:
         return np.asarray((r / scale) ** degrees * _polynomials(n_max, cosine))
 
-    return _integrate(density, perimeter, harmonics, accuracy)
+    return _integrate(density, perimeter, harmonics)
 
 
 def moments_of_density(
-    density: DensityFunction, perimeter: PerimeterFunction, accuracy: float = 1e-12
+    density: DensityFunction, perimeter: PerimeterFunction
 ) -> AxisymmetricMoments:
     """Moments A, C and C - A of a body of revolution from its density (I.9.28, I.9.29), kg m2.
 
@@ -387,17 +383,17 @@ def moments_of_density(
 
     Parameters
     ----------
-    density, perimeter, accuracy
+    density, perimeter
         As for `zonal_integrals`.
     """
 
     def squares(r: FloatArray, cosine: FloatArray) -> FloatArray:
         return np.stack([r**2, r**2 * (1.5 * cosine**2 - 0.5)])
 
-    whole, quadrupole = _integrate(density, perimeter, squares, accuracy)
+    second_moment, quadrupole = _integrate(density, perimeter, squares)
     return AxisymmetricMoments(
-        equatorial=np.asarray((2 * whole + quadrupole) / 3),
-        polar=np.asarray(2 * (whole - quadrupole) / 3),
+        equatorial=np.asarray((2 * second_moment + quadrupole) / 3),
+        polar=np.asarray(2 * (second_moment - quadrupole) / 3),
         difference=np.asarray(-quadrupole),
     )
 
@@ -456,7 +452,6 @@ def _integrate(
     density: DensityFunction,
     perimeter: PerimeterFunction,
     integrand: Callable[[FloatArray, FloatArray], FloatArray],
-    accuracy: float,
 ) -> FloatArray:
     """Integrate density times each integrand over a body of revolution, by Gauss quadrature."""
     previous, error, size = None, np.inf, np.inf
@@ -475,7 +470,7 @@ def _integrate(
         size = np.sum(rho * volume * np.max(np.abs(terms), axis=0))
         if previous is not None:
             error = float(np.max(np.abs(current - previous)))
-            if error <= accuracy * size:
+            if error <= ACCURACY * size:
                 return np.asarray(current)
         previous = current
-    raise AccuracyError(accuracy, error / size, "of the integral", "give a smooth density")
+    raise AccuracyError(ACCURACY, error / size, "of the integral", "give a smooth density")

@@ -53,12 +53,12 @@ def torque_on_masses(
     m, r = point_masses(masses, positions)
     centre = centre_of_mass(m, r)
     s, d = r - centre, (vectors("position", position) - centre)[..., np.newaxis, :]
-    apart = np.sqrt(np.sum((d - s) ** 2, axis=-1))
+    separation = np.sqrt(np.sum((d - s) ** 2, axis=-1))
     distance = np.sqrt(np.sum(d * d, axis=-1))
-    if np.any(apart == 0):
+    if np.any(separation == 0):
         raise UndefinedError("the distant mass coincides with one of the masses; move it away")
-    outside = distance > np.max(np.sqrt(np.sum(s * s, axis=-1)))
-    inverse_cubes = np.where(outside, _inverse_cube_excess(s, d, apart), apart**-3.0)
+    exterior = distance > np.max(np.sqrt(np.sum(s * s, axis=-1)))
+    inverse_cubes = np.where(exterior, _inverse_cube_excess(s, d, separation), separation**-3.0)
     weighted = (m * inverse_cubes)[..., np.newaxis] * np.cross(s, d)
     return np.asarray(mu * np.sum(weighted, axis=-2))
 
@@ -193,7 +193,7 @@ def _pull(gm: ArrayLike, mass: ArrayLike) -> FloatArray:
     return np.asarray(mu * positive("point masses", "mass", mass))
 
 
-def _inverse_cube_excess(s: FloatArray, d: FloatArray, apart: FloatArray) -> FloatArray:
+def _inverse_cube_excess(s: FloatArray, d: FloatArray, separation: FloatArray) -> FloatArray:
     """Difference 1/|d - s|^3 - 1/|d|^3 for vectors d and s, without cancellation for small s.
 
     The result is zero where d is zero.
@@ -203,7 +203,7 @@ def _inverse_cube_excess(s: FloatArray, d: FloatArray, apart: FloatArray) -> Flo
     q = np.sum(s * (s - 2 * d), axis=-1) * inverse
     small = np.abs(q) < 0.5
     excess = np.expm1(-1.5 * np.log1p(np.where(small, q, 0.0)))
-    excess = np.where(small, excess, (np.sqrt(square) / apart) ** 3 - 1)
+    excess = np.where(small, excess, (np.sqrt(square) / separation) ** 3 - 1)
     return np.asarray(excess * inverse**1.5)
 
 

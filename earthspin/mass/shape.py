@@ -92,14 +92,14 @@ def _refuse_open(faces: NDArray[np.integer]) -> None:
 
 def _refuse_coincident(places: FloatArray, faces: NDArray[np.integer]) -> None:
     """Raise an error if two equally oriented triangles coincide and would count twice."""
-    _, same = np.unique(places, axis=0, return_inverse=True)
-    corners = same.reshape(-1)[faces]
-    least = np.argmin(corners, axis=1)[:, np.newaxis]
-    turned = np.take_along_axis(corners, (least + np.arange(3)) % 3, axis=1)
-    twice = len(turned) - len(np.unique(turned, axis=0))
-    if twice:
+    _, number = np.unique(places, axis=0, return_inverse=True)
+    corners = number.reshape(-1)[faces]
+    smallest = np.argmin(corners, axis=1)[:, np.newaxis]
+    rotated = np.take_along_axis(corners, (smallest + np.arange(3)) % 3, axis=1)
+    duplicates = len(rotated) - len(np.unique(rotated, axis=0))
+    if duplicates:
         raise BodyError(
-            _BODY, "faces", f"{twice} triangles that coincide with others",
+            _BODY, "faces", f"{duplicates} triangles that coincide with others",
             "two shells at the same place count their mass twice; give each shell once",
         )  # fmt: skip
 

@@ -79,7 +79,7 @@ def confocal_squares(flattening: ArrayLike, position: ArrayLike) -> tuple[FloatA
 
     Returns
     -------
-    across, along : ndarray, shape (...)
+    equatorial, polar : ndarray, shape (...)
         a2 + lambda and c2 + lambda, in units of the squared equatorial radius.
     """
     f = check_flattening(flattening)
@@ -90,9 +90,9 @@ def confocal_squares(flattening: ArrayLike, position: ArrayLike) -> tuple[FloatA
     smaller = np.where(p >= 0, q / 2, 2 * w / np.maximum(q, np.finfo(float).tiny))
     # Inside the body lambda stays zero.
     smaller = np.maximum(smaller, np.minimum(1, 1 - f) ** 2)
-    across = np.where(oblate, smaller + focal, smaller)
-    along = np.where(oblate, smaller, smaller + focal)
-    return across, along
+    equatorial = np.where(oblate, smaller + focal, smaller)
+    polar = np.where(oblate, smaller, smaller + focal)
+    return equatorial, polar
 
 
 def _quadratic(f: FloatArray, square: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -132,9 +132,9 @@ def error_bound(flattening: ArrayLike, position: ArrayLike) -> FloatArray:
     square = np.asarray(position, dtype=float) ** 2
     focal, p, w = _quadratic(f, square)
     discriminant = np.maximum(np.hypot(p, 2 * np.sqrt(w)), np.finfo(float).tiny)
-    moved = np.finfo(float).eps * (2 * np.sum(square, axis=-1) + focal)
+    rounding = np.finfo(float).eps * (2 * np.sum(square, axis=-1) + focal)
     inside = square[..., 0] + square[..., 1] + square[..., 2] / (1 - f) ** 2 <= 1
-    return np.asarray(CLOSED_FORM_ERROR + np.where(inside, 0.0, 0.75 * moved / discriminant))
+    return np.asarray(CLOSED_FORM_ERROR + np.where(inside, 0.0, 0.75 * rounding / discriminant))
 
 
 def attraction_integrals(
@@ -164,14 +164,14 @@ def attraction_integrals(
             f"a position {first_wrong(scaled, far):.3g} radii away is beyond what can be computed; "
             f"give positions within {_FARTHEST:g} radii"
         )
-    across, along = confocal_squares(flattening, scaled)
+    equatorial, polar = confocal_squares(flattening, scaled)
     e2 = eccentricity_squared(flattening)
-    gauss = hyp2f1(1.0, 1.5, 3.5, -e2 / along)
+    gauss = hyp2f1(1.0, 1.5, 3.5, -e2 / polar)
     return AttractionIntegrals(
-        i0=2 * elliprc(along, across) / a,
-        a1=2 / 3 * elliprd(along, across, across) / a**3,
-        a3=2 / 3 * elliprd(across, across, along) / a**3,
-        difference=0.4 * e2 / (along * np.sqrt(along) * across) * gauss / a**3,
+        i0=2 * elliprc(polar, equatorial) / a,
+        a1=2 / 3 * elliprd(polar, equatorial, equatorial) / a**3,
+        a3=2 / 3 * elliprd(equatorial, equatorial, polar) / a**3,
+        difference=0.4 * e2 / (polar * np.sqrt(polar) * equatorial) * gauss / a**3,
     )
 
 
@@ -204,8 +204,8 @@ def spheroid_potential(
     mu = positive(_BODY, "gm", gm)
     r = vectors("position", position)
     integrals = attraction_integrals(radius, flattening, r)
-    across = integrals.a1 * (r[..., 0] ** 2 + r[..., 1] ** 2)
-    return np.asarray(-0.75 * mu * (integrals.i0 - across - integrals.a3 * r[..., 2] ** 2))
+    equatorial = integrals.a1 * (r[..., 0] ** 2 + r[..., 1] ** 2)
+    return np.asarray(-0.75 * mu * (integrals.i0 - equatorial - integrals.a3 * r[..., 2] ** 2))
 
 
 def spheroid_attraction(

@@ -223,9 +223,9 @@ def tensor_about_point(tensor: ArrayLike, mass: ArrayLike, offset: ArrayLike) ->
         From the centre of mass to the point, m.
     """
     m, d = positive(_BODY, "mass", mass), vectors("offset", offset)
-    outer = np.asarray(d[..., :, np.newaxis] * d[..., np.newaxis, :])
-    moved = tensor_of_second_moments(m[..., np.newaxis, np.newaxis] * outer)
-    return np.asarray(np.asarray(tensor, dtype=float) + moved)
+    products = np.asarray(d[..., :, np.newaxis] * d[..., np.newaxis, :])
+    shift = tensor_of_second_moments(m[..., np.newaxis, np.newaxis] * products)
+    return np.asarray(np.asarray(tensor, dtype=float) + shift)
 
 
 def angular_momentum(tensor: ArrayLike, omega: ArrayLike) -> FloatArray:
@@ -297,8 +297,8 @@ def change_frame(tensor: ArrayLike, rotation: ArrayLike) -> FloatArray:
             f"rotation differs from an orthogonal matrix by {departure:.3g}; "
             f"at most {ROUNDING:g} is allowed"
         )
-    turned = r @ np.asarray(tensor, dtype=float) @ np.swapaxes(r, -1, -2)
-    return np.asarray((turned + np.swapaxes(turned, -1, -2)) / 2)
+    rotated = r @ np.asarray(tensor, dtype=float) @ np.swapaxes(r, -1, -2)
+    return np.asarray((rotated + np.swapaxes(rotated, -1, -2)) / 2)
 
 
 def check_inertia_tensor(tensor: ArrayLike) -> FloatArray:
@@ -432,7 +432,7 @@ def principal_axes(tensor: ArrayLike, equal: float = EQUAL) -> PrincipalAxes:
     b_minus_a, c_minus_b = (float(gap) for gap in np.diff(deviation))
     same_ab, same_bc = (gap <= equal * moments[2] for gap in (b_minus_a, c_minus_b))
     axes, shape, free = _choose(vectors.T, same_ab, same_bc)
-    gaps = [gap for gap, same in ((b_minus_a, same_ab), (c_minus_b, same_bc)) if not same]
+    gaps = [gap for gap, is_equal in ((b_minus_a, same_ab), (c_minus_b, same_bc)) if not is_equal]
     return PrincipalAxes(
         moments=moments,
         b_minus_a=b_minus_a,
@@ -456,12 +456,12 @@ def _choose(
         return np.eye(3), "sphere", (True, True, True)
     if same_ab:
         pole = _signed(axes[2])
-        across = _across(pole)
-        return np.stack([across, np.cross(pole, across), pole]), "oblate", (True, True, False)
+        node = _across(pole)
+        return np.stack([node, np.cross(pole, node), pole]), "oblate", (True, True, False)
     if same_bc:
         pole = _signed(axes[0])
-        across = _across(pole)
-        return np.stack([pole, across, np.cross(pole, across)]), "prolate", (False, True, True)
+        node = _across(pole)
+        return np.stack([pole, node, np.cross(pole, node)]), "prolate", (False, True, True)
     axis_a, axis_b = _signed(axes[0]), _signed(axes[1])
     return np.stack([axis_a, axis_b, np.cross(axis_a, axis_b)]), "triaxial", (False, False, False)
 
@@ -478,5 +478,5 @@ def _signed(axis: FloatArray) -> FloatArray:
 def _across(pole: FloatArray) -> FloatArray:
     """Unit vector perpendicular to a given axis, chosen by a fixed rule."""
     coordinate = np.eye(3)[np.argmax(np.abs(pole) < 0.6)]
-    across = coordinate - pole * np.dot(coordinate, pole)
-    return np.asarray(across / np.linalg.norm(across))
+    projection = coordinate - pole * np.dot(coordinate, pole)
+    return np.asarray(projection / np.linalg.norm(projection))

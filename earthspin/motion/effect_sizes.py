@@ -214,8 +214,8 @@ class _Change:
         free_drift = self._free_drift[:, np.newaxis] + sums
         axial_drift = self._axis @ drift
         to_nodes, _ = windows.integral(np.einsum("j,jwn->wn", self._axis, rate))
-        axial_drifts = axial_drift[:-1, np.newaxis] + to_nodes
-        phase = self._phase + self._unit * _running(windows, axial_drifts)
+        to_nodes += axial_drift[:-1, np.newaxis]
+        phase = self._phase + self._unit * _running(windows, to_nodes)
         self._drift, self._free_drift = drift[:, -1], free_drift[:, -1]
         self._phase = float(phase[-1])
 

@@ -115,7 +115,7 @@ class Rigid:
 
 
 @dataclass(frozen=True)
-class PerturbersAtNodes:
+class Perturbers:
     """GM of the perturbing masses, and their positions at the nodes of one time window.
 
     Attributes
@@ -151,7 +151,7 @@ class Equations:
     ----------
     body : Rigid
         The bodies, one in each column.
-    masses : PerturbersAtNodes
+    masses : Perturbers
     in_space : bool
         True if the angular momentum is along the sky's axes, False if along the body's axes.
     start : ndarray, shape (7, bodies)
@@ -161,15 +161,10 @@ class Equations:
     """
 
     def __init__(
-        self,
-        body: Rigid,
-        masses: PerturbersAtNodes,
-        in_space: bool,
-        start: FloatArray,
-        elapsed: FloatArray,
+        self, body: Rigid, masses: Perturbers, in_space: bool, start: FloatArray, times: FloatArray
     ) -> None:
         self._body, self._masses, self._in_space = body, masses, in_space
-        self._count, self._nodes = start.shape[1], elapsed.size
+        self._count, self._nodes = start.shape[1], times.size
         self._spin_per_momentum = self._at_nodes(body.unit / body.moments)
         self._moment_differences = self._at_nodes(3 / body.unit * body.moment_differences)
         self._places = self._in_columns(masses.places)
@@ -188,7 +183,7 @@ class Equations:
         #: axes as the angular momentum.
         self.steady = _out_of(matrix, spin) if in_space else spin
         self._steady = self._at_nodes(self.steady)
-        reference = rotations.rotation_about(self._steady, self._in_columns(elapsed))
+        reference = rotations.rotation_about(self._steady, self._in_columns(times))
         self._reference = rotations.left(reference) if in_space else rotations.right(reference)
         self._reference_matrix = rotations.matrices(reference)
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from earthspin.constants import DAY
 from earthspin.errors import UndefinedError
-from earthspin.motion.equations import Equations, PerturbersAtNodes, Rigid, SkyLaw
+from earthspin.motion.equations import Equations, Perturbers, Rigid, SkyLaw
 from earthspin.numerics import rotations
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.polynomials import Windows, integrated, rule
@@ -66,12 +66,12 @@ class Masses:
     near: int = 0
     laws: Callable[[Windows, Mapping[str, FloatArray]], Sequence[SkyLaw]] | None = None
 
-    def over(self, windows: Windows) -> list[PerturbersAtNodes]:
-        """Make the `PerturbersAtNodes` of each time window: GM and positions of the masses."""
+    def over(self, windows: Windows) -> list[Perturbers]:
+        """Make the `Perturbers` of each time window: GM and positions of the masses."""
         times, gm = windows.times, np.array(list(self.gm.values()))
         if not self.gm:
             no_positions = np.zeros((3, 0, windows.order))
-            return [PerturbersAtNodes(window_times, gm, no_positions) for window_times in times]
+            return [Perturbers(window_times, gm, no_positions) for window_times in times]
         positions = self.positions(times.ravel())
         places = np.stack([positions[name].T for name in self.gm], axis=1)
         places = places.reshape(3, len(self.gm), *times.shape)
@@ -82,7 +82,7 @@ class Masses:
                 by_name = {name: places[:, m, w : w + 1] for m, name in enumerate(self.gm)}
                 laws = self.laws(Windows(windows.edges[w : w + 2], windows.order), by_name)
             place = np.ascontiguousarray(places[:, :, w])
-            masses_at_nodes.append(PerturbersAtNodes(window_times, gm, place, self.near, laws))
+            masses_at_nodes.append(Perturbers(window_times, gm, place, self.near, laws))
         return masses_at_nodes
 
 
@@ -276,12 +276,10 @@ class Solver:
                 break
         else:
             return rates, np.inf
-        last_terms = np.sum(np.abs(rates.reshape(-1, self.order) @ gauss.project[:, -2:]), axis=1)
-        last_terms = np.max(last_terms.reshape(7, -1), axis=1)
+        last = np.sum(np.abs(rates.reshape(-1, self.order) @ gauss.project[:, -2:]), axis=1)
+        last = np.max(last.reshape(7, -1), axis=1)
         size = float(np.max(np.abs(start[:3])))
-        error = max(
-            float(np.max(last_terms[:3])) / size if size else 0.0, float(np.max(last_terms[3:]))
-        )
+        error = max(float(np.max(last[:3])) / size if size else 0.0, float(np.max(last[3:])))
         return rates, error * half / self.order / self.tolerance
 
     def _end(
@@ -291,12 +289,8 @@ class Solver:
         bodies = start.shape[1]
         change = rates.reshape(7, bodies, self.order) @ rule(self.order).weights * half
         end = start + change
-        reference = rotations.rotation_about(equations.steady, np.full(bodies, 2 * half))
-        q = (
-            rotations.times(reference, end[3:])
-            if self.in_space
-            else rotations.times(end[3:], reference)
-        )
+        turn = rotations.rotation_about(equations.steady, np.full(bodies, 2 * half))
+        q = rotations.times(turn, end[3:]) if self.in_space else rotations.times(end[3:], turn)
         return np.concatenate([end[:3], q / np.sqrt(np.sum(q * q, axis=0))])
 
     def _resize(self, error_ratio: float, *, complete: bool) -> None:

@@ -298,9 +298,7 @@ class AttitudeIntegrator:
             if time >= self._end:
                 return
 
-    def at(
-        self, times: FloatArray, report: Callable[[float], None] | None = None
-    ) -> RotationSeries:
+    def at(self, times: FloatArray, hook: Callable[[float], None] | None = None) -> RotationSeries:
         """Angular momentum, attitude and angular velocity at given times, with errors.
 
         Parameters
@@ -308,7 +306,7 @@ class AttitudeIntegrator:
         times : ndarray, shape (t,)
             Ascending times from the start, s. If the first one is before the last time of an
             earlier call, the integration is restarted.
-        report : callable, optional
+        hook : callable, optional
             Function that is called with the time reached, s, after each batch of windows.
 
         Returns
@@ -324,8 +322,8 @@ class AttitudeIntegrator:
                 if self._solution is not None:
                     self._largest_errors = self._errors_until(self._solution[0].edges)[..., -1:]
                 self._solution = next(self._solutions)
-                if report is not None:
-                    report(float(self._solution[1].edges[-1]))
+                if hook is not None:
+                    hook(float(self._solution[1].edges[-1]))
             next_index = int(np.searchsorted(times, self._solution[1].edges[-1], side="right"))
             part_times = times[computed:next_index]
             edges = self._solution[0].edges

@@ -73,11 +73,11 @@ def landen_descent(complementary_modulus: DoubleDouble) -> LandenDescent:
     b = where(separatrix, 1.0, complementary_modulus)
     a = as_double_double(np.ones_like(b.hi))
     arithmetic, geometric = [a], [b]
-    apart = np.ones_like(separatrix)
-    while np.any(apart):
+    unequal = np.ones_like(separatrix)
+    while np.any(unequal):
         mean = (a + b).scaled(0.5)
-        a, b = mean, where(apart, (a * b).sqrt(), mean)
-        apart = np.abs((a - b).hi) > 1e-15 * a.hi
+        a, b = mean, where(unequal, (a * b).sqrt(), mean)
+        unequal = np.abs((a - b).hi) > 1e-15 * a.hi
         arithmetic.append(a)
         geometric.append(b)
     arithmetic.append((a + b).scaled(0.5))
@@ -103,9 +103,9 @@ def jacobi(u: FloatArray, descent: LandenDescent) -> tuple[Jacobi, Jacobi]:
     """
     a = [mean.hi[..., np.newaxis] for mean in descent.arithmetic]
     b = [mean.hi[..., np.newaxis] for mean in descent.geometric]
-    on = descent.separatrix[..., np.newaxis]
-    regular = np.where(on, 0.0, u)  # u may be infinite on the separatrix
-    depth, mean = np.ones(on.shape, dtype=int), a[1]  # step at which sn and cn are sin and cos
+    singular = descent.separatrix[..., np.newaxis]
+    regular = np.where(singular, 0.0, u)  # u may be infinite on the separatrix
+    depth, mean = np.ones(singular.shape, dtype=int), a[1]  # step where sn and cn are sin and cos
     for step in range(1, len(b)):
         deeper = (depth == step) & (a[step - 1] - b[step - 1] > 2 * _CIRCULAR * a[step - 1])
         depth, mean = depth + deeper, np.where(deeper, a[step + 1], mean)
@@ -120,9 +120,9 @@ def jacobi(u: FloatArray, descent: LandenDescent) -> tuple[Jacobi, Jacobi]:
         length = np.sqrt(rise * rise + run * run)
         s, c, d = _choose(step < depth, Jacobi(rise / length, run / length, up), lower)
     upper = Jacobi(s, c, d)
-    if not np.any(on):
+    if not np.any(singular):
         return upper, lower
-    return _choose(on, _hyperbolic(u), upper), _choose(on, _hyperbolic(u / 2), lower)
+    return _choose(singular, _hyperbolic(u), upper), _choose(singular, _hyperbolic(u / 2), lower)
 
 
 def first_kind(sine: FloatArray, cosine: FloatArray, complementary: FloatArray) -> FloatArray:
@@ -189,13 +189,13 @@ def third_kind_periodic(
     descent : LandenDescent
     """
     s, c, d = lower
-    n, on = n[..., np.newaxis], descent.separatrix[..., np.newaxis]
-    c2 = np.where(on, 1.0, c * c)
-    v = descent.arithmetic[1].hi[..., np.newaxis] * np.where(on, 0.0, u)
+    n, singular = n[..., np.newaxis], descent.separatrix[..., np.newaxis]
+    c2 = np.where(singular, 1.0, c * c)
+    v = descent.arithmetic[1].hi[..., np.newaxis] * np.where(singular, 0.0, u)
     periodic = s**3 / 3 * elliprj(c2, d * d, 1.0, 1 + n * s * s) - mean[..., np.newaxis] * v
-    if not np.any(on):
+    if not np.any(singular):
         return np.asarray(periodic)
-    return np.asarray(np.where(on, -s * elliprc(1.0, 1 + n * s * s) / (1 + n), periodic))
+    return np.asarray(np.where(singular, -s * elliprc(1.0, 1 + n * s * s) / (1 + n), periodic))
 
 
 def _hyperbolic(u: FloatArray) -> Jacobi:
@@ -234,12 +234,12 @@ def jacobi_sncndn(
     on_separatrix = complement == 0
     mean, root = np.ones_like(complement), np.sqrt(np.where(on_separatrix, 1.0, complement))
     means = [(mean, root, np.ones_like(on_separatrix))]
-    while np.any(apart := mean - root > 1e-8 * mean):  # then the next mean is exact
+    while np.any(unequal := mean - root > 1e-8 * mean):  # then the next mean is exact
         mean, root = (
-            np.where(apart, (mean + root) / 2, mean),
-            np.where(apart, np.sqrt(mean * root), root),
+            np.where(unequal, (mean + root) / 2, mean),
+            np.where(unequal, np.sqrt(mean * root), root),
         )
-        means.append((mean, root, apart))
+        means.append((mean, root, unequal))
     mean = (mean + root) / 2
 
     at_zero = np.abs(argument) < 1e-100  # sn equals the argument

@@ -91,9 +91,9 @@ class Windows:
         values: Any = np.empty((len(coefficients), times.size), dtype=coefficients.dtype)
         chunk = _CHUNK // len(coefficients) + 1
         for first in range(0, times.size, chunk):
-            part = times[first : first + chunk]
-            window = np.clip(np.searchsorted(self.edges, part) - 1, 0, len(self.half) - 1)
-            x = (part - self.middle[window, 0]) / self.half[window, 0]
+            chunk_times = times[first : first + chunk]
+            window = np.clip(np.searchsorted(self.edges, chunk_times) - 1, 0, len(self.half) - 1)
+            x = (chunk_times - self.middle[window, 0]) / self.half[window, 0]
             basis = legendre.legvander(x, coefficients.shape[-1] - 1)
             values[:, first : first + chunk] = np.einsum(
                 "ktm,tm->kt", coefficients[:, window, :], basis

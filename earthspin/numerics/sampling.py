@@ -34,11 +34,11 @@ def quantiles(samples: FloatArray, shares: FloatArray) -> FloatArray:
     """
     ordered = np.sort(samples, axis=0)
     place = shares * (len(samples) - 1)
-    below = np.minimum(place.astype(int), max(len(samples) - 2, 0))
-    low, high = ordered[below], ordered[np.minimum(below + 1, len(samples) - 1)]
-    part = (place - below).reshape(-1, *(1,) * (samples.ndim - 1))
+    index = np.minimum(place.astype(int), max(len(samples) - 2, 0))
+    low, high = ordered[index], ordered[np.minimum(index + 1, len(samples) - 1)]
+    share = (place - index).reshape(-1, *(1,) * (samples.ndim - 1))
     rise = np.subtract(high, low, out=np.zeros_like(low), where=low != high)
-    return np.asarray(low + np.multiply(part, rise, out=np.zeros_like(rise), where=part > 0))
+    return np.asarray(low + np.multiply(share, rise, out=np.zeros_like(rise), where=share > 0))
 
 
 def block_means(values: Any, size: int) -> Any:
@@ -194,8 +194,8 @@ def _shares(
     inverse = np.linalg.pinv(covariance)
     # influence of each sample on the slopes, on the parts of the variance, and on their sum
     slopes = (x * residual[:, np.newaxis]) @ inverse
-    used = known != 0
-    products = b * (x * ((x * b) @ used)) - column
+    nonzero = known != 0
+    products = b * (x * ((x * b) @ nonzero)) - column
     columns = slopes * (known @ b) + b * (slopes @ known) + products
     parts, changes = members @ column, columns @ members.T
     explained = 1 - rest

@@ -76,10 +76,9 @@ class CoreNutationAmplitudes:
 
         The amplitude of the first or last window is used before the first or after the last centre.
         """
-        amplitude = np.interp(time, self.time, self.amplitude.real) + 1j * np.interp(
-            time, self.time, self.amplitude.imag
-        )
-        return np.asarray(amplitude * circle(time, self.period))
+        parts = (self.amplitude.real, self.amplitude.imag)
+        real, imaginary = (np.interp(time, self.time, part) for part in parts)
+        return np.asarray((real + 1j * imaginary) * circle(time, self.period))
 
 
 def circle(time: FloatArray, period: float = PERIOD) -> ComplexArray:

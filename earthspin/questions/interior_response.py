@@ -16,7 +16,7 @@ from earthspin.interior.ocean_and_anelasticity import FES2004_SOURCE
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import interior_models
 from earthspin.questions.reasons import no_iau_model
-from earthspin.wobble.ladder import RotatingBody
+from earthspin.wobble.ladder import Rotator
 
 #: Largest relative difference of mass and mean radius between layers and the body they describe.
 FIT = 0.01
@@ -174,7 +174,7 @@ def predict(body: Body, coupling: bool, anelastic_exponent: float) -> Prediction
     h, spin_rate = body.number("dynamical_flattening"), float(body.spin_rate)
     e, ocean = h / (1 - h), 0.0
     if interior.ocean is not None:
-        spin = RotatingBody(body.number("gm"), body.number("radius"), body.number("spin_period"))
+        spin = Rotator(body.number("gm"), body.number("radius"), body.number("spin_period"))
         mean = (interior.ocean[0][0] + interior.ocean[1][1]) / 2
         ocean = mean / spin.centrifugal(interior.layers.radius)
     setting = interior_models.InteriorInputs(

@@ -324,7 +324,7 @@ def solved(
     wanted: FloatArray,
     body: Body,
     mean_rates: MeanRates,
-) -> solutions.AxisSolutions:
+) -> solutions.AxisFamily:
     """Integrate the motion of the spin axis, and repeat it with each uncertain input changed.
 
     A further integration has windows of twice the length.
@@ -359,11 +359,11 @@ def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArr
 
 @part
 def readings(
-    solved: solutions.AxisSolutions, wanted: FloatArray, body: Body
+    solved: solutions.AxisFamily, wanted: FloatArray, body: Body
 ) -> derived_angles.AnglesWithErrors:
     """Compute angles and rates, with their errors, from the integrated motions of the spin axis."""
     fixed = body.needed("pole").without_nutation().orbit_axes(body.orbit_pole)
-    return derived_angles.derive_with_errors(solved, wanted, fixed)
+    return derived_angles.derive_all(solved, wanted, fixed)
 
 
 # --- the answer ----------------------------------------------------------------------------------
@@ -420,7 +420,7 @@ def series(
     readings: derived_angles.AnglesWithErrors,
     numbers: SideBySide,
     wanted: FloatArray,
-    solved: solutions.AxisSolutions,
+    solved: solutions.AxisFamily,
     orbit_table: OrbitTable,
     body: Body,
     perturbers: tuple[Body, ...],

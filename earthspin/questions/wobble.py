@@ -138,14 +138,14 @@ class Inside:
     """
 
     inputs: ladder.Inputs
-    spin: ladder.RotatingBody
+    spin: ladder.Rotator
     interior: Interior
     ocean: str
     dims: tuple[str, ...]
     uncertainty: Mapping[str, float]
 
     @property
-    def setting(self) -> tuple[ladder.RotatingBody, Interior, str]:
+    def setting(self) -> tuple[ladder.Rotator, Interior, str]:
         """Return spin, interior and ocean, the arguments that all non-rigid models take."""
         return self.spin, self.interior, self.ocean
 
@@ -178,7 +178,7 @@ def inside(
     given = {name: body.needed(name) for name in (*_FIGURE, *_SPIN)} | own
     numbers = xr.broadcast(*map(xr.DataArray, given.values()))
     values = {name: number.values for name, number in zip(given, numbers, strict=True)}
-    spin = ladder.RotatingBody(*(values.pop(name) for name in _SPIN))
+    spin = ladder.Rotator(*(values.pop(name) for name in _SPIN))
     changed = {name: values.pop(name) for name in own}
     inputs = replace(ladder.inputs_of(interior, spin, values, ocean), **changed)
     uncertainty = {**interior.relative_uncertainty, **body.relative_uncertainty}

@@ -149,9 +149,9 @@ class SymmetricRotor:
         times : array_like, shape (n,)
             s.
         """
-        across = self.equatorial * self.speed * np.sin(self.alpha)
-        along = self.polar * self.speed * np.cos(self.alpha)
-        return _on_cone(across, along, self.wobble_rate, times)
+        equatorial = self.equatorial * self.speed * np.sin(self.alpha)
+        axial = self.polar * self.speed * np.cos(self.alpha)
+        return _on_cone(equatorial, axial, self.wobble_rate, times)
 
     def euler_angles(self, times: Numeric) -> FloatArray:
         """Euler angles phi, theta, psi of the body, rad, shape (..., n, 3) (I.6.25).
@@ -218,17 +218,17 @@ class SymmetricRotor:
         """
         phi, theta, psi = np.moveaxis(self.euler_angles(times), -1, 0)
         upright, tilted = np.cos(theta / 2), np.sin(theta / 2)
-        total, rest = (phi + psi) / 2, (phi - psi) / 2
+        total, difference = (phi + psi) / 2, (phi - psi) / 2
         w, z = upright * np.cos(total), upright * np.sin(total)
-        x, y = tilted * np.cos(rest), tilted * np.sin(rest)
+        x, y = tilted * np.cos(difference), tilted * np.sin(difference)
         return np.stack([w, x, y, z], axis=-1)
 
     def _in_node_plane(self, length: Numeric, angle: Numeric, times: Numeric) -> FloatArray:
         """Vector along inertial axes, tilted from the angular momentum towards the figure axis."""
         phi = np.multiply.outer(self.precession_rate, times)
-        across, along = (np.asarray(length * f(angle))[..., np.newaxis] for f in (np.sin, np.cos))
+        radial, axial = (np.asarray(length * f(angle))[..., np.newaxis] for f in (np.sin, np.cos))
         return np.stack(
-            [across * np.sin(phi), -across * np.cos(phi), np.broadcast_to(along, np.shape(phi))],
+            [radial * np.sin(phi), -radial * np.cos(phi), np.broadcast_to(axial, np.shape(phi))],
             axis=-1,
         )
 
@@ -266,8 +266,8 @@ def speed_and_cone(
     if np.any(np.equal(difference, 0)):
         raise UndefinedError("T and L of a sphere (I3 - I1 = 0) do not determine alpha; give omega")
     sign, l2 = np.sign(difference), np.square(angular_momentum)
-    across, along = sign * (2 * energy * i3 - l2), sign * (l2 - 2 * energy * i1)
-    outside = (across < -_ROUNDING * l2) | (along < -_ROUNDING * l2)
+    radial, axial = sign * (2 * energy * i3 - l2), sign * (l2 - 2 * energy * i1)
+    outside = (radial < -_ROUNDING * l2) | (axial < -_ROUNDING * l2)
     if np.any(outside):
         t, m, low, high = (
             float(x[outside].flat[0]) for x in np.broadcast_arrays(energy, angular_momentum, i1, i3)
@@ -276,7 +276,7 @@ def speed_and_cone(
             f"no rotation has T = {t} J with L = {m} kg m2/s: "
             f"L2/2T lies between I1 = {low} and I3 = {high} kg m2"
         )
-    alpha = np.arctan2(np.sqrt(i3 * np.maximum(across, 0)), np.sqrt(i1 * np.maximum(along, 0)))
+    alpha = np.arctan2(np.sqrt(i3 * np.maximum(radial, 0)), np.sqrt(i1 * np.maximum(axial, 0)))
     return np.sqrt((2 * energy * (i1 + i3) - l2) / (i1 * i3)), alpha
 
 
@@ -339,11 +339,11 @@ def free_wobble_error(period: Numeric, h: Numeric, u_h: float) -> Numeric:
     return NORMAL_95 * period * u_h / (1 - h)
 
 
-def _on_cone(across: Numeric, along: Numeric, rate: Numeric, times: Numeric) -> FloatArray:
+def _on_cone(radial: Numeric, axial: Numeric, rate: Numeric, times: Numeric) -> FloatArray:
     angle = np.multiply.outer(rate, times)
-    across, along = (np.asarray(x)[..., np.newaxis] for x in (across, along))
+    radial, axial = (np.asarray(x)[..., np.newaxis] for x in (radial, axial))
     return np.stack(
-        [across * np.cos(angle), across * np.sin(angle), np.broadcast_to(along, angle.shape)],
+        [radial * np.cos(angle), radial * np.sin(angle), np.broadcast_to(axial, angle.shape)],
         axis=-1,
     )
 

@@ -90,7 +90,7 @@ def _from_differences(moments: Mapping[str, Any]) -> PrincipalMoments:
     try:
         a, b_a, c_a = np.broadcast_arrays(*parts)
     except ValueError:
-        shapes = [part.shape for part in parts]
+        shapes = [array.shape for array in parts]
         rule = "A, B-A and C-A must have shapes that broadcast together"
         raise BodyError("rotor", "shape of moments", shapes, rule) from None
     zero = np.zeros_like(a)
@@ -125,10 +125,10 @@ def _check(moments: PrincipalMoments) -> None:
         # Ij + Ik - Ii, with the original difference Ij - Ii
         room = values[..., axis - 1] + moments.difference.hi[..., axis - 1]
         if np.any(room < -_LAMINA * moment):
-            at = np.unravel_index(np.argmin(room / moment), moment.shape)
-            others = " + ".join(f"{values[(*at, i)]:.16g}" for i in range(3) if i != axis)
+            index = np.unravel_index(np.argmin(room / moment), moment.shape)
+            others = " + ".join(f"{values[(*index, i)]:.16g}" for i in range(3) if i != axis)
             rule = f"no principal moment may exceed the sum of the other two, here {others}"
-            raise BodyError("rotor", name, float(moment[at]), rule)
+            raise BodyError("rotor", name, float(moment[index]), rule)
 
 
 def finite(values: Any, name: str, unit: str) -> FloatArray:
@@ -144,9 +144,9 @@ def finite(values: Any, name: str, unit: str) -> FloatArray:
         numbers = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):
         raise BodyError("rotor", name, values, f"give numbers, in {unit}") from None
-    bad = numbers[~np.isfinite(numbers)]
-    if bad.size:
-        raise BodyError("rotor", name, float(bad.flat[0]), f"give finite numbers, in {unit}")
+    infinite = numbers[~np.isfinite(numbers)]
+    if infinite.size:
+        raise BodyError("rotor", name, float(infinite.flat[0]), f"give finite numbers, in {unit}")
     return numbers
 
 
@@ -217,8 +217,8 @@ def euler_rates(moments: Moments, omega: Any, torque: Any = 0.0) -> FloatArray:
         N m, along the principal axes.
     """
     body, w = principal_moments(moments), np.asarray(omega, dtype=np.float64)
-    across = w[..., [1, 2, 0]] * w[..., [2, 0, 1]]
-    return np.asarray((torque - body.difference.hi * across) / body.values)
+    products = w[..., [1, 2, 0]] * w[..., [2, 0, 1]]
+    return np.asarray((torque - body.difference.hi * products) / body.values)
 
 
 def twice_energy(moments: Moments, omega: Any) -> FloatArray:
@@ -260,7 +260,6 @@ def integrate_rotation(
     times: Any,
     *,
     torque: Torque | None = None,
-    method: str = "DOP853",
     rtol: float = 1e-13,
     atol: float = 1e-15,
 ) -> IntegratedRotation:
@@ -276,8 +275,6 @@ def integrate_rotation(
         s, of either sign, in any order.
     torque : callable, optional
         Torque along the principal axes, N m, given time, omega and attitude.
-    method : str
-        Any method of `scipy.integrate.solve_ivp`.
     rtol, atol : float
         Tolerances; for omega, `atol` is relative to the initial |omega|.
 
@@ -295,22 +292,22 @@ def integrate_rotation(
 
     def rates(time: float, state: FloatArray) -> FloatArray:
         w, q = state[:3], state[3:]
-        push = 0.0 if torque is None else torque(time, w, q)
+        moment = 0.0 if torque is None else torque(time, w, q)
         spin = quaternion.multiply(q, np.concatenate([[0.0], w])) / 2
-        return np.concatenate([euler_rates(body, w, push), spin])
+        return np.concatenate([euler_rates(body, w, moment), spin])
 
     floor = atol * np.array([float(np.linalg.norm(start))] * 3 + [1.0] * 4)
     initial = np.concatenate([start, [1.0, 0.0, 0.0, 0.0]])
     states = np.tile(initial, (t.size, 1))
     evaluations = 0
-    for side in (t > 0, t < 0):
-        if not np.any(side):
+    for direction in (t > 0, t < 0):
+        if not np.any(direction):
             continue
-        stops, place = np.unique(np.abs(t[side]), return_inverse=True)
-        stops = stops * np.sign(t[side][0])
-        run = solve_ivp(rates, (0.0, stops[-1]), initial, method, stops, rtol=rtol, atol=floor)
+        stops, order = np.unique(np.abs(t[direction]), return_inverse=True)
+        stops = stops * np.sign(t[direction][0])
+        run = solve_ivp(rates, (0.0, stops[-1]), initial, "DOP853", stops, rtol=rtol, atol=floor)
         if not run.success:
             raise EarthspinError(f"the integration stopped: {run.message}")
-        states[side] = run.y.T[place]
+        states[direction] = run.y.T[order]
         evaluations += int(run.nfev)
     return IntegratedRotation(t, states[:, :3], states[:, 3:], evaluations)

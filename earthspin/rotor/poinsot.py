@@ -118,9 +118,9 @@ def polhode(moments: Moments, omega: Any, n: int = 361) -> Polhode:
     motion = jacobi_motion(moments, omega)
     point = np.isinf(motion.start)  # the middle axis itself
     is_open = motion.descent.separatrix & ~point
-    part = np.linspace(0.0, 1.0, n)
-    round_trip = motion.start_angle[..., np.newaxis] + 2 * np.pi * part
-    angle = np.where(is_open[..., np.newaxis], np.pi * (part - 0.5), round_trip)
+    fraction = np.linspace(0.0, 1.0, n)
+    round_trip = motion.start_angle[..., np.newaxis] + 2 * np.pi * fraction
+    angle = np.where(is_open[..., np.newaxis], np.pi * (fraction - 0.5), round_trip)
     sine, cosine = np.sin(angle), np.cos(angle)
     sine = np.where(point[..., np.newaxis], np.sign(motion.start)[..., np.newaxis], sine)
     cosine = np.where(point[..., np.newaxis], 0.0, cosine)
@@ -150,9 +150,9 @@ def herpolhode(moments: Moments, omega: Any, times: Any) -> FloatArray:
     """
     motion = jacobi_motion(moments, omega)
     phase = triaxial.phase_at(motion, np.concatenate([[0.0], finite(times, "times", "s")]))
-    across = quaternion.rotate(triaxial.momentum_frame(motion, phase), _across(motion, phase))
+    projection = quaternion.rotate(triaxial.momentum_frame(motion, phase), _across(motion, phase))
     # Rotated by a quarter turn; moving the first point to the first axis removes the rotation.
-    x, y = across[..., 0], across[..., 1]
+    x, y = projection[..., 0], projection[..., 1]
     size = np.hypot(x[..., :1], y[..., :1])
     divisor = np.where(size > 0, size, 1.0)
     cosine, sine = x[..., :1] / divisor, y[..., :1] / divisor

@@ -491,13 +491,13 @@ def phase_at(motion: JacobiMotion, times: FloatArray) -> Phase:
     """
     half_period = motion.descent.quarter_period.scaled(2.0)[..., np.newaxis]
     start = motion.start[..., np.newaxis]
-    run = motion.rate[..., np.newaxis] * times
+    argument = motion.rate[..., np.newaxis] * times
     periodic = half_period.hi > 0  # otherwise on the separatrix, where u may be infinite
     halves = np.rint(
-        np.where(periodic, run.hi + start, 0.0) / np.where(periodic, half_period.hi, 1)
+        np.where(periodic, argument.hi + start, 0.0) / np.where(periodic, half_period.hi, 1)
     )
-    rest = run - half_period * halves
-    u = rest.hi + start
+    remainder = argument - half_period * halves
+    u = remainder.hi + start
     return Phase(times, u, 1.0 - 2.0 * np.mod(halves, 2.0), *elliptic.jacobi(u, motion.descent))
 
 
@@ -541,9 +541,9 @@ def _attitude(motion: JacobiMotion, phase: Phase) -> FloatArray:
 def _half_psi(motion: JacobiMotion, phase: Phase) -> FloatArray:
     """Half of the rotation angle of a body about its angular momentum since the first time, rad."""
     precession = motion.precession
-    run = precession.rate.scaled(0.5)[..., np.newaxis] * phase.times
-    rest = run - TWO_PI * np.rint(run.hi / TWO_PI.hi)
+    angle = precession.rate.scaled(0.5)[..., np.newaxis] * phase.times
+    remainder = angle - TWO_PI * np.rint(angle.hi / TWO_PI.hi)
     periodic = precession.swing[..., np.newaxis] * elliptic.third_kind_periodic(
         phase.u, phase.lower, precession.n, precession.mean, motion.descent
     )
-    return np.asarray(rest.hi + (periodic - periodic[..., :1]) / 2)
+    return np.asarray(remainder.hi + (periodic - periodic[..., :1]) / 2)

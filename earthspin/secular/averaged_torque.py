@@ -277,9 +277,7 @@ class AveragedTorque(NamedTuple):
     geodesic: FloatArray
 
 
-def luni_solar_torque(
-    precession: PrecessionConstant, shape: Shape, times: FloatArray
-) -> AveragedTorque:
+def mean_torque(precession: PrecessionConstant, shape: Shape, times: FloatArray) -> AveragedTorque:
     """Compute the torque of Sun and Moon on a spin axis, averaged over their orbits.
 
     The node of the Moon regresses about an orbit that moves; its mean torque acts about n + (n x

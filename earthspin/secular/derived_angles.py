@@ -24,7 +24,7 @@ from earthspin.secular.averaged_torque import (
     moon_rate_factor,
     reference_axes,
 )
-from earthspin.secular.error_budget import AxisInputs, AxisSolutions, changed
+from earthspin.secular.error_budget import AxisFamily, AxisInputs, changed
 from earthspin.secular.trajectory import AxisTrajectory, solve
 from earthspin.torque.gravity import dot
 
@@ -219,26 +219,26 @@ class AnglesWithErrors:
     def changes(self, name: str) -> dict[str, FloatArray]:
         """Size of the change of a derived quantity due to each error source, by source name."""
         return _by_cause(
-            (cause, difference(varied, self.nominal, name)) for cause, varied in self.varied
+            (cause, change(angles, self.nominal, name)) for cause, angles in self.varied
         )
 
     def direction_changes(self, which: Literal["pole", "normal"]) -> dict[str, FloatArray]:
         """Change in direction, rad, of spin axis or orbit normal due to each error source."""
         nominal = getattr(self.nominal, which)
         return _by_cause(
-            (cause, angle(getattr(varied, which), nominal)) for cause, varied in self.varied
+            (cause, angle(getattr(case, which), nominal)) for cause, case in self.varied
         )
 
 
-def difference(varied: DerivedAngles, nominal: DerivedAngles, name: str) -> FloatArray:
+def change(varied: DerivedAngles, nominal: DerivedAngles, name: str) -> FloatArray:
     """Difference of a derived quantity between a varied and the nominal solution."""
-    change = varied.values[name] - nominal.values[name]
+    total = varied.values[name] - nominal.values[name]
     if name != "longitude_of_perihelion":
-        return change
+        return total
     # the perihelion of a nearly circular orbit may differ by whole turns between solutions, which
     # is no physical change
     precession = varied.values["general_precession"] - nominal.values["general_precession"]
-    orbital = change - precession
+    orbital = total - precession
     return np.asarray(precession + orbital - _TURN * np.rint(orbital / _TURN))
 
 
@@ -261,14 +261,12 @@ def root_sum_square(shares: dict[str, FloatArray]) -> FloatArray:
     return np.sqrt(sum(share**2 for share in shares.values()))
 
 
-def derive_with_errors(
-    solved: AxisSolutions, times: FloatArray, fixed: FloatArray
-) -> AnglesWithErrors:
+def derive_all(solved: AxisFamily, times: FloatArray, fixed: FloatArray) -> AnglesWithErrors:
     """Derive angles and rates, with errors, from the nominal and all varied solutions.
 
     Parameters
     ----------
-    solved : AxisSolutions
+    solved : AxisFamily
     times : ndarray, shape (n,)
         s from J2000.0 TDB.
     fixed : ndarray, shape (3, 3)
@@ -295,12 +293,11 @@ def derive_with_errors(
     weight = np.clip((phase - LINEAR_TO) / (SAMPLED_FROM - LINEAR_TO), 0.0, 1.0)
     if not np.any(weight > 0):
         return linear
-    return replace(
-        linear, weight=weight, sampled=_sampled(solved, nominal, times, fixed, perihelion)
-    )
+    sampled = _sampled(solved, nominal, times, fixed, perihelion)
+    return replace(linear, weight=weight, sampled=sampled)
 
 
-def phase_error(solved: AxisSolutions, times: FloatArray) -> FloatArray:
+def phase_error(solved: AxisFamily, times: FloatArray) -> FloatArray:
     """Largest error of the precession angle between J2000.0 and each time, rad, (..., n).
 
     It is the half-width of the axis divided by the sine of its obliquity. The largest value up to
@@ -323,7 +320,7 @@ def phase_error(solved: AxisSolutions, times: FloatArray) -> FloatArray:
 
 
 def _sampled(
-    solved: AxisSolutions,
+    solved: AxisFamily,
     nominal: DerivedAngles,
     times: FloatArray,
     fixed: FloatArray,
@@ -336,7 +333,7 @@ def _sampled(
         member_setting = changed(solved.setting, solved.uncertainty, amounts)
         path = solve(member_setting.precession, member_setting.orbit, member_setting.start, span)
         member = derive(path, member_setting, times, fixed, perihelion)
-        deviations = {name: difference(member, nominal, name) for name in names}
+        deviations = {name: change(member, nominal, name) for name in names}
         quantiles.add(deviations | {"pole": angle(member.pole, nominal.pole)})
     return quantiles.at_probability()
 

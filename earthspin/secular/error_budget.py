@@ -93,7 +93,7 @@ class Uncertainty:
 
 
 @dataclass(frozen=True)
-class AxisSolutions:
+class AxisFamily:
     """Nominal trajectory of the spin axis, and one trajectory for each varied error source.
 
     Attributes
@@ -116,9 +116,7 @@ class AxisSolutions:
         return self.path.steps + sum(path.steps for _, path, _ in self.varied)
 
 
-def solved(
-    setting: AxisInputs, span: tuple[float, float], uncertainty: Uncertainty
-) -> AxisSolutions:
+def solved(setting: AxisInputs, span: tuple[float, float], uncertainty: Uncertainty) -> AxisFamily:
     """Integrate the spin axis with nominal inputs, and again with each error source varied.
 
     A further integration with windows of twice the length gives the error of the method.
@@ -135,11 +133,11 @@ def solved(
     for cause, varied in (("method", setting), *changes(setting, uncertainty)):
         varied_path = solve(varied.precession, varied.orbit, varied.start, span, guess=path)
         others.append((cause, varied_path, varied))
-    return AxisSolutions(path, setting, uncertainty, tuple(others))
+    return AxisFamily(path, setting, uncertainty, tuple(others))
 
 
 def shifted_orbit(
-    orbit: ChangingOrbit, error: HalfWidths, multiples: Sequence[float]
+    orbit: ChangingOrbit, error: HalfWidths, amounts: Sequence[float]
 ) -> ModifiedOrbit:
     """Orbit whose normal and eccentricity are shifted by multiples of their half-widths.
 
@@ -147,7 +145,7 @@ def shifted_orbit(
     ----------
     orbit : ChangingOrbit
     error : callable
-    multiples : sequence of float
+    amounts : sequence of float
         Shifts in half-widths along each of two directions perpendicular to the normal of J2000.0.
     """
     directions = reference_axes(orbit.at(np.zeros(1))[0][:, 0])[:2]
@@ -155,7 +153,7 @@ def shifted_orbit(
     def change(times: FloatArray, shape: Shape) -> Shape:
         normal, eccentricity, normal_rate = shape
         shift = np.zeros_like(normal)
-        for direction, amount in zip(directions[:, :, np.newaxis], multiples, strict=True):
+        for direction, amount in zip(directions[:, :, np.newaxis], amounts, strict=True):
             tangent = direction - normal * np.sum(direction * normal, axis=0)
             shift += amount * tangent / np.sqrt(np.sum(tangent**2, axis=0))
         normal_error, eccentricity_error = error(times)
@@ -208,13 +206,13 @@ def changed(setting: AxisInputs, uncertainty: Uncertainty, amounts: FloatArray) 
     remaining = iter(float(amount) for amount in amounts)
     constant = next(remaining)
     angles = [next(remaining) * half_width for half_width in uncertainty.start]
-    multiples = [next(remaining), next(remaining)]
+    shifts = [next(remaining), next(remaining)]
     j2, tides, convection = remaining if uncertainty.earth else (0.0, 0.0, 0.0)
     precession, start, orbit = setting.precession, setting.start, setting.orbit
     if any(angles):
         start = inclined_axis(setting, angles)
-    if any(multiples):
-        orbit = shifted_orbit(orbit, uncertainty.orbit, multiples)
+    if any(shifts):
+        orbit = shifted_orbit(orbit, uncertainty.orbit, shifts)
     torque_factor, tidal_factor = 1 + constant * uncertainty.constant, 1 + tides * TIDES_SHARE
     precession = replace(
         precession,

@@ -25,7 +25,7 @@ from earthspin.secular.averaged_torque import (
     ChangingOrbit,
     PrecessionConstant,
     broadcast_over_members,
-    luni_solar_torque,
+    mean_torque,
     reference_axes,
 )
 from earthspin.torque.gravity import dot
@@ -151,7 +151,7 @@ def step(
     torque: NodeTorque,
     values: FloatArray,
     state: FloatArray,
-    residual_share: FloatArray,
+    residual: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
     """Longitude and reference-axis component of a spin axis after one Newton step; largest change.
 
@@ -167,7 +167,7 @@ def step(
         Longitude and height.
     state : ndarray, shape (2, ...)
         Values at the start of the first window.
-    residual_share : ndarray, shape (...)
+    residual : ndarray, shape (...)
         Fraction of the change that may remain for the next step.
 
     Returns
@@ -181,7 +181,7 @@ def step(
     sides = np.zeros((2, 3, *values.shape[1:]))
     np.subtract(starts[..., np.newaxis] + to_nodes, values, out=sides[:, 0])
     sides[0, 1] = sides[1, 2] = 1.0
-    change, ends, settled = _linear(windows, linear, sides, residual_share)
+    change, ends, settled = _linear(windows, linear, sides, residual)
     phi_shift, z_shift = _shifts(ends)[..., np.newaxis]
     total = change[:, 0] + change[:, 1] * phi_shift + change[:, 2] * z_shift
     return values + total, np.where(settled, np.abs(total).max(axis=(0, -2, -1)), np.inf)
@@ -462,7 +462,7 @@ class _BlockSolver:
         normal, eccentricity, normal_rate = (
             broadcast_over_members(state, vector) for vector in self.orbit.at(times)
         )
-        return luni_solar_torque(self.precession, (normal, eccentricity, normal_rate), times)
+        return mean_torque(self.precession, (normal, eccentricity, normal_rate), times)
 
     def _first_guess(self, windows: Windows, torque: NodeTorque, state: FloatArray) -> FloatArray:
         """First guess of a spin axis at all times: longitude and reference-axis component.
@@ -470,15 +470,13 @@ class _BlockSolver:
         It is a neighbouring trajectory shifted to the initial state, or uniform precession.
         """
         if self.guess is None:
-            return self._uniform_precession(windows, torque, state)
+            return self._precession(windows, torque, state)
         times = np.append(windows.times, windows.edges[0])
         values = self.guess.about(times)
         values += state[..., np.newaxis] - values[..., -1:]
         return values[..., :-1].reshape(*state.shape, *windows.times.shape)
 
-    def _uniform_precession(
-        self, windows: Windows, torque: NodeTorque, state: FloatArray
-    ) -> FloatArray:
+    def _precession(self, windows: Windows, torque: NodeTorque, state: FloatArray) -> FloatArray:
         """First guess of the spin axis's motion: uniform precession about the reference axis.
 
         The height, the component along that axis, is constant: that of the start, or the mean of

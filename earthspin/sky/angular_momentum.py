@@ -69,10 +69,10 @@ class AngularMomentum:
             pieces = np.diff(self.mjd) * (values[1:] + values[:-1]) / 2
             total = np.concatenate([[0], np.cumsum(pieces)])
             # The integral of a linear piece is a parabola.
-            at = np.clip(np.searchsorted(self.mjd, edges, side="right") - 1, 0, pieces.size - 1)
-            into = edges - self.mjd[at]
-            slope = np.diff(values)[at] / np.diff(self.mjd)[at]
-            return np.asarray(np.diff(total[at] + into * (values[at] + slope * into / 2)))
+            row = np.clip(np.searchsorted(self.mjd, edges, side="right") - 1, 0, pieces.size - 1)
+            dt = edges - self.mjd[row]
+            slope = np.diff(values)[row] / np.diff(self.mjd)[row]
+            return np.asarray(np.diff(total[row] + dt * (values[row] + slope * dt / 2)))
 
         middles = np.asarray(np.round(edges[:-1]) + 0.5, dtype=float)
         return AngularMomentum(middles, means(self.mass), means(self.motion))
@@ -130,8 +130,8 @@ def read_angular_momentum(
 
 
 def _between(series: AngularMomentum, first: float, last: float) -> AngularMomentum:
-    inside = (series.mjd >= first - SAME_TIME) & (series.mjd <= last + SAME_TIME)
-    return AngularMomentum(series.mjd[inside], series.mass[inside], series.motion[inside])
+    selected = (series.mjd >= first - SAME_TIME) & (series.mjd <= last + SAME_TIME)
+    return AngularMomentum(series.mjd[selected], series.mass[selected], series.motion[selected])
 
 
 def _files(
@@ -187,9 +187,9 @@ def _joined(files: list[Path]) -> AngularMomentum:
     steps = np.diff(mjd)
     uneven = abs(steps - np.median(steps)) > SAME_TIME
     if np.any(uneven):
-        bad = unique[int(np.argmax(uneven)) + 1]
-        problem = f"the step changes before MJD {bad.mjd:.3f}"
-        raise SeriesError(bad.file, problem, "even steps are needed; is a file missing?", bad.line)
+        row = unique[int(np.argmax(uneven)) + 1]
+        problem = f"the step changes before MJD {row.mjd:.3f}"
+        raise SeriesError(row.file, problem, "even steps are needed; is a file missing?", row.line)
     return AngularMomentum(
         mjd, np.array([row.mass for row in unique]), np.array([row.motion for row in unique])
     )

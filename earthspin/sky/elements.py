@@ -144,13 +144,13 @@ class Ellipse:
         # from the focus, with x towards the pericentre; (1 - e) is separate to avoid cancellation
         x = self.a * ((1 - self.e) - 2 * np.sin(anomaly / 2) ** 2)
         y = self.a * math.sqrt((1 - self.e) * (1 + self.e)) * np.sin(anomaly)
-        along = self.pericentre + self.pericentre_rate * time  # from the node
-        cos, sin = np.cos(along), np.sin(along)
-        ahead, across = x * cos - y * sin, x * sin + y * cos
+        argument = self.pericentre + self.pericentre_rate * time  # from the node
+        cos, sin = np.cos(argument), np.sin(argument)
+        ahead, aside = x * cos - y * sin, x * sin + y * cos
         node = self.node + self.node_rate * time
-        flat, up = across * math.cos(self.i), across * math.sin(self.i)
+        flat, height = aside * math.cos(self.i), aside * math.sin(self.i)
         cos, sin = np.cos(node), np.sin(node)
-        in_plane = np.stack([ahead * cos - flat * sin, ahead * sin + flat * cos, up], axis=-1)
+        in_plane = np.stack([ahead * cos - flat * sin, ahead * sin + flat * cos, height], axis=-1)
         return np.asarray(in_plane @ self.plane.matrix)
 
     def error(self, day: float) -> tuple[float, float]:

@@ -199,13 +199,13 @@ class PoleSeries:
         SeriesError
             If fewer than two rows are in between.
         """
-        inside = (self.mjd >= first) & (self.mjd <= last)
-        if np.count_nonzero(inside) < 2:
+        selected = (self.mjd >= first) & (self.mjd <= last)
+        if np.count_nonzero(selected) < 2:
             start, end, from_day, to_day = map(day_of, (*self.mjd[[0, -1]], first, last))
             problem = f"it covers {start} to {end}; {from_day} to {to_day} was asked for"
             raise SeriesError(self.name, problem, "choose a span inside it")
-        rows = {name: getattr(self, name)[inside] for name in _COLUMNS[1:]}
-        return replace(self, **rows, newest=self.newest and bool(inside[-1]))
+        rows = {name: getattr(self, name)[selected] for name in _COLUMNS[1:]}
+        return replace(self, **rows, newest=self.newest and bool(selected[-1]))
 
 
 #: Files that astropy carries, by the short names that stand for them.
@@ -406,8 +406,8 @@ def _layout(file: Path, lines: list[str], kind: str | None) -> _Layout:
     if kind == "c04":
         return _Layout(lines, kind, _C04.get(len(words), "").split(), "16 or 21")
     if kind == "c01":
-        known = _C01.get(len(words), _C01_YEAR if len(words) >= 5 else "")
-        return _Layout(lines, kind, known.split(), "5 or more")
+        c01_columns = _C01.get(len(words), _C01_YEAR if len(words) >= 5 else "")
+        return _Layout(lines, kind, c01_columns.split(), "5 or more")
     if "bulletin" in "".join(head).lower().replace(" ", ""):
         remedy = "take finals2000A.all, or its CSV, which have the same rows"
         raise SeriesError(file, "it is the text of a bulletin", remedy)
@@ -436,15 +436,15 @@ def _is_row_of_finals(line: str) -> bool:
 def _rows(file: Path, layout: _Layout, pair: _Coordinates, predicted: bool = False) -> FloatArray:
     """Observed or predicted rows of a table, (n, 6): line, MJD, x, y, x_error, y_error (arcsec)."""
     names, lines = layout.names, enumerate(layout.lines, start=1)
-    table = [(at, layout.split(line)) for at, line in lines if layout.is_row(line)]
+    table = [(number, layout.split(line)) for number, line in lines if layout.is_row(line)]
     if not table:
         raise SeriesError(file, "it holds no rows of numbers", "is it complete?")
     count = int(layout.allowed) if layout.allowed.isdigit() else len(table[0][1])
-    for at, words in table:
+    for number, words in table:
         if len(words) != count or not names:
             remedy = f"{layout.allowed} are expected, as many in each row"
             remedy += "; is it cut off, or a column lost?"
-            raise SeriesError(file, f"{len(words)} columns", remedy, at)
+            raise SeriesError(file, f"{len(words)} columns", remedy, number)
     x, y = pair.words.lower().split(", ")
     coordinates = [x, y, f"e_{x}", f"e_{y}"]
     if not {x, y} <= {*names}:
@@ -454,17 +454,17 @@ def _rows(file: Path, layout: _Layout, pair: _Coordinates, predicted: bool = Fal
     if flags := [place for place, name in enumerate(names) if name == "type"]:
         flag = flags[pair.flag % len(flags)]
         if any(words[flag].strip() for _, words in table):
-            kept = ("P", "p") if predicted else ("I", "f", "O")  # "P", "prediction"; "I", "final"
-            table = [row for row in table if row[1][flag].startswith(kept)]
+            letters = ("P", "p") if predicted else ("I", "f", "O")  # prediction; final
+            table = [row for row in table if row[1][flag].startswith(letters)]
     if layout.split is _cells:  # dates without values
         table = [row for row in table if row[1][names.index(x)] or row[1][names.index(y)]]
     wanted = [name for name in (*_DATE, *coordinates) if name in names]
     places, values = [names.index(name) for name in wanted], []
-    for at, words in table:
+    for number, words in table:
         if layout.split is _CELLS and len(words[places[-1]]) < _ENDS[-1] - _BEGINS[-1]:
-            raise SeriesError(file, "it ends early", "is the file cut off?", at)
+            raise SeriesError(file, "it ends early", "is the file cut off?", number)
         texts = [words[place].strip() or "nan" for place in places]
-        values.append((at, *columns.numbers(file, at, texts)))
+        values.append((number, *columns.numbers(file, number, texts)))
     cells = dict(zip(["line", *wanted], np.reshape(values, (-1, len(wanted) + 1)).T, strict=True))
     in_mas = layout.name == "EOP2" or (pair is _POLE_OFFSETS and "finals" in layout.name)
     unit = 1e-3 if in_mas else 1.0
@@ -485,10 +485,10 @@ def _dates(file: Path, cells: dict[str, FloatArray]) -> FloatArray:
     """Modified Julian dates of rows; refuse a row whose calendar date differs."""
     line, year = cells["line"].astype(int), cells.get("year")
     if "mjd" not in cells and year is not None:
-        outside = (year < 1800) | (year > 2200)
-        if outside.any():
+        odd = (year < 1800) | (year > 2200)
+        if odd.any():
             remedy = "it lies in 1800 to 2200; a table by MJD has 29 columns"
-            raise SeriesError(file, f"the year is {year[outside][0]:g}", remedy, line[outside][0])
+            raise SeriesError(file, f"the year is {year[odd][0]:g}", remedy, line[odd][0])
         # Besselian years, accurate to the 1 mas resolution of this table.
         return np.asarray(15019.81352 + (year - 1900.0) * 365.242198781)
     mjd = cells["mjd"]
@@ -496,8 +496,8 @@ def _dates(file: Path, cells: dict[str, FloatArray]) -> FloatArray:
         # Two-digit years: 73 is 1973, and 72 is 2072.
         year = np.where(year < 100, year + 1900 + 100 * (year < 73), year)
         date = (year, cells["month"], cells["day"], cells.get("hour", 24 * np.modf(mjd)[0]))
-        for at, day, *calendar in zip(line, mjd, *date, strict=True):
-            columns.check_calendar(file, at, calendar, day)
+        for number, day, *calendar in zip(line, mjd, *date, strict=True):
+            columns.check_calendar(file, number, calendar, day)
     return mjd
 
 
@@ -518,13 +518,13 @@ def _complete(file: object, rows: FloatArray, text: list[int], repairs: list[str
     """
     _refuse(file, rows, ~np.isfinite(rows[:, 1]), "the date is {mjd}", "give each row a date")
     complete = rows[np.isfinite(rows[:, 2:4]).all(axis=1)]
-    lost = sorted([*text, *np.setdiff1d(rows[:, 0], complete[:, 0]).astype(int).tolist()])
-    if lost:
-        if len(lost) > max(1, LOST * (len(complete) + len(lost))):
-            problem = f"{len(lost)} of {len(complete) + len(lost)} rows hold no numbers"
+    gaps = sorted([*text, *np.setdiff1d(rows[:, 0], complete[:, 0]).astype(int).tolist()])
+    if gaps:
+        if len(gaps) > max(1, LOST * (len(complete) + len(gaps))):
+            problem = f"{len(gaps)} of {len(complete) + len(gaps)} rows hold no numbers"
             remedy = f"at most {LOST:.0%} are left out; is the file damaged?"
-            raise SeriesError(file, problem, remedy, lost[0])
-        repairs.append(f"{len(lost)} rows without numbers left out, the first in line {lost[0]}")
+            raise SeriesError(file, problem, remedy, gaps[0])
+        repairs.append(f"{len(gaps)} rows without numbers left out, the first in line {gaps[0]}")
     return complete
 
 
@@ -543,14 +543,14 @@ def _check_model(file: object, rows: FloatArray) -> None:
     The size alone does not show the model: offsets from IAU 1980 stay below 20 mas until 1991, and
     the oldest of those from IAU 2006/2000A reach 9 mas.
     """
-    known = read_pole_offsets("finals")
-    there = [
-        np.interp(rows[:, 1], known.mjd, values / ARCSEC, np.nan, np.nan)
-        for values in (known.x, known.y)
+    finals = read_pole_offsets("finals")
+    neighbours = [
+        np.interp(rows[:, 1], finals.mjd, values / ARCSEC, np.nan, np.nan)
+        for values in (finals.x, finals.y)
     ]
-    distance = np.max(abs(rows[:, 2:4].T - there), axis=0)
-    large = np.max(abs(rows[:, 2:4]), axis=1) > _LARGEST_ELSEWHERE
-    wrong = large & ~(distance <= _ANOTHER_MODEL)
+    distance = np.max(abs(rows[:, 2:4].T - neighbours), axis=0)
+    suspect = np.max(abs(rows[:, 2:4]), axis=1) > _LARGEST_ELSEWHERE
+    wrong = suspect & ~(distance <= _ANOTHER_MODEL)
     _refuse(file, rows, wrong, "dX, dY = {x:g}, {y:g} arcsec", _NOT_IAU_1980)
     common = distance[(rows[:, 1] >= _TWO_TABLES) & np.isfinite(distance)]
     if common.size and np.median(common) > _ANOTHER_MODEL:
@@ -561,12 +561,12 @@ def _check_model(file: object, rows: FloatArray) -> None:
 def _check_size(file: object, rows: FloatArray, pair: _Coordinates, name: str) -> None:
     """Refuse pole coordinates of implausible size (wrong unit or model), and negative errors."""
     values, size = f"{pair.words} = {{x:g}}, {{y:g}} arcsec", np.hypot(rows[:, 2], rows[:, 3])
-    large = np.max(abs(rows[:, 2:4]), axis=1) > pair.largest
+    suspect = np.max(abs(rows[:, 2:4]), axis=1) > pair.largest
     remedy = f"{pair.name} stays below {pair.largest / 2:g}; is it in milliarcseconds?"
-    if pair is _POLE_OFFSETS and large.any():
-        optical = name == "c01" and rows[large][0, 1] < _AFTER_OPTICAL
+    if pair is _POLE_OFFSETS and suspect.any():
+        optical = name == "c01" and rows[suspect][0, 1] < _AFTER_OPTICAL
         remedy = _NO_OPTICAL if optical else _NOT_IAU_1980
-    _refuse(file, rows, large, values, remedy)
+    _refuse(file, rows, suspect, values, remedy)
     problem = f"errors of {pair.words} = {{x_error:g}}, {{y_error:g}} arcsec"
     remedy = "errors are not negative; is a column lost?"
     _refuse(file, rows, np.any(rows[:, 4:] < 0, axis=1), problem, remedy)
@@ -615,8 +615,8 @@ def _even(file: object, rows: FloatArray, name: str, repairs: list[str]) -> Pole
         raise SeriesError(file, problem, remedy, int(rows[longest, 0]))
     # Dates are rounded: the mean of all steps is more accurate than a single step.
     count = round((mjd[-1] - mjd[0]) / usual)
-    whole = int(np.sum(np.round(steps / usual)))
-    count = whole if abs(whole - count) <= DATE_ROUNDING * count else count
+    days = int(np.sum(np.round(steps / usual)))
+    count = days if abs(days - count) <= DATE_ROUNDING * count else count
     even = np.linspace(mjd[0], mjd[-1], count + 1)
     step = float(even[1] - even[0])
     if even.size != mjd.size or np.max(abs(even - mjd)) > DATE_ROUNDING * step:

@@ -83,8 +83,8 @@ class Ephemeris:
         """SHA-256 hash of the kernel file; a file that has not changed is not read again."""
         state = self._file.stat()
         # The time of a change cannot be set by hand, unlike that of a modification.
-        same = state.st_dev, state.st_ino, state.st_size, state.st_mtime_ns, state.st_ctime_ns
-        return _sha256(self._file, same)
+        stamp = state.st_dev, state.st_ino, state.st_size, state.st_mtime_ns, state.st_ctime_ns
+        return _sha256(self._file, stamp)
 
     @property
     def provenance(self) -> dict[str, str]:
@@ -205,8 +205,8 @@ class Ephemeris:
         with np.errstate(all="ignore"):  # overflow is refused below
             position = self._tables[step].at(epochs)
             position *= 1e3
-            whole = np.isfinite(np.sum(position))  # any non-finite value makes the sum non-finite
-        if not whole:
+            finite = np.isfinite(np.sum(position))  # any non-finite value makes the sum non-finite
+        if not finite:
             raise KernelError(self.path, f"its segment {step} is damaged", AGAIN)
         return position
 
@@ -267,11 +267,11 @@ class Ephemeris:
         """
         places = set(places)
         start, end = self.coverage(places)
-        inside = (days >= start) & (days <= end)  # NaN is not inside
-        if not inside.all():
-            others = sorted(words(place) for place in places if not isinstance(place, int))
+        covered = (days >= start) & (days <= end)  # NaN is not inside
+        if not covered.all():
+            names = sorted(words(place) for place in places if not isinstance(place, int))
             raise CoverageError(
-                " with ".join([self.name, *others]),
+                " with ".join([self.name, *names]),
                 (date_text(np.min(days), "s"), date_text(np.max(days), "s")),
                 (date_text(start, "s"), date_text(end, "s")),
             )
@@ -297,8 +297,8 @@ class Ephemeris:
 
 
 @lru_cache
-def _sha256(path: Path, same: tuple[int, ...]) -> str:
-    """SHA-256 hash of a file, cached until the size or time stamps of the file (`same`) change."""
+def _sha256(path: Path, stamp: tuple[int, ...]) -> str:
+    """SHA-256 hash of a file, cached until the size or time stamps of the file (`stamp`) change."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
@@ -362,10 +362,10 @@ def _open_spk(path: Path) -> Any:
     from jplephem.spk import SPK
 
     try:
-        there = path.exists()
+        exists = path.exists()
     except OSError as error:
         raise KernelError(path, f"it cannot be opened: {error.strerror}") from None
-    if not there:
+    if not exists:
         problem = "there is no such file"
         raise KernelError(path, problem, f"use one of {', '.join(NAMED_KERNELS)} or a path")
     if problem := errors.no_plain_file(path):

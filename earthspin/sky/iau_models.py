@@ -134,8 +134,8 @@ def delaunay_arguments(days: FloatArray) -> FloatArray:
 def delaunay_rates() -> FloatArray:
     """Rates of the Delaunay arguments at J2000.0, rad/s, shape (5,)."""
     day = 1.0
-    turned = delaunay_arguments(np.array([-day, day]))
-    return np.asarray(np.unwrap(turned, axis=1)[:, 1] - turned[:, 0]) / (2 * day * DAY)
+    arguments = delaunay_arguments(np.array([-day, day]))
+    return np.asarray(np.unwrap(arguments, axis=1)[:, 1] - arguments[:, 0]) / (2 * day * DAY)
 
 
 def precession_angles(days: FloatArray) -> FloatArray:
@@ -160,8 +160,8 @@ def moved_by_nutation(pole: FloatArray, eta: ComplexArray, days: FloatArray) -> 
     """
     x, y, _ = np.moveaxis(mean_equator(days), 1, 0)
     shift = eta.real[:, np.newaxis] * x + eta.imag[:, np.newaxis] * y
-    moved = pole + shift
-    return np.asarray(moved / np.linalg.norm(moved, axis=1, keepdims=True))
+    true_pole = pole + shift
+    return np.asarray(true_pole / np.linalg.norm(true_pole, axis=1, keepdims=True))
 
 
 def nutation_of(pole: FloatArray, days: FloatArray) -> FloatArray:
@@ -363,8 +363,8 @@ def find_standstills(
     extremes = declination(turning)
     standstills = []
     for number, (kind, _) in enumerate(passages):
-        for side in (extremes > 0, extremes < 0):
-            places = np.flatnonzero(side & (owner == number))
+        for extreme in (extremes > 0, extremes < 0):
+            places = np.flatnonzero(extreme & (owner == number))
             if places.size:
                 swing = np.abs(extremes[places])
                 best = places[np.argmax(swing) if kind == "major" else np.argmin(swing)]

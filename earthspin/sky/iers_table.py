@@ -28,10 +28,10 @@ class PoleTable(iers.IERS_A):  # type: ignore[misc]
         days = super().mjd_utc(jd1, jd2)
         mjd = np.ravel(np.sum(days, axis=0))
         first, last = self["MJD"][[0, -1]].value
-        outside = mjd[(mjd < first) | (mjd >= last)]  # as astropy interpolates
-        if outside.size:
+        uncovered = mjd[(mjd < first) | (mjd >= last)]  # as astropy interpolates
+        if uncovered.size:
             raise UndefinedError(
-                f"{day_of(outside[0])} is outside the table of orientation, which begins on "
+                f"{day_of(uncovered[0])} is outside the table of orientation, which begins on "
                 f"{day_of(first)} and ends before {day_of(last)} (UTC); choose dates inside it, or "
                 "forecast more days"
             )
@@ -58,8 +58,8 @@ def with_pole(
     observed : tuple of float
         Modified Julian dates of the last observed row of each.
     """
-    whole = PoleTable.read(finals)
-    table: PoleTable = whole[whole["MJD"].value <= min(pole[0, -1], offsets[0, -1])]
+    finals_table = PoleTable.read(finals)
+    table: PoleTable = finals_table[finals_table["MJD"].value <= min(pole[0, -1], offsets[0, -1])]
     mjd = table["MJD"].value
     columns = (("PM_x", "PM_y", "PolPMFlag"), ("dX_2000A", "dY_2000A", "NutFlag"))
     for (x, y, flag), series, last in zip(columns, (pole, offsets), observed, strict=True):

@@ -155,14 +155,14 @@ class _InOrder(NamedTuple):
         """Arrange times in ascending order as a matrix, given the kernel record of each time."""
         low, longest = int(record[0]), int(counts.max())
         starts = np.cumsum(counts) - counts
-        within = np.arange(place.size) - starts[record - low]
+        index = np.arange(place.size) - starts[record - low]
         row = np.arange(longest)
         if longest >= counts.size:
-            at, own, side = starts[:, None] + row, (record - low) * longest + within, -1
+            at, columns, axis = starts[:, None] + row, (record - low) * longest + index, -1
         else:
-            at, own, side = starts + row[:, None], within * counts.size + (record - low), -2
+            at, columns, axis = starts + row[:, None], index * counts.size + (record - low), -2
         rows = place[np.minimum(at, place.size - 1)]
-        return cls(slice(low, low + counts.size), rows, own, side)
+        return cls(slice(low, low + counts.size), rows, columns, axis)
 
     def sums(self, series: FloatArray) -> FloatArray:
         """Evaluate the Chebyshev series at the times of the matrix, shape (3, n)."""
@@ -193,7 +193,7 @@ def _coefficients(series: FloatArray) -> FloatArray:
 
 def _clenshaw(series: FloatArray, place: FloatArray) -> FloatArray:
     """Evaluate Chebyshev series at arguments from -1 to 1, by Clenshaw's algorithm."""
-    twice = 2 * place
+    double = 2 * place
     last = np.zeros((3, *place.shape))
     current = np.empty_like(last)
     current[...] = series[-1]
@@ -201,7 +201,7 @@ def _clenshaw(series: FloatArray, place: FloatArray) -> FloatArray:
         return current
     spare = np.empty_like(last)
     for coefficients in series[-2:0:-1]:
-        np.multiply(twice, current, out=spare)
+        np.multiply(double, current, out=spare)
         spare -= last
         spare += coefficients
         last, current, spare = current, spare, last
@@ -310,9 +310,9 @@ class Records:
         words = segment.end_i - segment.start_i + 1
         directory = segment.daf.read_array(segment.end_i - 3, segment.end_i)
         self.start, self.length, size, count = map(float, directory)
-        terms, rest = divmod(size - 2, _COMPONENTS[segment.data_type])
-        whole = rest == count % 1 == 0 < terms and size * count + 4 == words
-        if not (np.isfinite(self.start) and 0 < self.length < np.inf and whole):
+        terms, remainder = divmod(size - 2, _COMPONENTS[segment.data_type])
+        complete = remainder == count % 1 == 0 < terms and size * count + 4 == words
+        if not (np.isfinite(self.start) and 0 < self.length < np.inf and complete):
             raise self._damaged("has a directory that does not fit its words")
         self.size, self.count, terms = int(size), int(count), int(terms)
         rows = segment.daf.map_array(segment.start_i, segment.end_i - 4).reshape(self.count, -1)
@@ -365,9 +365,9 @@ class Records:
         joints = np.flatnonzero(used[:-1] | used[1:])
         gaps, tails = self._gaps(joints)
         free = np.fmax(_FREE * self._usual_gap, _TAIL * tails + _JOINT)
-        apart = ~(gaps <= (_JOINT if self._usual_gap <= _JOINT / 4 else free))  # NaN is apart
-        if apart.any():
-            record = int(joints[apart][0]) + 1
+        separate = ~(gaps <= (_JOINT if self._usual_gap <= _JOINT / 4 else free))  # NaN is apart
+        if separate.any():
+            record = int(joints[separate][0]) + 1
             raise self._damaged(f"jumps between records {record} and {record + 1}")
 
     @cached_property
@@ -457,8 +457,8 @@ def largest_difference(centre: int, target: int) -> tuple[float, float]:
     entries = DIFFERENCES.get((pair[0], pair[1]))
     if entries is not None:
         return entries
-    near = [size for codes, size in DIFFERENCES.items() if _barycentre(centre) in codes]
-    mas, metres = zip(*(near or DIFFERENCES.values()), strict=True)
+    sizes = [size for codes, size in DIFFERENCES.items() if _barycentre(centre) in codes]
+    mas, metres = zip(*(sizes or DIFFERENCES.values()), strict=True)
     return max(mas), max(metres)
 
 

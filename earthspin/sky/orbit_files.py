@@ -270,7 +270,7 @@ class _Rows:
                 "h, q, p",
             )
         chosen = _chosen(names, file)
-        return cls(file, {n: values[:, at] for n, at in chosen.items()}, np.array(lines))
+        return cls(file, {n: values[:, column] for n, column in chosen.items()}, np.array(lines))
 
     def error(self, problem: str, remedy: str = "", row: int | None = None) -> SeriesError:
         """Build an error whose message names the file, and the line if a row is given."""
@@ -312,8 +312,8 @@ def _chosen(names: Sequence[str], source: object) -> dict[str, int]:
     """Return the column index of each orbital element, found by the column names."""
     places = {}
     for name, words in NAMES.items():
-        exact = [at for at, column in enumerate(names) if column in words]
-        loose = [at for at, column in enumerate(names) if column.lower() in words]
+        exact = [index for index, column in enumerate(names) if column in words]
+        loose = [index for index, column in enumerate(names) if column.lower() in words]
         if exact or loose:
             places[name] = (exact or loose)[0]
     if places.get("node") == places.get("argument") and "node" in places:
@@ -321,12 +321,12 @@ def _chosen(names: Sequence[str], source: object) -> dict[str, int]:
     if set(LA2010) <= set(places):
         return {name: places[name] for name in LA2010}
     perihelion = next((name for name in ("varpi", "argument") if name in places), "varpi")
-    needed = ("t", "e", "inc", perihelion, "node")
-    missing = [NAMES[name][0] for name in needed if name not in places]
+    required = ("t", "e", "inc", perihelion, "node")
+    missing = [NAMES[name][0] for name in required if name not in places]
     if missing:
         problem = f"no column {' and none '.join(missing)} among {', '.join(names[:12])}"
         raise SeriesError(source, problem, "give t, e, inc, varpi, Omega, or t, k, h, q, p")
-    return {name: places[name] for name in needed}
+    return {name: places[name] for name in required}
 
 
 def _table(
@@ -342,9 +342,9 @@ def _table(
     times = _seconds(rows, time or ("kyr" if of_la2010 else "d"))
     n, e = (_from_sines if of_la2010 else _from_elements)(rows, angles)
     _check_moves(rows, n, e)
-    now = np.array([np.interp(0.0, times, component) for component in n.T])
+    present = np.array([np.interp(0.0, times, component) for component in n.T])
     if body == "earth":
-        _check_ecliptic(rows, now, axes, frame)
+        _check_ecliptic(rows, present, axes, frame)
     _check_body(rows, np.linalg.norm(e, axis=1), body)
     n, e = n @ axes, e @ axes
     third = np.mean(n, axis=0)
@@ -439,9 +439,9 @@ def _check_unit(rows: _Rows, angles: str | None) -> None:
     """Refuse an angle unit declared by the user (degrees, radians) that the values contradict."""
     largest = max(float(np.max(np.abs(column))) for column in _turning(rows))
     jump = max(float(np.max(np.abs(np.diff(column)))) for column in _turning(rows))
-    steep = float(np.max(rows.columns["inc"]))
-    if angles == "rad" and (steep > math.pi or 180 < jump <= 360.001):
-        problem = f"angles reach {max(largest, steep):g}: these are degrees, not radians"
+    steepest = float(np.max(rows.columns["inc"]))
+    if angles == "rad" and (steepest > math.pi or 180 < jump <= 360.001):
+        problem = f"angles reach {max(largest, steepest):g}: these are degrees, not radians"
         raise rows.error(problem, "give angles = 'deg'")
     if angles == "deg" and largest <= 2 * math.pi * (1 + 1e-6) and jump > 1.5 * math.pi:
         problem = f"angles go round at {largest:.4g}: these are radians, not degrees"

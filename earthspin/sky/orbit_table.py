@@ -64,9 +64,9 @@ class ErrorGrowth(NamedTuple):
 
     def at(self, times: FloatArray) -> FloatArray:
         """95 % half-widths of orbit normal (rad) and eccentricity at times in s, shape (2, n)."""
-        away = np.abs(times)
-        by_shape = np.hypot(self.short_periods, self.eccentricity * away)
-        return np.stack([self.normal * away, by_shape])
+        distance = np.abs(times)
+        by_shape = np.hypot(self.short_periods, self.eccentricity * distance)
+        return np.stack([self.normal * distance, by_shape])
 
 
 _MYR = 1e6 * JULIAN_YEAR
@@ -194,8 +194,8 @@ class OrbitTable:
             (e1, e2, -(n1 * e1 + n2 * e2) / n3),
             (r1, r2, -(n1 * r1 + n2 * r2) / n3),
         )
-        normal, eccentricity, turning = (self.axes.T @ np.stack(part) for part in parts)
-        return normal, eccentricity, turning
+        normal, eccentricity, normal_rate = (self.axes.T @ np.stack(part) for part in parts)
+        return normal, eccentricity, normal_rate
 
     def to_file(self, path: str | os.PathLike[str]) -> None:
         """Write the orbit table to a file that `earthspin.read_orbit` can read.
@@ -273,12 +273,12 @@ def fitted(
     gauss, spline = rule(TERMS), None
     coefficients = np.empty((4, len(edges) - 1, TERMS))
     for window, (start, end) in enumerate(pairwise(edges)):
-        inside = slice(*np.searchsorted(times, [start, end + 1.0]))  # the sample at the end, too
+        span = slice(*np.searchsorted(times, [start, end + 1.0]))  # the sample at the end, too
         middle, half = (start + end) / 2, (end - start) / 2
-        x = (times[inside] - middle) / half
+        x = (times[span] - middle) / half
         if x.size >= DENSE * TERMS:
-            series = legendre.legfit(x, samples[inside], TERMS - 1)
-            series[-2:] += _to_meet(legendre.legval(x[[0, -1]], series).T, samples[inside][[0, -1]])
+            series = legendre.legfit(x, samples[span], TERMS - 1)
+            series[-2:] += _to_meet(legendre.legval(x[[0, -1]], series).T, samples[span][[0, -1]])
         else:
             spline = spline or make_interp_spline(times, samples, k=5)
             series = gauss.project.T @ spline(middle + half * gauss.nodes)

@@ -26,8 +26,8 @@ from earthspin.units import quantity
 
 def direction(right_ascension: float, declination: float) -> FloatArray:
     """Unit vector from right ascension and declination in radians, shape (3,)."""
-    level = math.cos(declination)
-    x, y = level * math.cos(right_ascension), level * math.sin(right_ascension)
+    equatorial = math.cos(declination)
+    x, y = equatorial * math.cos(right_ascension), equatorial * math.sin(right_ascension)
     return np.array([x, y, math.sin(declination)])
 
 
@@ -403,12 +403,18 @@ class MovingPole:
 
     def at(self, day: float) -> FixedPole:
         """Direction of the pole on a given day from J2000.0 TDB, with periodic terms."""
-        time = day * DAY
+        return FixedPole(*map(float, self._angles(day)))
+
+    def _angles(self, days: float | FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Angles of the pole on days from J2000.0 TDB, with periodic terms, rad."""
+        time = np.asarray(days) * DAY
         ra = self.right_ascension + self.right_ascension_rate * time
         dec = self.declination + self.declination_rate * time
-        ra += sum(s.size * math.sin(s.phase + s.rate * time) for s in self.right_ascension_swings)
-        dec += sum(s.size * math.cos(s.phase + s.rate * time) for s in self.declination_swings)
-        return FixedPole(ra, dec)
+        for size, phase, rate in self.right_ascension_swings:
+            ra = ra + size * np.sin(phase + rate * time)
+        for size, phase, rate in self.declination_swings:
+            dec = dec + size * np.cos(phase + rate * time)
+        return ra, dec
 
     def orbit_normal(self, orbit: Direction | None) -> FloatArray:
         """Unit normal of the body's orbit, shape (3,)."""
@@ -430,15 +436,9 @@ class MovingPole:
 
         All periodic terms are included, as they count as mean motion.
         """
-        time = np.asarray(days) * DAY
-        ra = self.right_ascension + self.right_ascension_rate * time
-        dec = self.declination + self.declination_rate * time
-        for size, phase, rate in self.right_ascension_swings:
-            ra = ra + size * np.sin(phase + rate * time)
-        for size, phase, rate in self.declination_swings:
-            dec = dec + size * np.cos(phase + rate * time)
-        level = np.cos(dec)
-        return np.stack([level * np.cos(ra), level * np.sin(ra), np.sin(dec)], axis=-1)
+        ra, dec = self._angles(days)
+        equatorial = np.cos(dec)
+        return np.stack([equatorial * np.cos(ra), equatorial * np.sin(ra), np.sin(dec)], axis=-1)
 
     def without_nutation(self) -> Self:
         """Return the pole without its short-period terms, which count as nutation."""

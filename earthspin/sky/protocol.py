@@ -159,9 +159,9 @@ def checked(positions: FloatArray, place: Place, days: FloatArray) -> FloatArray
             f"{words(place)} gives positions of shape {values.shape} at {days.size} times; one "
             f"body has shape ({days.size}, 3)"
         )
-    lost = ~np.isfinite(values).all(axis=1)
-    if lost.any():
-        date = date_text(days[lost][0], "s")
+    missing = ~np.isfinite(values).all(axis=1)
+    if missing.any():
+        date = date_text(days[missing][0], "s")
         raise UndefinedError(
             f"{words(place)} gives no finite position on {date} TDB; choose times at which it does"
         )

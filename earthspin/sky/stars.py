@@ -80,8 +80,8 @@ def directions(times: FloatArray) -> FloatArray:
     speed = np.linalg.norm(motion, axis=-1)
     angle = speed[:, np.newaxis] * times
     # sin(angle) / speed tends to the time where the star does not move
-    along = times * np.sinc(angle / np.pi)
+    step = times * np.sinc(angle / np.pi)
     return np.asarray(
         place[:, np.newaxis] * np.cos(angle)[..., np.newaxis]
-        + motion[:, np.newaxis] * along[..., np.newaxis]
+        + motion[:, np.newaxis] * step[..., np.newaxis]
     )

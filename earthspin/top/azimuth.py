@@ -65,14 +65,14 @@ def turned_at(nutation: TopNutation, place: Place) -> tuple[Turned, Turned]:
     -------
     quarters : Turned
         Whole quarter turns, stored separately because they are exact over any time.
-    rest : Turned
+    remainder : Turned
         Remainder, rad.
     """
-    full, part = _complete_integrals(nutation), _partial_integrals(nutation, place)
+    full, partial = _complete_integrals(nutation), _partial_integrals(nutation, place)
     arc = _arc_tangents(nutation, place)
-    rest = Turned(
-        arc.phi + (place.halves * full.phi + part.phi),
-        arc.psi + (place.halves * full.psi + part.psi),
+    remainder = Turned(
+        arc.phi + (place.halves * full.phi + partial.phi),
+        arc.psi + (place.halves * full.psi + partial.psi),
     )
     # Whole quarter turns that the arctangents add up to the nearest turning point. For a passage
     # exactly over a pole the direction of the half turn is arbitrary; it alternates.
@@ -80,7 +80,7 @@ def turned_at(nutation: TopNutation, place: Place) -> tuple[Turned, Turned]:
     lower, upper = nutation.crosses_lower_pole, nutation.crosses_upper_pole
     sigma = np.where(lower, _SINE[quarter], place.halves * _lower_winding(nutation))
     delta = np.where(upper, -_COSINE[quarter], place.halves * _upper_winding(nutation))
-    return Turned(sigma + delta, sigma - delta), rest
+    return Turned(sigma + delta, sigma - delta), remainder
 
 
 def shared_rate(nutation: TopNutation) -> FloatArray:
@@ -149,7 +149,7 @@ def _arc_tangents(nutation: TopNutation, place: Place) -> Turned:
     """
     start, gaps, upper = nutation.start, nutation.gaps, place.upper
     meets = np.where(upper, gaps.upper_pole, gaps.lower_pole)
-    away = np.where(upper, nutation.height, nutation.depth)
+    distance = np.where(upper, nutation.height, nutation.depth)
     pole_rate = np.where(upper, _upper_pole_rate(nutation), _lower_pole_rate(nutation))
     other = np.where(upper, start.b_plus_a, start.b_minus_a)
     climb = np.where(upper, gaps.upper, -gaps.lower)  # ur - u(0)
@@ -157,26 +157,26 @@ def _arc_tangents(nutation: TopNutation, place: Place) -> Turned:
 
     sense = np.where(upper, 1, -1)
     b_minus_au = _sum_over_root(
-        (pole_rate * away, other * root), (start.phi_rate * start.sine2, -start.a * climb), root
+        (pole_rate * distance, other * root), (start.phi_rate * start.sine2, -start.a * climb), root
     )
     a_minus_bu = _sum_over_root(
-        (-sense * pole_rate * away, sense * other * root),
+        (-sense * pole_rate * distance, sense * other * root),
         (start.sine2 * (start.a - start.phi_rate * start.cosine), -start.b * climb),
         root,
     )
     y = place.sn * np.where(upper, place.dn, 1.0)
     x = 2 * nutation.rate * place.cn * np.where(upper, 1.0, place.dn)
-    straight, crossed = away * root * x**2, pole_rate * other * y**2
-    side = _side_of_pole(nutation, place)
+    straight, crossed = distance * root * x**2, pole_rate * other * y**2
+    sign = _side_of_pole(nutation, place)
     # Separate arctangents, for cases with only one of them.
-    met = np.arctan2(side * pole_rate * y, side * root * x)
-    unmet = np.arctan2(other * y, away * x)
+    met = np.arctan2(sign * pole_rate * y, sign * root * x)
+    unmet = np.arctan2(other * y, distance * x)
     has_lower, has_upper = _has_lower_arc(nutation), _has_upper_arc(nutation)
     sigma = np.where(has_lower, np.where(upper, unmet, met), 0.0)
     delta = np.where(has_upper, np.where(upper, met, unmet), 0.0)
     has_both = has_lower & has_upper
-    total = np.arctan2(side * b_minus_au * x * y, side * (straight - crossed))
-    difference = np.arctan2(side * a_minus_bu * x * y, side * (straight + crossed))
+    total = np.arctan2(sign * b_minus_au * x * y, sign * (straight - crossed))
+    difference = np.arctan2(sign * a_minus_bu * x * y, sign * (straight + crossed))
     return Turned(
         np.where(has_both, total, sigma + delta), np.where(has_both, difference, sigma - delta)
     )
@@ -192,12 +192,12 @@ def _sum_over_root(
     Two terms that follow from the distances to the poles have this sum; two that follow from the
     start have the sum without the factor 2/root. The sum with the smaller terms is returned.
     """
-    away = root > 0
-    factor = 2 / np.where(away, root, 1.0)
+    regular = root > 0
+    factor = 2 / np.where(regular, root, 1.0)
     sizes = factor * (np.abs(from_start[0]) + np.abs(from_start[1]))
     better = sizes < np.abs(from_poles[0]) + np.abs(from_poles[1])
     return np.where(
-        away & better, factor * (from_start[0] + from_start[1]), from_poles[0] + from_poles[1]
+        regular & better, factor * (from_start[0] + from_start[1]), from_poles[0] + from_poles[1]
     )
 
 
@@ -256,10 +256,10 @@ def _integrals(nutation: TopNutation, upper: BoolArray) -> tuple[_Integral, _Int
     delta = _integral(nutation, -start.b_minus_a, ends, upper, _has_upper_arc(nutation), shape)
     # (a + b)/(1 + u) - a = (b - a u)/(1 + u); the rate a/2 is treated separately.
     climb = np.where(upper, gaps.upper, -gaps.lower)
-    near = np.where(upper, nutation.height, gaps.lower_pole)
+    upper_end = np.where(upper, nutation.height, gaps.lower_pole)
     excess = start.phi_rate * start.sine2 - start.a * climb
     shared = shared_rate(nutation) != 0
-    pace = excess / (2 * nutation.rate * np.where(shared, near, 1))
+    pace = excess / (2 * nutation.rate * np.where(shared, upper_end, 1))
     return sigma._replace(first_kind=np.where(shared, pace, sigma.first_kind)), delta
 
 

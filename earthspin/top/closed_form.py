@@ -123,15 +123,15 @@ def heavy_top_motion(top: HeavyTop, times: ArrayLike) -> HeavyTopMotion:
     times = np.asarray(times, dtype=np.float64)
     usable = np.abs(times) <= _LONGEST
     if not np.all(usable):
-        bad = float(times[~usable].flat[0])
-        raise BodyError("heavy top", "times", bad, f"give seconds up to {_LONGEST:g}")
+        unusable = float(times[~usable].flat[0])
+        raise BodyError("heavy top", "times", unusable, f"give seconds up to {_LONGEST:g}")
     shape = top.shape + (1,) * times.ndim
     spread = HeavyTop(**{f.name: np.reshape(getattr(top, f.name), shape) for f in fields(top)})
     nutation = nutation_of(spread)
     place = place_at(nutation, times * nutation.start.rate_unit)
     height = height_at(nutation, place)
-    up, down, turned = np.sqrt(height.below), np.sqrt(height.above), nutation.start.turned
-    theta = 2 * np.arctan2(np.where(turned, down, up), np.where(turned, up, down))
+    sine, cosine, flipped = np.sqrt(height.below), np.sqrt(height.above), nutation.start.turned
+    theta = 2 * np.arctan2(np.where(flipped, cosine, sine), np.where(flipped, sine, cosine))
     phi, psi = _phi_and_psi(spread, nutation, times, place)
     return HeavyTopMotion(
         theta=theta,
@@ -150,12 +150,12 @@ def _phi_and_psi(
     top: HeavyTop, nutation: TopNutation, times: FloatArray, place: Place
 ) -> tuple[Angle, Angle]:
     """Euler angles phi and psi at given times: initial values plus the advance since the start."""
-    quarters, rest = turned_at(nutation, place)
+    quarters, remainder = turned_at(nutation, place)
     first_quarters, first_rest = turned_at(
         nutation, place_at(nutation, np.zeros((1,) * times.ndim))
     )
-    phi = Angle(quarters.phi - first_quarters.phi, rest.phi - first_rest.phi)
-    psi = Angle(quarters.psi - first_quarters.psi, rest.psi - first_rest.psi)
+    phi = Angle(quarters.phi - first_quarters.phi, remainder.phi - first_rest.phi)
+    psi = Angle(quarters.psi - first_quarters.psi, remainder.psi - first_rest.psi)
     # From the opposite end of the axis, the rotation has the opposite sense.
     sense = np.where(nutation.start.turned, -1.0, 1.0)
     shared = shared_rate(nutation) * nutation.start.rate_unit * times
@@ -190,8 +190,8 @@ def _omega_body(top: HeavyTop, nutation: TopNutation, height: AxisHeight, psi: A
     sine = np.where(tilted, sine, 1.0)
     theta_rate = np.where(tilted, -height.u_rate, 0.0) / sine
     theta_rate = np.where(start.turned, -theta_rate, theta_rate)
-    across = np.where(tilted, _vertical_excess(start, height), 0.0) / sine
-    transverse = (theta_rate + 1j * across) * np.conj(psi.half) ** 2 * start.rate_unit
+    horizontal = np.where(tilted, _vertical_excess(start, height), 0.0) / sine
+    transverse = (theta_rate + 1j * horizontal) * np.conj(psi.half) ** 2 * start.rate_unit
     spin = np.broadcast_to(top.spin, transverse.shape)
     return np.stack([transverse.real, transverse.imag, spin], axis=-1)
 
@@ -259,30 +259,30 @@ def effect_of_rounding(top: HeavyTop, times: ArrayLike) -> FloatArray:
     motion = heavy_top_motion(top, t)
     total = _difference(heavy_top_motion(top, np.nextafter(t, np.inf)), motion)
     for name, value in start.items():
-        moved = np.nextafter(value, 0.0)  # towards zero: all limits on a start are upper limits
-        if np.any(moved != value):
+        neighbour = np.nextafter(value, 0.0)  # towards zero: all limits on a start are upper limits
+        if np.any(neighbour != value):
             total = total + _difference(
-                heavy_top_motion(HeavyTop(**(start | {name: moved})), t), motion
+                heavy_top_motion(HeavyTop(**(start | {name: neighbour})), t), motion
             )
     return total
 
 
 def _difference(motion: HeavyTopMotion, reference: HeavyTopMotion) -> FloatArray:
     """Largest relative difference between two motions of each top, over times and quantities."""
-    across, across_reference = (
+    horizontal, horizontal_reference = (
         m.omega_body[..., 0] + 1j * m.omega_body[..., 1] for m in (motion, reference)
     )
     # a quaternion and its negative are the same attitude
     sign = np.copysign(1.0, np.sum(motion.attitude * reference.attitude, axis=-1, keepdims=True))
-    turned = 2 * np.abs(motion.attitude - sign * reference.attitude)
+    rotation = 2 * np.abs(motion.attitude - sign * reference.attitude)
     # a vertical axis has no azimuth: the division of the rotation between phi and psi is arbitrary
     tilted = (reference.theta > UPRIGHT) & (reference.theta != np.pi)
     ratios = (
         _relative(motion.theta - reference.theta, np.where(tilted, np.abs(reference.theta), 0.0)),
         _relative(tilted * (motion.phi - reference.phi), _largest(reference.phi)),
         _relative(tilted * (motion.psi - reference.psi), _largest(reference.psi)),
-        _relative(across - across_reference, _largest(across_reference)),
-        turned.max(axis=(-2, -1)),
+        _relative(horizontal - horizontal_reference, _largest(horizontal_reference)),
+        rotation.max(axis=(-2, -1)),
     )
     return np.asarray(np.max(ratios, axis=0))
 

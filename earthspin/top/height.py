@@ -190,11 +190,11 @@ def _phase_of_start(nutation: TopNutation) -> FloatArray:
     cn2 = np.where(upper, gaps.lower * above, gaps.upper * third) / scale
     dn2 = np.where(upper, above * nutation.swing / scale, third / np.where(moves, stiffness, 1.0))
     integral = np.sqrt(sn2) * elliprf(np.where(moves, cn2, 1), np.where(moves, dn2, 1), 1.0)
-    since = np.where(moves, integral / nutation.rate, 0.0)
+    elapsed = np.where(moves, integral / nutation.rate, 0.0)
     # A start on a pole lies just after the passage, or just before it if theta_rate is negative.
-    since = np.where(moves & (start.sine2 == 0), _MOMENT, since)
+    elapsed = np.where(moves & (start.sine2 == 0), _MOMENT, elapsed)
     leaving = np.where(start.theta_rate < 0, -1.0, 1.0)
-    return since * np.where(upper, leaving, -leaving)
+    return elapsed * np.where(upper, leaving, -leaving)
 
 
 def place_at(nutation: TopNutation, elapsed: FloatArray) -> Place:
@@ -208,15 +208,15 @@ def place_at(nutation: TopNutation, elapsed: FloatArray) -> Place:
     """
     half_period = nutation.half_period
     # fmod is exact, so the error of a long time comes only from that of the period.
-    rest = np.fmod(elapsed, half_period)
-    halves = np.rint((elapsed - rest) / half_period) + nutation.at_upper
-    rest = rest + nutation.phase
-    shift = np.rint(rest / half_period)
-    halves, since = halves + shift, rest - shift * half_period
+    remainder = np.fmod(elapsed, half_period)
+    halves = np.rint((elapsed - remainder) / half_period) + nutation.at_upper
+    remainder = remainder + nutation.phase
+    shift = np.rint(remainder / half_period)
+    halves, from_start = halves + shift, remainder - shift * half_period
     upper = np.fmod(halves, 2) != 0
     on_pole = np.where(upper, nutation.crosses_upper_pole, nutation.crosses_lower_pole)
-    since = np.where(on_pole & (since == 0), _MOMENT, since)
-    phase = nutation.rate * since
+    from_start = np.where(on_pole & (from_start == 0), _MOMENT, from_start)
+    phase = nutation.rate * from_start
     return Place(halves, upper, phase, *jacobi_sncndn(phase, nutation.complement))
 
 

@@ -118,8 +118,8 @@ def minimum_spin(top: HeavyTop) -> FloatArray:
     omega3^2 = 4 I1 m g r cos(theta)/I3^2; zero if the centre of mass is not above the pivot.
     """
     lifted = np.maximum(top.weight_moment * np.cos(top.theta), 0.0)
-    least: FloatArray = 2 * np.sqrt(top.transverse_moment * lifted) / top.axial_moment
-    return least
+    minimum: FloatArray = 2 * np.sqrt(top.transverse_moment * lifted) / top.axial_moment
+    return minimum
 
 
 def steady_precession(top: HeavyTop) -> SteadyPrecession:
@@ -138,27 +138,27 @@ def steady_precession(top: HeavyTop) -> SteadyPrecession:
     """
     a, _, _, beta = top_constants(top)
     cosine = np.cos(top.theta)
-    inside = a**2 - 2 * beta * cosine
+    square = a**2 - 2 * beta * cosine
     # At exactly the minimum spin, rounding may make the difference slightly negative.
-    inside = np.where(np.abs(inside) <= _STEADY_ROUNDING * a**2, np.maximum(inside, 0.0), inside)
-    _refuse_slow_spin(top, inside < 0)
-    larger = (a + np.where(a < 0, -1.0, 1.0) * np.sqrt(inside)) / 2  # cos(theta) phi', fast
+    square = np.where(np.abs(square) <= _STEADY_ROUNDING * a**2, np.maximum(square, 0.0), square)
+    _refuse_slow_spin(top, square < 0)
+    larger = (a + np.where(a < 0, -1.0, 1.0) * np.sqrt(square)) / 2  # cos(theta) phi', fast
     still, level = larger == 0, cosine == 0
     slow = np.where(still, 0.0, beta / 2 / np.where(still, 1.0, larger))
-    far = np.where(still, 0.0, np.copysign(np.inf, larger))
-    fast = np.where(level, far, larger / np.where(level, 1.0, cosine))
+    infinite = np.where(still, 0.0, np.copysign(np.inf, larger))
+    fast = np.where(level, infinite, larger / np.where(level, 1.0, cosine))
     return SteadyPrecession(slow, fast)
 
 
 def _refuse_slow_spin(top: HeavyTop, slow: BoolArray) -> None:
     """Raise an error if a top spins too slowly for steady precession at its inclination."""
     if np.any(slow):
-        spin, theta, least = (
+        spin, theta, minimum = (
             float(x[slow].flat[0]) for x in (top.spin, top.theta, minimum_spin(top))
         )
         raise UndefinedError(
             f"a spin of {spin!r} rad/s is too slow for steady precession at theta = {theta!r} "
-            f"rad; give at least {least:.6g} rad/s in either direction"
+            f"rad; give at least {minimum:.6g} rad/s in either direction"
         )
 
 

@@ -282,20 +282,20 @@ def axis_start(top: HeavyTop) -> AxisStart:
     below, above, cosine = axis_heights(top.theta)
     a = top.axial_moment / top.transverse_moment * top.spin
     beta = 2 * top.weight_moment / top.transverse_moment
-    across = top.phi_rate * np.sqrt(below * above)
-    rates = np.abs(np.stack([top.theta_rate, across, a, np.sqrt(np.abs(beta))]))
+    horizontal = top.phi_rate * np.sqrt(below * above)
+    rates = np.abs(np.stack([top.theta_rate, horizontal, a, np.sqrt(np.abs(beta))]))
     fastest = np.max(rates, axis=0)
     still = fastest < _SLOWEST
     unit = np.ldexp(1.0, np.frexp(np.where(still, 1.0, fastest))[1])
     theta_rate = top.theta_rate / unit
     weight = np.abs(beta) / unit / unit
-    turned = np.asarray(beta < 0)
-    sign = np.where(turned, -1.0, 1.0)
+    inverted = np.asarray(beta < 0)
+    sign = np.where(inverted, -1.0, 1.0)
     return AxisStart(
-        turned,
+        inverted,
         unit,
-        np.where(turned, above, below),
-        np.where(turned, below, above),
+        np.where(inverted, above, below),
+        np.where(inverted, below, above),
         sign * cosine,
         np.where(np.abs(theta_rate) < _NEGLIGIBLE, 0.0, sign * theta_rate),
         np.where(still, 0.0, top.phi_rate / unit),
@@ -311,8 +311,8 @@ def cubic_gaps(start: AxisStart) -> Gaps:
     beta = start.beta
     # a^2 - 2 beta is nearly zero for a sleeping top near its critical spin.
     c2 = -(start.rate2 + (start.a**2 - 2 * beta) + 2 * beta * start.below)
-    pull = 2 * start.phi_rate * (start.a - start.cosine * start.phi_rate) - beta
-    c1 = start.sine2 * pull - 2 * start.cosine * start.theta_rate**2
+    acceleration = 2 * start.phi_rate * (start.a - start.cosine * start.phi_rate) - beta
+    c1 = start.sine2 * acceleration - 2 * start.cosine * start.theta_rate**2
     c0 = start.sine2 * start.theta_rate**2
     centre = -c2 / 3
     # At the mean of the roots the cubic is negative if the lower two are closer together.
@@ -336,15 +336,15 @@ def _pair_about_start(
     The start lies between u1 and u2.
     """
     beta, below = start.beta, start.below
-    far = _largest_root(c2, beta * c1, beta**2 * c0, wanted)  # beta (u3 - u(0))
-    product = _ratio(c0, far)
-    lower, upper = _straddling(-_ratio(c1 + beta * product, far), product)
+    scaled_root = _largest_root(c2, beta * c1, beta**2 * c0, wanted)  # beta (u3 - u(0))
+    product = _ratio(c0, scaled_root)
+    lower, upper = _straddling(-_ratio(c1 + beta * product, scaled_root), product)
     # The cubic at the upper pole is -(b - a)^2, the product of the gaps there. It gives the gap
     # that is inaccurate from the start; the two are never both small compared with 1 - u(0).
     accurate = upper <= 0.75 * below
     at_pole = _ratio(start.b_minus_a**2, below + lower)
-    closely = accurate & (far < 2 * beta * below)
-    outer = np.where(closely, _ratio(at_pole, below - upper), far - beta * below)
+    closely = accurate & (scaled_root < 2 * beta * below)
+    outer = np.where(closely, _ratio(at_pole, below - upper), scaled_root - beta * below)
     upper_pole = np.where(accurate, below - upper, _ratio(at_pole, outer))
     return lower, upper, upper_pole, outer
 
@@ -363,10 +363,10 @@ def _pair_about_pole(
     tilt = start.above * start.phi_rate * (start.phi_rate - start.a) + start.a**2 - beta
     d1 = start.theta_rate**2 + below * tilt
     d0 = start.b_minus_a**2
-    far = _largest_root(-d2, -2 * beta * d1, beta**2 * d0, wanted)  # beta (1 - u1)
-    depth = _ratio(far, beta)
-    product = _ratio(d0, far)
-    outer, upper_pole = _straddling(_ratio(2 * d1 - beta * product, far), product)
+    scaled_root = _largest_root(-d2, -2 * beta * d1, beta**2 * d0, wanted)  # beta (1 - u1)
+    depth = _ratio(scaled_root, beta)
+    product = _ratio(d0, scaled_root)
+    outer, upper_pole = _straddling(_ratio(2 * d1 - beta * product, scaled_root), product)
     outer = beta * outer
     # The cubic at the start is sin^2 theta'^2: the product of the gaps there.
     third = beta * below + outer

@@ -161,7 +161,7 @@ def window_mean_and_error(
     times: FloatArray,
     values: FloatArray,
     slow_swing: FloatArray,
-    strength: FloatArray | None = None,
+    gm_factors: FloatArray | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Weighted means of each torque and of the sum of all torques, with 95 % half-widths.
 
@@ -174,7 +174,7 @@ def window_mean_and_error(
     slow_swing : ndarray, shape (perturber,)
         Relative variation of each torque on time scales longer than any window, which no comparison
         of windows can detect.
-    strength : ndarray, shape (perturber, m), optional
+    gm_factors : ndarray, shape (perturber, m), optional
         Factors of the torques in m cases that are otherwise equal. The means are linear in them, so
         each window is computed only once.
 
@@ -185,16 +185,16 @@ def window_mean_and_error(
         largest difference from the neighbouring windows and from the same window on every second
         sample, combined with the slow variation.
     """
-    if strength is not None:
-        return _means_of_many(window, times, values, slow_swing, strength)
+    if gm_factors is not None:
+        return _means_of_many(window, times, values, slow_swing, gm_factors)
     all_values = with_total(values)
     mean = window.mean(times, all_values)
-    along = (-1, *(1,) * (values.ndim - 2))
+    shape = (-1, *(1,) * (values.ndim - 2))
     others = [w.mean(times, all_values) for w in neighbours(window)]
     others.append(window.mean(times[::2], all_values[::2]))
     spread = np.max(np.abs(np.stack(others) - mean), axis=0)
     size = window.mean(times, np.abs(values))  # the plain mean may vanish by symmetry
-    swing = slow_swing.reshape(along) * size
+    swing = slow_swing.reshape(shape) * size
     return mean, spread + with_total(swing[np.newaxis])[0]
 
 
@@ -203,17 +203,17 @@ def _means_of_many(
     times: FloatArray,
     values: FloatArray,
     slow_swing: FloatArray,
-    strength: FloatArray,
+    gm_factors: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
     """Mean torques and errors for several cases, in which each torque is scaled by a factor."""
     means = [window.mean(times, values), *(w.mean(times, values) for w in neighbours(window))]
     means.append(window.mean(times[::2], values[::2]))
-    factor = strength.reshape(len(strength), *(1,) * (values.ndim - 2), -1)
+    factor = gm_factors.reshape(len(gm_factors), *(1,) * (values.ndim - 2), -1)
     scaled = with_total(np.stack(means)[..., np.newaxis] * factor)
     spread = np.max(np.abs(scaled[1:] - scaled[0]), axis=0)
-    along = (-1, *(1,) * (values.ndim - 1))
+    shape = (-1, *(1,) * (values.ndim - 1))
     size = window.mean(times, np.abs(values))[..., np.newaxis] * np.abs(factor)
-    swing = slow_swing.reshape(along) * size
+    swing = slow_swing.reshape(shape) * size
     return scaled[0], spread + with_total(swing[np.newaxis])[0]
 
 
@@ -277,14 +277,14 @@ def precessing_torque(torque: FloatArray, axis: FloatArray, normal: FloatArray) 
     UndefinedError
         If the axis is normal to the orbit, so that its longitude is undefined.
     """
-    across = np.cross(axis, normal)  # towards the equinox, of length sin(obliquity)
-    sine_squared = np.sum(across * across, axis=-1)
+    equinox = np.cross(axis, normal)  # towards the equinox, of length sin(obliquity)
+    sine_squared = np.sum(equinox * equinox, axis=-1)
     if np.any(sine_squared < UPRIGHT**2):
         raise UndefinedError(
             "the spin axis is normal to the orbit: its longitude and its rate of precession are "
             "not defined"
         )
-    return np.asarray(np.sum(torque * across, axis=-1) / sine_squared)
+    return np.asarray(np.sum(torque * equinox, axis=-1) / sine_squared)
 
 
 # --- Keplerian orbits -----------------------------------------------------------------------------
@@ -317,9 +317,9 @@ def mean_square_of_normal(pole: FloatArray, inclination: float) -> FloatArray:
     inclination : float
         Angle between the two, rad.
     """
-    along = np.outer(pole, pole)
-    across = math.sin(inclination) ** 2 / 2
-    return across * (np.eye(3) - along) + math.cos(inclination) ** 2 * along
+    projector = np.outer(pole, pole)
+    perpendicular = math.sin(inclination) ** 2 / 2
+    return perpendicular * (np.eye(3) - projector) + math.cos(inclination) ** 2 * projector
 
 
 def mean_tide(gm: float, a: float, e: float, square: FloatArray) -> FloatArray:

@@ -76,7 +76,7 @@ class Precessing:
         return np.asarray(self.node_rate * np.cos(obliquity - self.inclination) - torque)
 
 
-class StatesOfAxis(NamedTuple):
+class CassiniSolution(NamedTuple):
     """Cassini states (2 or 4) of a body: number, obliquity and stability, shape (n,) each.
 
     Attributes
@@ -136,7 +136,7 @@ def hansen(multiple: int, eccentricity: float) -> float:
     return float(np.mean(nearness**3 * np.cos(2 * true - multiple * mean)))
 
 
-def cassini_states(body: Precessing) -> StatesOfAxis:
+def cassini_states(body: Precessing) -> CassiniSolution:
     """Compute obliquity and stability of all Cassini states of a body.
 
     Parameters
@@ -156,18 +156,16 @@ def cassini_states(body: Precessing) -> StatesOfAxis:
             "a period of its node"
         )
     # with z = exp(i eps), the slope is a quartic polynomial in z
-    single = nu * np.cos(i) - 1.5 * body.locked
-    double = -0.75 * (body.axial + body.locked)
-    roots = np.roots(
-        [double, single - 1j * nu * np.sin(i), 0, -single - 1j * nu * np.sin(i), -double]
-    )
+    c1 = nu * np.cos(i) - 1.5 * body.locked
+    c2 = -0.75 * (body.axial + body.locked)
+    roots = np.roots([c2, c1 - 1j * nu * np.sin(i), 0, -c1 - 1j * nu * np.sin(i), -c2])
     angles = np.angle(roots[np.abs(np.abs(roots) - 1) < ON_CIRCLE])
     for _ in range(3):  # Newton steps to full precision
         angles = angles - body.slope(angles) / body.curvature(angles)
     stable = body.curvature(angles) * nu * np.sin(i) / np.sin(angles) > 0
     number = _numbers(angles * np.sign(nu), stable)
     order = np.argsort(number)
-    return StatesOfAxis(number[order], angles[order], stable[order])
+    return CassiniSolution(number[order], angles[order], stable[order])
 
 
 def _numbers(angles: FloatArray, stable: BoolArray) -> NDArray[np.int64]:

@@ -129,9 +129,9 @@ def torque_error(
 
 def _refuse_centre(distance: FloatArray) -> None:
     """Raise an error if a distance is zero, negative or not a number."""
-    away = np.asarray(distance) > 0
-    if not np.all(away):
-        wrong = float(np.asarray(distance)[~away].flat[0])
+    positive = np.asarray(distance) > 0
+    if not np.all(positive):
+        wrong = float(np.asarray(distance)[~positive].flat[0])
         raise UndefinedError(
             f"the direction of a mass at a distance of {wrong!r} m is not defined; "
             f"give positions away from the centre of the body"
@@ -149,12 +149,12 @@ def _refuse_centre(distance: FloatArray) -> None:
 # component axis first, shape (3, ...), because numpy is fast on long rows.
 
 
-def tidal_tensor(pulls: Iterable[tuple[float, FloatArray]]) -> FloatArray:
+def tidal_tensor(perturbers: Iterable[tuple[float, FloatArray]]) -> FloatArray:
     """Tidal tensor: sum of GM r r^T / r^5 over all perturbing masses, s-2.
 
     Parameters
     ----------
-    pulls : iterable of (float, ndarray of shape (3, ...))
+    perturbers : iterable of (float, ndarray of shape (3, ...))
         GM (m3 s-2) and position from the body (m) of each.
 
     Returns
@@ -163,7 +163,7 @@ def tidal_tensor(pulls: Iterable[tuple[float, FloatArray]]) -> FloatArray:
         xx, yy, zz, xy, xz, yz; s-2.
     """
     total: FloatArray | None = None
-    for gm, position in pulls:
+    for gm, position in perturbers:
         square = dot(position, position)
         scale = gm / (square * square * np.sqrt(square))
         x, y, z = position
@@ -270,9 +270,9 @@ def zonal_law(
     direction = position / distance
     series = np.zeros((max(coefficients, default=1), *distance.shape))
     for degree, coefficient in coefficients.items():
-        pull = gm / distance**3 * coefficient * (radius / distance) ** (degree - 2)
+        torque_scale = gm / distance**3 * coefficient * (radius / distance) ** (degree - 2)
         for k in range(degree - 1, -1, -2):  # P_n' = sum of (2k + 1) P_k
-            series[k] += (2 * k + 1) * pull
+            series[k] += (2 * k + 1) * torque_scale
 
     def torque(axis: FloatArray) -> FloatArray:
         size = legendre.legval(dot(direction, axis), series, tensor=False)
@@ -291,7 +291,7 @@ _STEEPEST = {3: 2.065591117977289, 4: 2.6400655581640695}
 
 
 def largest_torque_on_figure(
-    pulls: Sequence[tuple[float, float]],
+    masses: Sequence[tuple[float, float]],
     mass: float,
     radius: float,
     zonal: Mapping[int, float],
@@ -301,7 +301,7 @@ def largest_torque_on_figure(
 
     Parameters
     ----------
-    pulls : sequence of (gm, distance)
+    masses : sequence of (gm, distance)
         GM of each perturber, m3 s-2, and its smallest distance, m.
     mass, radius : float
         Mass and equatorial radius of the body, kg and m.
@@ -318,9 +318,9 @@ def largest_torque_on_figure(
     moment = mass * radius * radius
     torques = {
         f"j{n}": sum(
-            gm / r**3 * moment * abs(j) * (radius / r) ** (n - 2) * _STEEPEST[n] for gm, r in pulls
+            gm / r**3 * moment * abs(j) * (radius / r) ** (n - 2) * _STEEPEST[n] for gm, r in masses
         )
         for n, j in zonal.items()
     }
-    torques["triaxiality"] = sum(1.5 * gm / r**3 * moment * triaxiality for gm, r in pulls)
+    torques["triaxiality"] = sum(1.5 * gm / r**3 * moment * triaxiality for gm, r in masses)
     return {effect: size for effect, size in torques.items() if size}

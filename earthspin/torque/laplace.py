@@ -75,7 +75,7 @@ class Planet:
     ----------
     gm, radius, j2, polar_moment, spin_rate : ndarray
         GM (m3 s-2), equatorial radius (m), J2, C/(M R2), and spin rate without its sign (rad/s).
-    pull : ndarray
+    tide : ndarray
         Sum of GM <1/r3> of the perturbers, s-2.
     obliquity : float
         rad.
@@ -86,12 +86,12 @@ class Planet:
     j2: FloatArray
     polar_moment: FloatArray
     spin_rate: FloatArray
-    pull: FloatArray
+    tide: FloatArray
     obliquity: float
 
     def torques(self, satellites: Satellites) -> tuple[FloatArray, FloatArray]:
         """Torques K of the perturbers and P of the bulge on satellites, shape (m, n), m5 s-4."""
-        sun = 0.375 * self.pull * satellites.gm * satellites.a**2
+        sun = 0.375 * self.tide * satellites.gm * satellites.a**2
         bulge = 0.75 * self.gm * satellites.gm * self.j2 * self.radius**2 / satellites.a**3
         return sun, bulge
 
@@ -103,12 +103,12 @@ def laplace_tilts(planet: Planet, satellites: Satellites) -> FloatArray:
     # without the other satellites
     tilt = np.arctan2(sun * np.sin(twice), bulge + sun * np.cos(twice)) / 2
     for _ in range(_MOST_STEPS):
-        apart = 2 * (tilt[:, :, np.newaxis] - tilt[:, np.newaxis])
+        delta = 2 * (tilt[:, :, np.newaxis] - tilt[:, np.newaxis])
         free = twice - 2 * tilt
-        residual = bulge * np.sin(2 * tilt) + (pairs * np.sin(apart)).sum(-1) - sun * np.sin(free)
-        stiffness = 2 * pairs * np.cos(apart)
-        own = 2 * bulge * np.cos(2 * tilt) + stiffness.sum(-1) + 2 * sun * np.cos(free)
-        jacobian = own[:, :, np.newaxis] * np.eye(tilt.shape[1]) - stiffness
+        residual = bulge * np.sin(2 * tilt) + (pairs * np.sin(delta)).sum(-1) - sun * np.sin(free)
+        stiffness = 2 * pairs * np.cos(delta)
+        diagonal = 2 * bulge * np.cos(2 * tilt) + stiffness.sum(-1) + 2 * sun * np.cos(free)
+        jacobian = diagonal[:, :, np.newaxis] * np.eye(tilt.shape[1]) - stiffness
         step = np.linalg.solve(jacobian, residual[:, :, np.newaxis])[:, :, 0]
         tilt = tilt - step
         if np.max(np.abs(step), initial=0.0) < 1e-14:
@@ -172,12 +172,12 @@ def nodes(planet: Planet, satellites: Satellites) -> list[Node]:
     pairs = np.zeros((h.size, h.size))
     pairs[1:, 1:] = satellites.mutual()
     pairs[0, 1:] = pairs[1:, 0] = bulge
-    apart = tilt[:, np.newaxis] - tilt
+    delta = tilt[:, np.newaxis] - tilt
     free = planet.obliquity - tilt[1:]
     stretch = np.diag(np.append(0.0, 2 * sun * np.cos(2 * free)))
-    stretch += np.diag((2 * pairs * np.cos(2 * apart)).sum(1)) - 2 * pairs * np.cos(2 * apart)
+    stretch += np.diag((2 * pairs * np.cos(2 * delta)).sum(1)) - 2 * pairs * np.cos(2 * delta)
     bend = np.diag(np.append(0.0, 2 * sun * np.cos(free) ** 2))
-    bend += np.diag((2 * pairs * np.cos(apart) ** 2).sum(1)) - 2 * pairs * np.cos(apart)
+    bend += np.diag((2 * pairs * np.cos(delta) ** 2).sum(1)) - 2 * pairs * np.cos(delta)
     squares, modes = np.linalg.eig((bend / h[:, np.newaxis]) @ (stretch / h[:, np.newaxis]))
 
     inclination = np.where(retrograde, np.pi - satellites.i, satellites.i)

@@ -119,11 +119,11 @@ def total_uncertainty(precessing: Numeric, u_gm: Numeric) -> Numeric:
         Of the same shape as `precessing`.
     """
     u = np.reshape(np.asarray(u_gm, dtype=float), (-1, *(1,) * (precessing.ndim - 1)))
-    each = np.broadcast_to(u, (u.size, *precessing.shape[1:]))
+    individual = np.broadcast_to(u, (u.size, *precessing.shape[1:]))
     absolute = np.sqrt(np.sum((precessing[:-1] * u) ** 2, axis=0, keepdims=True))
-    whole = np.abs(precessing[-1:])
-    total = np.divide(absolute, whole, out=np.full_like(absolute, u.max()), where=whole != 0)
-    return np.concatenate([each, total])
+    size = np.abs(precessing[-1:])
+    total = np.divide(absolute, size, out=np.full_like(absolute, u.max()), where=size != 0)
+    return np.concatenate([individual, total])
 
 
 def half_width(value: Numeric, *relative_uncertainties: Numeric) -> Numeric:

@@ -24,7 +24,7 @@ from earthspin.interior.love import elastic, softening
 from earthspin.interior.named import INTERIORS
 from earthspin.scenes import run, run_tree
 from earthspin.views.page import rendered, source
-from earthspin.wobble.ladder import RotatingBody, inputs_of, love_radius
+from earthspin.wobble.ladder import Rotator, inputs_of, love_radius
 
 #: One turn of the Earth, s.
 EARTH_TURNS = float(np.asarray(EARTH.spin_period))
@@ -58,7 +58,7 @@ def _sky() -> dict[str, object]:
 def _interior() -> dict[str, object]:
     """Constants of the Earth's interior, and observed wobble period, for the page on the wobble."""
     interior = INTERIORS["prem"]
-    spin = RotatingBody(gm=EARTH.gm, radius=EARTH.radius, period=EARTH.spin_period)
+    spin = Rotator(gm=EARTH.gm, radius=EARTH.radius, period=EARTH.spin_period)
     figure = {"dynamical_flattening": EARTH.dynamical_flattening, "j2": EARTH.j2}
     inputs = inputs_of(interior, spin, {**figure, "triaxiality": 0.0})
     assert interior.layers is not None

@@ -332,13 +332,13 @@ def forecast(
     extended = autoregression.extended(series, min(days, EXTRAPOLATED))
     future = np.column_stack([extended.real, extended.imag])
     rows = {name: _rows(states) for name, states in COMPONENTS.items()}
-    pole, by_model = np.empty((days, 2)), np.empty((days, 2, 2))
+    pole, spread = np.empty((days, 2)), np.empty((days, 2, 2))
     poles = {name: np.empty((days, 2)) for name in rows}
     variances = {name: np.empty((days, 2)) for name in rows}
     for day in range(days):
         state = system.transition @ state
         covariance = system.propagated(covariance)
-        pole[day], by_model[day] = system.observed @ state, system.of_observation(covariance)
+        pole[day], spread[day] = system.observed @ state, system.of_observation(covariance)
         if day < len(future):
             pole[day] += future[day]
             state = state + gain @ future[day]
@@ -348,12 +348,10 @@ def forecast(
     by_innovations = forecast_covariance(kalman, autoregression, last_covariance, days)
     weight = np.exp(-((np.arange(1, days + 1) / TAKEN_OVER) ** 2))[:, None, None]
     signs = np.array([[1, -1], [-1, 1]])  # of x and y, not of x and -y
-    by_model *= signs
-    combined = weight * by_innovations * signs + (1 - weight) * by_model
+    spread *= signs
+    combined = weight * by_innovations * signs + (1 - weight) * spread
     complex_parts = {name: part @ np.array([1, 1j]) for name, part in poles.items()}
-    return PredictedPole(
-        pole @ np.array([1, 1j]), combined, by_model, complex_parts, variances, fast
-    )
+    return PredictedPole(pole @ np.array([1, 1j]), combined, spread, complex_parts, variances, fast)
 
 
 def last_of(p: ComplexArray, used: int = RECORD) -> ComplexArray:

@@ -277,7 +277,7 @@ class Inputs:
 
 
 @dataclass(frozen=True)
-class RotatingBody:
+class Rotator:
     """GM, equatorial radius and rotation period of a body, in SI units.
 
     Attributes
@@ -362,23 +362,23 @@ class Ladder:
 
 
 def inputs_of(
-    interior: Interior, body: RotatingBody, figure: Mapping[str, Numeric], ocean: str = "real"
+    interior: Interior, body: Rotator, figure: Mapping[str, Numeric], ocean: str = "real"
 ) -> Inputs:
     """Collect the inputs of the non-rigid models: the figure of a body, its interior and ocean.
 
     Parameters
     ----------
     interior : Interior
-    body : RotatingBody
+    body : Rotator
     figure : mapping
         `dynamical_flattening`, `j2` and `triaxiality`.
     ocean : str
         ``"real"`` as published, ``"global"`` all over, ``"none"``.
     """
-    k2, fraction, core_ellipticity = interior.values()
-    if core_ellipticity is None:
+    k2, fraction, e_f = interior.values()
+    if e_f is None:
         assert interior.layers is not None
-        core_ellipticity = hydrostatic_core(interior.layers, 2 * np.pi / body.period)
+        e_f = hydrostatic_core(interior.layers, 2 * np.pi / body.period)
     if ocean == "global" and interior.ocean is not None and interior.layers is not None:
         ocean_k2 = global_ocean(interior.layers)
     elif ocean == "real" and interior.ocean is not None:
@@ -386,25 +386,22 @@ def inputs_of(
         ocean_k2 = mean / body.centrifugal(love_radius(interior, body))
     else:
         ocean_k2 = 0.0
-    core = {"core_fraction": fraction, "core_ellipticity": core_ellipticity}
-    return Inputs(**figure, k2=k2, **core, ocean=ocean_k2)
+    return Inputs(**figure, k2=k2, core_fraction=fraction, core_ellipticity=e_f, ocean=ocean_k2)
 
 
-def love_radius(interior: Interior, body: RotatingBody) -> Numeric:
+def love_radius(interior: Interior, body: Rotator) -> Numeric:
     """Reference radius of k2, m: outer radius of the layered model, else equatorial radius."""
     return body.radius if interior.layers is None else interior.layers.radius
 
 
-def non_rigid(
-    inputs: Inputs, body: RotatingBody, interior: Interior, ocean: str = "real"
-) -> Ladder:
+def non_rigid(inputs: Inputs, body: Rotator, interior: Interior, ocean: str = "real") -> Ladder:
     """Compute wobble periods and quality factors from all non-rigid models that an interior allows.
 
     Parameters
     ----------
     inputs : Inputs
         Floats or arrays.
-    body : RotatingBody
+    body : Rotator
     interior : Interior
     ocean : str
         See `inputs_of`; the response of the real ocean is scaled to `inputs.ocean`.
@@ -456,7 +453,7 @@ def non_rigid(
 
 
 def _softened(
-    inputs: Inputs, body: RotatingBody, interior: Interior, unit: Numeric, water: Any, period: Array
+    inputs: Inputs, body: Rotator, interior: Interior, unit: Numeric, water: Any, period: Array
 ) -> Roots:
     """Compute the wobble of the anelastic model by iteration, as rigidity depends on the period."""
     assert interior.layers is not None

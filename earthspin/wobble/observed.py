@@ -63,12 +63,11 @@ def need_wobble(time: FloatArray, p: ComplexArray) -> None:
     if np.max(abs(rest)) <= ROUNDING * np.max(abs(p)):
         raise UndefinedError("no free wobble: the pole stands still but for drift and seasons")
     spectrum = Periodogram.of(middles, rest)
-    ratio, threshold = spectrum.ratio()
-    if ratio < threshold:
+    ratio, limit = spectrum.ratio()
+    if ratio < limit:
         raise UndefinedError(
             f"no free wobble between {BAND[0]:.0f} and {BAND[1]:.0f} d stands out: the power there "
-            f"is {ratio:.2g} times that of a smooth spectrum, and {threshold:.2g} times could be "
-            "noise"
+            f"is {ratio:.2g} times that of a smooth spectrum, and {limit:.2g} times could be noise"
         )
     peak = spectrum.peak()
     if not BAND[0] <= peak <= BAND[1]:
@@ -106,9 +105,9 @@ class Periodogram:
         return Periodogram(self.frequency[selected], self.power[selected])
 
     def ratio(self) -> tuple[float, float]:
-        """Ratio of the power in the wobble band to expected noise power, and detection threshold.
+        """Ratio of the power in the wobble band to expected noise power, and detection limit.
 
-        The ratio of pure noise exceeds the threshold with a probability of `FALSE_ALARM`.
+        The ratio of pure noise exceeds the limit with a probability of `FALSE_ALARM`.
         """
         band, slower, faster = (self.between(*ends) for ends in (BAND[::-1], SLOWER, FASTER))
         centre, low, high = (np.log(part.frequency).mean() for part in (band, slower, faster))
@@ -116,8 +115,8 @@ class Periodogram:
         expected = slower.power.mean() ** (1 - weight) * faster.power.mean() ** weight
         # The expected power scatters as the two parts do, each with its weight.
         scatter = (1 - weight) ** 2 / slower.power.size + weight**2 / faster.power.size
-        threshold = fdtri(2 * band.power.size, 2 / scatter, 1 - FALSE_ALARM)
-        return float(band.power.mean() / expected), float(threshold)
+        limit = fdtri(2 * band.power.size, 2 / scatter, 1 - FALSE_ALARM)
+        return float(band.power.mean() / expected), float(limit)
 
     def peak(self) -> float:
         """Period of the largest power, from the wobble band down to shorter periods, d."""
@@ -329,7 +328,7 @@ def _minus_twice_log(data: ComplexArray, factors: ComplexArray, lags: ComplexArr
 
 def fit_likelihood(time: FloatArray, p: ComplexArray) -> WobbleFit:
     """Fit the free wobble by maximum likelihood, with 95 % intervals from profile likelihoods."""
-    return fit_maximum(Likelihood(time, p), "likelihood")
+    return fit_peak(Likelihood(time, p), "likelihood")
 
 
 def maximum_likelihood(
@@ -358,7 +357,7 @@ def maximum_likelihood(
     return best.x * UNIT, float(best.fun)
 
 
-def fit_maximum(likelihood: Likelihood, method: str, widening: float = 1.0) -> WobbleFit:
+def fit_peak(likelihood: Likelihood, method: str, widening: float = 1.0) -> WobbleFit:
     """Fit the free wobble at the maximum of a likelihood, with 95 % intervals.
 
     Parameters
@@ -380,46 +379,40 @@ def fit_maximum(likelihood: Likelihood, method: str, widening: float = 1.0) -> W
     # The best possible scatter of the rate is sqrt(decay/span); that of the decay is as large.
     scatter = NORMAL_95 * np.exp(-best[1] / 2) / np.sqrt(likelihood.span)
 
-    def profile_interval(parameter: int, reach: float) -> tuple[float, float]:
+    def interval(parameter: int, reach: float) -> tuple[float, float]:
         """Ends of the 95 % interval of one parameter, from the profile of the likelihood."""
-        last_best = best.copy()
+        nearby = best.copy()
 
         def profile(value: float) -> float:
             """Square root of the increase of -2 log(likelihood) if one parameter is fixed."""
-            nonlocal last_best
-            starts = [last_best.copy(), best.copy()]
+            nonlocal nearby
+            starts = [nearby.copy(), best.copy()]
             for start in starts:
                 start[parameter] = value
             # the last search may have ended far from this value
             start = min(starts, key=lambda z: likelihood(*z))
-            last_best, minus_twice_log = maximum_likelihood(likelihood, start, fixed=parameter)
+            nearby, minus_twice_log = maximum_likelihood(likelihood, start, fixed=parameter)
             return float(np.sqrt(max(minus_twice_log - minimum, 0.0)))
 
         def interval_end(limit: float) -> float:
-            nonlocal last_best
-            last_best = best.copy()
-            return _profile_limit(
-                profile, float(best[parameter]), limit, reach, widening * NORMAL_95
-            )
+            nonlocal nearby
+            nearby = best.copy()
+            return _bound(profile, float(best[parameter]), limit, reach, widening * NORMAL_95)
 
         return interval_end(LOWEST[parameter]), interval_end(HIGHEST[parameter])
 
-    longest, shortest = (
-        2 * np.pi / (MIDDLE + rate) for rate in profile_interval(0, np.exp(best[1]) * scatter)
-    )
-    decays = np.exp(profile_interval(1, min(scatter, 1.0)))
+    slow, fast = (2 * np.pi / (MIDDLE + rate) for rate in interval(0, np.exp(best[1]) * scatter))
+    decays = np.exp(interval(1, min(scatter, 1.0)))
     slowest, fastest = decays
     if slowest == np.exp(LOWEST[1]):  # even a wobble without any loss is likely enough
         slowest = 0.0
     with np.errstate(divide="ignore"):
         quality = np.pi / period / np.array([np.exp(best[1]), fastest, slowest])
     quality_factor, low, high = map(float, quality)
-    return WobbleFit(
-        method, float(period), float((longest - shortest) / 2), quality_factor, (low, high)
-    )
+    return WobbleFit(method, float(period), float((slow - fast) / 2), quality_factor, (low, high))
 
 
-def _profile_limit(
+def _bound(
     function: Callable[[float], float], best: float, limit: float, reach: float, target: float
 ) -> float:
     """Find where a function that increases from zero at `best` reaches a target value.
@@ -502,6 +495,4 @@ def fit_with_excitation(time: FloatArray, p: ComplexArray, chi: ComplexArray) ->
     """
     record.check(time, p)
     need_wobble(time, p)
-    return fit_maximum(
-        LikelihoodWithExcitation(time, p, chi), "likelihood with excitation", WIDENING
-    )
+    return fit_peak(LikelihoodWithExcitation(time, p, chi), "likelihood with excitation", WIDENING)

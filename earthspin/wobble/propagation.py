@@ -17,13 +17,16 @@ from earthspin.constants import DAY, NORMAL_95
 from earthspin.interior.named import EXPONENT_RANGE, Interior
 from earthspin.numerics.arrays import Array, Numeric
 from earthspin.numerics.varied_inputs import half_width, one_at_a_time
-from earthspin.wobble.ladder import Inputs, RotatingBody, non_rigid
+from earthspin.wobble.ladder import Inputs, Rotator, non_rigid
 
 #: How often the inputs of each body are drawn, and from which seed.
 DRAWS, SEED = 1000, 1
 
 #: Bodies whose draws are held at once: memory does not grow with their number.
 _BODIES_AT_ONCE = 256
+
+#: Input that is evenly distributed, over the range of published work.
+EXPONENT = "anelastic_exponent"
 
 #: Nodes of the polynomial in the exponent.
 _EXPONENTS = 5
@@ -44,23 +47,17 @@ def draw(uncertainty: Mapping[str, float]) -> dict[str, Array]:
         values of the anelastic exponent, evenly distributed over the range of published work.
     """
     generator = np.random.default_rng(SEED)
-    samples = {}
-    for name in (field.name for field in fields(Inputs)):
-        if name == "anelastic_exponent":
-            samples[name] = generator.uniform(*EXPONENT_RANGE, DRAWS)
-        else:
-            deviations = generator.standard_normal(
-                DRAWS
-            )  # for each, so that none shifts the others
-            if uncertainty.get(name, 0.0):
-                samples[name] = deviations
-    return samples
+    # drawn for each input, so that none shifts the others
+    names = [field.name for field in fields(Inputs) if field.name != EXPONENT]
+    normal = {name: generator.standard_normal(DRAWS) for name in names}
+    samples = {name: values for name, values in normal.items() if uncertainty.get(name, 0.0)}
+    return samples | {EXPONENT: generator.uniform(*EXPONENT_RANGE, DRAWS)}
 
 
 def sampled_half_widths(
     inputs: Inputs,
     uncertainty: Mapping[str, float],
-    body: RotatingBody,
+    body: Rotator,
     interior: Interior,
     ocean: str = "real",
 ) -> dict[str, Numeric]:
@@ -74,21 +71,18 @@ def sampled_half_widths(
         Floats or arrays of one shape.
     uncertainty : mapping
         One standard deviation over value, by name of the input.
-    spin, interior, ocean
+    body, interior, ocean
         As for `non_rigid`.
     """
     samples = draw(uncertainty)
     columns = [getattr(record, item.name) for record in (inputs, body) for item in fields(record)]
     values = np.broadcast_arrays(*columns)
     shape, flat = values[0].shape, [np.ravel(v) for v in values]
-    inputs_count = len(fields(Inputs))
+    count = len(fields(Inputs))
     widths: dict[str, list[Array]] = {}
     for start in range(0, flat[0].size, _BODIES_AT_ONCE):
         block = [v[start : start + _BODIES_AT_ONCE] for v in flat]
-        block_inputs, block_body = (
-            Inputs(*block[:inputs_count]),
-            RotatingBody(*block[inputs_count:]),
-        )
+        block_inputs, block_body = Inputs(*block[:count]), Rotator(*block[count:])
         changes = _sampled(block_inputs, uncertainty, samples, block_body, interior, ocean)
         for name, change in changes.items():
             # the period is not in the middle of the draws, nor its exponent in that of its range
@@ -100,7 +94,7 @@ def _sampled(
     inputs: Inputs,
     uncertainty: Mapping[str, float],
     samples: Mapping[str, Array],
-    body: RotatingBody,
+    body: Rotator,
     interior: Interior,
     ocean: str,
 ) -> dict[str, Array]:
@@ -111,13 +105,11 @@ def _sampled(
     # Chebyshev nodes over the published range of the anelastic exponent
     low, high = EXPONENT_RANGE
     nodes = (low + high) / 2 + (high - low) / 2 * np.polynomial.chebyshev.chebpts1(_EXPONENTS)
-    cases = list(one_at_a_time(samples, {"anelastic_exponent": nodes}))
+    cases = list(one_at_a_time(samples, {EXPONENT: nodes}))
     values = {name: np.tile(getattr(inputs, name), (1 + len(cases), 1)) for name in samples}
     for row, (name, node, _) in enumerate(cases, start=1):
-        if name == "anelastic_exponent":
-            values[name][row] = node
-        else:
-            values[name][row] *= 1 + node * uncertainty[name]
+        factor = 1 + node * uncertainty.get(name, 0.0)
+        values[name][row] = node if name == EXPONENT else factor * values[name][row]
     sampled = {}
     models = non_rigid(replace(inputs, **values), body, interior, ocean)
     for name, rotations in models.rotations.items():
@@ -143,17 +135,15 @@ def half_widths(
     """
     low, high = EXPONENT_RANGE
     widths = {}
-    for name in (item.name for item in fields(Inputs)):
-        widths[name] = (
-            NORMAL_95 * uncertainty.get(name, 0.0) * abs(np.asarray(getattr(inputs, name)))
-        )
-    return widths | ({"anelastic_exponent": np.asarray((high - low) / 2)} if anelastic else {})
+    for name, value in vars(inputs).items():
+        widths[name] = NORMAL_95 * uncertainty.get(name, 0.0) * abs(np.asarray(value))
+    return widths | ({EXPONENT: np.asarray((high - low) / 2)} if anelastic else {})
 
 
 def core_nutation_half_width(
     inputs: Inputs,
     uncertainty: Mapping[str, float],
-    body: RotatingBody,
+    body: Rotator,
     interior: Interior,
     ocean: str = "real",
 ) -> Numeric:
@@ -168,7 +158,7 @@ def core_nutation_half_width(
         Floats or arrays of one shape.
     uncertainty : mapping
         One standard deviation over value, by name of the input.
-    spin, interior, ocean
+    body, interior, ocean
         As for `non_rigid`.
     """
 
@@ -176,18 +166,13 @@ def core_nutation_half_width(
         changed = replace(inputs, **{name: (1 + width) * getattr(inputs, name)})
         return non_rigid(changed, body, interior, ocean).core_rotations["fluid-core"]
 
-    names = [item.name for item in fields(Inputs)]
-    widths = {name: NORMAL_95 * uncertainty.get(name, 0.0) for name in names}
-    squares = [
-        (period(name, width) - period(name, -width)) ** 2 / 4
-        for name, width in widths.items()
-        if width
-    ]
+    widths = {name: NORMAL_95 * uncertainty.get(name, 0.0) for name in vars(inputs)}
+    squares = [(period(n, w) - period(n, -w)) ** 2 / 4 for n, w in widths.items() if w]
     return np.sqrt(np.sum(squares, axis=0))
 
 
 def sensitivities(
-    inputs: Inputs, body: RotatingBody, interior: Interior, ocean: str = "real"
+    inputs: Inputs, body: Rotator, interior: Interior, ocean: str = "real"
 ) -> dict[str, Numeric]:
     """Derivatives of the most detailed model's wobble period by the inputs, d per unit of input.
 
@@ -195,7 +180,7 @@ def sensitivities(
     ----------
     inputs : Inputs
         Floats.
-    body : RotatingBody
+    body : Rotator
     interior : Interior
     ocean : str
     """
@@ -204,8 +189,7 @@ def sensitivities(
         return list(non_rigid(changed, body, interior, ocean).rotations.values())[-1]
 
     derivatives = {}
-    for name in (f.name for f in fields(Inputs)):
-        value = getattr(inputs, name)
+    for name, value in vars(inputs).items():
         step = 1e-3 * np.where(np.equal(value, 0), 1.0, value)
         difference = last_period(replace(inputs, **{name: value + step})) - last_period(
             replace(inputs, **{name: value - step})

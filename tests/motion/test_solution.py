@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.special import ellipj, ellipk
 
 from earthspin.errors import UndefinedError
-from earthspin.motion.equations import Equations, PerturbersAtNodes
+from earthspin.motion.equations import Equations, Perturbers
 from earthspin.motion.solution import AttitudeIntegrator
 from earthspin.numerics import rotations
 from earthspin.rotor.triaxial import free_rotation
@@ -166,7 +166,7 @@ def test_both_forms_have_the_same_rates() -> None:
     turn = np.array([0.1, 0.7, -0.3, 0.6])
     turn /= np.linalg.norm(turn)
     place = np.array([[[1.2]], [[-0.3]], [[0.4]]])
-    masses = PerturbersAtNodes(
+    masses = Perturbers(
         np.array([2.0]), np.array([0.9]), place, 1, [lambda axis, momentum: 0.3 * axis + momentum]
     )
     state = start(body, (0.3, -0.2, 0.9), turn)

@@ -9,7 +9,7 @@ import numpy as np
 
 from earthspin.constants import JULIAN_YEAR
 from earthspin.numerics.arrays import FloatArray
-from earthspin.secular.averaged_torque import ChangingOrbit, PrecessionConstant, luni_solar_torque
+from earthspin.secular.averaged_torque import ChangingOrbit, PrecessionConstant, mean_torque
 from tests.reference.extrapolation import LONG, LongArray, extrapolated, states
 
 
@@ -29,7 +29,7 @@ def spin_axis(
     shares = np.unique(np.concatenate([np.arange(n + 1) / n for n in parts]))
     # a hair inside, so that both ends of a step belong to its window
     nodes = length * (np.arange(count)[:, np.newaxis] + 1e-12 + (1 - 2e-12) * shares)
-    torque = luni_solar_torque(strength, orbit.at(nodes.ravel()), nodes.ravel())
+    torque = mean_torque(strength, orbit.at(nodes.ravel()), nodes.ravel())
     root = (np.sqrt(torque.constant) * torque.axis).reshape(3, count, -1)
     geodesic = torque.geodesic.reshape(3, count, -1)
 

@@ -13,9 +13,9 @@ from earthspin.secular.derived_angles import (
     SAMPLED_FROM,
     AnglesWithErrors,
     angle,
+    change,
     derive,
-    derive_with_errors,
-    difference,
+    derive_all,
     followed_perihelion,
     phase_error,
     root_sum_square,
@@ -77,9 +77,7 @@ def _inside(
         path = solve(of.precession, of.orbit, of.start, (times[0], times[-1]))
         member = derive(path, of, times, FIXED, perihelion)
         for name in NAMES:
-            inside[name] += np.abs(difference(member, found.nominal, name)) <= found.half_width(
-                name
-            )
+            inside[name] += np.abs(change(member, found.nominal, name)) <= found.half_width(name)
         inside["pole"] += angle(member.pole, found.nominal.pole) <= found.direction_half_width(
             "pole"
         )
@@ -87,7 +85,7 @@ def _inside(
 
 
 def _readings(times: np.ndarray) -> AnglesWithErrors:
-    return derive_with_errors(solved(SETTING, (times[0], times[-1]), UNCERTAINTY), times, FIXED)
+    return derive_all(solved(SETTING, (times[0], times[-1]), UNCERTAINTY), times, FIXED)
 
 
 @pytest.mark.slow
@@ -155,13 +153,13 @@ def test_members_side_by_side_have_the_half_widths_that_each_has_alone() -> None
     many = SETTING.precession
     many = replace(many, moon=many.moon * factors[:, np.newaxis])
     start = np.repeat(POLE[:, np.newaxis], 2, axis=1)
-    together_ = derive_with_errors(
+    together_ = derive_all(
         solved(AxisInputs(many, EARTHS, start), (times[0], times[-1]), UNCERTAINTY), times, FIXED
     )
     for place, factor in enumerate(factors):
         alone = replace(SETTING.precession, moon=SETTING.precession.moon * factor)
         setting = AxisInputs(alone, EARTHS, POLE)
-        one = derive_with_errors(solved(setting, (times[0], times[-1]), UNCERTAINTY), times, FIXED)
+        one = derive_all(solved(setting, (times[0], times[-1]), UNCERTAINTY), times, FIXED)
         for name in NAMES:
             assert together_.half_width(name)[place] == pytest.approx(
                 one.half_width(name), rel=1e-6, abs=0

@@ -23,7 +23,7 @@ from earthspin.secular.averaged_torque import (
     PrecessionConstant,
     Tides,
     geodesic_precession,
-    luni_solar_torque,
+    mean_torque,
     rebound,
     rebound_error,
     reference_axes,
@@ -100,12 +100,12 @@ def test_the_band_of_j2_is_a_share_today_and_all_that_faded_later() -> None:
 def test_the_moons_torque_acts_beside_the_normal() -> None:
     """(n x dn/dt)/|node rate|, of which the Moon's share counts: 1.4 arcsec as measured."""
     normal, _, turning = shape = EARTHS.at(NOW)
-    on = luni_solar_torque(earths(), shape, NOW)
+    on = mean_torque(earths(), shape, NOW)
     aside = np.cross(normal, turning, axis=0) / NODE_RATE
     assert 1.3 < np.linalg.norm(aside) / ARCSEC < 1.5
     assert np.allclose(on.axis - normal, earths().moon_share * aside, rtol=1e-9, atol=1e-16)
     assert np.allclose(on.geodesic / normal, 1919.883e-5 * ARCSEC_PER_YEAR, rtol=1e-4, atol=0)
-    alone = luni_solar_torque(replace(earths(), moon=0.0, node_rate=np.inf), shape, NOW)
+    alone = mean_torque(replace(earths(), moon=0.0, node_rate=np.inf), shape, NOW)
     assert np.array_equal(alone.axis, normal)
 
 
@@ -115,7 +115,7 @@ def test_sun_and_moon_about_one_axis_are_the_two_about_their_own() -> None:
     normal, _, turning = (of[:, 0] for of in shape)
     s = np.array([0.0, 0.0, 1.0])
     strength = replace(earths(), eccentricity=E0)
-    on = luni_solar_torque(strength, shape, NOW)
+    on = mean_torque(strength, shape, NOW)
     moons = normal + np.cross(normal, turning) / NODE_RATE
     e2 = np.sum(shape[1] ** 2, axis=0)
     of_sun = float(replace(strength, moon=0.0).constant(NOW, e2)[0])

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from earthspin.constants import ARCSEC
 from earthspin.errors import ApartError, UndefinedError
-from earthspin.secular.averaged_torque import PrecessionConstant, Tides, luni_solar_torque
+from earthspin.secular.averaged_torque import PrecessionConstant, Tides, mean_torque
 from earthspin.secular.trajectory import NodeTorque, linearization, solve
 from tests.reference.spin_axis import spin_axis
 from tests.secular.setting import (
@@ -176,7 +176,7 @@ def test_what_is_solved_is_the_equation() -> None:
     times, h = np.linspace(-59 * KYR, -1 * KYR, 57), 0.01 * KYR
     rate = (path.at(times + h) - path.at(times - h)) / (2 * h)
     s = path.at(times)
-    on = luni_solar_torque(earths(), EARTHS.at(times), times)
+    on = mean_torque(earths(), EARTHS.at(times), times)
     turn = on.geodesic - on.constant * np.sum(on.axis * s, axis=0) * on.axis
     off = np.max(np.abs(rate - np.cross(turn, s, axis=0)))
     assert off / ARCSEC * KYR < 0.1  # arcsec in a thousand years, of 20,000

@@ -16,7 +16,7 @@ from tests.refusals import refused
 
 PINS = load_pins("precession") | load_pins("wobble")
 E = EARTH.dynamical_flattening / (1 - EARTH.dynamical_flattening)
-SPIN = ladder.RotatingBody(EARTH.gm, EARTH.radius, EARTH.spin_period)
+SPIN = ladder.Rotator(EARTH.gm, EARTH.radius, EARTH.spin_period)
 FIGURE = {
     "dynamical_flattening": EARTH.dynamical_flattening,
     "j2": EARTH.j2,

@@ -246,5 +246,5 @@ def test_the_end_of_an_interval_if_a_search_at_the_best_value_fails() -> None:
     def profile(value: float) -> float:
         return abs(value) if value else 5.0
 
-    assert abs(observed._profile_limit(profile, 0.0, 4.0, reach=8.0, target=1.96) - 1.96) < 0.1
-    assert observed._profile_limit(profile, 0.0, -1.0, reach=8.0, target=1.96) == -1.0
+    assert abs(observed._bound(profile, 0.0, 4.0, reach=8.0, target=1.96) - 1.96) < 0.1
+    assert observed._bound(profile, 0.0, -1.0, reach=8.0, target=1.96) == -1.0

@@ -15,7 +15,7 @@ from earthspin.wobble import ladder, propagation
 def settings(body: Body) -> tuple[ladder.Inputs, dict[str, float], tuple]:
     """Inputs of a body, their uncertainties, and what the ladder is climbed with."""
     interior = INTERIORS[str(body.interior)]
-    spin = ladder.RotatingBody(body.gm, body.radius, body.spin_period)
+    spin = ladder.Rotator(body.gm, body.radius, body.spin_period)
     figure = {n: body.needed(n) for n in ("dynamical_flattening", "j2", "triaxiality")}
     uncertainty = {**interior.relative_uncertainty, **body.relative_uncertainty}
     return ladder.inputs_of(interior, spin, figure), uncertainty, (spin, interior, "real")

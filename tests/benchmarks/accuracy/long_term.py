@@ -13,7 +13,7 @@ from earthspin.bodies import MOON
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, JULIAN_YEAR
 from earthspin.numerics.arrays import FloatArray
 from earthspin.secular import trajectory
-from earthspin.secular.averaged_torque import PrecessionConstant, Tides, luni_solar_torque
+from earthspin.secular.averaged_torque import PrecessionConstant, Tides, mean_torque
 from earthspin.sky.orbit_table import OrbitTable, shipped
 from tests.benchmarks.accuracy.ladder import Ladder, settings
 from tests.reference.sky import BODY, SPIN
@@ -98,7 +98,7 @@ def _newton(start: FloatArray, pieces: int, order: int) -> tuple[FloatArray, int
 def orbit_slope(time: float, s: FloatArray) -> FloatArray:
     """Rate of change of the spin axis, s-1; each call evaluates the orbit table."""
     times = np.array([time])
-    torque = luni_solar_torque(STRENGTH, orbit().at(times), times)
+    torque = mean_torque(STRENGTH, orbit().at(times), times)
     m = torque.axis[:, 0]
     return np.cross(torque.geodesic[:, 0] - torque.constant[0] * (m @ s) * m, s)
 
@@ -118,7 +118,7 @@ class FittedSlope:
         self.series = []
         for left, right in pairwise(edges):
             t = (left + right) / 2 + (right - left) / 2 * nodes
-            torque = luni_solar_torque(STRENGTH, orbit().at(t), t)
+            torque = mean_torque(STRENGTH, orbit().at(t), t)
             root = np.sqrt(torque.constant) * torque.axis
             fit = legendre.legfit(nodes, np.concatenate([root, torque.geodesic]).T, 19)
             powers = [legendre.leg2poly(column) for column in fit.T]
