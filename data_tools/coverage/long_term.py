@@ -103,7 +103,7 @@ def of_body(body: Body, reach: int, members: int = MEMBERS, seed: int = SEED) ->
     for amounts in draws / NORMAL_95:
         setting = changed(solved.setting, solved.uncertainty, amounts)
         span = float(times[0]), float(times[-1])
-        path = solve(setting.strength, setting.orbit, setting.start, span)
+        path = solve(setting.precession, setting.orbit, setting.start, span)
         member = derive(path, setting, times, fixed, perihelion)
         for name, width in half.items():
             apart = (

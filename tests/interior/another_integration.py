@@ -18,9 +18,9 @@ from earthspin.interior.layers import Layer, LayeredBody
 
 Number = Any
 Array = NDArray[Any]
-Linearization = Callable[[Any, Array], Array]
+Slope = Callable[[Any, Array], Array]
 #: Takes dy/dr, y, and the radii where it starts and stops.
-Carry = Callable[[Linearization, Array, Any, Any], Array]
+Carry = Callable[[Slope, Array, Any, Any], Array]
 
 N = 6  # n (n + 1) of degree two
 START = 1e-3
@@ -71,7 +71,7 @@ class Inside:
         return rho * self._series(layer.vp, r) ** 2 / self.pressure - 2 * mu, mu
 
 
-def carry(slope: Linearization, y: Array, start: Number, stop: Number) -> Array:
+def carry(slope: Slope, y: Array, start: Number, stop: Number) -> Array:
     """Integrate dy/d(ln r), column by column."""
 
     def log_slope(t: float, flat: Array) -> Array:
@@ -82,7 +82,7 @@ def carry(slope: Linearization, y: Array, start: Number, stop: Number) -> Array:
     return np.asarray(found.y[:, -1].reshape(y.shape))
 
 
-def solid(inside: Inside, layer: Layer) -> Linearization:
+def solid(inside: Inside, layer: Layer) -> Slope:
     """Displacements u, v, tractions p, q, potential f and its flux w."""
 
     def slope(r: Number, y: Array) -> Array:
@@ -105,7 +105,7 @@ def solid(inside: Inside, layer: Layer) -> Linearization:
     return slope
 
 
-def liquid(inside: Inside, layer: Layer) -> Linearization:
+def liquid(inside: Inside, layer: Layer) -> Slope:
     """Potential and its slope: laplace(f) = 4 pi rho' f/g, rho' the slope of the density."""
 
     def slope(r: Number, y: Array) -> Array:

@@ -12,15 +12,13 @@ from numpy.typing import NDArray
 
 LongArray = NDArray[np.longdouble]
 LONG = np.longdouble
-Linearization = Callable[[LongArray], LongArray]
+Slope = Callable[[LongArray], LongArray]
 
 #: Columns of the extrapolation: order 20.
 COLUMNS = 10
 
 
-def extrapolated(
-    state: LongArray, length: Any, rules: Iterable[Sequence[Linearization]]
-) -> LongArray:
+def extrapolated(state: LongArray, length: Any, rules: Iterable[Sequence[Slope]]) -> LongArray:
     """Return what a step adds, by midpoint rules of 2, 4, 6 ... parts.
 
     Parameters
@@ -45,7 +43,7 @@ def extrapolated(
     return table[-1]
 
 
-def increment(state: LongArray, length: Any, slope: Linearization) -> LongArray:
+def increment(state: LongArray, length: Any, slope: Slope) -> LongArray:
     """Return what a step adds if the slope depends on the state alone."""
     return extrapolated(state, length, [[slope] * (2 * n + 1) for n in range(1, COLUMNS + 1)])
 

@@ -21,7 +21,7 @@ from tests.benchmarks.accuracy import (
     spheroid,
     top,
 )
-from tests.interior.another_integration import START, Linearization, other_answers
+from tests.interior.another_integration import START, Slope, other_answers
 from tests.mass import spheroid_reference
 from tests.reference import figure_axis
 from tests.reference.extrapolation import LONG, LongArray, increment, states
@@ -158,7 +158,7 @@ def make_compliances(longest: float = 0.05) -> Made:
     equations nor method nor code with it. `longest` is the longest step of the logarithm.
     """
 
-    def carry(slope: Linearization, y: LongArray, start: Any, stop: Any) -> LongArray:
+    def carry(slope: Slope, y: LongArray, start: Any, stop: Any) -> LongArray:
         length = np.log(stop / start)
         count = int(np.ceil(float(length) / longest))
         state = np.concatenate([y, np.full((1, y.shape[1]), np.log(start), dtype=LONG)])

@@ -20,7 +20,7 @@ from tests.reference.sky import BODY, SPIN
 from tests.reference.stepping import integrate
 from tests.reference.stored import load
 
-Linearization = Callable[[float, FloatArray], FloatArray]
+Slope = Callable[[float, FloatArray], FloatArray]
 
 KYR = 1000 * JULIAN_YEAR
 #: Span, s, and the number of times.
@@ -137,7 +137,7 @@ class FittedSlope:
         return np.array([q * w - r * v, r * u - p * w, p * v - q * u])
 
 
-def _scipy(slope: Linearization, start: FloatArray, rtol: float) -> tuple[FloatArray, int]:
+def _scipy(slope: Slope, start: FloatArray, rtol: float) -> tuple[FloatArray, int]:
     states, evaluations = integrate(slope, start, times()[::-1], rtol)
     axes = states[::-1].T
     return axes / np.linalg.norm(axes, axis=0), evaluations
