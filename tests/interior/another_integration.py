@@ -35,12 +35,12 @@ class Inside:
         self.body, self.kind, self.pi = body, kind, 4 * np.arctan(kind(1))
         radius = kind(body.radius)
         self.tops = np.array([kind(layer.top) / radius for layer in body.layers])
-        self.tidal_inertia = kind(1)
+        self.unit = kind(1)
         self.below = [kind(0)]
         for layer, top, under in zip(body.layers, self.tops, [kind(0), *self.tops], strict=False):
             self.below.append(self.below[-1] + self.shell(layer, under, top))
-        self.tidal_inertia, mass = self.below[-1], self.below[-1] * radius**3
-        self.below = [part / self.tidal_inertia for part in self.below]
+        self.unit, mass = self.below[-1], self.below[-1] * radius**3
+        self.below = [part / self.unit for part in self.below]
         self.pressure = kind(G.value) * mass**2 / radius**4
 
     def _series(self, coefficients: tuple[float, ...], r: Number) -> Number:
@@ -53,11 +53,11 @@ class Inside:
         return 4 * self.pi * (top - below) * np.sum(BOOLE * values) / 90
 
     def density(self, layer: Layer, r: Number) -> Number:
-        return self._series(layer.density, r) / self.tidal_inertia
+        return self._series(layer.density, r) / self.unit
 
     def slope(self, layer: Layer, r: Number) -> Number:
         rising = tuple(n * c for n, c in enumerate(layer.density))[1:] or (0.0,)
-        return self._series(rising, r) / self.tidal_inertia
+        return self._series(rising, r) / self.unit
 
     def gravity(self, layer: Layer, r: Number) -> Number:
         """At a radius in a layer."""
