@@ -14,7 +14,12 @@ from earthspin.bodies.orbit import Satellite
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, AU, JULIAN_YEAR
 from earthspin.errors import BodyError, SceneError
 from earthspin.questions.precession import Precession
-from earthspin.questions.satellites import carried, largest_drifts, mean_pole_error, swings
+from earthspin.questions.satellites import (
+    largest_displacements,
+    mean_pole_error,
+    node_nutations,
+    satellite_factors,
+)
 from earthspin.torque.laplace import Planet, Satellites, laplace_tilts
 from earthspin.views.closing_line import closing_line
 from earthspin.views.precession import lead
@@ -85,7 +90,7 @@ def test_uranus_with_its_satellites() -> None:
     alone = earthspin.precession(body=uranus.replace(satellites=[]))
     assert float(alone.precession_period[0]) / 1e6 == pytest.approx(1132, rel=1e-3, abs=0)
     spread = sum(m.gm / URANUS.gm * (m.a / URANUS.radius) ** 2 / 2 for m in URANUS.satellites)
-    assert carried(uranus, 1e-20, math.radians(82.2)).bulge == pytest.approx(
+    assert satellite_factors(uranus, 1e-20, math.radians(82.2)).bulge == pytest.approx(
         1 + spread / URANUS.j2, rel=3e-3, abs=0
     )
 
@@ -149,7 +154,7 @@ def test_satellites_in_the_equator(name: str, rate: float) -> None:
 
 def test_nodes_of_the_galilean_moons() -> None:
     """Periods and sizes of the terms of the pole of Jupiter in IAU 2015."""
-    found = swings(JUPITER, *pull_and_obliquity("jupiter"))
+    found = node_nutations(JUPITER, *pull_and_obliquity("jupiter"))
     terms = {"Callisto": (64.3, 0.00215), "Ganymede": (262.5475, 0.001432),
              "Europa": (1191.9605, 0.000938), "Io": (4850.4046, 0.000117)}  # fmt: skip
     for name, (rate, size) in terms.items():
@@ -168,7 +173,7 @@ def test_tilts_of_laplace_planes() -> None:
 
 def test_the_nodes_of_saturn_and_neptune() -> None:
     """Periods of the ellipses fitted to SAT441; Triton: Yuan et al. 2021 and IAU 2015."""
-    found = swings(SATURN, *pull_and_obliquity("saturn"))
+    found = node_nutations(SATURN, *pull_and_obliquity("saturn"))
     published = {"Tethys": 4.982, "Dione": 11.71, "Rhea": 35.8, "Titan": 701, "Iapetus": 3400}
     for name, years in published.items():
         swing = found[f"node of {name}"]
@@ -177,7 +182,7 @@ def test_the_nodes_of_saturn_and_neptune() -> None:
     assert titan.rate / ARCSEC_PER_YEAR == pytest.approx(0.27, rel=0.06, abs=0)
     assert found["node of Iapetus"].rate / ARCSEC_PER_YEAR == pytest.approx(0.018, rel=0.15, abs=0)
     neptune = NEPTUNE.replace(dynamical_flattening=3408.4e-6 / 0.23)
-    triton = swings(neptune, *pull_and_obliquity("neptune"))["node of Triton"]
+    triton = node_nutations(neptune, *pull_and_obliquity("neptune"))["node of Triton"]
     years = 2 * math.pi / triton.node_rate / JULIAN_YEAR
     assert years == pytest.approx(687.2, rel=3e-3, abs=0)
     # circles of the pole of 0.46 (Yuan) and 0.51 deg (IAU)
@@ -290,7 +295,7 @@ def test_limits_of_the_obliquity() -> None:
     """Upright and lying planets: the formulas are 0/0 there, and have a limit."""
     pull, _ = pull_and_obliquity("jupiter")
     for edge, inside in ((0.0, 1e-3), (math.pi / 2, math.pi / 2 - 1e-3), (math.pi, math.pi - 1e-3)):
-        at, near = (carried(JUPITER, pull, angle).rate for angle in (edge, inside))
+        at, near = (satellite_factors(JUPITER, pull, angle).rate for angle in (edge, inside))
         assert at == pytest.approx(near, rel=1e-4, abs=0)
 
 
@@ -304,9 +309,9 @@ def test_a_question_that_leaves_satellites_out_says_so() -> None:
     turned = earthspin.rotation("2000-01-01T12:00", "2000-01-02", "12 h", body="jupiter")
     assert "node of Europa" in turned.attrs["neglected"]
     # a chord of 0.18 arcsec radius in half a turn of Io's node, and the diameter thereafter
-    found = swings(JUPITER, *pull_and_obliquity("jupiter"))
+    found = node_nutations(JUPITER, *pull_and_obliquity("jupiter"))
     for years, size in ((1.0, 0.149), (3.714, 0.3636), (10.0, 0.3636)):
-        drift = largest_drifts(found, years * JULIAN_YEAR)["node of Io"]
+        drift = largest_displacements(found, years * JULIAN_YEAR)["node of Io"]
         assert drift / ARCSEC == pytest.approx(size, rel=5e-3, abs=0)
     # tilts of 0.65 + 0.32 deg to the equator: 3/2 Gm/a3 (C - A) sin 2x
     series = earthspin.torque_series("2000-01-01", "2000-01-11", "10 d", body="saturn")
@@ -344,7 +349,7 @@ def test_beside_an_integration_of_spin_and_orbits(name: str) -> None:
     """Measured: 2.5e-4, 6e-4 and 3e-5 of the rates; 3 to 14 % of the nutations by nodes."""
     body, span = GYROSCOPES[name]
     pull, obliquity = pull_and_obliquity(name)
-    found = swings(body, pull, obliquity)
+    found = node_nutations(body, pull, obliquity)
     tilt = tilts(body)
     axes = [direction(obliquity)]
     for azimuth, (moon, swing) in enumerate(zip(body.satellites, found.values(), strict=True)):
@@ -357,7 +362,7 @@ def test_beside_an_integration_of_spin_and_orbits(name: str) -> None:
     taper = np.hanning(years.size - 2)
     longitude = -np.unwrap(np.arctan2(total[:, 1], total[:, 0])) / ARCSEC
     mean = np.average(np.gradient(longitude, years)[1:-1], weights=taper)
-    factor = carried(body, pull, obliquity).rate
+    factor = satellite_factors(body, pull, obliquity).rate
     alone = 1.5 * pull * math.cos(obliquity) * body.dynamical_flattening / body.spin_rate
     assert alone * factor / ARCSEC_PER_YEAR == pytest.approx(mean, rel=1e-3, abs=0)
 

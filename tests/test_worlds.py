@@ -13,7 +13,7 @@ from earthspin.bodies.earth_moon_sun import MOON_OBLIQUITY
 from earthspin.bodies.inner import MERCURY_OBLIQUITY
 from earthspin.bodies.moons import ORBITS as OF_MOONS
 from earthspin.bodies.moons import TITAN_OBLIQUITY, TITAN_OBLIQUITY_IF_SOLID
-from earthspin.bodies.planets import PLANETS, PRECESSING_ORBITS, on_its_orbit, pulled_by
+from earthspin.bodies.planets import PLANETS, PRECESSING_ORBITS, default_perturbers, on_its_orbit
 from earthspin.cli import main
 from earthspin.constants import ARCSEC
 from earthspin.sky.iau_models import ecliptic_pole
@@ -174,7 +174,7 @@ def longitude_of_the_sun(days: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("name", [*PLANETS, "moon", "titan", "triton"])
 def test_what_pulls_on_a_world(name: str) -> None:
-    names = [one.name for one in pulled_by(BODIES[name])]
+    names = [one.name for one in default_perturbers(BODIES[name])]
     assert "sun" in names
     assert name not in names
     assert on_its_orbit(BODIES["earth"]) is BODIES["earth"]

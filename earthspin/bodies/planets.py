@@ -42,7 +42,7 @@ _OTHERS = (
 )
 
 
-def pulled_by(body: Body) -> tuple[Body, ...]:
+def default_perturbers(body: Body) -> tuple[Body, ...]:
     """Default perturbers: Sun (planets), planet and Sun (moons), Sun and Moon (Earth, others)."""
     return tuple(BODIES[name] for name in _OTHERS.get(body.known_as, _SUN_AND_MOON))
 

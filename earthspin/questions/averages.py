@@ -22,7 +22,7 @@ from earthspin.questions.ellipse_chains import (
     locked_error,
     no_exact_means,
 )
-from earthspin.questions.satellites import Carried, carried, without_swings
+from earthspin.questions.satellites import SatelliteFactors, satellite_factors, with_mean_pole
 from earthspin.questions.sky import Sky, Stretch
 from earthspin.sky.elements import Elements
 from earthspin.sky.poles import angle, rotate
@@ -91,7 +91,7 @@ class Samples:
 )
 def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]) -> Samples:
     """Compute the torque of each perturber, divided by C - A, at the sample times of the mean."""
-    body = without_swings(body)
+    body = with_mean_pole(body)
     pole, orbit = body.needed("pole"), body.orbit_pole
     cycle = max(map(slowest_cycle, perturbers))
     orbits, strongest = _orbits(sky, stretch, body, perturbers)
@@ -273,7 +273,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
 
     Each mean is over the orbit and the precession of its node.
     """
-    body = without_swings(body)
+    body = with_mean_pole(body)
     pole, now = body.needed("pole"), np.zeros(1)
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
     axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
@@ -352,9 +352,9 @@ class MeanRates:
     second_order : float
         Bound on the second-order part of the total rate, which the average neglects, rad/s; the
         largest of an array.
-    pull : float or DataArray
+    gm_over_r3 : float or DataArray
         Sum of GM <1/r3> of the perturbers, s-2.
-    carried : Carried
+    satellite_factors : SatelliteFactors
         Contribution of the satellites of the body.
     """
 
@@ -363,8 +363,8 @@ class MeanRates:
     torque: Estimate
     ratio: Numeric
     second_order: float
-    pull: Numeric
-    carried: Carried
+    gm_over_r3: Numeric
+    satellite_factors: SatelliteFactors
 
     def total(self) -> tuple[Numeric, Numeric]:
         """Total precession rate due to all perturbers, and error of that rate, rad/s."""
@@ -388,8 +388,9 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
     along = _labeller(means) if body.labelled or means.cases else np.asarray
     uncertainties = [p.relative_uncertainty.get("gm", 0.0) for p in perturbers]
     u_gm = along(rates.total_uncertainty(means.precessing, uncertainties))
-    pull = sum(p.gm_on(body) * near for p, near in zip(perturbers, means.nearness, strict=True))
-    moons = carried(body, pull, means.obliquity)
+    masses_and_means = zip(perturbers, means.nearness, strict=True)
+    gm_over_r3 = sum(p.gm_on(body) * inverse_cube for p, inverse_cube in masses_and_means)
+    moons = satellite_factors(body, gm_over_r3, means.obliquity)
     rate = rates.precession_estimate(
         along(means.precessing),
         along(means.precessing_error),
@@ -419,8 +420,8 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         torque=torque,
         ratio=along(rates.rate_ratio(means.precessing)),
         second_order=largest(OF_AVERAGE * (by_orbit + by_spin) * total),
-        pull=pull,
-        carried=moons,
+        gm_over_r3=gm_over_r3,
+        satellite_factors=moons,
     )
 
 

@@ -22,7 +22,7 @@ from earthspin.motion.forces import DynamicalFigure, Forces, Places, RateLaw, To
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.polynomials import Windows
 from earthspin.questions.ellipse_chains import all_by_elements
-from earthspin.questions.satellites import carried, common_turn, obliquity_of
+from earthspin.questions.satellites import common_precession, obliquity_of, satellite_factors
 from earthspin.questions.sky import KernelName, Sky, places, sky
 from earthspin.questions.time_axes import DateSeries, epochs
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
@@ -31,7 +31,7 @@ from earthspin.torque.gravity import cross
 from earthspin.units import Plain, Several, Word, real_numbers
 
 #: Samples of an orbit for its mean pull; the mean over an ellipse converges exponentially.
-PULL_SAMPLES = 400
+ORBIT_SAMPLES = 400
 #: Words for effects that depend on the body; the question replaces them by names.
 KNOWN, WITHOUT_INTERIOR = "known", "rigid"
 
@@ -89,14 +89,14 @@ class AxisMotion(DateSeries):
 
     def rigid_effects(self) -> tuple[str, ...]:
         """Names of the effects on a rigid body; `planets` only if a kernel contains the planets."""
-        kernel = own_kernel(self.ephemeris)
+        kernel = kernel_file(self.ephemeris)
         no_planets = all_by_elements(self.body, self.perturbers) or (
             kernel is not None and not kernel.holds(BODIES[name].naif for name in bodies.PLANETS)
         )
         return tuple(name for name in RIGID if not (no_planets and name == PLANETS.name))
 
 
-def own_kernel(ephemeris: str) -> Ephemeris | None:
+def kernel_file(ephemeris: str) -> Ephemeris | None:
     """Open the kernel file at a given path; None if `ephemeris` is a kernel name or a faulty file.
 
     Named kernels hold all planets for a century and more; a faulty file is refused by the run.
@@ -110,7 +110,7 @@ def own_kernel(ephemeris: str) -> Ephemeris | None:
 
 
 @dataclass(frozen=True)
-class Pulls:
+class Attractors:
     """Rotating body, GM and positions of its perturbers, and the time limits of the positions.
 
     Attributes
@@ -158,7 +158,7 @@ class Pulls:
             known |= self.sky.positions(times / DAY, missing)
         return known
 
-    def mean_pull(self) -> float:
+    def mean_gm_over_r3(self) -> float:
         """Sum over perturbers of GM times the mean 1/r3 over an orbit about J2000.0, s-2.
 
         Without an orbital period it is that at J2000.0. The period is cut to the times that are
@@ -166,7 +166,7 @@ class Pulls:
         """
         half = (self.body.orbital_period or 0.0) / 2
         first, last = (min(max(end, self.limits[0]), self.limits[1]) for end in (-half, half))
-        times = np.linspace(first, last, PULL_SAMPLES, endpoint=False)
+        times = np.linspace(first, last, ORBIT_SAMPLES, endpoint=False)
         positions = self.sky.positions(times / DAY)
         return sum(
             self.gm[name] * float(np.mean(np.linalg.norm(position, axis=1) ** -3))
@@ -175,7 +175,9 @@ class Pulls:
 
 
 @part
-def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]) -> Pulls:
+def attractors(
+    sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]
+) -> Attractors:
     """Collect GM and position sources of the perturbers, and of the planets if `planets` is on."""
     masses = {p.name: float(p.gm_on(body)) for p in perturbers}
     targets = dict(sky.targets)
@@ -188,30 +190,30 @@ def pulls(sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str
     start, end = sky.coverage(targets)
     limits = start * DAY, end * DAY
     name = label_of(SUN.name, perturbers) or SUN.name
-    return Pulls(body, sky, masses, targets, limits, name)
+    return Attractors(body, sky, masses, targets, limits, name)
 
 
-def forces_of(pulls: Pulls, effects: Sequence[str], keep: bool = False) -> Forces:
+def forces_of(attractors: Attractors, effects: Sequence[str], keep: bool = False) -> Forces:
     """Build the forces that move the axes of a body, including only the given effects."""
-    body, near = pulls.body, tuple(pulls.sky.targets)
+    body, near = attractors.body, tuple(attractors.sky.targets)
     forces = Forces(
         figure=figure_of(body, 2 * math.pi / body.number("spin_period")),
-        gm={name: pulls.gm[name] for name in near},
-        far={name: gm for name, gm in pulls.gm.items() if name not in near},
+        gm={name: attractors.gm[name] for name in near},
+        far={name: gm for name, gm in attractors.gm.items() if name not in near},
         positions=lambda times: {},
         near=near,
-        sun=pulls.sun,
+        sun=attractors.sun,
         mean_pole=lambda times: body.needed("pole").mean(times / DAY),
     )
-    forces = switched_on(forces, body, effects)
-    turn = common_turn(body, pulls.mean_pull()) if body.satellites else None
+    forces = with_effects(forces, body, effects)
+    turn = common_precession(body, attractors.mean_gm_over_r3()) if body.satellites else None
     if turn is not None:
-        forces = replace(forces, torques=(*forces.torques, turning(turn[0])))
+        forces = replace(forces, torques=(*forces.torques, precessing_torque(turn[0])))
     names = tuple(forces.gm)
-    return replace(forces, positions=lambda times: pulls.positions(names, times, keep))
+    return replace(forces, positions=lambda times: attractors.positions(names, times, keep))
 
 
-def turning(rate: FloatArray) -> Torque:
+def precessing_torque(rate: FloatArray) -> Torque:
     """Make the torque that turns the angular momentum at a constant angular velocity.
 
     Parameters
@@ -236,7 +238,7 @@ def figure_of(body: Body, spin_rate: float) -> DynamicalFigure:
     )
 
 
-def switched_on(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:
+def with_effects(forces: Forces, body: Body, effects: Sequence[str]) -> Forces:
     """Add the effects with the given names to the forces, and return the new forces."""
     for name, effect in EFFECTS.items():
         if name in effects:
@@ -257,7 +259,7 @@ def start_note(body: Body) -> dict[str, str]:
     return {"start": f"taken as exact; the uncertainty of the pole of {name} at J2000.0 {size}"}
 
 
-def idle_note(body: Body, effects: Sequence[str]) -> dict[str, str]:
+def inactive_effects_note(body: Body, effects: Sequence[str]) -> dict[str, str]:
     """Attribute of a result that lists effects which do nothing because a coefficient is 0."""
     fields = {name: EFFECTS[name].coefficient for name in effects}
     idle = {name: field for name, field in fields.items() if field and body.number(field) == 0}
@@ -273,8 +275,8 @@ def start_error(body: Body) -> float | None:
     return NORMAL_95 * body.number("pole_uncertainty")
 
 
-#: Parts that compute `pulls` and `epochs`, for questions that use them.
-PULLS = (places, sky, pulls, epochs)
+#: Parts that compute `attractors` and `epochs`, for questions that use them.
+ATTRACTORS = (places, sky, attractors, epochs)
 
 
 # --- effects that are switched off ---------------------------------------------------------------
@@ -297,7 +299,7 @@ def switched_off(
     return tuple(off) if perturbers else ()
 
 
-def each_added(
+def with_each_effect(
     sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: Sequence[str], off: Sequence[str]
 ) -> tuple[Forces, dict[str, Forces]]:
     """Build the forces with `effects` on, and, by name, those with one effect of `off` also on.
@@ -306,12 +308,12 @@ def each_added(
     """
     on = tuple(effects)
     try:
-        pulling = pulls(sky, body, perturbers, (*on, *off))
+        acting = attractors(sky, body, perturbers, (*on, *off))
     except EarthspinError:
         off = [name for name in off if name != PLANETS.name]
-        pulling = pulls(sky, body, perturbers, on)
-    added = {name: forces_of(pulling, (*on, name), keep=True) for name in off}
-    return forces_of(pulling, on, keep=True), added
+        acting = attractors(sky, body, perturbers, on)
+    added = {name: forces_of(acting, (*on, name), keep=True) for name in off}
+    return forces_of(acting, on, keep=True), added
 
 
 #: Samples of half a synodic orbit; the mean over it converges exponentially.
@@ -329,13 +331,13 @@ def drift_by_planets(body: Body, seconds: float) -> dict[str, float]:
     if body.known_as not in bodies.PLANETS or body.orbital_period is None or obliquity is None:
         return {}
     phases = math.pi * (np.arange(_SAMPLES) + 0.5) / _SAMPLES
-    own, pull = _orbit_radius(body), 0.0
+    own, gm_over_r3 = _orbit_radius(body), 0.0
     for planet in (BODIES[name] for name in bodies.PLANETS if name != body.known_as):
         other = _orbit_radius(planet)
         square = own**2 + other**2 - 2 * own * other * np.cos(phases)
-        pull += planet.number("gm") * float(np.mean(square**-1.5))
-    speed = 0.75 * body.number("dynamical_flattening") / float(body.spin_rate) * pull
-    factor = float(carried(body, pull, obliquity).rate)
+        gm_over_r3 += planet.number("gm") * float(np.mean(square**-1.5))
+    speed = 0.75 * body.number("dynamical_flattening") / float(body.spin_rate) * gm_over_r3
+    factor = float(satellite_factors(body, gm_over_r3, obliquity).rate)
     return {PLANETS.name: abs(speed * math.sin(2 * obliquity) * factor * seconds)}
 
 

@@ -29,7 +29,7 @@ from earthspin.nutation import analysis
 from earthspin.nutation import rate_budget as flat
 from earthspin.nutation.rate_budget import RateBudget, budget_of
 from earthspin.progress import progress
-from earthspin.questions.effects_and_torques import PULLS, Pulls
+from earthspin.questions.effects_and_torques import ATTRACTORS, Attractors
 from earthspin.questions.iau_comparison import (
     INTERIOR,
     MERGED,
@@ -99,7 +99,7 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
 
 @part(same_for=same_paths)
 def rates_by_effect(
-    pole_analysis: PoleComparison, pulls: Pulls, effects: tuple[str, ...]
+    pole_analysis: PoleComparison, attractors: Attractors, effects: tuple[str, ...]
 ) -> RateBudget:
     """Compute the contribution of each effect to the precession rates at J2000.0.
 
@@ -110,12 +110,12 @@ def rates_by_effect(
     with progress("budget", len(on)) as advance:
         for effect in on:
             rest = [e for e in on if e != effect]
-            path = path_over(pulls, rest, done.start, done.days)
+            path = path_over(attractors, rest, done.start, done.days)
             without[effect] = done.analysis.secular(steady_figure(path, done.days))
             advance(1)
     # What is off has no share, nor has a transfer function: T = 1 at rest in space.
     off = [effect for effect in EFFECTS if effect not in on]
-    u_h = pulls.body.relative_uncertainty.get("dynamical_flattening", 0.0)
+    u_h = attractors.body.relative_uncertainty.get("dynamical_flattening", 0.0)
     return budget_of(
         done.ours, done.theirs, without, off, iau_models.precession_rates(0.0).psi_a, u_h
     )
@@ -246,18 +246,18 @@ class Differences:
 def differences(
     pole_analysis: PoleComparison,
     nonrigid_shift: Shift,
-    pulls: Pulls,
+    attractors: Attractors,
     epochs: Epochs,
     effects: tuple[str, ...],
     predicted_shift: Shift | None = None,
 ) -> Differences:
     """Compute time series of computed pole minus IAU pole, for different sets of effects."""
     done = pole_analysis
-    days, ends, iau_pole, iau_eta = iau_nutation(pulls, epochs)
-    body = pulls.body
+    days, ends, iau_pole, iau_eta = iau_nutation(attractors, epochs)
+    body = attractors.body
 
     def axes_of(on: list[str], start: FloatArray) -> dict[str, FloatArray]:
-        return path_over(pulls, on, start, ends).at(days * DAY, semidiurnal=False)
+        return path_over(attractors, on, start, ends).at(days * DAY, semidiurnal=False)
 
     def eta_of(pole: FloatArray) -> ComplexArray:
         return analysis.complex_nutation(iau_models.nutation_of(pole, days))
@@ -265,10 +265,10 @@ def differences(
     # Each model as `pole` returns it, start included, but without the semidiurnal motion, which
     # the celestial pole excludes by definition.
     models = {
-        "first-order": axes_of([], pulls.start)["angular_momentum"],
-        "rigid": axes_of(rigid(effects), pulls.start)["figure"],
+        "first-order": axes_of([], attractors.start)["angular_momentum"],
+        "rigid": axes_of(rigid(effects), attractors.start)["figure"],
     }
-    path = path_over(pulls, rigid(effects), done.start, ends)
+    path = path_over(attractors, rigid(effects), done.start, ends)
     from_mean_pole = path.at(days * DAY, semidiurnal=False)
     for name, shift in (("nonrigid", nonrigid_shift), ("predicted", predicted_shift)):
         if shift is not None:
@@ -600,5 +600,5 @@ compare_iau = public_call(
         inferred_flattening,
         neglected,
     ),
-    parts=(*PULLS, rates_by_effect, core_response, *INTERIOR, differences, observed_sky),
+    parts=(*ATTRACTORS, rates_by_effect, core_response, *INTERIOR, differences, observed_sky),
 )

@@ -26,7 +26,7 @@ from earthspin.nutation.analysis import Circles, PoleAnalysis, Secular
 from earthspin.nutation.rate_budget import published_effects
 from earthspin.progress import progress
 from earthspin.questions import satellites, time_axes
-from earthspin.questions.effects_and_torques import AxisMotion, Pulls, forces_of, own_kernel
+from earthspin.questions.effects_and_torques import Attractors, AxisMotion, forces_of, kernel_file
 from earthspin.questions.interior_response import CHOSEN, Prediction, no_layers, prediction
 from earthspin.questions.reasons import no_iau_model, not_the_iaus_earth
 from earthspin.sky import iau_models
@@ -52,20 +52,24 @@ SERIES = "coefficients of the adopted series"
 
 @part
 def axis_path(
-    pulls: Pulls, epochs: Epochs, effects: tuple[str, ...], interior_shift: Shift | None = None
+    attractors: Attractors,
+    epochs: Epochs,
+    effects: tuple[str, ...],
+    interior_shift: Shift | None = None,
 ) -> AxisPath:
     """Integrate the motion of the body's axes from J2000.0 to all dates, by Picard iteration.
 
     With the response of the interior, the rigid axes start such that their mean pole agrees with
     that of the IAU.
     """
-    pulls.sky.check_times(epochs.span(), pulls.targets)
-    axis, epoch = pulls.start if interior_shift is None else interior_shift.start, pulls.epoch
+    attractors.sky.check_times(epochs.span(), attractors.targets)
+    epoch = attractors.epoch
+    axis = attractors.start if interior_shift is None else interior_shift.start
     first, last = epochs.span()
     span = first * DAY, last * DAY
-    forces = forces_of(pulls, effects)
+    forces = forces_of(attractors, effects)
     with progress("pole", axes.window_count(epoch, span, axes.WINDOW)) as advance:
-        return axes.axis_path(forces, axis, epoch, span, limits=pulls.limits, advance=advance)
+        return axes.axis_path(forces, axis, epoch, span, limits=attractors.limits, advance=advance)
 
 
 def direction_errors(
@@ -73,7 +77,7 @@ def direction_errors(
     figure: FloatArray,
     days: FloatArray,
     epochs: Epochs,
-    pulls: Pulls,
+    attractors: Attractors,
     shift: Shift | None,
 ) -> dict[str, FloatArray]:
     """95 % half-widths of the axis directions along a path, rad: total, and by error source.
@@ -87,7 +91,7 @@ def direction_errors(
         Their times, days from J2000.0.
     epochs : TimeGrid or TimeList
         All times of the series; the error of the positions depends on the most distant ones.
-    pulls : Pulls
+    attractors : Attractors
     shift : Shift or None
         Response of the interior; None for a rigid body.
 
@@ -97,26 +101,26 @@ def direction_errors(
         By variable, rad. The total also holds the errors from the response of the interior and from
         the nodes of the body's satellites, which stay at their mean.
     """
-    body, epoch = pulls.body, pulls.epoch
-    positions = pulls.sky.positions(np.array([epoch / DAY]))
+    body, epoch = attractors.body, attractors.epoch
+    positions = attractors.sky.positions(np.array([epoch / DAY]))
     distance = {name: float(np.linalg.norm(position)) for name, position in positions.items()}
-    drift = max(pulls.sky.drift(name, far) for name, far in distance.items())
-    nearest = [(pulls.gm[name], far) for name, far in distance.items()]
+    drift = max(attractors.sky.drift(name, far) for name, far in distance.items())
+    nearest = [(attractors.gm[name], far) for name, far in distance.items()]
     speed = fastest_sweep(body.number("dynamical_flattening"), float(body.spin_rate), nearest)
     of_sky = axes.error_of_sky(path, figure, drift, speed, DRIFT_FROM)
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    method = np.nan if pulls.sky.unmeasured else path.error
+    method = np.nan if attractors.sky.unmeasured else path.error
     causes = {
         "direction_error_method": np.full(days.size, method),
         "direction_error_input": axes.error_of_input(path, figure, u_h),
         "direction_error_kernel": max(map(growth, epochs.span())) * of_sky,
     }
     response = np.zeros(days.size) if shift is None else shift.half_width(days)
-    errors = (*causes.values(), response, drift_of_nodes(pulls, days * DAY - epoch))
+    errors = (*causes.values(), response, displacement_bound(attractors, days * DAY - epoch))
     return {"direction_error": np.sqrt(sum(error**2 for error in errors)), **causes}
 
 
-def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
+def displacement_bound(attractors: Attractors, since: FloatArray) -> FloatArray:
     """Largest displacement of the axis by satellite nodes and neglected or uncertain rates, rad.
 
     Satellites displace it by their nodes, and by the uncertainty of the rate that they add. The
@@ -124,20 +128,21 @@ def drift_of_nodes(pulls: Pulls, since: FloatArray) -> FloatArray:
 
     Parameters
     ----------
-    pulls : Pulls
+    attractors : Attractors
     since : ndarray, shape (t,)
         Times from the start, s.
     """
-    body = pulls.body
+    body = attractors.body
     obliquity = satellites.obliquity_of(body) if body.satellites else None
     if obliquity is None:
         return np.zeros(since.size)
-    pull = pulls.mean_pull()
-    nutations = satellites.swings(body, pull, obliquity)
-    total = np.sum([*satellites.drifts(nutations, since).values(), np.zeros(since.size)], axis=0)
+    gm_over_r3 = attractors.mean_gm_over_r3()
+    nutations = satellites.node_nutations(body, gm_over_r3, obliquity)
+    by_node = satellites.displacements(nutations, since).values()
+    total = np.sum([*by_node, np.zeros(since.size)], axis=0)
     published = LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
     rate = sum(abs(rate.value) * ARCSEC_PER_YEAR for rate in published.values())
-    common = satellites.common_turn(body, pull)
+    common = satellites.common_precession(body, gm_over_r3)
     rate += common[1] if common else 0.0
     return np.asarray(total + rate * math.sin(obliquity) * np.abs(since))
 
@@ -175,7 +180,7 @@ class WithInterior(AxisMotion):
         usual = all(p.is_as_named and p.orbit is p.position is None for p in self.perturbers)
         if not usual or self.body.orbit or not_the_iaus_earth(self.body, self.perturbers):
             return known
-        kernel = own_kernel(self.ephemeris)
+        kernel = kernel_file(self.ephemeris)
         members = (self.body, *self.perturbers, *(BODIES[name] for name in PLANETS))
         if kernel is not None and kernel.holds(member.naif for member in members):
             codes = [kernel.code(member.naif, member.name) for member in members]
@@ -235,20 +240,20 @@ def steady_figure(path: AxisPath, days: FloatArray) -> FloatArray:
 
 
 def path_over(
-    pulls: Pulls, effects: Sequence[str], start: FloatArray, days: FloatArray
+    attractors: Attractors, effects: Sequence[str], start: FloatArray, days: FloatArray
 ) -> AxisPath:
     """Integrate the motion of the rigid body's axes over a range of days.
 
     Semidiurnal terms are left out. Positions of the perturbers are stored for the next run.
     """
     steady = [effect for effect in rigid(effects) if effect != TRIAXIALITY.name]
-    forces = forces_of(pulls, steady, keep=True)
+    forces = forces_of(attractors, steady, keep=True)
     span = days[0] * DAY, days[-1] * DAY
-    return axes.axis_path(forces, start, pulls.epoch, span, limits=pulls.limits)
+    return axes.axis_path(forces, start, attractors.epoch, span, limits=attractors.limits)
 
 
 def iau_nutation(
-    pulls: Pulls, epochs: Epochs
+    attractors: Attractors, epochs: Epochs
 ) -> tuple[FloatArray, FloatArray, FloatArray, ComplexArray]:
     """Pole and nutation of IAU 2006/2000A at the days of a series.
 
@@ -271,7 +276,7 @@ def iau_nutation(
     days = time_axes.days_of(epochs)
     first, last = epochs.span()
     ends = np.array([min(first, 0.0), max(last, 0.0)])
-    pulls.sky.check_times(ends, pulls.targets)
+    attractors.sky.check_times(ends, attractors.targets)
     pole = iau_models.at_days(iau_models.true_pole, days)
     return days, ends, pole, analysis.complex_nutation(iau_models.nutation_of(pole, days))
 
@@ -294,10 +299,11 @@ def rigid(effects: Sequence[str]) -> list[str]:
     return [effect for effect in effects if effect != NONRIGID.name]
 
 
-def same_paths(pulls: Pulls, effects: Sequence[str], **inputs: object) -> Hashable:
+def same_paths(attractors: Attractors, effects: Sequence[str], **inputs: object) -> Hashable:
     """Cache key: equal if `path_over` would give the same path; None if inputs may change."""
-    perturbers = *pulls.gm.items(), *pulls.targets.items(), *pulls.sky.reach.items()
-    return pulls.sky.unchanged(pulls.body, also=(perturbers, pulls.limits, *rigid(effects)))
+    sky = attractors.sky
+    perturbers = *attractors.gm.items(), *attractors.targets.items(), *sky.reach.items()
+    return sky.unchanged(attractors.body, also=(perturbers, attractors.limits, *rigid(effects)))
 
 
 @dataclass(frozen=True)
@@ -338,11 +344,13 @@ def analysed_days(limits: tuple[float, float]) -> tuple[FloatArray, float]:
 
 
 @part(
-    unless=no_iau_model, same_for=lambda pulls: pulls.limits, loads=("erfa", "scipy.sparse.linalg")
+    unless=no_iau_model,
+    same_for=lambda attractors: attractors.limits,
+    loads=("erfa", "scipy.sparse.linalg"),
 )
-def iau_pole(pulls: Pulls) -> IAUPole:
+def iau_pole(attractors: Attractors) -> IAUPole:
     """Separate the IAU pole over up to 150 years into a secular part and circular terms."""
-    days, covered = analysed_days((pulls.limits[0] / DAY, pulls.limits[1] / DAY))
+    days, covered = analysed_days((attractors.limits[0] / DAY, attractors.limits[1] / DAY))
     if covered < SHORTEST_SPAN:
         years, needed = (days * DAY / JULIAN_YEAR for days in (covered, SHORTEST_SPAN))
         problem = f"the positions cover {years:.1f} years near J2000.0"
@@ -359,16 +367,18 @@ def iau_pole(pulls: Pulls) -> IAUPole:
 
 
 @part(unless=no_iau_model, same_for=same_paths)
-def pole_analysis(pulls: Pulls, effects: tuple[str, ...], iau_pole: IAUPole) -> PoleComparison:
+def pole_analysis(
+    attractors: Attractors, effects: tuple[str, ...], iau_pole: IAUPole
+) -> PoleComparison:
     """Separate the computed pole over up to 150 years into precession and circular terms.
 
     The initial axis is corrected so that the mean poles agree at the start.
     """
     days, analyse = iau_pole.days, iau_pole.analysis
-    start, epoch = pulls.start, pulls.epoch
+    start, epoch = attractors.start, attractors.epoch
 
     def integrate(start: FloatArray) -> tuple[AxisPath, FloatArray]:
-        path = path_over(pulls, effects, start, days)
+        path = path_over(attractors, effects, start, days)
         return path, steady_figure(path, days)
 
     with progress("analysis", 2) as advance:
@@ -475,7 +485,7 @@ class ResponseFit:
 
 @part(same_for=same_paths, loads=("earthspin.nutation.response",))
 def response_apart(
-    pole_analysis: PoleComparison, pulls: Pulls, effects: tuple[str, ...]
+    pole_analysis: PoleComparison, attractors: Attractors, effects: tuple[str, ...]
 ) -> ResponseFit:
     """Fit the resonance formula to IAU 2000A without geodesic nutation and additive terms."""
     from earthspin.nutation.response import added_to
@@ -485,13 +495,13 @@ def response_apart(
     if GEODESIC.name in effects:
         # The interior does not respond to a rotation of the frame, which is no torque.
         rest = [effect for effect in effects if effect != GEODESIC.name]
-        path = path_over(pulls, rest, pole_analysis.start, pole_analysis.days)
+        path = path_over(attractors, rest, pole_analysis.start, pole_analysis.days)
         pole = steady_figure(path, pole_analysis.days)
         eta = analysis.complex_nutation(iau_models.nutation_of(pole, pole_analysis.days))
         torques = pole_analysis.analysis.circles(eta).amplitude
     theirs = theirs - (ours.amplitude - torques)
     added = added_to(ours.multiples)
-    response = _response_between(ours, torques, theirs - added, pulls.body)
+    response = _response_between(ours, torques, theirs - added, attractors.body)
     left = theirs - response.transfer(ours.frequency) * torques
     return ResponseFit(response, _circles_for_fit(ours), torques, left, added)
 

@@ -149,7 +149,7 @@ class LongTerm(
     columns = ("obliquity", "eccentricity", "longitude_of_perihelion", "climatic_precession")
 
     exclusive = ((("times",), ("span", "step")),)
-    many_pulls = True
+    array_masses = True
 
     span: YearSpan = key(
         ("-1 Myr", "0 kyr"),
@@ -332,7 +332,7 @@ def solved(
     span = float(wanted.min()), float(wanted.max())
     orbit_table.check_times(np.array(span))
     (relative_error,) = numbers.columns("relative_error")
-    half = mean_pole_error(body, start_error(body), mean_rates.pull)
+    half = mean_pole_error(body, start_error(body), mean_rates.gm_over_r3)
     # of the IAU's pole the obliquity alone is uncertain, because longitudes count from it
     directions = 1 if body.needed("pole").of_the_iau else 2
     setting = solutions.AxisInputs(strength, orbit_table, _start(numbers, body, orbit_table))

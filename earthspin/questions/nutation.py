@@ -29,7 +29,7 @@ from earthspin.nutation.analysis import complex_nutation, phases, responses, wit
 from earthspin.nutation.interior_models import Spread, spread_of
 from earthspin.progress import progress
 from earthspin.questions import iau_comparison
-from earthspin.questions.effects_and_torques import PULLS, Pulls
+from earthspin.questions.effects_and_torques import ATTRACTORS, Attractors
 from earthspin.questions.interior_response import SOURCES, Prediction, no_layers, predict
 from earthspin.sky import iau_models
 from earthspin.units import Number
@@ -103,7 +103,7 @@ def left(
     pole_analysis: iau_comparison.PoleComparison,
     models: Prediction,
     interior_spread: Spread,
-    pulls: Pulls,
+    attractors: Attractors,
     epochs: Epochs,
     effects: tuple[str, ...],
 ) -> dict[str, FloatArray]:
@@ -113,9 +113,9 @@ def left(
     half-width of either from the inputs of the interior, H and integration. All are in rad.
     """
     done = pole_analysis
-    days, ends, _, theirs = iau_comparison.iau_nutation(pulls, epochs)
+    days, ends, _, theirs = iau_comparison.iau_nutation(attractors, epochs)
     figure = iau_comparison.steady_figure(
-        iau_comparison.path_over(pulls, effects, done.start, ends), days
+        iau_comparison.path_over(attractors, effects, done.start, ends), days
     )
     own = complex_nutation(iau_models.nutation_of(figure, days))
     circles, frequency = done.our_circles, done.our_circles.frequency
@@ -125,7 +125,7 @@ def left(
         added = np.array([*responses(circles, iau_models.delaunay_arguments(at), factors).values()])
         return np.stack([added.real, added.imag], axis=-1).swapaxes(0, 1)
 
-    error = iau_comparison.residual_error(done, pulls.body, theirs, days)
+    error = iau_comparison.residual_error(done, attractors.body, theirs, days)
     sampled = slice(None, None, max(1, days.size // DAYS_OF_ERRORS))
     phases = circles.multiples @ iau_models.delaunay_arguments(days[sampled])
     terms = (circles.amplitude[:, np.newaxis] * np.exp(1j * phases)).T
@@ -355,7 +355,7 @@ nutation_ladder = public_call(
     answer=rung_sizes,
     sections=(beside, terms, modes, transfer, neglected),
     parts=(
-        *PULLS,
+        *ATTRACTORS,
         iau_comparison.iau_pole,
         iau_comparison.pole_analysis,
         models,

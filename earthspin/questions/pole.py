@@ -25,7 +25,7 @@ from earthspin.questions import (
     reasons,
     satellites,
 )
-from earthspin.questions.effects_and_torques import PULLS, Pulls
+from earthspin.questions.effects_and_torques import ATTRACTORS, Attractors
 from earthspin.questions.iau_comparison import Shift, WithInterior
 from earthspin.questions.sky import Sky
 from earthspin.questions.time_axes import SPAN_DOC, Dated, days_of
@@ -147,7 +147,7 @@ class Directions(Dated, error="direction_error"):
 def axes(
     axis_path: AxisPath,
     epochs: Epochs,
-    pulls: Pulls,
+    attractors: Attractors,
     effects: tuple[str, ...],
     interior_shift: Shift | None = None,
     block: Block | None = None,
@@ -156,7 +156,9 @@ def axes(
     now = days_of(epochs, block, "pole.zarr")
     directions = axis_path.at(now * DAY)
     figure = directions["figure"]
-    errors = iau_comparison.direction_errors(axis_path, figure, now, epochs, pulls, interior_shift)
+    errors = iau_comparison.direction_errors(
+        axis_path, figure, now, epochs, attractors, interior_shift
+    )
     if interior_shift is not None:
         interior_shift.apply(directions, now)
     vectors = np.stack([directions[axis] for axis in AXES], axis=1)
@@ -169,12 +171,12 @@ def axes(
         Z=vectors[..., 2],
         **errors,
     ).with_attributes(
-        no_error=pulls.sky.no_error,
+        no_error=attractors.sky.no_error,
         direction_error={
             "method": f"Gauss windows of {window:g} d with {axis_path.windows.order} nodes",
             "evaluations": axis_path.evaluations,
-            **effects_and_torques.start_note(pulls.body),
-            **effects_and_torques.idle_note(pulls.body, effects),
+            **effects_and_torques.start_note(attractors.body),
+            **effects_and_torques.inactive_effects_note(attractors.body, effects),
         },
     )
 
@@ -217,11 +219,11 @@ class SatelliteError(Dated):
 
 @part(unless=satellites.no_satellites)
 def satellite_error(
-    axes: xr.Dataset, pulls: Pulls, epochs: Epochs, block: Block | None = None
+    axes: xr.Dataset, attractors: Attractors, epochs: Epochs, block: Block | None = None
 ) -> SatelliteError:
     """Compute the error of the axis directions that is due to the satellites."""
-    since = days_of(epochs, block, "pole.zarr") * DAY - pulls.epoch
-    drift = iau_comparison.drift_of_nodes(pulls, since)
+    since = days_of(epochs, block, "pole.zarr") * DAY - attractors.epoch
+    drift = iau_comparison.displacement_bound(attractors, since)
     return SatelliteError(time=axes.time, direction_error_satellites=drift)
 
 
@@ -277,7 +279,7 @@ def neglected(
     perturbers: tuple[Body, ...],
     effects: tuple[str, ...],
     sky: Sky,
-    pulls: Pulls,
+    attractors: Attractors,
     axis_path: AxisPath,
     epochs: Epochs,
 ) -> Neglected:
@@ -286,10 +288,10 @@ def neglected(
     They are the largest changes of the figure axis from J2000.0 to the first and the last date.
     """
     off = effects_and_torques.switched_off(body, perturbers, effects)
-    forces, further = effects_and_torques.each_added(sky, body, perturbers, effects, off)
-    moved = axis_displacements(axis_path, pulls.epoch, forces, further)
+    forces, further = effects_and_torques.with_each_effect(sky, body, perturbers, effects, off)
+    moved = axis_displacements(axis_path, attractors.epoch, forces, further)
     if {*off} - {*further}:
-        reach = max(abs(day * DAY - pulls.epoch) for day in epochs.span())
+        reach = max(abs(day * DAY - attractors.epoch) for day in epochs.span())
         moved |= effects_and_torques.drift_by_planets(body, reach)
     sizes = {name: size for name, size in moved.items() if size}
     unknown = [name for name in off if name not in moved]
@@ -319,7 +321,7 @@ pole = public_call(
     answer=(axes, response_error, satellite_error, pole_angles),
     sections=(neglected,),
     parts=(
-        *PULLS,
+        *ATTRACTORS,
         iau_comparison.axis_path,
         turns,
         *iau_comparison.INTERIOR,

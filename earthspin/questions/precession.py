@@ -61,7 +61,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
         None, doc="first and last date of the average; all that the kernel covers if not given"
     )
 
-    many_pulls = True
+    array_masses = True
 
 
 # --- the answer ----------------------------------------------------------------------------------
@@ -138,7 +138,7 @@ class Convergence(Variables, no_error="the curve itself shows the error of each 
     window_cycles = labels("length of the averaging window in cycles")
 
 
-@part(unless=reasons.many_pulls)
+@part(unless=reasons.mass_is_array)
 def convergence(torque_samples: Samples, mean_rates: MeanRates, body: Body) -> Convergence:
     """Compute the precession rate for averaging windows of different lengths and tapers."""
     window = torque_samples.window
@@ -146,7 +146,7 @@ def convergence(torque_samples: Samples, mean_rates: MeanRates, body: Body) -> C
     total = torque_samples.precessing.sum(axis=1)
     curves = convergence_curve(window, torque_samples.times, total, cycles)
     precessing = xr.DataArray(np.stack(list(curves.values())), dims=("window", "window_cycles"))
-    h = body.needed("dynamical_flattening") * mean_rates.carried.rate
+    h = body.needed("dynamical_flattening") * mean_rates.satellite_factors.rate
     return Convergence(
         rate_by_window=rates.precession_rate(precessing, h, body.spin_rate),
         window_length=cycles * window.cycle,
@@ -182,7 +182,7 @@ class FigureModels(
     j2_from_moment_difference = number("1", "J2 computed back from C - A", along=())
 
 
-@part(unless=(no_figure, reasons.many_pulls))
+@part(unless=(no_figure, reasons.mass_is_array))
 def figure_models(mean_torques: MeanTorques, mean_rates: MeanRates, body: Body) -> FigureModels:
     """Compute H from three models of the figure, and the precession and free wobble for each H."""
     j2, measured_h = body.needed("j2"), body.needed("dynamical_flattening")
@@ -191,7 +191,7 @@ def figure_models(mean_torques: MeanTorques, mean_rates: MeanRates, body: Body) 
     h = xr.concat(map(xr.DataArray, models), dim=labels_of("earth_model", list(MODELS)))
     precessing, radius = mean_torques.precessing[-1], body.needed("radius")
     difference, e = figure.moment_difference(j2, body.mass, radius), figure.ellipticity_from_h(h)
-    rate = rates.precession_rate(precessing, h * mean_rates.carried.rate, body.spin_rate)
+    rate = rates.precession_rate(precessing, h * mean_rates.satellite_factors.rate, body.spin_rate)
     return FigureModels(
         h_by_model=h,
         period_by_model=rates.period(rate),
@@ -355,8 +355,10 @@ def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -
     """Contributions to the precession rate by effects that are not modelled."""
     unknown = reasons.not_the_iaus_earth(body, perturbers)
     published = LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
-    nutations = satellites.swings(body, mean_rates.pull, mean_rates.means.obliquity)
-    nodes = {f"{name}, period {swing.years}": swing.rate for name, swing in nutations.items()}
+    nutations = satellites.node_nutations(body, mean_rates.gm_over_r3, mean_rates.means.obliquity)
+    nodes = {
+        f"{name}, period {nutation.years}": nutation.rate for name, nutation in nutations.items()
+    }
     if published:
         what = "contribution to the rate that the model leaves out; others were not measured"
         cited = Neglected.cited(published, what)

@@ -60,7 +60,7 @@ def _lacking(body: Body, perturbers: tuple[Body, ...], *names: str) -> str | Non
     return no_iau_model(body) or next(reasons, None)
 
 
-def many_pulls(perturbers: tuple[Body, ...]) -> str | None:
+def mass_is_array(perturbers: tuple[Body, ...]) -> str | None:
     """Return why results are omitted (text) if the mass of a perturber is an array, else None.
 
     These are results that need one number for each mass.

@@ -25,8 +25,13 @@ from earthspin.motion.solution import COARSEST, KINDS, AttitudeIntegrator, Rotat
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress
 from earthspin.questions import effects_and_torques
-from earthspin.questions.effects_and_torques import AxisMotion, CustomTorque, Pulls, forces_of
-from earthspin.questions.satellites import largest_drifts, no_satellites, obliquity_of, swings
+from earthspin.questions.effects_and_torques import Attractors, AxisMotion, CustomTorque, forces_of
+from earthspin.questions.satellites import (
+    largest_displacements,
+    no_satellites,
+    node_nutations,
+    obliquity_of,
+)
 from earthspin.questions.sky import Sky
 from earthspin.questions.time_axes import SPAN_DOC, Dated, days_of
 from earthspin.sky.elements import ByElements, Elements
@@ -117,13 +122,13 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
 
 @dataclass(frozen=True)
-class Pulling:
+class PerturberTorques:
     """Torques of all perturbers, and relative torque error due to errors of perturber positions.
 
     Attributes
     ----------
     forces : Forces
-    doubt : float
+    relative_error : float
         Relative half-width of the pull from the errors of the positions; NaN if not measured.
     rounding : float
         The same from the rounding of positions that follow from elements, without a kernel.
@@ -132,12 +137,12 @@ class Pulling:
     """
 
     forces: Forces
-    doubt: float = 0.0
+    relative_error: float = 0.0
     rounding: float = 0.0
     no_error: str = ""
 
 
-def nothing_pulls(perturbers: tuple[Body, ...]) -> str | None:
+def no_perturbers(perturbers: tuple[Body, ...]) -> str | None:
     """Return the reason (text) to omit torques if there are no perturbers, else None."""
     return None if perturbers else "nothing pulls on the body"
 
@@ -161,30 +166,30 @@ def _acting(effects: tuple[str, ...]) -> tuple[str, ...]:
     return (*effects, TRIAXIALITY, SECOND_ORDER.name)
 
 
-@part(unless=nothing_pulls)
-def pulling(
-    pulls: Pulls,
+@part(unless=no_perturbers)
+def torques(
+    attractors: Attractors,
     epochs: Epochs,
     body: Body,
     effects: tuple[str, ...],
     start_omega: FloatArray | None,
-) -> Pulling:
+) -> PerturberTorques:
     """Build the torques of all perturbers on the body, and estimate the torque error."""
     days = epochs.span()
-    pulls.sky.check_times(days, pulls.targets)
-    forces = forces_of(replace(pulls, body=_spinning(body, start_omega)), _acting(effects))
-    if isinstance(pulls.sky.source, Elements):
-        places = [place for place in pulls.sky.targets.values() if isinstance(place, ByElements)]
+    attractors.sky.check_times(days, attractors.targets)
+    forces = forces_of(replace(attractors, body=_spinning(body, start_omega)), _acting(effects))
+    if isinstance(attractors.sky.source, Elements):
+        places = (p for p in attractors.sky.targets.values() if isinstance(p, ByElements))
         rounding = max(place.rounding(day) for place in places for day in days)
-        return Pulling(forces, rounding=rounding)
-    positions = pulls.sky.positions(np.array(days[:1]))
-    doubts = []
-    for name, place in pulls.sky.targets.items():
-        angle, far = pulls.sky.error(place, days)
+        return PerturberTorques(forces, rounding=rounding)
+    positions = attractors.sky.positions(np.array(days[:1]))
+    relative_errors = []
+    for name, place in attractors.sky.targets.items():
+        angle, far = attractors.sky.error(place, days)
         distance = float(np.linalg.norm(positions[name]))
-        doubts.append(solution.relative_tide_error(distance, far, angle))
-    doubt = float(np.max(doubts))  # NaN if one is
-    return Pulling(forces, doubt, no_error=pulls.sky.no_error)
+        relative_errors.append(solution.relative_tide_error(distance, far, angle))
+    relative_error = float(np.max(relative_errors))  # NaN if one is
+    return PerturberTorques(forces, relative_error, no_error=attractors.sky.no_error)
 
 
 @dataclass(frozen=True)
@@ -203,7 +208,7 @@ class Rotor:
         Days from J2000.0 TDB.
     polar_moment : float
         C, kg m2.
-    pulling : Pulling
+    torques : PerturberTorques
     """
 
     body: Rigid
@@ -213,7 +218,7 @@ class Rotor:
     begin: float
     end: float
     polar_moment: float
-    pulling: Pulling
+    torques: PerturberTorques
 
     @property
     def duration(self) -> float:
@@ -251,7 +256,7 @@ def rotor(
     start_attitude: FloatArray | None,
     start_omega: FloatArray | None,
     torque: CustomTorque | None,
-    pulling: Pulling | None = None,
+    torques: PerturberTorques | None = None,
 ) -> Rotor:
     """Build the rotating body with its initial state and torques, ready for integration.
 
@@ -262,19 +267,23 @@ def rotor(
     body = _spinning(body, start_omega)
     spin_rate = float(body.spin_rate)
     figure = effects_and_torques.figure_of(body, spin_rate)
-    if pulling is None:
+    if torques is None:
         alone = Forces(figure=figure, gm={}, positions=lambda times: {})
-        pulling = Pulling(effects_and_torques.switched_on(alone, body, _acting(effects)))
+        torques = PerturberTorques(effects_and_torques.with_effects(alone, body, _acting(effects)))
     moment = polar_moment(body.number("j2"), figure.h, float(body.mass), body.number("radius"))
     u = body.relative_uncertainty
-    doubts = {
+    relative_errors = {
         FLATTENING: NORMAL_95 * u.get("dynamical_flattening", 0.0),
         TRIAXIALITY: NORMAL_95 * u.get("triaxiality", 0.0),
-        TIDE: pulling.doubt,
-        ROUNDING: pulling.rounding,
+        TIDE: torques.relative_error,
+        ROUNDING: torques.rounding,
     }
     rigid, changed = solution.rigid_bodies(
-        pulling.forces, spin_rate, doubts, epoch, None if torque is None else torque.over(moment)
+        torques.forces,
+        spin_rate,
+        relative_errors,
+        epoch,
+        None if torque is None else torque.over(moment),
     )
     attitude = start_attitude
     if attitude is None:
@@ -282,8 +291,8 @@ def rotor(
         attitude = solution.upright(body.needed("pole").true(begin), turned)
     omega = np.array([0.0, 0.0, spin_rate]) if start_omega is None else start_omega
     start = solution.start_of(rigid, attitude, omega)
-    masses = solution.masses(pulling.forces, epoch)
-    return Rotor(rigid, changed, masses, start, begin, end, moment, pulling)
+    masses = solution.masses(torques.forces, epoch)
+    return Rotor(rigid, changed, masses, start, begin, end, moment, torques)
 
 
 @part
@@ -374,7 +383,7 @@ def turning(
     series = _followed(motion, rotor, seconds, begin)
     back = np.argsort(order, kind="stable")
     size = rotor.polar_moment * abs(rotor.body.unit)
-    shares = solution.shares_of(series, rotor.changed, rotor.pulling.doubt)
+    shares = solution.shares_of(series, rotor.changed, rotor.torques.relative_error)
     errors = {
         f"{name}_error": [factor * shares[cause][kind][back] for cause in ("", *_CAUSES)]
         for kind, (name, factor) in enumerate(zip(KINDS, (1.0, 1.0, size), strict=True))
@@ -387,14 +396,14 @@ def turning(
         angular_momentum=(size if rotor.body.unit > 0 else -size) * series.momentum[back],
         **errors,
     ).with_attributes(
-        no_error=rotor.pulling.no_error,
+        no_error=rotor.torques.no_error,
         attitude_error={
             **comment,
             "method": f"Gauss windows of {motion.order} nodes, in two forms",
             # the number that a whole series takes is not known from one block of it
             **({"evaluations": motion.evaluations} if block is None else {}),
             **({} if start_attitude is not None else effects_and_torques.start_note(body)),
-            **effects_and_torques.idle_note(body, effects),
+            **effects_and_torques.inactive_effects_note(body, effects),
         },
         omega_error=comment,
         angular_momentum_error=comment,
@@ -464,7 +473,7 @@ _BEYOND = (
 )
 
 
-@part(unless=nothing_pulls)
+@part(unless=no_perturbers)
 def effect_changes(
     rotor: Rotor, sky: Sky, body: Body, perturbers: tuple[Body, ...], effects: tuple[str, ...]
 ) -> dict[str, float]:
@@ -474,7 +483,7 @@ def effect_changes(
     if not off:
         return {}
     spinning = body.replace(spin_period=2 * np.pi / rotor.body.unit)
-    forces, further = effects_and_torques.each_added(sky, spinning, perturbers, on, off)
+    forces, further = effects_and_torques.with_each_effect(sky, spinning, perturbers, on, off)
     unplaced = (
         effects_and_torques.drift_by_planets(spinning, rotor.duration)
         if {*off} - {*further}
@@ -485,15 +494,15 @@ def effect_changes(
     )
 
 
-@part(unless=(nothing_pulls, no_satellites))
-def node_drifts(body: Body, pulls: Pulls, epochs: Epochs) -> dict[str, float]:
+@part(unless=(no_perturbers, no_satellites))
+def node_drifts(body: Body, attractors: Attractors, epochs: Epochs) -> dict[str, float]:
     """Largest displacements (rad) of the pole due to satellite nodes, from first to last date."""
     obliquity = obliquity_of(body)
     if obliquity is None:
         return {}
     begin, end = epochs.span()
-    nutations = swings(body, pulls.mean_pull(), obliquity)
-    return largest_drifts(nutations, (end - begin) * DAY)
+    nutations = node_nutations(body, attractors.mean_gm_over_r3(), obliquity)
+    return largest_displacements(nutations, (end - begin) * DAY)
 
 
 @part
@@ -518,7 +527,7 @@ def neglected(
         sizes |= node_drifts
         sources.append("nodes: circles of the pole by the torques of the satellites on the bulge")
     known = planets.BEYOND_RIGID.get(body.known_as) if body.is_as_named else None
-    usual = {perturber.name for perturber in planets.pulled_by(body)}
+    usual = {perturber.name for perturber in planets.default_perturbers(body)}
     if known is None or not usual <= {perturber.known_as for perturber in perturbers}:
         unknown.insert(0, _BEYOND)
     else:
@@ -534,8 +543,8 @@ rotation = public_call(
     answer=turning,
     sections=(divergence, neglected),
     parts=(
-        *effects_and_torques.PULLS,
-        pulling,
+        *effects_and_torques.ATTRACTORS,
+        torques,
         rotor,
         motion,
         parting,

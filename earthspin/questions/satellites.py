@@ -23,11 +23,11 @@ UNMODELLED = 2e-3
 
 #: Relative bound on the error of the nutations by nodes: the terms of the IAU's pole of Jupiter
 #: differ by up to 22 %, that of Neptune by 10 % for C/(M R2) = 0.23.
-SWING_SHARE = 0.25
+NODE_ERROR = 0.25
 
 
 @dataclass(frozen=True)
-class Carried:
+class SatelliteFactors:
     """Factors by which satellites change torque, polar moment and precession rate of a body.
 
     Attributes
@@ -57,7 +57,7 @@ def no_satellites(body: Body) -> str | None:
     return None if body.satellites else f"{in_a_sentence(body.name)} has no satellites here"
 
 
-def without_swings(body: Body) -> Body:
+def with_mean_pole(body: Body) -> Body:
     """Replace the pole of a body by the mean pole, without nutation by the nodes of satellites."""
     if not body.satellites:
         return body
@@ -65,7 +65,7 @@ def without_swings(body: Body) -> Body:
     return body.replace(pole=pole, pole_uncertainty=body.pole_uncertainty)
 
 
-def mean_pole_error(body: Body, half: float | None, pull: Numeric) -> float | None:
+def mean_pole_error(body: Body, half: float | None, gm_over_r3: Numeric) -> float | None:
     """95 % half-width of the direction of the mean pole at J2000.0, rad; None if it is not known.
 
     The pole of a planet without periodic terms of its satellites' nodes may be anywhere on the
@@ -76,14 +76,15 @@ def mean_pole_error(body: Body, half: float | None, pull: Numeric) -> float | No
     body : Body
     half : float or None
         Half-width of the direction of the body's pole, rad.
-    pull : float or DataArray
+    gm_over_r3 : float or DataArray
         Sum of GM <1/r3> of the perturbers, s-2.
     """
     obliquity = obliquity_of(body) if body.satellites else None
     pole = body.needed("pole")
     if half is None or obliquity is None or pole.without_nutation() != pole:
         return half
-    return math.hypot(half, *(swing.angle for swing in swings(body, pull, obliquity).values()))
+    nutations = node_nutations(body, gm_over_r3, obliquity).values()
+    return math.hypot(half, *(nutation.angle for nutation in nutations))
 
 
 def describe_pole(body: Body) -> str:
@@ -94,14 +95,14 @@ def describe_pole(body: Body) -> str:
     return f"mean over the nodes of {names}"
 
 
-def carried(body: Body, pull: Numeric, obliquity: float) -> Carried:
+def satellite_factors(body: Body, gm_over_r3: Numeric, obliquity: float) -> SatelliteFactors:
     """Compute the factors by which satellites change torque, moment and precession of a body.
 
     Parameters
     ----------
     body : Body
         Its numbers may be labelled arrays.
-    pull : float or DataArray
+    gm_over_r3 : float or DataArray
         Sum of GM <1/r3> of the perturbers, s-2.
     obliquity : float
         rad.
@@ -112,10 +113,10 @@ def carried(body: Body, pull: Numeric, obliquity: float) -> Carried:
         If the polar moment does not follow from J2 and H.
     """
     if not body.satellites:
-        return Carried()
+        return SatelliteFactors()
     _refuse_sphere(body)
     names = ("gm", "radius", "j2", "dynamical_flattening", "spin_rate")
-    given = [*(getattr(body, name) for name in names), pull]
+    given = [*(getattr(body, name) for name in names), gm_over_r3]
     numbers = xr.broadcast(*map(xr.DataArray, given))
     template = numbers[0]
     columns = [array.values.reshape(-1, 1) for array in numbers]
@@ -142,7 +143,8 @@ def carried(body: Body, pull: Numeric, obliquity: float) -> Carried:
             return float(values[0])
         return xr.DataArray(values.reshape(template.shape), template.coords, template.dims)
 
-    return Carried(*map(labelled, (bulge, moment, np.sqrt(variance), np.sqrt(bulge_variance))))
+    factors_and_errors = (bulge, moment, np.sqrt(variance), np.sqrt(bulge_variance))
+    return SatelliteFactors(*map(labelled, factors_and_errors))
 
 
 @dataclass(frozen=True)
@@ -169,18 +171,18 @@ class NodeNutation:
         return f"{float(f'{2 * np.pi / self.node_rate / JULIAN_YEAR:.3g}'):,g} years"
 
 
-def swings(body: Body, pull: Numeric, obliquity: float) -> dict[str, NodeNutation]:
+def node_nutations(body: Body, gm_over_r3: Numeric, obliquity: float) -> dict[str, NodeNutation]:
     """Nutations of a body caused by the moving nodes of satellites, by name of the node.
 
     An orbit that is tilted to the Laplace plane turns, so its node goes round, and the torque on
-    the body changes with the period of the node. Parameters are those of `carried`; of arrays with
-    labels the means are used. Empty for a body without satellites.
+    the body changes with the period of the node. Parameters are those of `satellite_factors`;
+    of arrays with labels the means are used. Empty for a body without satellites.
     """
     if not body.satellites:
         return {}
     _refuse_sphere(body)
     names = ("gm", "radius", "j2", "dynamical_flattening")
-    numbers = [*(body.needed(name) for name in names), body.spin_rate, pull]
+    numbers = [*(body.needed(name) for name in names), body.spin_rate, gm_over_r3]
     planet = _planet([np.full((1, 1), float(np.mean(number))) for number in numbers], obliquity)
     sine = math.sin(obliquity)
     nutations = {}
@@ -192,18 +194,18 @@ def swings(body: Body, pull: Numeric, obliquity: float) -> dict[str, NodeNutatio
     return nutations
 
 
-def largest_torques_of_satellites(body: Body, pull: float) -> dict[str, float]:
+def largest_torques_of_satellites(body: Body, gm_over_r3: float) -> dict[str, float]:
     """Largest torques of the satellites on the bulge of their planet, N m, by name.
 
-    They are those at the largest distance of each from the equator. `pull` is the sum of GM/r3 of
-    the perturbers, s-2, which tilts the Laplace planes.
+    They are those at the largest distance of each from the equator. `gm_over_r3` is the sum of
+    GM/r3 of the perturbers, s-2, which tilts the Laplace planes.
     """
     obliquity = obliquity_of(body) if body.satellites else None
     if obliquity is None:
         return {}
     moment = body.number("j2") * float(body.mass) * body.number("radius") ** 2
     # tilts do not depend on H and spin
-    numbers = [body.gm, body.number("radius"), body.number("j2"), 1.0, 1.0, pull]
+    numbers = [body.gm, body.number("radius"), body.number("j2"), 1.0, 1.0, gm_over_r3]
     planet = _planet([np.full((1, 1), float(number)) for number in numbers], obliquity)
     tilts = laplace_tilts(planet, _satellites(body))[0]
     torques = {}
@@ -213,23 +215,23 @@ def largest_torques_of_satellites(body: Body, pull: float) -> dict[str, float]:
     return torques
 
 
-def largest_drifts(nutations: Mapping[str, NodeNutation], span: float) -> dict[str, float]:
+def largest_displacements(nutations: Mapping[str, NodeNutation], span: float) -> dict[str, float]:
     """Largest displacements of the pole by the nodes of satellites within a time span (s), rad."""
     return {
-        name: 2 * swing.angle * math.sin(min(swing.node_rate * span, math.pi) / 2)
-        for name, swing in nutations.items()
+        name: 2 * nutation.angle * math.sin(min(nutation.node_rate * span, math.pi) / 2)
+        for name, nutation in nutations.items()
     }
 
 
-def drifts(nutations: Mapping[str, NodeNutation], times: FloatArray) -> dict[str, FloatArray]:
+def displacements(nutations: Mapping[str, NodeNutation], time: FloatArray) -> dict[str, FloatArray]:
     """Displacements of the pole by the nodes of satellites since the epoch, rad, shape (t,) each.
 
-    They are chords of the circles that the pole describes, larger by `SWING_SHARE`; `times` are s
+    They are chords of the circles that the pole describes, larger by `NODE_ERROR`; `time` is in s
     from the epoch.
     """
     return {
-        name: 2 * (1 + SWING_SHARE) * swing.angle * np.abs(np.sin(swing.node_rate * times / 2))
-        for name, swing in nutations.items()
+        name: 2 * (1 + NODE_ERROR) * nutation.angle * np.abs(np.sin(nutation.node_rate * time / 2))
+        for name, nutation in nutations.items()
     }
 
 
@@ -242,7 +244,7 @@ def obliquity_of(body: Body) -> float | None:
     return angle(axis, pole.orbit_normal(body.orbit_pole))
 
 
-def common_turn(body: Body, pull: float) -> tuple[FloatArray, float] | None:
+def common_precession(body: Body, gm_over_r3: float) -> tuple[FloatArray, float] | None:
     """Precession vector added by the satellites of a planet, and error of the total rate, rad/s.
 
     The shape of the vector is (3,). The second number is the 95 % half-width of the common rate due
@@ -255,16 +257,17 @@ def common_turn(body: Body, pull: float) -> tuple[FloatArray, float] | None:
     obliquity = obliquity_of(body) if body.satellites else None
     if obliquity is None:
         return None
-    alone = 1.5 * pull * math.cos(obliquity) * body.number("dynamical_flattening") / body.spin_rate
-    moons = carried(body, pull, obliquity)
+    h = body.number("dynamical_flattening")
+    alone = 1.5 * gm_over_r3 * math.cos(obliquity) * h / body.spin_rate
+    moons = satellite_factors(body, gm_over_r3, obliquity)
     turn = -alone * (moons.rate - 1) * body.needed("pole").orbit_normal(body.orbit_pole)
     return np.asarray(turn), float(NORMAL_95 * moons.uncertainty * abs(alone * moons.rate))
 
 
 def _planet(columns: list[Any], obliquity: float) -> Planet:
     """Make a `Planet` from arrays GM, radius, J2, H, spin rate and the perturbers' GM <1/r3>."""
-    gm, radius, j2, h, spin_rate, pull = columns
-    return Planet(gm, radius, j2, j2 / h, np.abs(spin_rate), pull, obliquity)
+    gm, radius, j2, h, spin_rate, gm_over_r3 = columns
+    return Planet(gm, radius, j2, j2 / h, np.abs(spin_rate), gm_over_r3, obliquity)
 
 
 def _satellites(body: Body) -> Satellites:

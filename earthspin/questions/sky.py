@@ -78,12 +78,12 @@ class PerturbedBody(Question):
     #: Whether a body may have no perturbers.
     may_be_alone: ClassVar[bool] = False
     #: Whether masses of perturbers may be labelled arrays.
-    many_pulls: ClassVar[bool] = False
+    array_masses: ClassVar[bool] = False
 
     def check(self) -> None:
         """Set default perturbers, and refuse a body or perturbers without required properties."""
         if "perturbers" not in self.given:
-            object.__setattr__(self, "perturbers", planets.pulled_by(self.body))
+            object.__setattr__(self, "perturbers", planets.default_perturbers(self.body))
             object.__setattr__(self, "body", planets.on_its_orbit(self.body))
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of the body must not be zero")
@@ -93,7 +93,7 @@ class PerturbedBody(Question):
         if not names and not self.may_be_alone:
             raise self.error("perturbers", names, "give at least one, like ['sun', 'moon']")
         for p in self.perturbers:
-            if p.labelled_field is not None and not (self.many_pulls and p.labelled_field == "gm"):
+            if p.labelled_field and not (self.array_masses and p.labelled_field == "gm"):
                 key_of_array = f"perturbers.{p.name}.{p.labelled_field}"
                 problem = "a perturber takes single numbers; run the question for each value"
                 raise self.error(key_of_array, "an array", problem)

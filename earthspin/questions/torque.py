@@ -184,13 +184,13 @@ def neglected(
     """
     if nearest is None:
         return Neglected(what="effects whose sizes are given for one body at a time")
-    pulls = [(p.gm_on(body), nearest[p.name]) for p in perturbers]
+    points = [(p.gm_on(body), nearest[p.name]) for p in perturbers]
     figure = {3: float(body.j3), 4: float(body.j4)}
     sizes = largest_torque_on_figure(
-        pulls, float(body.mass), float(body.needed("radius")), figure, float(body.triaxiality)
+        points, float(body.mass), float(body.needed("radius")), figure, float(body.triaxiality)
     )
-    pull = sum(gm / r**3 for gm, r in pulls)
-    sizes |= satellites.largest_torques_of_satellites(body, pull)
+    gm_over_r3 = sum(gm / r**3 for gm, r in points)
+    sizes |= satellites.largest_torques_of_satellites(body, gm_over_r3)
     return Neglected(sizes, "N m", "largest torque that the model leaves out", body.reference)
 
 

@@ -7,7 +7,7 @@ import pytest
 
 import earthspin
 from earthspin import BODIES, EARTH, Body, EarthspinError
-from earthspin.bodies.planets import MEAN_MOON, MEAN_SUN, pulled_by
+from earthspin.bodies.planets import MEAN_MOON, MEAN_SUN, default_perturbers
 from tests.shipped import SCENES
 
 SHORT = {"span": ("2000-01-01", "2000-01-04"), "step": "1 d"}
@@ -47,7 +47,7 @@ def test_a_renamed_body_has_the_same_numbers(scene: str) -> None:
         answers += isinstance(expected, dict)
         assert repr(numbers(scene, {"body": own(body)})) == repr(expected), name
         if isinstance(expected, dict) and hasattr(earthspin.load_scene(scene), "perturbers"):
-            perturbers = pulled_by(body)
+            perturbers = default_perturbers(body)
             named = numbers(scene, {"body": body, "perturbers": perturbers})
             keys = {"body": own(body), "perturbers": [own(p) for p in perturbers]}
             assert repr(numbers(scene, keys)) == repr(named), name
