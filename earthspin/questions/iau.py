@@ -25,8 +25,7 @@ from earthspin.engine.variables import (
 from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.nutation import analysis
-from earthspin.nutation import rate_budget as flat
+from earthspin.nutation import analysis, rate_budget
 from earthspin.nutation.rate_budget import RateBudget, budget_of
 from earthspin.progress import progress
 from earthspin.questions.effects_and_torques import ATTRACTORS, Attractors
@@ -99,26 +98,24 @@ class IAU(Comparison, word="iau", call="compare_iau", positional=("start", "stop
 
 @part(same_for=same_paths)
 def rates_by_effect(
-    pole_analysis: PoleComparison, attractors: Attractors, effects: tuple[str, ...]
+    comparison: PoleComparison, attractors: Attractors, effects: tuple[str, ...]
 ) -> RateBudget:
     """Compute the contribution of each effect to the precession rates at J2000.0.
 
     Each effect is switched off in turn.
     """
-    done, on = pole_analysis, rigid(effects)
-    without = {}
+    on, without = rigid(effects), {}
     with progress("budget", len(on)) as advance:
         for effect in on:
             rest = [e for e in on if e != effect]
-            path = path_over(attractors, rest, done.start, done.days)
-            without[effect] = done.analysis.secular(steady_figure(path, done.days))
+            path = path_over(attractors, rest, comparison.start, comparison.days)
+            without[effect] = comparison.analysis.secular(steady_figure(path, comparison.days))
             advance(1)
     # What is off has no share, nor has a transfer function: T = 1 at rest in space.
     off = [effect for effect in EFFECTS if effect not in on]
     u_h = attractors.body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    return budget_of(
-        done.ours, done.theirs, without, off, iau_models.precession_rates(0.0).psi_a, u_h
-    )
+    psi_rate = iau_models.precession_rates(0.0).psi_a
+    return budget_of(comparison.computed, comparison.iau, without, off, psi_rate, u_h)
 
 
 _PUBLISHED = "the published table gives no errors"
@@ -176,20 +173,20 @@ class EffectRates(Variables, no_error="a measure of error itself"):
 def budget(rates_by_effect: RateBudget) -> EffectRates:
     """Collect contributions of effects to the precession rates, and differences from IAU 2006."""
     rates = rates_by_effect
-    both = math.hypot(rates.psi_from_h, rates.psi_analysis_error)
+    uncertainty = math.hypot(rates.psi_from_h, rates.psi_analysis_error)
     return EffectRates(
         psi_rate=(list(rates.psi.values()), list(rates.psi_error.values())),
         psi_rate_published=list(rates.psi_published.values()),
         omega_rate=(list(rates.omega.values()), list(rates.omega_error.values())),
-        psi_rate_total=(rates.psi_total, rates.psi_error[flat.FIRST_ORDER]),
-        omega_rate_total=(rates.omega_total, rates.omega_error[flat.FIRST_ORDER]),
+        psi_rate_total=(rates.psi_total, rates.psi_error[rate_budget.FIRST_ORDER]),
+        omega_rate_total=(rates.omega_total, rates.omega_error[rate_budget.FIRST_ORDER]),
         psi_rate_iau=rates.psi_iau,
         omega_rate_iau=rates.omega_iau,
         closure=rates.closure,
         omega_closure=rates.omega_closure,
         omega_closure_with_tides=rates.omega_closure_with_tides,
         closure_over_flattening=_ratio(rates.closure, rates.psi_from_h),
-        closure_over_uncertainty=_ratio(rates.closure, both),
+        closure_over_uncertainty=_ratio(rates.closure, uncertainty),
         psi_rate_analysis_error=rates.psi_analysis_error,
         omega_rate_analysis_error=rates.omega_analysis_error,
         effect=list(rates.psi),
@@ -244,15 +241,14 @@ class Differences:
 
 @part
 def differences(
-    pole_analysis: PoleComparison,
-    nonrigid_shift: Shift,
+    comparison: PoleComparison,
+    fitted_shift: Shift,
     attractors: Attractors,
     epochs: Epochs,
     effects: tuple[str, ...],
     predicted_shift: Shift | None = None,
 ) -> Differences:
     """Compute time series of computed pole minus IAU pole, for different sets of effects."""
-    done = pole_analysis
     days, ends, iau_pole, iau_eta = iau_nutation(attractors, epochs)
     body = attractors.body
 
@@ -268,22 +264,22 @@ def differences(
         "first-order": axes_of([], attractors.start)["angular_momentum"],
         "rigid": axes_of(rigid(effects), attractors.start)["figure"],
     }
-    path = path_over(attractors, rigid(effects), done.start, ends)
+    path = path_over(attractors, rigid(effects), comparison.start, ends)
     from_mean_pole = path.at(days * DAY, semidiurnal=False)
-    for name, shift in (("nonrigid", nonrigid_shift), ("predicted", predicted_shift)):
+    for name, shift in (("nonrigid", fitted_shift), ("predicted", predicted_shift)):
         if shift is not None:
             shifted = dict(from_mean_pole)
             shift.apply(shifted, days)
             models[name] = shifted["figure"]
     chosen = 2 if NONRIGID.name in effects else 1
-    left = np.stack([eta_of(pole) - iau_eta for pole in models.values()], axis=1)
-    plain = np.stack([left.real, left.imag], axis=-1)
+    residual = np.stack([eta_of(pole) - iau_eta for pole in models.values()], axis=1)
+    plain = np.stack([residual.real, residual.imag], axis=-1)
     centuries = days / DAYS_PER_CENTURY
-    error = residual_error(done, body, iau_eta, days)
+    error = residual_error(comparison, body, iau_eta, days)
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     precession = error_of_input(path, from_mean_pole["figure"], u_h)
     unfitted_error = np.hypot(error, precession)
-    response_error = nonrigid_shift.half_width(days) if chosen == 2 else 0.0
+    response_error = fitted_shift.half_width(days) if chosen == 2 else 0.0
     return Differences(
         days=days,
         models=tuple(models),
@@ -293,7 +289,7 @@ def differences(
         offsets=([*models.values()][chosen] - iau_pole)[:, :2],
         offset_error=np.hypot(unfitted_error, response_error),
         error=error,
-        fitted_error=math.hypot(error, nonrigid_shift.residual if chosen == 2 else 0.0),
+        fitted_error=math.hypot(error, fitted_shift.residual if chosen == 2 else 0.0),
         unfitted_error=unfitted_error,
     )
 
@@ -408,19 +404,20 @@ class NutationTerms(Variables, along=("term",)):
 
 
 @part
-def nutation(pole_analysis: PoleComparison, core_response: Response) -> NutationTerms:
+def nutation(comparison: PoleComparison, core_response: Response) -> NutationTerms:
     """Compare the thirty largest circular nutation terms of the computed pole and the IAU pole."""
-    order, terms = largest_terms(pole_analysis, LARGEST)
-    ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
-    rigid, real = ours.amplitude[order], theirs.amplitude[order]
-    transfer, ratio = core_response.transfer(ours.frequency[order]), real / rigid
+    order, terms = largest_terms(comparison, LARGEST)
+    computed, iau = comparison.computed_circles, comparison.iau_circles
+    rigid_amplitude, amplitude = computed.amplitude[order], iau.amplitude[order]
+    transfer = core_response.transfer(computed.frequency[order])
+    ratio = amplitude / rigid_amplitude
     return NutationTerms(
         **terms,
-        rigid=analysis.phases(rigid),
+        rigid=analysis.phases(rigid_amplitude),
         ratio=(ratio.real, ratio.imag),
-        ratio_error=np.hypot(1, np.abs(ratio)) * terms["amplitude_error"] / np.abs(rigid),
+        ratio_error=np.hypot(1, np.abs(ratio)) * terms["amplitude_error"] / np.abs(rigid_amplitude),
         transfer=(transfer.real, transfer.imag),
-        left=analysis.phases(real - transfer * rigid),
+        left=analysis.phases(amplitude - transfer * rigid_amplitude),
     )
 
 
@@ -474,30 +471,31 @@ class FittedCore(Variables, no_error="part of a fit; its residuals measure it"):
 
 @part
 def core(
-    pole_analysis: PoleComparison, core_response: Response, response_apart: ResponseFit
+    comparison: PoleComparison, core_response: Response, response_fit: ResponseFit
 ) -> FittedCore:
     """Return the parameters of the free core nutation fitted to IAU 2000A, and fit residuals."""
     from earthspin.nutation.response import added_half_width
 
-    apart, alone = response_apart, response_apart.response
-    rows = np.argsort(-np.abs(apart.added))[: np.count_nonzero(apart.added)]
-    ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
-    beside = (apart.left - apart.added)[apart.used]
-    left = np.abs(theirs.amplitude - core_response.transfer(ours.frequency) * ours.amplitude)
+    residual, added = response_fit.residual, response_fit.added
+    response, rows = response_fit.response, np.argsort(-np.abs(added))[: np.count_nonzero(added)]
+    computed, iau = comparison.computed_circles, comparison.iau_circles
+    without_added = (residual - added)[response_fit.used]
+    absorbed = core_response.transfer(computed.frequency) * computed.amplitude
+    absorbing = np.abs(iau.amplitude - absorbed)
     return FittedCore(
-        core_nutation_period=(alone.period, alone.period_error),
-        core_nutation_quality=(alone.quality, alone.quality_error),
-        strength_real=alone.strengths.real,
-        strength_imaginary=alone.strengths.imag,
+        core_nutation_period=(response.period, response.period_error),
+        core_nutation_quality=(response.quality, response.quality_error),
+        strength_real=response.strengths.real,
+        strength_imaginary=response.strengths.imag,
         core_nutation_period_absorbing=core_response.period,
-        response_rms=float(np.sqrt(np.mean(left**2))),
-        response_maximum=float(np.max(left)),
-        apart_rms=float(np.sqrt(np.mean(np.abs(beside) ** 2))),
-        added_period=2 * np.pi / ours.frequency[rows],
-        added=analysis.phases(apart.left[rows]),
-        added_error=added_half_width(alone, ours.frequency[rows], ours.amplitude[rows]),
-        added_published=analysis.phases(apart.added[rows]),
-        added_to=analysis.term_names(ours.multiples[rows]),
+        response_rms=float(np.sqrt(np.mean(absorbing**2))),
+        response_maximum=float(np.max(absorbing)),
+        apart_rms=float(np.sqrt(np.mean(np.abs(without_added) ** 2))),
+        added_period=2 * np.pi / computed.frequency[rows],
+        added=analysis.phases(residual[rows]),
+        added_error=added_half_width(response, computed.frequency[rows], computed.amplitude[rows]),
+        added_published=analysis.phases(added[rows]),
+        added_to=analysis.term_names(computed.multiples[rows]),
     )
 
 
@@ -522,32 +520,32 @@ class PrecessionAngles(Variables, along=("angle", "degree")):
 
 
 @part
-def angles(pole_analysis: PoleComparison, body: Body) -> PrecessionAngles:
+def angles(comparison: PoleComparison, body: Body) -> PrecessionAngles:
     """Fit polynomials to the precession angles of the computed pole and the IAU pole."""
-    t = pole_analysis.days / DAYS_PER_CENTURY
-    ecliptic = iau_models.ecliptic_of_date(pole_analysis.days)
+    t = comparison.days / DAYS_PER_CENTURY
+    ecliptic = iau_models.ecliptic_of_date(comparison.days)
     # what the analysis makes of the pole of IAU 2006 shows what it misses
-    ours, again = (
+    computed, reanalysed = (
         analysis.polynomials(
             t, analysis.precession_angles(*path.at(t), ecliptic), analysis.SLOW_DEGREE
         )
-        for path in (pole_analysis.ours, pole_analysis.theirs)
+        for path in (comparison.computed, comparison.iau)
     )
-    theirs = analysis.polynomials(
-        t, iau_models.precession_angles(pole_analysis.days), analysis.SLOW_DEGREE
+    iau = analysis.polynomials(
+        t, iau_models.precession_angles(comparison.days), analysis.SLOW_DEGREE
     )
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    of_h = NORMAL_95 * u_h * np.abs(ours) * (np.arange(analysis.SLOW_DEGREE + 1) > 0)
+    of_h = NORMAL_95 * u_h * np.abs(computed) * (np.arange(analysis.SLOW_DEGREE + 1) > 0)
     return PrecessionAngles(
-        angle_coefficient=ours,
-        angle_coefficient_iau=theirs,
-        angle_coefficient_error=np.hypot(again - theirs, of_h),
+        angle_coefficient=computed,
+        angle_coefficient_iau=iau,
+        angle_coefficient_error=np.hypot(reanalysed - iau, of_h),
         angle=list(analysis.ANGLES),
         degree=np.arange(analysis.SLOW_DEGREE + 1.0),
     )
 
 
-class Inferred(Variables, along=("origin",)):
+class InferredFlattening(Variables, along=("origin",)):
     """Dynamical flattening H and C/(M a2) of the Earth, according to three sources."""
 
     flattening = measured(
@@ -562,15 +560,15 @@ class Inferred(Variables, along=("origin",)):
 
 
 @part
-def inferred_flattening(rates_by_effect: RateBudget, body: Body) -> Inferred:
+def inferred_flattening(rates_by_effect: RateBudget, body: Body) -> InferredFlattening:
     """Collect H and C/(M a2) from three sources: the IAU precession rate, literature, and PREM."""
     h, j2, radius = (body.number(name) for name in ("dynamical_flattening", "j2", "radius"))
     u_h, u_j2 = (
         body.relative_uncertainty.get(name, 0.0) for name in ("dynamical_flattening", "j2")
     )
-    by_origin = flat.compared_flattenings(rates_by_effect, h, j2, radius, u_h=u_h, u_j2=u_j2)
+    by_origin = rate_budget.compared_flattenings(rates_by_effect, h, j2, radius, u_h=u_h, u_j2=u_j2)
     values = by_origin.values()
-    return Inferred(
+    return InferredFlattening(
         flattening=([v.h for v in values], [NORMAL_95 * v.h_uncertainty for v in values]),
         polar_moment=(
             [v.moment for v in values],

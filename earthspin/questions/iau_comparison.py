@@ -104,23 +104,23 @@ def direction_errors(
     body, epoch = attractors.body, attractors.epoch
     positions = attractors.sky.positions(np.array([epoch / DAY]))
     distance = {name: float(np.linalg.norm(position)) for name, position in positions.items()}
-    drift = max(attractors.sky.drift(name, far) for name, far in distance.items())
-    nearest = [(attractors.gm[name], far) for name, far in distance.items()]
+    drift = max(attractors.sky.drift(name, r) for name, r in distance.items())
+    nearest = [(attractors.gm[name], r) for name, r in distance.items()]
     speed = fastest_sweep(body.number("dynamical_flattening"), float(body.spin_rate), nearest)
-    of_sky = axes.error_of_sky(path, figure, drift, speed, DRIFT_FROM)
+    sky_error = axes.error_of_sky(path, figure, drift, speed, DRIFT_FROM)
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     method = np.nan if attractors.sky.unmeasured else path.error
     causes = {
         "direction_error_method": np.full(days.size, method),
         "direction_error_input": axes.error_of_input(path, figure, u_h),
-        "direction_error_kernel": max(map(growth, epochs.span())) * of_sky,
+        "direction_error_kernel": max(map(growth, epochs.span())) * sky_error,
     }
     response = np.zeros(days.size) if shift is None else shift.half_width(days)
     errors = (*causes.values(), response, displacement_bound(attractors, days * DAY - epoch))
     return {"direction_error": np.sqrt(sum(error**2 for error in errors)), **causes}
 
 
-def displacement_bound(attractors: Attractors, since: FloatArray) -> FloatArray:
+def displacement_bound(attractors: Attractors, elapsed: FloatArray) -> FloatArray:
     """Largest displacement of the axis by satellite nodes and neglected or uncertain rates, rad.
 
     Satellites displace it by their nodes, and by the uncertainty of the rate that they add. The
@@ -129,22 +129,22 @@ def displacement_bound(attractors: Attractors, since: FloatArray) -> FloatArray:
     Parameters
     ----------
     attractors : Attractors
-    since : ndarray, shape (t,)
+    elapsed : ndarray, shape (t,)
         Times from the start, s.
     """
     body = attractors.body
     obliquity = satellites.obliquity_of(body) if body.satellites else None
     if obliquity is None:
-        return np.zeros(since.size)
+        return np.zeros(elapsed.size)
     gm_over_r3 = attractors.mean_gm_over_r3()
     nutations = satellites.node_nutations(body, gm_over_r3, obliquity)
-    by_node = satellites.displacements(nutations, since).values()
-    total = np.sum([*by_node, np.zeros(since.size)], axis=0)
+    by_node = satellites.displacements(nutations, elapsed).values()
+    total = np.sum([*by_node, np.zeros(elapsed.size)], axis=0)
     published = LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
     rate = sum(abs(rate.value) * ARCSEC_PER_YEAR for rate in published.values())
     common = satellites.common_precession(body, gm_over_r3)
     rate += common[1] if common else 0.0
-    return np.asarray(total + rate * math.sin(obliquity) * np.abs(since))
+    return np.asarray(total + rate * math.sin(obliquity) * np.abs(elapsed))
 
 
 def continuous_longitude(
@@ -214,9 +214,9 @@ class PoleComparison:
     path : AxisPath
         Rigid path with all effects that are switched on.
     analysis : PoleAnalysis
-    ours, theirs : Secular
+    computed, iau : Secular
         Secular motion of the computed pole, and of that of the IAU.
-    our_circles, their_circles : Circles
+    computed_circles, iau_circles : Circles
         Circular nutations of the computed pole, and of that of the IAU.
     difference : ndarray, shape (t,), complex
         The computed rigid pole minus that of IAU 2006/2000A, dpsi sin(eps0) + i deps, rad.
@@ -227,10 +227,10 @@ class PoleComparison:
     epoch: float
     path: AxisPath
     analysis: PoleAnalysis
-    ours: Secular
-    theirs: Secular
-    our_circles: Circles
-    their_circles: Circles
+    computed: Secular
+    iau: Secular
+    computed_circles: Circles
+    iau_circles: Circles
     difference: ComplexArray
 
 
@@ -282,14 +282,14 @@ def iau_nutation(
 
 
 def residual_error(
-    analysed: PoleComparison, body: Body, eta: ComplexArray, days: FloatArray
+    comparison: PoleComparison, body: Body, eta: ComplexArray, days: FloatArray
 ) -> float:
     """95 % half-width of computed minus IAU nutation, the same for both nutation angles, rad.
 
     It is due to the integration, the uncertainty of H, and interpolation.
     """
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    error = math.hypot(analysed.path.error, NORMAL_95 * u_h * float(np.max(np.abs(eta))))
+    error = math.hypot(comparison.path.error, NORMAL_95 * u_h * float(np.max(np.abs(eta))))
     between_nodes = iau_models.node_error(days)
     return math.hypot(error, between_nodes) if between_nodes else error
 
@@ -367,7 +367,7 @@ def iau_pole(attractors: Attractors) -> IAUPole:
 
 
 @part(unless=no_iau_model, same_for=same_paths)
-def pole_analysis(
+def comparison(
     attractors: Attractors, effects: tuple[str, ...], iau_pole: IAUPole
 ) -> PoleComparison:
     """Separate the computed pole over up to 150 years into precession and circular terms.
@@ -384,8 +384,8 @@ def pole_analysis(
     with progress("analysis", 2) as advance:
         _, pole = integrate(start)
         advance(1)
-        ours, centuries = analyse.secular(pole), epoch / analysis.CENTURY
-        start = analysis.shifted_start(start, ours, iau_pole.secular, analyse.ecliptic, centuries)
+        secular, t = analyse.secular(pole), epoch / analysis.CENTURY
+        start = analysis.shifted_start(start, secular, iau_pole.secular, analyse.ecliptic, t)
         path, pole = integrate(start)
         advance(1)
     eta = analysis.complex_nutation(iau_models.nutation_of(pole, days))
@@ -395,15 +395,15 @@ def pole_analysis(
         epoch=epoch,
         path=path,
         analysis=analyse,
-        ours=analyse.secular(pole),
-        theirs=iau_pole.secular,
-        our_circles=analyse.circles(eta),
-        their_circles=iau_pole.circles,
+        computed=analyse.secular(pole),
+        iau=iau_pole.secular,
+        computed_circles=analyse.circles(eta),
+        iau_circles=iau_pole.circles,
         difference=eta - iau_pole.nutation,
     )
 
 
-def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp], dict[str, Any]]:
+def largest_terms(poles: PoleComparison, count: int) -> tuple[NDArray[np.intp], dict[str, Any]]:
     """Largest circular nutation terms of the computed pole, and the same terms of IAU 2000A.
 
     Returns
@@ -414,37 +414,37 @@ def largest_terms(analysed: PoleComparison, count: int) -> tuple[NDArray[np.intp
         Variables of a table of terms: periods, amplitudes of IAU 2000A with their half-widths, and
         the neighbours that this span does not separate from them.
     """
-    ours = analysed.our_circles
-    order = np.argsort(-np.abs(ours.amplitude))[:count]
+    computed = poles.computed_circles
+    order = np.argsort(-np.abs(computed.amplitude))[:count]
     sky = iau_models.delaunay_rates(), iau_models.delaunay_arguments(np.zeros(1))[:, 0]
-    names, amplitude = analysis.neighbours_of(ours.multiples, ours.frequency, *sky)
+    names, amplitude = analysis.neighbours_of(computed.multiples, computed.frequency, *sky)
     neighbour_in, neighbour_out = analysis.phases(amplitude[order])
     return order, {
-        "period": 2 * np.pi / ours.frequency[order],
-        "iau": analysis.phases(analysed.their_circles.amplitude[order]),
-        "amplitude_error": analysis.amplitude_error(ours.frequency[order]),
+        "period": 2 * np.pi / computed.frequency[order],
+        "iau": analysis.phases(poles.iau_circles.amplitude[order]),
+        "amplitude_error": analysis.amplitude_error(computed.frequency[order]),
         "neighbour": [names[row] for row in order],
         "neighbour_in_phase": neighbour_in,
         "neighbour_out_of_phase": neighbour_out,
-        "term": analysis.term_names(ours.multiples[order]),
+        "term": analysis.term_names(computed.multiples[order]),
     }
 
 
 @part
-def core_response(pole_analysis: PoleComparison, body: Body) -> Response:
+def core_response(comparison: PoleComparison, body: Body) -> Response:
     """Fit the resonance formula T so that T times rigid amplitudes matches those of IAU 2000A."""
-    ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles
-    return _response_between(ours, ours.amplitude, theirs.amplitude, body)
+    computed, iau = comparison.computed_circles, comparison.iau_circles
+    return _response_between(computed, computed.amplitude, iau.amplitude, body)
 
 
 def _response_between(
-    circles: Circles, rigid: ComplexArray, other: ComplexArray, body: Body
+    circles: Circles, rigid: ComplexArray, nonrigid: ComplexArray, body: Body
 ) -> Response:
     """Fit the transfer function that relates rigid to non-rigid amplitudes of nutation terms."""
     from earthspin.nutation.response import fit_response
 
     used, h, spin = _circles_for_fit(circles), body.number("dynamical_flattening"), body.spin_rate
-    return fit_response(circles.frequency[used], rigid[used], other[used], h, float(spin))
+    return fit_response(circles.frequency[used], rigid[used], nonrigid[used], h, float(spin))
 
 
 def _circles_for_fit(circles: Circles) -> NDArray[np.bool_]:
@@ -470,7 +470,7 @@ class ResponseFit:
         2000A is not exact.
     rigid : ndarray, shape (k,), complex
         Rigid amplitude of each circle from torques, without geodesic nutation, rad.
-    left : ndarray, shape (k,), complex
+    residual : ndarray, shape (k,), complex
         Residual of each circle of IAU 2000A, without geodesic nutation, rad.
     added : ndarray, shape (k,), complex
         Published additive term of each circle, rad; 0 for most circles.
@@ -479,31 +479,31 @@ class ResponseFit:
     response: Response
     used: NDArray[np.bool_]
     rigid: ComplexArray
-    left: ComplexArray
+    residual: ComplexArray
     added: ComplexArray
 
 
 @part(same_for=same_paths, loads=("earthspin.nutation.response",))
-def response_apart(
-    pole_analysis: PoleComparison, attractors: Attractors, effects: tuple[str, ...]
+def response_fit(
+    comparison: PoleComparison, attractors: Attractors, effects: tuple[str, ...]
 ) -> ResponseFit:
     """Fit the resonance formula to IAU 2000A without geodesic nutation and additive terms."""
     from earthspin.nutation.response import added_to
 
-    ours, theirs = pole_analysis.our_circles, pole_analysis.their_circles.amplitude
-    torques = ours.amplitude
+    computed, iau = comparison.computed_circles, comparison.iau_circles.amplitude
+    rigid_amplitude = computed.amplitude
     if GEODESIC.name in effects:
         # The interior does not respond to a rotation of the frame, which is no torque.
         rest = [effect for effect in effects if effect != GEODESIC.name]
-        path = path_over(attractors, rest, pole_analysis.start, pole_analysis.days)
-        pole = steady_figure(path, pole_analysis.days)
-        eta = analysis.complex_nutation(iau_models.nutation_of(pole, pole_analysis.days))
-        torques = pole_analysis.analysis.circles(eta).amplitude
-    theirs = theirs - (ours.amplitude - torques)
-    added = added_to(ours.multiples)
-    response = _response_between(ours, torques, theirs - added, attractors.body)
-    left = theirs - response.transfer(ours.frequency) * torques
-    return ResponseFit(response, _circles_for_fit(ours), torques, left, added)
+        path = path_over(attractors, rest, comparison.start, comparison.days)
+        pole = steady_figure(path, comparison.days)
+        eta = analysis.complex_nutation(iau_models.nutation_of(pole, comparison.days))
+        rigid_amplitude = comparison.analysis.circles(eta).amplitude
+    iau = iau - (computed.amplitude - rigid_amplitude)
+    added = added_to(computed.multiples)
+    response = _response_between(computed, rigid_amplitude, iau - added, attractors.body)
+    residual = iau - response.transfer(computed.frequency) * rigid_amplitude
+    return ResponseFit(response, _circles_for_fit(computed), rigid_amplitude, residual, added)
 
 
 @dataclass(frozen=True)
@@ -551,46 +551,46 @@ class Shift:
         return np.hypot(self.residual, self.closure * (days * DAY - self.epoch))
 
 
-def _shift(analysed: PoleComparison, amplitude: ComplexArray, effects: Sequence[str]) -> Shift:
+def _shift(comparison: PoleComparison, amplitude: ComplexArray, effects: Sequence[str]) -> Shift:
     """Build the axis displacement (`Shift`) from the amplitudes of non-rigid minus rigid nutation.
 
     Its errors follow from the difference from the IAU pole.
     """
-    circles = replace(analysed.our_circles, amplitude=amplitude)
+    circles = replace(comparison.computed_circles, amplitude=amplitude)
     published, sine = published_effects(), np.sin(EPSILON_0.value * ARCSEC)
     # The published rate of the response is applied. The rates of effects that are switched off are
     # listed as neglected, and are not part of the error.
     missing = sum(rate for name, rate in published.items() if name not in rigid(effects))
-    since = analysed.days * DAY - analysed.epoch
-    difference = analysed.difference + circles.at(iau_models.delaunay_arguments(analysed.days))
-    difference += missing * sine * since
+    elapsed = comparison.days * DAY - comparison.epoch
+    difference = comparison.difference + circles.at(iau_models.delaunay_arguments(comparison.days))
+    difference += missing * sine * elapsed
     pair = np.stack([difference.real, difference.imag], axis=1)
-    closure = float(np.linalg.norm(np.polynomial.polynomial.polyfit(since, pair, 1)[1]))
-    remainder = np.abs(difference) ** 2 - (closure * since) ** 2
+    closure = float(np.linalg.norm(np.polynomial.polynomial.polyfit(elapsed, pair, 1)[1]))
+    remainder = np.abs(difference) ** 2 - (closure * elapsed) ** 2
     residual = math.sqrt(max(0.0, float(np.quantile(remainder, 0.95))))
     rate = published[NONRIGID.name] * sine
-    return Shift(analysed.start, analysed.epoch, circles, rate, closure, residual)
+    return Shift(comparison.start, comparison.epoch, circles, rate, closure, residual)
 
 
 @part
-def nonrigid_shift(
-    pole_analysis: PoleComparison, response_apart: ResponseFit, effects: tuple[str, ...]
+def fitted_shift(
+    comparison: PoleComparison, response_fit: ResponseFit, effects: tuple[str, ...]
 ) -> Shift:
     """Axis displacement due to core, mantle, oceans and atmosphere, fitted to IAU 2000A."""
-    factor = response_apart.response.transfer(pole_analysis.our_circles.frequency) - 1
-    amplitude = response_apart.rigid * factor + response_apart.added
-    return _shift(pole_analysis, amplitude, effects)
+    factor = response_fit.response.transfer(comparison.computed_circles.frequency) - 1
+    amplitude = response_fit.rigid * factor + response_fit.added
+    return _shift(comparison, amplitude, effects)
 
 
 @part(unless=no_layers)
 def predicted_shift(
-    pole_analysis: PoleComparison, prediction: Prediction, effects: tuple[str, ...]
+    comparison: PoleComparison, prediction: Prediction, effects: tuple[str, ...]
 ) -> Shift:
     """Axis displacement due to the non-rigid interior, predicted from its layers."""
-    circles = pole_analysis.our_circles
+    circles = comparison.computed_circles
     factor = prediction.transfer(CHOSEN, circles.frequency) - 1
-    return _shift(pole_analysis, circles.amplitude * factor, effects)
+    return _shift(comparison, circles.amplitude * factor, effects)
 
 
 #: Parts that compute the shift due to the interior, for questions that use them.
-INTERIOR = (iau_pole, pole_analysis, response_apart, nonrigid_shift, prediction, predicted_shift)
+INTERIOR = (iau_pole, comparison, response_fit, fitted_shift, prediction, predicted_shift)

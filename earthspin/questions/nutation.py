@@ -99,8 +99,8 @@ def interior_spread(models: Prediction) -> Spread:
 
 
 @part
-def left(
-    pole_analysis: iau_comparison.PoleComparison,
+def residuals(
+    comparison: iau_comparison.PoleComparison,
     models: Prediction,
     interior_spread: Spread,
     attractors: Attractors,
@@ -112,20 +112,19 @@ def left(
     The angles are dpsi sin(eps0) and deps after removal of a linear trend; the error is the
     half-width of either from the inputs of the interior, H and integration. All are in rad.
     """
-    done = pole_analysis
-    days, ends, _, theirs = iau_comparison.iau_nutation(attractors, epochs)
+    days, ends, _, iau_eta = iau_comparison.iau_nutation(attractors, epochs)
     figure = iau_comparison.steady_figure(
-        iau_comparison.path_over(attractors, effects, done.start, ends), days
+        iau_comparison.path_over(attractors, effects, comparison.start, ends), days
     )
-    own = complex_nutation(iau_models.nutation_of(figure, days))
-    circles, frequency = done.our_circles, done.our_circles.frequency
+    computed_eta = complex_nutation(iau_models.nutation_of(figure, days))
+    circles, frequency = comparison.computed_circles, comparison.computed_circles.frequency
     factors = {name: models.transfer(name, frequency) - 1 for name in models.rungs}
 
     def shifts(at: FloatArray) -> FloatArray:
         added = np.array([*responses(circles, iau_models.delaunay_arguments(at), factors).values()])
         return np.stack([added.real, added.imag], axis=-1).swapaxes(0, 1)
 
-    error = iau_comparison.residual_error(done, attractors.body, theirs, days)
+    error = iau_comparison.residual_error(comparison, attractors.body, iau_eta, days)
     sampled = slice(None, None, max(1, days.size // DAYS_OF_ERRORS))
     phases = circles.multiples @ iau_models.delaunay_arguments(days[sampled])
     terms = (circles.amplitude[:, np.newaxis] * np.exp(1j * phases)).T
@@ -136,13 +135,13 @@ def left(
         for name, shift in zip(
             factors, iau_models.at_days(shifts, days).swapaxes(0, 1), strict=True
         ):
-            eta = own + shift[:, 0] + 1j * shift[:, 1] - theirs
+            eta = computed_eta + shift[:, 0] + 1j * shift[:, 1] - iau_eta
             plain = np.stack([eta.real, eta.imag], axis=1)
             residual = without_line(days / DAYS_PER_CENTURY, plain)
             rms = np.sqrt(np.mean(residual**2, axis=0))
             eta = residual[sampled, 0] + 1j * residual[sampled, 1]
-            of_interior = interior_spread.rms_half_width(name, frequency, waves, products, eta)
-            residuals[name] = np.array([*rms, math.hypot(error, of_interior)])
+            interior_error = interior_spread.rms_half_width(name, frequency, waves, products, eta)
+            residuals[name] = np.array([*rms, math.hypot(error, interior_error)])
             advance(1)
     return residuals
 
@@ -174,10 +173,10 @@ class RungSizes(Variables, along=("rung",), error="rms_error"):
 
 
 @part
-def rung_sizes(left: dict[str, FloatArray], models: Prediction) -> RungSizes:
+def rung_sizes(residuals: dict[str, FloatArray], models: Prediction) -> RungSizes:
     """Compute the root mean square of predicted pole minus IAU 2000A, for each interior model."""
     names = models.ladder
-    longitude, obliquity, error = np.array([left[name] for name in names]).T
+    longitude, obliquity, error = np.array([residuals[name] for name in names]).T
     return RungSizes(
         rms_dpsi_sineps=longitude,
         rms_deps=obliquity,
@@ -205,12 +204,12 @@ class ModelSizes(Variables, along=("model",), error="model_rms_error"):
 
 
 @part
-def beside(left: dict[str, FloatArray]) -> ModelSizes:
+def beside(residuals: dict[str, FloatArray]) -> ModelSizes:
     """Compute the root mean square of predicted pole minus IAU 2000A for two more models.
 
     They are a fluid core in a rigid mantle, and a body with the H of hydrostatic equilibrium.
     """
-    longitude, obliquity, error = np.array([left[name] for name in interior_models.COMPARISONS]).T
+    longitude, obliquity, error = np.array([residuals[n] for n in interior_models.COMPARISONS]).T
     return ModelSizes(
         model_rms_dpsi_sineps=longitude,
         model_rms_deps=obliquity,
@@ -260,15 +259,15 @@ class Terms(Variables, along=("term",)):
 
 @part
 def terms(
-    pole_analysis: iau_comparison.PoleComparison, models: Prediction, interior_spread: Spread
+    comparison: iau_comparison.PoleComparison, models: Prediction, interior_spread: Spread
 ) -> Terms:
     """Compute the largest circular nutation terms of each model, in phase and out of phase."""
-    order, columns = iau_comparison.largest_terms(pole_analysis, LARGEST)
-    circles, names = pole_analysis.our_circles, models.ladder
-    frequency, own = circles.frequency[order], circles.amplitude[order]
-    predicted = np.array([models.transfer(name, frequency) * own for name in names])
+    order, columns = iau_comparison.largest_terms(comparison, LARGEST)
+    circles, names = comparison.computed_circles, models.ladder
+    frequency, rigid = circles.frequency[order], circles.amplitude[order]
+    predicted = np.array([models.transfer(name, frequency) * rigid for name in names])
     spread = np.array([interior_spread.transfer_half_width(name, frequency) for name in names])
-    spread = spread * np.abs(own)
+    spread = spread * np.abs(rigid)
     return Terms(
         **columns,
         predicted=phases(predicted),
@@ -357,9 +356,9 @@ nutation_ladder = public_call(
     parts=(
         *ATTRACTORS,
         iau_comparison.iau_pole,
-        iau_comparison.pole_analysis,
+        iau_comparison.comparison,
         models,
         interior_spread,
-        left,
+        residuals,
     ),
 )

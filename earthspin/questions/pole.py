@@ -106,21 +106,23 @@ def not_predicted(response: str) -> str | None:
 
 
 @part(unless=(not_nonrigid, not_fitted))
-def as_fitted(nonrigid_shift: Shift) -> Shift:
+def chosen_fit(fitted_shift: Shift) -> Shift:
     """Return the axis displacement by the interior's response as fitted to IAU 2000A."""
-    return nonrigid_shift
+    return fitted_shift
 
 
 @part(unless=(not_nonrigid, not_predicted))
-def as_predicted(predicted_shift: Shift) -> Shift:
+def chosen_prediction(predicted_shift: Shift) -> Shift:
     """Return the axis displacement by the interior's response as predicted from the layers."""
     return predicted_shift
 
 
 @part(unless=not_nonrigid)
-def interior_shift(as_fitted: Shift | None = None, as_predicted: Shift | None = None) -> Shift:
+def interior_shift(
+    chosen_fit: Shift | None = None, chosen_prediction: Shift | None = None
+) -> Shift:
     """Return the displacement of the axes by the interior: the fitted or the predicted one."""
-    shift = as_fitted or as_predicted
+    shift = chosen_fit or chosen_prediction
     assert shift is not None
     return shift
 
@@ -222,8 +224,8 @@ def satellite_error(
     axes: xr.Dataset, attractors: Attractors, epochs: Epochs, block: Block | None = None
 ) -> SatelliteError:
     """Compute the error of the axis directions that is due to the satellites."""
-    since = days_of(epochs, block, "pole.zarr") * DAY - attractors.epoch
-    drift = iau_comparison.displacement_bound(attractors, since)
+    elapsed = days_of(epochs, block, "pole.zarr") * DAY - attractors.epoch
+    drift = iau_comparison.displacement_bound(attractors, elapsed)
     return SatelliteError(time=axes.time, direction_error_satellites=drift)
 
 
@@ -246,7 +248,7 @@ class PoleAngles(Dated, along=("time", "axis"), error="direction_error"):
 
 
 @part(unless=no_longitude)
-def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> tuple[FloatArray, FloatArray]:
+def longitudes(axis_path: AxisPath, epochs: Epochs, body: Body) -> tuple[FloatArray, FloatArray]:
     """Window start times, s, and longitude psi of the angular momentum at these times, rad."""
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     return iau_comparison.continuous_longitude(
@@ -257,7 +259,7 @@ def turns(axis_path: AxisPath, epochs: Epochs, body: Body) -> tuple[FloatArray, 
 @part(unless=no_longitude)
 def pole_angles(
     axes: xr.Dataset,
-    turns: tuple[FloatArray, FloatArray],
+    longitudes: tuple[FloatArray, FloatArray],
     epochs: Epochs,
     body: Body,
     block: Block | None = None,
@@ -266,7 +268,7 @@ def pole_angles(
     vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     angles = on_fixed_ecliptic(vectors.reshape(-1, 3), ecliptic).reshape(*vectors.shape[:2], 2)
-    near = np.interp(days_of(epochs, block, "pole.zarr") * DAY, *turns)
+    near = np.interp(days_of(epochs, block, "pole.zarr") * DAY, *longitudes)
     psi = followed(angles[..., 0], near[:, np.newaxis])
     return PoleAngles(time=axes.time, axis=axes.axis, psi=psi, eps=angles[..., 1]).with_attributes(
         eps=reasons.north_note(body)
@@ -323,10 +325,10 @@ pole = public_call(
     parts=(
         *ATTRACTORS,
         iau_comparison.axis_path,
-        turns,
+        longitudes,
         *iau_comparison.INTERIOR,
-        as_fitted,
-        as_predicted,
+        chosen_fit,
+        chosen_prediction,
         interior_shift,
     ),
 )

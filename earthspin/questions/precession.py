@@ -282,7 +282,7 @@ def seasons(
     ).with_attributes(no_error=mean_torques.no_error, general_precession={"effects": effects})
 
 
-class BesideIAU(Variables):
+class RateDifference(Variables):
     """Computed precession rate minus that of IAU 2006, and the part that remains unexplained."""
 
     iau_rate = number(
@@ -300,7 +300,7 @@ class BesideIAU(Variables):
 
 
 @part(unless=reasons.not_the_iaus_earth)
-def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> BesideIAU:
+def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> RateDifference:
     """Compute precession rate minus IAU 2006 rate, before and after adding published effects.
 
     The observed H contains the observed precession; H = J2 M a2/C with C of PREM does not.
@@ -310,7 +310,7 @@ def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> Be
     unexplained = rate_budget.closure(rate, iau_rate)
     h, j2, radius = (body.needed(name) for name in ("dynamical_flattening", "j2", "radius"))
     h_of_prem = j2 / rate_budget.prem_polar_moment(radius, j2)
-    return BesideIAU(
+    return RateDifference(
         iau_rate=iau_rate,
         difference_from_iau=(rate - iau_rate, error),
         closure=(unexplained, error),

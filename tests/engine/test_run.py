@@ -123,7 +123,7 @@ def test_means_are_reused_for_equal_inputs_only(
 
 
 def test_paths_of_the_pole_are_reused_for_other_dates_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    parts = iau_comparison.pole_analysis, iau_comparison.response_apart
+    parts = iau_comparison.comparison, iau_comparison.response_fit
     span, dates = ["2000-01-01", "2000-01-03"], {"span": ["2001-01-01", "2001-01-03"]}
     heavy_moon = earthspin.MOON.replace(gm=1.01 * earthspin.MOON.gm)
 

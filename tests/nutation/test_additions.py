@@ -80,8 +80,8 @@ class Terms:
 def terms() -> Terms:
     """Those of the comparison with the IAU."""
     run = Run(earthspin.load_scene("iau"))
-    apart, circles = run["response_apart"], run["pole_analysis"].our_circles
-    iau = apart.left + apart.response.transfer(circles.frequency) * apart.rigid
+    apart, circles = run["response_fit"], run["comparison"].computed_circles
+    iau = apart.residual + apart.response.transfer(circles.frequency) * apart.rigid
     return Terms(circles.multiples, circles.frequency, apart.rigid, iau, apart.added)
 
 
