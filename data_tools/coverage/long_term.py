@@ -75,15 +75,15 @@ def solution(body: Body, times: FloatArray) -> AxisFamily:
     """The axis of a body at times (s), and with each cause changed, as the question solves it."""
     scene = load_scene("long-term")
     assert isinstance(scene, question.LongTerm)
-    pulling = (SUN, MOON) if body == EARTH else (SUN,)
-    sky = skies.sky(scene.ephemeris, skies.places(body, pulling), scene.source)
-    samples = averages.torque_samples(sky, question.stretch(sky), body, pulling)
-    means = averages.mean_torques(averages.window_means(samples, pulling))
-    rates = averages.mean_rates(means, body, pulling)
+    perturbers = (SUN, MOON) if body == EARTH else (SUN,)
+    sky = skies.sky(scene.ephemeris, skies.places(body, perturbers), scene.source)
+    samples = averages.torque_samples(sky, question.interval(sky), body, perturbers)
+    means = averages.mean_torques(averages.window_means(samples, perturbers))
+    rates = averages.mean_rates(means, body, perturbers)
     table = long_term.orbit_table("own", body)
-    numbers = question.numbers(rates, body, pulling, 1.0, 1.0, None, 0.0, 0.0)
-    strength = question.strength(numbers, means, body, table)
-    return question.solved(strength, numbers, table, times, body, rates)
+    numbers = question.inputs(rates, body, perturbers, 1.0, 1.0, None, 0.0, 0.0)
+    strength = question.precession_constant(numbers, means, body, table)
+    return question.solved_axes(strength, numbers, table, times, body, rates)
 
 
 def of_body(body: Body, reach: int, members: int = MEMBERS, seed: int = SEED) -> list[Row]:

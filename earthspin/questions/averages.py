@@ -23,7 +23,7 @@ from earthspin.questions.ellipse_chains import (
     no_exact_means,
 )
 from earthspin.questions.satellites import SatelliteFactors, satellite_factors, with_mean_pole
-from earthspin.questions.sky import Sky, Stretch
+from earthspin.questions.sky import Interval, Sky
 from earthspin.sky.elements import Elements
 from earthspin.sky.poles import angle, rotate
 from earthspin.torque import average, cassini, rates
@@ -57,16 +57,16 @@ class Samples:
         The window that converges fastest on this span, centred on the epoch.
     obliquity : float
         Obliquity of the axis to the orbit at the epoch, rad.
-    nearness : ndarray, shape (perturber,)
+    inverse_cube : ndarray, shape (perturber,)
         Mean of 1/r3 of each perturber, m-3.
-    swing : ndarray, shape (perturber,)
+    slow_variation : ndarray, shape (perturber,)
         Relative error of each mean torque that neighbouring windows do not show: its variation on
         times longer than the window, or 1 if the window covers only a part of the orbit.
     unmeasured : tuple of str
         Perturbers whose positions have no measured error.
     no_error : str
         Reason why errors are missing; empty if none is.
-    strength : DataArray or None
+    gm_array : DataArray or None
         GM along `perturber` if any is an array, else None; the torques are then for GM = 1.
     are_stored : bool
         Whether the samples are stored for later runs.
@@ -77,29 +77,33 @@ class Samples:
     torque: FloatArray
     window: Window
     obliquity: float
-    nearness: FloatArray
-    swing: FloatArray
+    inverse_cube: FloatArray
+    slow_variation: FloatArray
     unmeasured: tuple[str, ...] = ()
     no_error: str = ""
-    strength: xr.DataArray | None = None
+    gm_array: xr.DataArray | None = None
     are_stored: bool = False
 
 
 @part(
     unless=exact_means,
-    same_for=lambda sky, stretch, body, perturbers: sky.unchanged(body, *perturbers, also=stretch),
+    same_for=lambda sky, interval, body, perturbers: sky.unchanged(
+        body, *perturbers, also=interval
+    ),
 )
-def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]) -> Samples:
+def torque_samples(
+    sky: Sky, interval: Interval, body: Body, perturbers: tuple[Body, ...]
+) -> Samples:
     """Compute the torque of each perturber, divided by C - A, at the sample times of the mean."""
     body = with_mean_pole(body)
     pole, orbit = body.needed("pole"), body.orbit_pole
     cycle = max(map(slowest_cycle, perturbers))
-    orbits, strongest = _orbits(sky, stretch, body, perturbers)
-    if orbits[strongest] > PERIOD_MARGIN * cycle:
-        cycle = float(orbits[strongest])
-    window = best_window(stretch.first * DAY, stretch.last * DAY, cycle)
+    periods, strongest = _orbital_periods(sky, interval, body, perturbers)
+    if periods[strongest] > PERIOD_MARGIN * cycle:
+        cycle = float(periods[strongest])
+    window = best_window(interval.first * DAY, interval.last * DAY, cycle)
     # over a part of an orbit, the mean torque may have an error as large as itself
-    covers_part = orbits > PERIOD_MARGIN * window.length / average.FEWEST_CYCLES
+    covers_part = periods > PERIOD_MARGIN * window.length / average.FEWEST_CYCLES
     times = window.sample_times(SAMPLING)
     days = times / DAY
 
@@ -107,8 +111,8 @@ def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Bod
     axis_at_epoch = sky.equator(body, np.array([window.centre / DAY]))[..., 2, :].reshape(3)
     _refuse_locked(sky, body, window.centre, axis_at_epoch)
     coordinates = sky.radec(body, days)
-    strength = _varying_masses(body, perturbers)
-    masses = {p.name: p.gm_on(body) if strength is None else 1.0 for p in perturbers}
+    gm_array = _varying_masses(body, perturbers)
+    masses = {p.name: p.gm_on(body) if gm_array is None else 1.0 for p in perturbers}
     torques = [torque_from_declination(gm, 1.0, *coordinates[n]) for n, gm in masses.items()]
     # In axes of the equator of date, the figure axis is z and the orbit normal moves.
     axis = np.array([0.0, 0.0, 1.0])
@@ -119,28 +123,28 @@ def torque_samples(sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Bod
         torque=np.stack(torques, axis=1),
         window=window,
         obliquity=angle(axis_at_epoch, normal),
-        nearness=np.array([np.mean(coordinates[p.name][2] ** -3.0) for p in perturbers]),
-        swing=np.where(covers_part, 1.0, [p.slow_swing for p in perturbers]),
+        inverse_cube=np.array([np.mean(coordinates[p.name][2] ** -3.0) for p in perturbers]),
+        slow_variation=np.where(covers_part, 1.0, [p.slow_swing for p in perturbers]),
         unmeasured=sky.unmeasured,
         no_error=sky.no_error,
-        strength=strength,
+        gm_array=gm_array,
         are_stored=sky.unchanged(body, *perturbers) is not None,
     )
 
 
-def _orbits(
-    sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]
+def _orbital_periods(
+    sky: Sky, interval: Interval, body: Body, perturbers: tuple[Body, ...]
 ) -> tuple[FloatArray, int]:
     """Period of revolution of perturbers about the body, s; index of the strongest perturber."""
-    days = np.linspace(stretch.first, stretch.last, ORBIT_SAMPLES)[:-1]
-    places, later = sky.positions(days), sky.positions(days + VELOCITY_INTERVAL / DAY)
+    days = np.linspace(interval.first, interval.last, ORBIT_SAMPLES)[:-1]
+    positions, later = sky.positions(days), sky.positions(days + VELOCITY_INTERVAL / DAY)
     periods, strengths = [], []
     for p in perturbers:
-        place = places[p.name]
-        square = np.sum(place * place, axis=1)
-        turned = np.cross(place, later[p.name] - place) / square[:, np.newaxis]
-        turn = np.linalg.norm(np.mean(turned, axis=0))
-        periods.append(2 * np.pi * VELOCITY_INTERVAL / turn if turn else 0.0)  # 0: it does not move
+        r = positions[p.name]
+        square = np.sum(r * r, axis=1)
+        rotations = np.cross(r, later[p.name] - r) / square[:, np.newaxis]
+        angle = np.linalg.norm(np.mean(rotations, axis=0))
+        periods.append(2 * np.pi * VELOCITY_INTERVAL / angle if angle else 0.0)  # 0: it rests
         strengths.append(largest(p.gm_on(body)) * np.mean(square**-1.5))
     return np.array(periods), int(np.argmax(strengths))
 
@@ -157,11 +161,11 @@ def _varying_masses(body: Body, perturbers: tuple[Body, ...]) -> xr.DataArray | 
     return xr.concat(xr.broadcast(*(xr.DataArray(p.gm_on(body)) for p in perturbers)), "perturber")
 
 
-def _cases(strength: xr.DataArray | None) -> dict[str, int]:
-    """Return the lengths of the dimensions of `strength` by name, without `perturber`."""
-    if strength is None:
+def _cases(gm_array: xr.DataArray | None) -> dict[str, int]:
+    """Return the lengths of the dimensions of `gm_array` by name, without `perturber`."""
+    if gm_array is None:
         return {}
-    return {str(dim): n for dim, n in strength.sizes.items() if dim != "perturber"}
+    return {str(dim): n for dim, n in gm_array.sizes.items() if dim != "perturber"}
 
 
 def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: FloatArray) -> None:
@@ -202,7 +206,7 @@ class MeanTorques:
         Reference epoch, s from J2000.0 TDB.
     obliquity : float
         Obliquity of the axis to the orbit at the epoch, rad.
-    nearness : ndarray, shape (perturber,)
+    inverse_cube : ndarray, shape (perturber,)
         Mean of 1/r3 of each perturber, m-3.
     over, method : str
         Descriptions of the window, and of the window with the step.
@@ -223,7 +227,7 @@ class MeanTorques:
     torque_error: FloatArray
     epoch: float
     obliquity: float
-    nearness: FloatArray
+    inverse_cube: FloatArray
     over: str
     method: str
     evaluations: int
@@ -244,11 +248,11 @@ def window_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> MeanT
     """
     samples = torque_samples
     window, times = samples.window, samples.times
-    swing = np.where([p.name in samples.unmeasured for p in perturbers], np.nan, samples.swing)
-    strength = samples.strength
-    many = None if strength is None else strength.values.reshape(len(perturbers), -1)
-    precessing = window_mean_and_error(window, times, samples.precessing, swing, many)
-    vector = window_mean_and_error(window, times, samples.torque, swing, many)
+    unmeasured = [p.name in samples.unmeasured for p in perturbers]
+    variation, gm_array = np.where(unmeasured, np.nan, samples.slow_variation), samples.gm_array
+    gm = None if gm_array is None else gm_array.values.reshape(len(perturbers), -1)
+    precessing = window_mean_and_error(window, times, samples.precessing, variation, gm)
+    vector = window_mean_and_error(window, times, samples.torque, variation, gm)
     spacing = np.median(np.diff(times)) / DAY
     return MeanTorques(
         labels=_labels(perturbers),
@@ -258,12 +262,12 @@ def window_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> MeanT
         torque_error=vector[1],
         epoch=window.centre,
         obliquity=samples.obliquity,
-        nearness=samples.nearness,
+        inverse_cube=samples.inverse_cube,
         over=window_words(window),
         method=f"{window_words(window)}, a sample each {spacing:g} d",
         evaluations=times.size,
         no_error=samples.no_error,
-        cases=_cases(strength),
+        cases=_cases(gm_array),
     )
 
 
@@ -278,8 +282,8 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
     axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
     by_name = ellipse_chains(body, perturbers)
-    strength = _varying_masses(body, perturbers)
-    torques, errors, nearness = [], [], []
+    gm_array = _varying_masses(body, perturbers)
+    torques, errors, inverse_cube = [], [], []
     for p in perturbers:
         ((ellipse, _),) = by_name[p.name].ellipses
         forward = ellipse.sidereal_motion * float(np.sign(ellipse.normal @ axis))
@@ -292,14 +296,14 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
             if ellipse.node_rate
             else np.outer(ellipse.normal, ellipse.normal)
         )
-        gm = float(p.gm_on(body)) if strength is None else 1.0
+        gm = float(p.gm_on(body)) if gm_array is None else 1.0
         tide = average.mean_tide(gm, ellipse.a, ellipse.e, square)
         torques.append(average.mean_torque(tide, axis))
         errors.append(average.rounding(tide))
-        nearness.append((ellipse.a**2 * (1 - ellipse.e**2)) ** -1.5)
+        inverse_cube.append((ellipse.a**2 * (1 - ellipse.e**2)) ** -1.5)
     vectors, error = np.stack(torques), np.array(errors)
-    if strength is not None:
-        factor = strength.values.reshape(len(perturbers), -1)
+    if gm_array is not None:
+        factor = gm_array.values.reshape(len(perturbers), -1)
         vectors = vectors[:, np.newaxis] * factor[..., np.newaxis]
         error = error[:, np.newaxis] * factor
     vectors = average.with_total(vectors[np.newaxis])[0]
@@ -313,12 +317,12 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
         torque_error=np.repeat(error[:, np.newaxis], 3, axis=1),
         epoch=0.0,
         obliquity=obliquity,
-        nearness=np.array(nearness),
+        inverse_cube=np.array(inverse_cube),
         over="all revolutions of each orbit by its elements",
         method="exact means of orbits by their elements",
         evaluations=len(perturbers),
         provenance=Elements().provenance | {"pyerfa_version": version("pyerfa")},
-        cases=_cases(strength),
+        cases=_cases(gm_array),
     )
 
 
@@ -385,15 +389,15 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
     With satellites they are those of the body and its satellites together.
     """
     means = mean_torques
-    along = _labeller(means) if body.labelled or means.cases else np.asarray
+    array = _labeller(means) if body.labelled or means.cases else np.asarray
     uncertainties = [p.relative_uncertainty.get("gm", 0.0) for p in perturbers]
-    u_gm = along(rates.total_uncertainty(means.precessing, uncertainties))
-    masses_and_means = zip(perturbers, means.nearness, strict=True)
-    gm_over_r3 = sum(p.gm_on(body) * inverse_cube for p, inverse_cube in masses_and_means)
+    u_gm = array(rates.total_uncertainty(means.precessing, uncertainties))
+    pairs = zip(perturbers, means.inverse_cube, strict=True)
+    gm_over_r3 = sum(p.gm_on(body) * inverse_cube for p, inverse_cube in pairs)
     moons = satellite_factors(body, gm_over_r3, means.obliquity)
     rate = rates.precession_estimate(
-        along(means.precessing),
-        along(means.precessing_error),
+        array(means.precessing),
+        array(means.precessing_error),
         body.needed("dynamical_flattening") * moons.rate,
         body.spin_rate,
         # H = J2/C: satellites add to C, and their part of it has no uncertainty
@@ -401,15 +405,15 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         np.hypot(u_gm, moons.uncertainty),
     )
     by_orbit = sum(
-        abs(of_perturber(rate.value, index)) / ((body.gm_on(p) + p.gm_on(body)) * near) ** 0.5
-        for index, (p, near) in enumerate(zip(perturbers, means.nearness, strict=True))
+        abs(of_perturber(rate.value, index)) / ((body.gm_on(p) + p.gm_on(body)) * inverse) ** 0.5
+        for index, (p, inverse) in enumerate(zip(perturbers, means.inverse_cube, strict=True))
     )
     total = abs(of_perturber(rate.value))
     by_spin = abs(total / body.spin_rate)
     refuse_fast_axis(by_orbit, by_spin)
     torque = rates.torque_estimate(
-        along(np.linalg.norm(means.torque, axis=1)),
-        along(np.linalg.norm(means.torque_error, axis=1)),
+        array(np.linalg.norm(means.torque, axis=1)),
+        array(np.linalg.norm(means.torque_error, axis=1)),
         moment_difference(body.needed("j2"), body.mass, body.needed("radius")) * moons.bulge,
         body.relative_uncertainty_of_bulge(),
         np.hypot(u_gm, moons.bulge_uncertainty),
@@ -418,7 +422,7 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         means=means,
         rate=rate,
         torque=torque,
-        ratio=along(rates.rate_ratio(means.precessing)),
+        ratio=array(rates.rate_ratio(means.precessing)),
         second_order=largest(OF_AVERAGE * (by_orbit + by_spin) * total),
         gm_over_r3=gm_over_r3,
         satellite_factors=moons,

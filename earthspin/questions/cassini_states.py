@@ -88,7 +88,7 @@ def orbit_of(body: Body, orbit: Orbit | None) -> Orbit | None:
 
 
 @part
-def own_orbit(body: Body, orbit: Orbit | None) -> Orbit:
+def orbit_in_use(body: Body, orbit: Orbit | None) -> Orbit:
     """Return the orbit given by the user, or else the body's known orbit, which must exist."""
     usual = orbit_of(body, orbit)
     assert usual is not None  # `check` has seen to it
@@ -96,17 +96,17 @@ def own_orbit(body: Body, orbit: Orbit | None) -> Orbit:
 
 
 @part
-def locking(body: Body, own_orbit: Orbit) -> Locking:
+def locking(body: Body, orbit_in_use: Orbit) -> Locking:
     """Compute the mean motion of a body on its orbit, and the number of rotations per orbit."""
-    about = own_orbit.about or SUN.name
+    about = orbit_in_use.about or SUN.name
     if about not in BODIES or about == body.known_as:
         others = [name for name in BODIES if name != body.known_as]
         raise SceneError("orbit.about", about, nearest(about, others))
-    placed = body.replace(orbit=own_orbit)
+    placed = body.replace(orbit=orbit_in_use)
     a, motion = size_and_motion(placed, BODIES[about])
     known = PRECESSING_ORBITS.get(body.known_as)
     like = f", like about = '{known.about}'" if known is not None and known.about else ""
-    advice = "" if own_orbit.about else f"; name what it orbits{like}"
+    advice = "" if orbit_in_use.about else f"; name what it orbits{like}"
     refuse_overlap(placed, BODIES[about], a, advice)
     locked = cassini.is_locked(body.spin_rate, motion)
     return Locking(motion, body.spin_rate / motion, locked)
@@ -141,17 +141,17 @@ class CassiniObliquities(Variables, along=("state",), no_error="true or false"):
 
 
 @part
-def states(body: Body, own_orbit: Orbit, locking: Locking) -> CassiniObliquities:
+def states(body: Body, orbit_in_use: Orbit, locking: Locking) -> CassiniObliquities:
     """Compute obliquity, tilt to the mean orbit normal, and stability of every Cassini state."""
-    axis = precessing(body, own_orbit, locking)
+    axis = precessing(body, orbit_in_use, locking)
     # a locked body turns with its orbit: there the torque of each orbit is the same at any rate
     own = 0.0 if locking.locked else 1.5 * abs(axis.axial)
     rate = max(own, abs(axis.node_rate))
     checks.refuse_fast_axis(rate / locking.motion, rate / abs(body.spin_rate))
     solution = cassini.cassini_states(axis)
-    error = _error(body, own_orbit, locking, solution.obliquity)
-    tilt = np.abs(solution.obliquity - own_orbit.i)
-    reference = {"references": own_orbit.reference} if own_orbit.reference else {}
+    error = _error(body, orbit_in_use, locking, solution.obliquity)
+    tilt = np.abs(solution.obliquity - orbit_in_use.i)
+    reference = {"references": orbit_in_use.reference} if orbit_in_use.reference else {}
     locked = "locked" if locking.locked else "free"
     return CassiniObliquities(
         obliquity=(np.abs(solution.obliquity), error),
@@ -160,7 +160,7 @@ def states(body: Body, own_orbit: Orbit, locking: Locking) -> CassiniObliquities
         stable=solution.stable,
         state=solution.number,
     ).with_attributes(
-        tilt={"inclination": math.degrees(own_orbit.i), **reference},
+        tilt={"inclination": math.degrees(orbit_in_use.i), **reference},
         obliquity={"spin": f"{locked}, {locking.turns:.6g} turns in each orbit"},
     )
 
@@ -181,10 +181,10 @@ def _error(body: Body, orbit: Orbit, locking: Locking, obliquity: FloatArray) ->
 
 
 @part
-def neglected(body: Body, own_orbit: Orbit) -> Neglected:
+def neglected(body: Body, orbit_in_use: Orbit) -> Neglected:
     """Published sizes of effects on the obliquity that the theory of Cassini states neglects."""
     sizes = LEFT_OUT_OF_STATES.get(body.known_as, {})
-    if sizes and body.is_as_named and own_orbit == PRECESSING_ORBITS.get(body.known_as):
+    if sizes and body.is_as_named and orbit_in_use == PRECESSING_ORBITS.get(body.known_as):
         return Neglected.cited(sizes, "change of the obliquity in the upright state")
     return Neglected(
         what="libration, torques of other bodies, a decoupled core, and terms in the longitude of "
@@ -193,5 +193,5 @@ def neglected(body: Body, own_orbit: Orbit) -> Neglected:
 
 
 cassini_states = public_call(
-    CassiniStates, answer=states, sections=(neglected,), parts=(own_orbit, locking)
+    CassiniStates, answer=states, sections=(neglected,), parts=(orbit_in_use, locking)
 )

@@ -150,12 +150,12 @@ def output_days(record: PoleSeries, days: float, step: float, start: float | Non
 
 def _times(record: PoleSeries, output_days: slice) -> FloatArray:
     """Times of the forecast values, days from J2000.0."""
-    ahead: FloatArray = np.arange(1.0, output_days.stop + 1)[output_days]
-    return ahead + float(record.mjd[-1]) - MJD
+    days: FloatArray = np.arange(1.0, output_days.stop + 1)[output_days]
+    return days + float(record.mjd[-1]) - MJD
 
 
 @part(loads=("scipy.linalg",))
-def predicted(
+def prediction(
     record: PoleSeries, output_days: slice, parameters: str | None, excitation: GivenSeries | None
 ) -> model.PredictedPole:
     """Predict polar motion and the covariance of its error for each day after the origin."""
@@ -198,9 +198,9 @@ class ForecastPole(Daily):
 
 
 @part
-def ahead(
+def forecast_pole(
     record: PoleSeries,
-    predicted: model.PredictedPole,
+    prediction: model.PredictedPole,
     output_days: slice,
     parameters: str | None,
     origin: float | None,
@@ -209,9 +209,9 @@ def ahead(
 ) -> ForecastPole:
     """Return the forecast x and y of the pole, with half-widths and correlation of errors."""
     newest = date_text(float(record.mjd[-1]) - MJD)
-    fast = ", ".join(f"{name} = {value:.4g}" for name, value in vars(predicted.fast).items())
+    fast = ", ".join(f"{name} = {value:.4g}" for name, value in vars(prediction.fast).items())
     kind = parameters or ("shipped" if excitation is None else "fitted")
-    p, covariance = predicted.pole[output_days] * MAS, predicted.covariance[output_days] * MAS**2
+    p, covariance = prediction.pole[output_days] * MAS, prediction.covariance[output_days] * MAS**2
     sx, sy = np.sqrt(covariance[:, 0, 0]), np.sqrt(covariance[:, 1, 1])
     day = origin if start is None else start
     source = {
@@ -259,11 +259,11 @@ def not_separated(excitation: GivenSeries | None) -> str | None:
 
 @part(unless=not_separated)
 def components(
-    record: PoleSeries, predicted: model.PredictedPole, output_days: slice
+    record: PoleSeries, prediction: model.PredictedPole, output_days: slice
 ) -> Components:
     """Compute the forecast Chandler, annual and semiannual wobbles and slow pole, with errors."""
-    p = np.array([values[output_days] for values in predicted.components.values()]) * MAS
-    variance = np.array([values[output_days] for values in predicted.component_variance.values()])
+    p = np.array([values[output_days] for values in prediction.components.values()]) * MAS
+    variance = np.array([values[output_days] for values in prediction.component_variance.values()])
     half_width = NORMAL_95 * np.sqrt(variance) * MAS
     return Components(
         time=datetime64(_times(record, output_days)),
@@ -299,17 +299,17 @@ def skill() -> Skill:
     """Return measured errors of forecasts, from hindcasts and from releases of IERS tables."""
     table = json.loads(model.SKILL.read_text(encoding="utf-8"))
 
-    def of(name: str) -> FloatArray:
+    def column(name: str) -> FloatArray:
         return np.array([row[name] for row in table], dtype=float)
 
     return Skill(
-        mean_absolute_error=of("mae") * MAS,
-        root_mean_square=of("rms") * MAS,
-        coverage=of("coverage"),
-        other_mean_absolute_error=of("other_mae") * MAS,
+        mean_absolute_error=column("mae") * MAS,
+        root_mean_square=column("rms") * MAS,
+        coverage=column("coverage"),
+        other_mean_absolute_error=column("other_mae") * MAS,
         skill_set=[row["set"] for row in table],
-        horizon=of("horizon") * DAY,
-        origins=of("origins"),
+        horizon=column("horizon") * DAY,
+        origins=column("origins"),
         case=[f"{row['set']}, {row['horizon']} d" for row in table],
     )
 
@@ -347,7 +347,7 @@ def bulletin_a(file: eop.PoleTable, output_days: slice) -> BulletinA:
     )
 
 
-class AheadOffsets(Daily):
+class ForecastOffsets(Daily):
     """Forecast of the celestial pole offsets."""
 
     dX = measured("mas", "X of the celestial pole minus that of IAU 2006/2000A")
@@ -385,7 +385,7 @@ def no_offsets(
 
 
 @part(unless=no_offsets, loads=("scipy.signal",))
-def pole_offsets(file: eop.PoleTable, record: PoleSeries, output_days: slice) -> AheadOffsets:
+def pole_offsets(file: eop.PoleTable, record: PoleSeries, output_days: slice) -> ForecastOffsets:
     """Forecast celestial pole offsets from offsets observed up to the origin of the forecast."""
     table = offsets_until(file, float(record.mjd[-1]) - MJD)
     time = _times(record, output_days)
@@ -396,7 +396,7 @@ def pole_offsets(file: eop.PoleTable, record: PoleSeries, output_days: slice) ->
         "comment": f"observations up to {newest}",
         "newest_row": newest,
     }
-    return AheadOffsets(
+    return ForecastOffsets(
         time=datetime64(time), dX=(value[0], error[0]), dY=(value[1], error[1])
     ).with_attributes(dX=source, dY=source)
 
@@ -415,9 +415,9 @@ def neglected(excitation: GivenSeries | None) -> Neglected:
 
 forecast = public_call(
     Forecast,
-    answer=ahead,
+    answer=forecast_pole,
     sections=(components, skill, bulletin_a, pole_offsets, neglected),
-    parts=(record, output_days, predicted),
+    parts=(record, output_days, prediction),
 )
 
 
@@ -463,20 +463,20 @@ def to_iers_table(answer: Answer) -> PoleTable:
     if isinstance(file, GivenSeries):
         raise SceneError("file", "polar motion", "name a table, which has celestial pole offsets")
     run = Run(question)
-    seen: PoleSeries = run["record"]
-    last = seen.mjd[-1] + run["output_days"].stop
-    offsets = offsets_until(file, float(seen.mjd[-1]) - MJD)
+    observed: PoleSeries = run["record"]
+    last = observed.mjd[-1] + run["output_days"].stop
+    offsets = offsets_until(file, float(observed.mjd[-1]) - MJD)
     rapid = eop.file_of(file) if offsets.name == "finals2000A" else eop.file_of("finals")
     if (reach := last_ut1(rapid)) < last:
-        problem = f"{rapid.name} has UT1-UTC for {reach - seen.mjd[-1]:.0f} d after the origin"
+        problem = f"{rapid.name} has UT1-UTC for {reach - observed.mjd[-1]:.0f} d after the origin"
         raise SceneError("days", f"{question.days:g} d", f"{problem}; take no more days")
-    p = np.concatenate([seen.pole, run["predicted"].pole]) * MAS
-    pole = np.array([_continued(seen.mjd, last), p.real, -p.imag])
+    p = np.concatenate([observed.pole, run["prediction"].pole]) * MAS
+    pole = np.array([_continued(observed.mjd, last), p.real, -p.imag])
     days = _continued(offsets.mjd, last)
     later, _ = predicted_offsets(offsets, days[offsets.mjd.size :])
-    observed = np.stack([offsets.x, offsets.y], axis=1)
-    ends = (float(seen.mjd[-1]), float(offsets.mjd[-1]))
-    return with_pole(rapid, pole, np.array([days, *np.concatenate([observed, later]).T]), ends)
+    known = np.stack([offsets.x, offsets.y], axis=1)
+    ends = (float(observed.mjd[-1]), float(offsets.mjd[-1]))
+    return with_pole(rapid, pole, np.array([days, *np.concatenate([known, later]).T]), ends)
 
 
 def _continued(mjd: FloatArray, last: float) -> FloatArray:

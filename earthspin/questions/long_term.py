@@ -19,12 +19,11 @@ from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, of_perturber
 from earthspin.questions.effects_and_torques import start_error
+from earthspin.questions.labelled_numbers import LabelledNumbers
 from earthspin.questions.reasons import no_iau_model, north_note, not_sun_and_moon
 from earthspin.questions.satellites import mean_pole_error
-from earthspin.questions.sky import PerturbedBody, Sky, Stretch, places, sky
-from earthspin.questions.time_axes import SideBySide
-from earthspin.secular import derived_angles
-from earthspin.secular import error_budget as solutions
+from earthspin.questions.sky import Interval, PerturbedBody, Sky, places, sky
+from earthspin.secular import derived_angles, error_budget
 from earthspin.secular.averaged_torque import (
     PrecessionConstant,
     Tides,
@@ -81,9 +80,9 @@ class OrbitChoice(FileName):
 
 def _table_of(table: Mapping[str, Any], where: Where) -> OrbitTable:
     """Build an `OrbitTable` from the dict that a scene (input) file stores."""
-    wanted = {*_WORDS, *_ARRAYS}
-    if set(table) != wanted:
-        raise where.error(sorted(table), f"an orbit table needs {', '.join(sorted(wanted))}")
+    names = {*_WORDS, *_ARRAYS}
+    if set(table) != names:
+        raise where.error(sorted(table), f"an orbit table needs {', '.join(sorted(names))}")
     edges, coefficients, axes, errors = (unpack(table[name], where) for name in _ARRAYS)
     windows = len(edges) - 1
     shapes = coefficients.shape[:2] == (4, windows) and errors.shape == (2, windows)
@@ -228,19 +227,19 @@ class FromPole(Variables):
 
 
 @part
-def wanted(span: YearSpan, step: float, times: YearList | None) -> FloatArray:
+def output_times(span: YearSpan, step: float, times: YearList | None) -> FloatArray:
     """Return the epochs at which the user requests results, s from J2000.0 TDB."""
     return grid(span, step, Where("step")) if times is None else times.listed
 
 
 @part
-def stretch(sky: Sky) -> Stretch:
+def interval(sky: Sky) -> Interval:
     """Return the first and last day of the torque average: the whole time span of the kernel."""
-    return Stretch(*sky.coverage())
+    return Interval(*sky.coverage())
 
 
 @part
-def numbers(
+def inputs(
     mean_rates: MeanRates,
     body: Body,
     perturbers: tuple[Body, ...],
@@ -249,11 +248,11 @@ def numbers(
     j2_rate: float | None,
     obliquity_shift: float,
     longitude_shift: float,
-) -> SideBySide:
+) -> LabelledNumbers:
     """Broadcast the inputs of the long-term precession (numbers or arrays) to one shape."""
     (rate, error), j2 = mean_rates.total(), body.needed("j2")
     as_published = 0.0 if not_sun_and_moon(body, perturbers) else body.are_as_named
-    return SideBySide.of(
+    return LabelledNumbers.broadcast(
         **{
             p.known_as: of_perturber(mean_rates.rate.value, place)
             for place, p in enumerate(perturbers)
@@ -270,8 +269,8 @@ def numbers(
 
 
 @part
-def strength(
-    numbers: SideBySide, mean_torques: MeanTorques, body: Body, orbit_table: OrbitTable
+def precession_constant(
+    inputs: LabelledNumbers, mean_torques: MeanTorques, body: Body, orbit_table: OrbitTable
 ) -> PrecessionConstant:
     """Compute the constant of precession at J2000.0, and parameters of its change in time.
 
@@ -285,13 +284,13 @@ def strength(
     eccentricity = float(np.linalg.norm(own.at(np.zeros(1))[1]))
     motion = 2 * math.pi / body.number("orbital_period")
     geodesic = geodesic_precession(SUN.gm, motion, eccentricity)
-    sun, spin_rate, tides, ellipticity, j2_rate = numbers.columns(
+    sun, spin_rate, tides, ellipticity, j2_rate = inputs.columns(
         "sun", "spin_rate", "tides", "ellipticity", "j2_rate"
     )
     sun = sun / cosine
-    if "moon" not in numbers.numbers:
+    if "moon" not in inputs.values:
         return PrecessionConstant(sun, 0.0, eccentricity, geodesic, ellipticity, j2_rate=j2_rate)
-    moon, published = numbers.columns("moon", "published")
+    moon, published = inputs.columns("moon", "published")
     node_rate = 2 * math.pi / MOON.cycle
     pole = np.asarray(body.needed("pole").mean(np.zeros(1))[0])[:, np.newaxis]
     by_lag = float((moon_rate_factor(now, pole, node_rate) / dot(now[0], pole)).item())
@@ -317,11 +316,11 @@ def _published() -> float:
 
 
 @part
-def solved(
-    strength: PrecessionConstant,
-    numbers: SideBySide,
+def solved_axes(
+    precession_constant: PrecessionConstant,
+    inputs: LabelledNumbers,
     orbit_table: OrbitTable,
-    wanted: FloatArray,
+    output_times: FloatArray,
     body: Body,
     mean_rates: MeanRates,
 ) -> solutions.AxisFamily:
@@ -329,28 +328,29 @@ def solved(
 
     A further integration has windows of twice the length.
     """
-    span = float(wanted.min()), float(wanted.max())
+    span = float(output_times.min()), float(output_times.max())
     orbit_table.check_times(np.array(span))
-    (relative_error,) = numbers.columns("relative_error")
+    (relative_error,) = inputs.columns("relative_error")
     half = mean_pole_error(body, start_error(body), mean_rates.gm_over_r3)
     # of the IAU's pole the obliquity alone is uncertain, because longitudes count from it
     directions = 1 if body.needed("pole").of_the_iau else 2
-    setting = solutions.AxisInputs(strength, orbit_table, _start(numbers, body, orbit_table))
-    uncertainty = solutions.Uncertainty(
+    start = _start(inputs, body, orbit_table)
+    setting = error_budget.AxisInputs(precession_constant, orbit_table, start)
+    uncertainty = error_budget.Uncertainty(
         constant=relative_error,
         start=() if half is None else (half,) * directions,
         orbit=orbit_table.error,
-        earth=strength.node_rate < math.inf,
+        earth=precession_constant.node_rate < math.inf,
     )
-    return solutions.solved(setting, span, uncertainty)
+    return error_budget.solved(setting, span, uncertainty)
 
 
-def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArray:
+def _start(inputs: LabelledNumbers, body: Body, orbit_table: OrbitTable) -> FloatArray:
     """Unit vectors of the spin axis at J2000.0, for all sets of inputs, shape (3, ...)."""
     now = np.zeros(1)
     pole = np.asarray(body.needed("pole").without_nutation().mean(now)[0])
     obliquity, longitude = (
-        np.asarray(numbers.numbers[name]) for name in ("obliquity_shift", "longitude_shift")
+        np.asarray(inputs.values[name]) for name in ("obliquity_shift", "longitude_shift")
     )
     shifted = inclined_axis(pole, orbit_table.at(now)[0][:, 0], obliquity, longitude)
     own = np.multiply.outer(pole, np.ones(obliquity.shape))
@@ -358,12 +358,12 @@ def _start(numbers: SideBySide, body: Body, orbit_table: OrbitTable) -> FloatArr
 
 
 @part
-def readings(
-    solved: solutions.AxisFamily, wanted: FloatArray, body: Body
+def angles(
+    solved_axes: solutions.AxisFamily, output_times: FloatArray, body: Body
 ) -> derived_angles.AnglesWithErrors:
     """Compute angles and rates, with their errors, from the integrated motions of the spin axis."""
     fixed = body.needed("pole").without_nutation().orbit_axes(body.orbit_pole)
-    return derived_angles.derive_all(solved, wanted, fixed)
+    return derived_angles.derive_all(solved_axes, output_times, fixed)
 
 
 # --- the answer ----------------------------------------------------------------------------------
@@ -417,47 +417,48 @@ _READ = (
 
 @part
 def series(
-    readings: derived_angles.AnglesWithErrors,
-    numbers: SideBySide,
-    wanted: FloatArray,
-    solved: solutions.AxisFamily,
+    angles: derived_angles.AnglesWithErrors,
+    inputs: LabelledNumbers,
+    output_times: FloatArray,
+    solved_axes: solutions.AxisFamily,
     orbit_table: OrbitTable,
     body: Body,
     perturbers: tuple[Body, ...],
 ) -> LongTermSeries:
     """Return obliquity, precession, eccentricity, poles and rates at every epoch, with errors."""
-    nominal, lay = readings.nominal, numbers.lay
-    pole_error = readings.direction_half_width("pole")
-    with_moon = solved.setting.precession.node_rate < math.inf
+    nominal, labelled = angles.nominal, inputs.array
+    pole_error = angles.direction_half_width("pole")
+    with_moon = solved_axes.setting.precession.node_rate < math.inf
     names = ["sun", "moon", "total"] if with_moon else ["sun", "total"]
     rate = np.stack([nominal.values[name] for name in names], axis=-2)
-    error = np.stack([readings.half_width(name) for name in names], axis=-2)
-    window = np.median(np.diff(solved.path.windows.edges)) / JULIAN_YEAR
+    error = np.stack([angles.half_width(name) for name in names], axis=-2)
+    windows = solved_axes.path.windows
+    window = np.median(np.diff(windows.edges)) / JULIAN_YEAR
 
     return (
         LongTermSeries(
             **{
-                name: numbers.lay_pair(nominal.values[name], readings.half_width(name), "epoch")
+                name: inputs.pair(nominal.values[name], angles.half_width(name), "epoch")
                 for name in _READ
             },
-            pole=lay(np.moveaxis(nominal.pole, 0, -1), "epoch", "component"),
-            pole_error=lay(pole_error, "epoch"),
-            ecliptic_pole=lay(nominal.normal.T, "epoch", "component"),
-            ecliptic_pole_error=lay(readings.direction_half_width("normal"), "epoch"),
-            precession_rate=numbers.lay_pair(rate, error, "perturber", "epoch"),
-            precession_period=numbers.lay_pair(
+            pole=labelled(np.moveaxis(nominal.pole, 0, -1), "epoch", "component"),
+            pole_error=labelled(pole_error, "epoch"),
+            ecliptic_pole=labelled(nominal.normal.T, "epoch", "component"),
+            ecliptic_pole_error=labelled(angles.direction_half_width("normal"), "epoch"),
+            precession_rate=inputs.pair(rate, error, "perturber", "epoch"),
+            precession_period=inputs.pair(
                 rates.period(rate), rates.period_error(rate, error), "perturber", "epoch"
             ),
-            epoch=wanted / JULIAN_YEAR,
+            epoch=output_times / JULIAN_YEAR,
             perturber=[label_of(name, perturbers) or name for name in names],
         )
         .with_attributes(
             obliquity=north_note(body)
             | {"orbit": orbit_table.source, "orbit_of": orbit_table.name},
             pole_error={
-                "method": f"Newton's method in time, {solved.path.windows.order} nodes in each "
-                f"window of {window:.0f} yr",
-                "evaluations": solved.steps,
+                "method": f"Newton's method in time, {windows.order} nodes in each window of "
+                f"{window:.0f} yr",
+                "evaluations": solved_axes.steps,
             },
         )
         .started_from(body)
@@ -489,19 +490,19 @@ class ErrorShares(Variables, along=("cause", "epoch"), no_error="a share of an e
 
 @part
 def budget(
-    readings: derived_angles.AnglesWithErrors, numbers: SideBySide, series: xr.Dataset
+    angles: derived_angles.AnglesWithErrors, inputs: LabelledNumbers, series: xr.Dataset
 ) -> ErrorShares:
     """Compute the contribution of each error source to errors of obliquity, perihelion and pole."""
 
-    def lay(by_cause: dict[str, FloatArray]) -> xr.DataArray:
+    def labelled(by_cause: dict[str, FloatArray]) -> xr.DataArray:
         shares = np.broadcast_arrays(*by_cause.values())
-        return numbers.lay(np.stack(shares, axis=-2), "cause", "epoch")
+        return inputs.array(np.stack(shares, axis=-2), "cause", "epoch")
 
-    by_pole = readings.direction_changes("pole")
+    by_pole = angles.direction_changes("pole")
     return ErrorShares(
-        obliquity_share=lay(readings.changes("obliquity")),
-        longitude_share=lay(readings.changes("longitude_of_perihelion")),
-        pole_share=lay(by_pole),
+        obliquity_share=labelled(angles.changes("obliquity")),
+        longitude_share=labelled(angles.changes("longitude_of_perihelion")),
+        pole_share=labelled(by_pole),
         cause=list(by_pole),
         epoch=series.epoch,
     )
@@ -521,18 +522,18 @@ class Matrices(FromPole, along=("epoch", "axis", "component"), error="matrix_err
 
 @part
 def matrices(
-    readings: derived_angles.AnglesWithErrors, numbers: SideBySide, series: xr.Dataset, body: Body
+    angles: derived_angles.AnglesWithErrors, inputs: LabelledNumbers, series: xr.Dataset, body: Body
 ) -> Matrices:
     """Compute the precession matrices from the GCRS to mean equator and equinox of date."""
-    matrix = equator_and_equinox(readings.nominal.pole, readings.nominal.normal)
+    matrix = equator_and_equinox(angles.nominal.pole, angles.nominal.normal)
     error = equinox_error(
-        readings.direction_half_width("pole"),
-        readings.direction_half_width("normal"),
-        np.sin(readings.nominal.values["obliquity"]),
+        angles.direction_half_width("pole"),
+        angles.direction_half_width("normal"),
+        np.sin(angles.nominal.values["obliquity"]),
     )
     return Matrices(
-        matrix=numbers.lay(matrix, "epoch", "axis", "component"),
-        matrix_error=numbers.lay(error, "epoch"),
+        matrix=inputs.array(matrix, "epoch", "axis", "component"),
+        matrix_error=inputs.array(error, "epoch"),
         epoch=series.epoch,
     ).started_from(body)
 
@@ -550,8 +551,8 @@ def neglected() -> Neglected:
 #: Parts that every question on the long-term motion shares, and how their members are computed.
 SHARED: dict[str, Any] = {
     "parts": (
-        *(places, sky, stretch, wanted, *MEANS),
-        *(orbit_table, numbers, strength, solved, readings),
+        *(places, sky, interval, output_times, *MEANS),
+        *(orbit_table, inputs, precession_constant, solved_axes, angles),
     ),
     "together": (
         *("body", "perturbers", "tides", "ellipticity", "j2_rate"),

@@ -27,7 +27,15 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import rate_budget
 from earthspin.questions import reasons, satellites
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, Samples
-from earthspin.questions.sky import SOURCE_DOC, PerturbedBody, Sky, Stretch, places, sky, stretch
+from earthspin.questions.sky import (
+    SOURCE_DOC,
+    Interval,
+    PerturbedBody,
+    Sky,
+    interval,
+    places,
+    sky,
+)
 from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
 from earthspin.sky import iau_models
 from earthspin.sky.sources import SourceName
@@ -330,7 +338,7 @@ class Standstills(Variables, along=("standstill",)):
 
 @part(unless=reasons.no_moon)
 def standstills(
-    sky: Sky, stretch: Stretch, body: Body, perturbers: tuple[Body, ...]
+    sky: Sky, interval: Interval, body: Body, perturbers: tuple[Body, ...]
 ) -> Standstills:
     """Find major and minor lunar standstills, with dates and extreme declinations."""
     moon = {"moon": sky.targets[str(label_of("moon", perturbers))]}
@@ -338,7 +346,7 @@ def standstills(
     def declination(days: FloatArray) -> FloatArray:
         return sky.radec(body, days, moon)["moon"][1]
 
-    extremes = iau_models.find_standstills(declination, stretch.first, stretch.last)
+    extremes = iau_models.find_standstills(declination, interval.first, interval.last)
     errors = [sky.error(moon["moon"], (extreme.day,))[0] for extreme in extremes]
     return Standstills(
         standstill_kind=np.array([extreme.kind for extreme in extremes], dtype=str),
@@ -383,7 +391,7 @@ precession = public_call(
         standstills,
         neglected,
     ),
-    parts=(places, sky, stretch, *MEANS),
+    parts=(places, sky, interval, *MEANS),
     together=("body", "perturbers"),
     widest=16384,
 )

@@ -364,7 +364,7 @@ def _followed(
 
 
 @part
-def turning(
+def attitudes(
     motion: AttitudeIntegrator,
     rotor: Rotor,
     epochs: Epochs,
@@ -439,7 +439,7 @@ def one_date(span: Span, times: TimeList | None) -> str | None:
 
 
 @part(unless=one_date, loads=("earthspin.motion.divergence",))
-def parting(rotor: Rotor) -> Divergence:
+def separation(rotor: Rotor) -> Divergence:
     """Integrate the distance between two rotations that start almost equal.
 
     The distance is scaled back repeatedly.
@@ -451,14 +451,14 @@ def parting(rotor: Rotor) -> Divergence:
 
 
 @part(unless=one_date)
-def divergence(parting: Divergence, rotor: Rotor, epochs: Epochs) -> DistanceGrowth:
+def divergence(separation: Divergence, rotor: Rotor, epochs: Epochs) -> DistanceGrowth:
     """Rate at which rotations with almost equal starts diverge, and Lyapunov time if chaotic."""
     now = days_of(epochs)
-    rate, spread = parting.rate
-    chaotic = parting.is_chaotic
+    rate, spread = separation.rate
+    chaotic = separation.is_chaotic
     return DistanceGrowth(
         time=datetime64(now),
-        growth=parting.at(rotor.since(now)),
+        growth=separation.at(rotor.since(now)),
         growth_rate=rate,
         growth_rate_error=spread,
         course="chaotic" if chaotic else "regular",
@@ -540,14 +540,14 @@ def neglected(
 
 rotation = public_call(
     Rotation,
-    answer=turning,
+    answer=attitudes,
     sections=(divergence, neglected),
     parts=(
         *effects_and_torques.ATTRACTORS,
         torques,
         rotor,
         motion,
-        parting,
+        separation,
         effect_changes,
         node_drifts,
     ),

@@ -312,7 +312,7 @@ class Sky:
 
 
 @dataclass(frozen=True)
-class Stretch:
+class Interval:
     """First and last day of the time span of an average, days from J2000.0 TDB."""
 
     first: float
@@ -388,17 +388,17 @@ def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
 
 
 @part
-def stretch(sky: Sky, span: Span | None) -> Stretch:
+def interval(sky: Sky, span: Span | None) -> Interval:
     """Time span of an average: the requested span, or by default the span with known positions.
 
     For orbits by elements, which have no limits, a usual length is taken.
     """
     if span is not None:
         sky.check_times(span.days)
-        return Stretch(*span.days)
+        return Interval(*span.days)
     if isinstance(sky.source, Elements):
-        return Stretch(-USUAL_REACH, USUAL_REACH)
+        return Interval(-USUAL_REACH, USUAL_REACH)
     first, last = sky.coverage()
     if not math.isfinite(last - first):
         raise SceneError("span", None, "these positions have no time limits; give a span")
-    return Stretch(first, last)
+    return Interval(first, last)

@@ -12,7 +12,7 @@ from earthspin.engine.question import Question, key, part, setting
 from earthspin.engine.variables import Neglected, Variables, labels, number
 from earthspin.mass.figure import eccentricity_squared
 from earthspin.numerics.arrays import FloatArray
-from earthspin.questions.time_axes import SideBySide
+from earthspin.questions.labelled_numbers import LabelledNumbers
 from earthspin.units import Number, Numbers
 
 
@@ -86,16 +86,16 @@ def field(body: Body, position: FloatArray, point_mass: float) -> Field:
     from earthspin.mass import spheroid
 
     given = {name: getattr(body, name) for name in ("gm", "radius", "flattening")}
-    numbers = SideBySide.of(**given, mass=point_mass)
+    numbers = LabelledNumbers.broadcast(**given, mass=point_mass)
     gm, radius, flattening, mass = numbers.columns(*given, "mass")
     figure = gm, radius, flattening
     error = spheroid.error_bound(flattening, position / radius[..., np.newaxis])
     return Field(
         position=position,
-        potential=numbers.lay(spheroid.spheroid_potential(*figure, position), "point"),
-        attraction=numbers.lay(spheroid.spheroid_attraction(*figure, position), *_VECTOR),
-        torque=numbers.lay(spheroid.spheroid_torque(*figure, mass, position), *_VECTOR),
-        relative_error=numbers.lay(error, "point"),
+        potential=numbers.array(spheroid.spheroid_potential(*figure, position), "point"),
+        attraction=numbers.array(spheroid.spheroid_attraction(*figure, position), *_VECTOR),
+        torque=numbers.array(spheroid.spheroid_torque(*figure, mass, position), *_VECTOR),
+        relative_error=numbers.array(error, "point"),
     )
 
 

@@ -1,20 +1,17 @@
-"""Dates or times of a series, and named numbers broadcast to common dimensions."""
+"""Dates or times of a series."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
-from typing import Annotated, Any, Self
+from collections.abc import Iterable
+from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
-from earthspin._lazy import xr
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
 from earthspin.dates import Epochs, Span, Step, TimeGrid, TimeList
 from earthspin.engine.question import Block, key, part
-from earthspin.engine.variables import Variables, labels, variable_of
+from earthspin.engine.variables import Variables, labels
 from earthspin.errors import SceneError, in_bytes
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.sky import PerturbedBody
@@ -99,57 +96,3 @@ def days_of(
         problem = f"{times} take {in_bytes(size * BYTES_PER_TIME)} and do not fit into memory"
         raise SceneError("step", step, f"{problem} (up to {LONGEST_IN_MEMORY}); {remedy}")
     return epochs.days()
-
-
-# --- numbers side by side ------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class SideBySide:
-    """Numbers and arrays with names, broadcast to common dimensions.
-
-    Attributes
-    ----------
-    numbers : mapping of str to float or ndarray
-        Numbers, all with the dimensions `dims`.
-    dims : tuple of str
-        Common dimensions; empty if all are plain numbers.
-    labels : mapping
-        Coordinates along the dimensions.
-    """
-
-    numbers: Mapping[str, Any]
-    dims: tuple[str, ...] = ()
-    labels: Mapping[Any, Any] = field(default_factory=dict)
-
-    @classmethod
-    def of(cls, **values: Any) -> Self:
-        """Broadcast named numbers and labelled arrays to common dimensions."""
-        arrays = {name: value for name, value in values.items() if hasattr(value, "dims")}
-        if not arrays:
-            return cls(values)
-        joint = dict(zip(arrays, xr.broadcast(*arrays.values()), strict=True))
-        first = next(iter(joint.values()))
-        numbers = {
-            name: np.broadcast_to(joint[name].values if name in joint else value, first.shape)
-            for name, value in values.items()
-        }
-        return cls(numbers, tuple(map(str, first.dims)), first.coords)
-
-    def columns(self, *names: str) -> tuple[Any, ...]:
-        """Return the numbers with the given names; arrays get a new last axis of length 1."""
-        index = (..., np.newaxis) if self.dims else ...
-        return tuple(np.asarray(self.numbers[name])[index] for name in names)
-
-    def lay(self, values: NDArray[Any], *dims: str) -> xr.DataArray:
-        """Build a DataArray of the values, with the common dimensions followed by `dims`."""
-        if values.ndim < len(self.dims) + len(dims):
-            many = np.shape(next(iter(self.numbers.values())))
-            values = np.broadcast_to(values, (*many, *values.shape))
-        return xr.DataArray(variable_of((*self.dims, *dims), values), self.labels)
-
-    def lay_pair(
-        self, value: NDArray[Any], error: NDArray[Any], *dims: str
-    ) -> tuple[xr.DataArray, xr.DataArray]:
-        """Build two DataArrays: one of a quantity, and one of its half-width."""
-        return self.lay(value, *dims), self.lay(error, *dims)

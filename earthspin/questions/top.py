@@ -10,7 +10,8 @@ from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import Question, part, setting
 from earthspin.engine.variables import Neglected, Variables, labels, number, words
 from earthspin.numerics.arrays import FloatArray
-from earthspin.questions.time_axes import Seconds, SideBySide, TimesFromStart, instants
+from earthspin.questions.labelled_numbers import LabelledNumbers
+from earthspin.questions.time_axes import Seconds, TimesFromStart, instants
 from earthspin.top.start import HeavyTop
 from earthspin.units import Duration, Number, Whole
 
@@ -83,7 +84,7 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
 
 
 @part
-def numbers(
+def inputs(
     transverse_moment: float,
     axial_moment: float,
     weight_moment: float,
@@ -93,17 +94,17 @@ def numbers(
     theta_rate: float,
     phi: float,
     psi: float,
-) -> SideBySide:
+) -> LabelledNumbers:
     """Broadcast the moments and initial values of one or more tops to arrays of one shape."""
     moments = (transverse_moment, axial_moment, weight_moment)
     start = (theta, spin, phi_rate, theta_rate, phi, psi)
-    return SideBySide.of(**dict(zip(_OF_THE_TOP, (*moments, *start), strict=True)))
+    return LabelledNumbers.broadcast(**dict(zip(_OF_THE_TOP, (*moments, *start), strict=True)))
 
 
 @part
-def heavy_top_start(numbers: SideBySide) -> HeavyTop:
+def heavy_top_start(inputs: LabelledNumbers) -> HeavyTop:
     """Build one or more tops with their initial motions; refuse impossible values."""
-    return HeavyTop(**numbers.numbers)
+    return HeavyTop(**inputs.values)
 
 
 @part(loads=("scipy.special",))
@@ -147,24 +148,24 @@ class TopMotion(TimesFromStart, error="relative_error"):
 
 @part
 def euler_angles(
-    motion: HeavyTopMotion, heavy_top_start: HeavyTop, numbers: SideBySide, instants: FloatArray
+    motion: HeavyTopMotion, heavy_top_start: HeavyTop, inputs: LabelledNumbers, instants: FloatArray
 ) -> TopMotion:
     """Return the motion of the top in time: Euler angles, attitude and angular velocity."""
     from earthspin.top.closed_form import error_bound
 
-    lay = numbers.lay
+    labelled = inputs.array
     # the error grows with time: the last instants and some before show it
     some = instants[np.unique(np.linspace(0, instants.size - 1, ERROR_POINTS).astype(int))]
     return TopMotion(
-        theta=lay(motion.theta, "time"),
-        phi=lay(motion.phi, "time"),
-        psi=lay(motion.psi, "time"),
-        attitude=lay(motion.attitude, "time", "quaternion"),
-        omega_body=lay(motion.omega_body, "time", "component"),
-        pattern=lay(motion.pattern),
-        nutation_period=lay(motion.nutation_period),
-        mean_precession_rate=lay(motion.precession_rate),
-        relative_error=lay(error_bound(heavy_top_start, some)),
+        theta=labelled(motion.theta, "time"),
+        phi=labelled(motion.phi, "time"),
+        psi=labelled(motion.psi, "time"),
+        attitude=labelled(motion.attitude, "time", "quaternion"),
+        omega_body=labelled(motion.omega_body, "time", "component"),
+        pattern=labelled(motion.pattern),
+        nutation_period=labelled(motion.nutation_period),
+        mean_precession_rate=labelled(motion.precession_rate),
+        relative_error=labelled(error_bound(heavy_top_start, some)),
         time=instants,
     )
 
@@ -221,7 +222,7 @@ heavy_top = public_call(
     Top,
     answer=euler_angles,
     sections=(turning, potential, neglected),
-    parts=(instants, numbers, heavy_top_start, motion),
+    parts=(instants, inputs, heavy_top_start, motion),
     together=_OF_THE_TOP,
     widest=4096,
 )

@@ -93,9 +93,9 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
         if why_rigid(self.body) or self.body.labelled:
             return {}
         ranges: dict[str, tuple[str, tuple[float, float]]] = {}
-        state = inside(**{name: getattr(self, name) for name in ("body", "ocean", *_INTERIOR)})
+        state = inputs(**{name: getattr(self, name) for name in ("body", "ocean", *_INTERIOR)})
         for name, field in _INTERIOR.items():
-            value = float(getattr(state.inputs, field))
+            value = float(getattr(state.numbers, field))
             if field == "anelastic_exponent":
                 if state.interior.layers is not None:
                     ranges[name] = ("uniform", EXPONENT_RANGE)
@@ -119,16 +119,16 @@ def why_rigid(body: Body) -> str | None:
     )
 
 
-# --- what lies inside ------------------------------------------------------------------------
+# --- inputs of the models ------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
-class Inside:
+class ModelInputs:
     """Inputs of the non-rigid models of the free wobble, as arrays of one shape.
 
     Attributes
     ----------
-    inputs, spin, interior
+    numbers, spin, interior
         As `earthspin.wobble.ladder.non_rigid` takes them.
     ocean : str
     dims : tuple of str
@@ -137,7 +137,7 @@ class Inside:
         One standard deviation over value, of the body's numbers and the interior's.
     """
 
-    inputs: ladder.Inputs
+    numbers: ladder.Inputs
     spin: ladder.Rotator
     interior: Interior
     ocean: str
@@ -160,7 +160,7 @@ class Inside:
 
 
 @part(unless=why_rigid)
-def inside(
+def inputs(
     body: Body,
     ocean: str,
     anelastic_exponent: Numeric,
@@ -168,21 +168,22 @@ def inside(
     core_fraction: Numeric | None = None,
     core_ellipticity: Numeric | None = None,
     ocean_love_number: Numeric | None = None,
-) -> Inside:
+) -> ModelInputs:
     """Collect the inputs of the non-rigid wobble models: figure, interior and ocean of the body."""
     interior = interior_response.interior_of(body)
     assert interior is not None
-    chosen = (k2, core_fraction, core_ellipticity, ocean_love_number, anelastic_exponent)
-    pairs = zip(_INTERIOR.values(), chosen, strict=True)
-    own = {name: value for name, value in pairs if value is not None}
-    given = {name: body.needed(name) for name in (*_FIGURE, *_SPIN)} | own
-    numbers = xr.broadcast(*map(xr.DataArray, given.values()))
-    values = {name: number.values for name, number in zip(given, numbers, strict=True)}
+    keys = (k2, core_fraction, core_ellipticity, ocean_love_number, anelastic_exponent)
+    pairs = zip(_INTERIOR.values(), keys, strict=True)
+    changes = {name: value for name, value in pairs if value is not None}
+    values = {name: body.needed(name) for name in (*_FIGURE, *_SPIN)} | changes
+    arrays = xr.broadcast(*map(xr.DataArray, values.values()))
+    values = {name: array.values for name, array in zip(values, arrays, strict=True)}
     spin = ladder.Rotator(*(values.pop(name) for name in _SPIN))
-    changed = {name: values.pop(name) for name in own}
-    inputs = replace(ladder.inputs_of(interior, spin, values, ocean), **changed)
+    changes = {name: values.pop(name) for name in changes}
+    numbers = replace(ladder.inputs_of(interior, spin, values, ocean), **changes)
     uncertainty = {**interior.relative_uncertainty, **body.relative_uncertainty}
-    return Inside(inputs, spin, interior, ocean, tuple(map(str, numbers[0].dims)), uncertainty)
+    dims = tuple(map(str, arrays[0].dims))
+    return ModelInputs(numbers, spin, interior, ocean, dims, uncertainty)
 
 
 # --- the answer ------------------------------------------------------------------------------
@@ -214,21 +215,21 @@ class Rungs(
 
 
 @part
-def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
+def wobble_rungs(body: Body, inputs: ModelInputs | None = None) -> Rungs:
     """Compute the free wobble period for each model of the ladder, from rigid to deformable."""
     h, j2 = body.needed("dynamical_flattening"), body.needed("j2")
     turns = ladder.rigid_periods(body.needed("flattening"), h, j2, body.triaxiality)
     quality: dict[str, Numeric] = dict.fromkeys(turns, np.inf)
     left_out = dict.fromkeys(ladder.RUNGS[3:], why_rigid(body) or "")
     spread = _rigid_spread(body, turns)
-    if inside is not None:
-        inputs, uncertainty, setting = inside.inputs, inside.uncertainty, inside.setting
-        models = ladder.non_rigid(inputs, *setting)
+    if inputs is not None:
+        numbers, uncertainty, setting = inputs.numbers, inputs.uncertainty, inputs.setting
+        models = ladder.non_rigid(numbers, *setting)
         left_out = models.left_out
-        sampled = propagation.sampled_half_widths(inputs, uncertainty, *setting)
+        sampled = propagation.sampled_half_widths(numbers, uncertainty, *setting)
         pairs = ((turns, models.rotations), (quality, models.quality_factor), (spread, sampled))
         for lower, upper in pairs:
-            lower |= {name: inside.label(value) for name, value in upper.items()}
+            lower |= {name: inputs.label(value) for name, value in upper.items()}
     sidereal, day = _stacked(turns, "rung"), abs(body.needed("spin_period"))
     period = sidereal * day
     like = xr.zeros_like(period)
@@ -240,9 +241,9 @@ def wobble_rungs(body: Body, inside: Inside | None = None) -> Rungs:
         rung_formula=np.array([ladder.FORMULAS[name] for name in turns]),
     )
     rung = {"left_out": "; ".join(f"{k}: {v}" for k, v in left_out.items()) or "none"}
-    if inside is None:
+    if inputs is None:
         return rungs.with_attributes(rung=rung)
-    sources = [inside.interior.reference]
+    sources = [inputs.interior.reference]
     if "anelastic" in turns:
         sources.append(ANELASTIC_EXPONENT.source)
     return rungs.with_attributes(
@@ -290,15 +291,15 @@ class Sensitivity(Variables, along=("input",), no_error="a part of an error, or 
 
 
 @part
-def sensitivity(inside: Inside) -> Sensitivity:
+def sensitivity(inputs: ModelInputs) -> Sensitivity:
     """Derivative of the most detailed model's wobble period by each input, and input errors."""
-    slopes = propagation.sensitivities(inside.inputs, *inside.setting)
-    anelastic = "anelastic" in ladder.non_rigid(inside.inputs, *inside.setting).rotations
-    half_widths = propagation.half_widths(inside.inputs, inside.uncertainty, anelastic)
-    slope, half_width = inside.stack(slopes, "input"), inside.stack(half_widths, "input")
+    slopes = propagation.sensitivities(inputs.numbers, *inputs.setting)
+    anelastic = "anelastic" in ladder.non_rigid(inputs.numbers, *inputs.setting).rotations
+    half_widths = propagation.half_widths(inputs.numbers, inputs.uncertainty, anelastic)
+    slope, half_width = inputs.stack(slopes, "input"), inputs.stack(half_widths, "input")
     return Sensitivity(
         days_per_unit=slope * DAY,
-        input_value=inside.stack(vars(inside.inputs), "input"),
+        input_value=inputs.stack(vars(inputs.numbers), "input"),
         input_half_width=half_width,
         days_from_input=abs(slope * half_width) * DAY,
     )
@@ -316,24 +317,24 @@ class CoreNutationPeriod(
 
 
 @part
-def core_nutation(inside: Inside, body: Body) -> CoreNutationPeriod:
+def core_nutation(inputs: ModelInputs, body: Body) -> CoreNutationPeriod:
     """Compute the period of the free core nutation, for different shapes of the core."""
-    shapes = {"hydrostatic": (inside.inputs, inside.uncertainty)}
+    shapes = {"hydrostatic": (inputs.numbers, inputs.uncertainty)}
     attributes = {}
-    observed = inside.interior.observed_core_ellipticity
+    observed = inputs.interior.observed_core_ellipticity
     # observed in the body itself, not in one that has been changed
     if observed is not None and body.observed_wobble is not None:
-        own = {"core_ellipticity": observed.relative_uncertainty}
-        inputs = replace(inside.inputs, core_ellipticity=observed.value)
-        shapes["observed"] = (inputs, {**inside.uncertainty, **own})
+        u = observed.relative_uncertainty
+        numbers = replace(inputs.numbers, core_ellipticity=observed.value)
+        shapes["observed"] = (numbers, {**inputs.uncertainty, "core_ellipticity": u})
         attributes["references"] = observed.source
     turns: dict[str, Numeric] = {}
     half_widths: dict[str, Numeric] = {}
-    for name, (inputs, spread) in shapes.items():
-        turns[name] = ladder.non_rigid(inputs, *inside.setting).core_rotations["fluid-core"]
-        half_widths[name] = propagation.core_nutation_half_width(inputs, spread, *inside.setting)
-    nutation = inside.stack(turns, "core_shape") * body.needed("spin_period")
-    error = inside.stack(half_widths, "core_shape") * abs(body.needed("spin_period"))
+    for name, (numbers, spread) in shapes.items():
+        turns[name] = ladder.non_rigid(numbers, *inputs.setting).core_rotations["fluid-core"]
+        half_widths[name] = propagation.core_nutation_half_width(numbers, spread, *inputs.setting)
+    nutation = inputs.stack(turns, "core_shape") * body.needed("spin_period")
+    error = inputs.stack(half_widths, "core_shape") * abs(body.needed("spin_period"))
     return CoreNutationPeriod(
         free_core_nutation=(nutation, error),
         free_core_nutation_sidereal=nutation / abs(body.needed("spin_period")),
@@ -341,11 +342,11 @@ def core_nutation(inside: Inside, body: Body) -> CoreNutationPeriod:
 
 
 @part
-def neglected(body: Body, inside: Inside | None = None) -> Neglected:
+def neglected(body: Body, inputs: ModelInputs | None = None) -> Neglected:
     """Effects on the free wobble that the last, most detailed model neglects."""
-    if inside is None:
+    if inputs is None:
         return Neglected(what=f"all deformation: {why_rigid(body)}")
-    left_out = inside.interior.neglected
+    left_out = inputs.interior.neglected
     if not left_out or not body.is_as_named:
         effects = "an inner core, and rotation and ellipticity in the Love number"
         return Neglected(what=f"{effects}: their sizes were not found for this {body.name}")
@@ -362,7 +363,7 @@ wobble_ladder = public_call(
         "core_nutation": core_nutation,
         "neglected": neglected,
     },
-    parts=(inside,),
+    parts=(inputs,),
     together=("body", *_INTERIOR),
     widest=1024,
 )

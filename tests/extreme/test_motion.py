@@ -19,7 +19,7 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation.analysis import on_fixed_ecliptic
 from earthspin.questions.averages import Samples, torque_samples
 from earthspin.questions.pole import pole
-from earthspin.questions.sky import Stretch, places, sky, stretch
+from earthspin.questions.sky import Interval, interval, places, sky
 from earthspin.sky.iau_models import fixed_ecliptic
 from earthspin.torque.rates import precession_rate
 from tests.extreme import Distances, holds, relative_error
@@ -81,9 +81,9 @@ def _samples(cycles: float | None = None) -> Samples:
     both = BODY, (SUN, MOON)
     above = sky("de421", places(*both), "jplephem")
     if cycles is None:
-        return torque_samples(above, stretch(above, None), *both)
+        return torque_samples(above, interval(above, None), *both)
     half = cycles * MOON.cycle / DAY / 2 + 1e-3
-    return torque_samples(above, Stretch(-half, half), *both)
+    return torque_samples(above, Interval(-half, half), *both)
 
 
 def _psi(vectors: FloatArray) -> FloatArray:
