@@ -18,14 +18,12 @@ import earthspin
 from earthspin._version import __version__
 from earthspin.errors import EarthspinError, MissingExtraError, OutputError, SceneError, printable
 from earthspin.process import RESULTS, USAGE_ERROR, run_command
+from earthspin.views import PLAYS
 
 if TYPE_CHECKING:
     from earthspin.engine.question import Question
 
     Command = Callable[[Namespace], None]
-
-#: Interactive pages.
-PAGES = ("precession", "rotor", "top", "wobble")
 
 #: Printed by the command without arguments; a line has at most 80 characters.
 WELCOME = """\
@@ -134,7 +132,7 @@ def _parser() -> ArgumentParser:
     add("--ephemeris", **kernel)
 
     add = command("play", _play, "write an interactive page").add_argument
-    add("what", choices=PAGES, metavar="|".join(PAGES), help="topic of the page")
+    add("what", choices=PLAYS, metavar="|".join(PLAYS), help="topic of the page")
     add("--out", metavar="FILE", help="default: play-WHAT.html")
     add("--open", **opens)
 

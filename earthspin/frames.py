@@ -27,7 +27,7 @@ from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress
 from earthspin.questions.time_axes import epochs
-from earthspin.scenes import VERSIONS, load_scene, members_of, run, run_tree, warn_of_versions
+from earthspin.scenes import load_scene, members_of, run, run_tree, versions_of, warn_of_versions
 from earthspin.secular.derived_angles import NO_EQUINOX, equator_and_equinox, equinox_error
 
 if TYPE_CHECKING:
@@ -75,8 +75,7 @@ class Model:
         if isinstance(answer, xr.DataTree):
             answer = answer.to_dataset()
         if isinstance(answer, xr.Dataset) and scene_of(answer):
-            versions = {key: answer.attrs[key] for key in VERSIONS if key in answer.attrs}
-            answer = cls(load_scene(answer), scene_of(answer), versions)
+            answer = cls(load_scene(answer), scene_of(answer), versions_of(answer.attrs))
         if not isinstance(answer, cls):
             problem = "it has no scene; give a whole answer or its tree, not a section of it"
             raise SceneError("model", type(answer).__name__, problem)

@@ -62,13 +62,6 @@ _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:[\w"'-]+[ \t]*\.[ \t]*){{{MOST_PARTS}
 #: How many times a long series is written at once.
 BLOCK = 1 << 17
 
-#: Attributes of an answer that say what made it, beside its scene.
-VERSIONS = (
-    "earthspin_version", "numpy_version", "jplephem_version", "skyfield_version", "pyerfa_version",
-    "ephemeris_sha256", "orbit_sha256", "table_sha256",
-    "sampled",  # of earlier versions, whose answers had errors from a sample on request
-)  # fmt: skip
-
 
 class VersionWarning(UserWarning):
     """Warning that a stored result is computed again with other versions of libraries or files.
@@ -374,6 +367,15 @@ def _attributes(scene: Any) -> Mapping[str, Any]:
     return attributes
 
 
+def versions_of(attributes: Mapping[Any, Any]) -> dict[str, Any]:
+    """Select the versions and checksums of files among the attributes of a result.
+
+    `sampled` is of earlier versions, whose answers had errors from a sample on request.
+    """
+    endings = ("_version", "_sha256", "sampled")
+    return {name: value for name, value in attributes.items() if str(name).endswith(endings)}
+
+
 def warn_of_versions(
     old: Mapping[str, Any], new: xr.Dataset | xr.DataTree, stacklevel: int = 3
 ) -> None:
@@ -387,9 +389,9 @@ def warn_of_versions(
     stacklevel : int
         See `warnings.warn`.
     """
-    changed = [name for name in VERSIONS if name in old and old[name] != new.attrs.get(name)]
+    changed = {n: was for n, was in versions_of(old).items() if was != new.attrs.get(n)}
     if changed:
-        words = "; ".join(f"{name} {old[name]}, now {new.attrs.get(name)}" for name in changed)
+        words = "; ".join(f"{n} {was}, now {new.attrs.get(n)}" for n, was in changed.items())
         warnings.warn(f"made with {words}", VersionWarning, stacklevel=stacklevel)
 
 

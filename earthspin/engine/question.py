@@ -23,7 +23,7 @@ from threading import Lock
 from typing import Any, ClassVar, Generic, NamedTuple, ParamSpec, Self, TypeVar, overload
 
 from earthspin.engine.members import Members
-from earthspin.engine.variables import Variables
+from earthspin.engine.variables import Variable, Variables
 from earthspin.errors import EarthspinError, SceneError, Where, nearest
 from earthspin.html_table import card
 from earthspin.units import Kind, kind_of
@@ -632,11 +632,15 @@ class Graph:
     widest: int = 1
 
     @cached_property
+    def variables(self) -> dict[str, Variable]:
+        """Declarations of all variables that the results of the question may have, by name."""
+        return {name: v for part in self.parts.values() for name, v in part.gives.items()}
+
+    @cached_property
     def labels(self) -> set[str]:
         """Names of all variables and dimensions that the results of the question may have."""
-        parts = self.parts.values()
-        dims = {name for part in parts for entry in part.gives.values() for name in entry.dims}
-        return dims.union(*(part.fields | part.gives.keys() for part in parts))
+        dims = {name for variable in self.variables.values() for name in variable.dims}
+        return {*dims, *self.variables}.union(*(part.fields for part in self.parts.values()))
 
 
 Parts = Part[..., Any] | tuple[Part[..., Any], ...]

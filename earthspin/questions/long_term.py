@@ -408,13 +408,6 @@ class LongTermSeries(FromPole, along=("epoch",)):
     perturber = labels()
 
 
-#: Numbers that are read off the solution by their names.
-_READ = (
-    *("obliquity", "longitude_of_perihelion", "general_precession", "psi_A", "omega_A"),
-    *("eccentricity", "climatic_precession", "coprecession"),
-)
-
-
 @part
 def series(
     angles: derived_angles.AnglesWithErrors,
@@ -439,7 +432,7 @@ def series(
         LongTermSeries(
             **{
                 name: inputs.pair(nominal.values[name], angles.half_width(name), "epoch")
-                for name in _READ
+                for name in nominal.values.keys() & LongTermSeries.fields.keys()
             },
             pole=labelled(np.moveaxis(nominal.pole, 0, -1), "epoch", "component"),
             pole_error=labelled(pole_error, "epoch"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
@@ -21,11 +22,8 @@ if TYPE_CHECKING:
 #: Points of the effective potential, ends included.
 POTENTIAL_POINTS = 361
 
-#: Keys that make the top and its start.
-_OF_THE_TOP = (
-    *("transverse_moment", "axial_moment", "weight_moment"),
-    *("theta", "spin", "phi_rate", "theta_rate", "phi", "psi"),
-)
+#: Keys that define the top and its initial motion.
+_START_KEYS = tuple(field.name for field in fields(HeavyTop))
 
 Moment = Annotated[float, Number("kg m2", "2e-4 kg m2")]
 Angle = Annotated[float, Number("rad", "30 deg")]
@@ -80,7 +78,7 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
 
     def check(self) -> None:
         """Refuse a top whose moments or initial motion are impossible."""
-        HeavyTop(**{name: getattr(self, name) for name in _OF_THE_TOP})
+        HeavyTop(**{name: getattr(self, name) for name in _START_KEYS})
 
 
 @part
@@ -98,7 +96,7 @@ def inputs(
     """Broadcast the moments and initial values of one or more tops to arrays of one shape."""
     moments = (transverse_moment, axial_moment, weight_moment)
     start = (theta, spin, phi_rate, theta_rate, phi, psi)
-    return LabelledNumbers.broadcast(**dict(zip(_OF_THE_TOP, (*moments, *start), strict=True)))
+    return LabelledNumbers.broadcast(**dict(zip(_START_KEYS, (*moments, *start), strict=True)))
 
 
 @part
@@ -223,6 +221,6 @@ heavy_top = public_call(
     answer=euler_angles,
     sections=(turning, potential, neglected),
     parts=(instants, inputs, heavy_top_start, motion),
-    together=_OF_THE_TOP,
+    together=_START_KEYS,
     widest=4096,
 )

@@ -2,6 +2,9 @@
 
 from earthspin._lazy import submodule
 
+#: Interactive pages, named after their templates.
+PLAYS = ("precession", "rotor", "top", "wobble")
+
 
 def __getattr__(name: str) -> object:
     return submodule(__name__, name)

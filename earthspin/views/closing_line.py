@@ -1,110 +1,18 @@
-"""Read sections and attributes of a result, and describe its error and run time in one line."""
+"""Line that closes the output of a command: error of the main number of a result, and run time."""
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
+from collections.abc import Hashable
 
 import numpy as np
 import xarray as xr
 
-from earthspin.bodies import in_a_sentence
-from earthspin.engine.accessor import Answer
-from earthspin.engine.question import Question
 from earthspin.engine.run import IMPORTS
 from earthspin.engine.variables import error_of, from_si, largest_of
-from earthspin.errors import listed
 from earthspin.number_text import plain, shown_unit
-from earthspin.scenes import QUESTIONS, run_tree
+from earthspin.views.result_contents import Result, question_of
 
-#: A plain answer, or one with sections beside it.
-Result = xr.Dataset | xr.DataTree
-
-
-def answer_of(result: Result) -> xr.Dataset:
-    """Return the main Dataset of a result; of several bodies or initial states, only the first."""
-    whole = result.to_dataset() if isinstance(result, xr.DataTree) else result
-    return _first_case(whole, whole.attrs)
-
-
-def question_of(result: Result) -> type[Question] | None:
-    """Return the `Question` class (type of computation) of a result; None for an unknown type."""
-    return QUESTIONS.get(result.attrs["compute"])
-
-
-def section(result: Result, name: str) -> xr.Dataset | None:
-    """Return the section (Dataset) of a result with the given name, or None if there is none."""
-    if not isinstance(result, xr.DataTree) or name not in result.children:
-        return None
-    return _first_case(Answer(result).section(name), result.attrs)
-
-
-def needed(result: Result, name: str) -> xr.Dataset:
-    """Return the section (Dataset) of a result with the given name; compute it if it is missing.
-
-    Raises
-    ------
-    SceneError
-        If the question has no such section, or the section does not apply; the error says why.
-    """
-    data = section(result, name)
-    if data is None:
-        data = section(run_tree(result, [name]), name)
-    assert data is not None
-    return data
-
-
-def body_of(answer: xr.Dataset) -> str:
-    """Name of the body of a result, followed by its properties that the user changed.
-
-    ``"Mars"``, ``"the Earth with spin_period = 43200.0 s"``.
-    """
-    name, changes = in_a_sentence(answer.attrs["body"]), answer.attrs.get("body_changes")
-    return f"{name} with {changes}" if changes else name
-
-
-def perturbers_of(answer: xr.Dataset) -> str:
-    """List the perturbers of a result in words: ``"the Sun, the Moon and Jupiter"``."""
-    names = [in_a_sentence(name) for name in answer.perturber.values.tolist()]
-    return listed(names[:-1] or names)  # the last of several is their total
-
-
-def changes_of(answer: xr.Dataset, *keys: str) -> list[str]:
-    """Sentences that list the properties of the body and the perturbers that the user changed.
-
-    Parameters
-    ----------
-    answer : Dataset
-    *keys : str
-        The keys to look at; ``"body"`` and ``"perturbers"`` by default.
-    """
-    return [
-        f"{key.capitalize()}: {answer.attrs[key]} with {answer.attrs[f'{key}_changes']}."
-        for key in keys or ("body", "perturbers")
-        if f"{key}_changes" in answer.attrs
-    ]
-
-
-def _first_case(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
-    """Select the first body or initial state from a Dataset with many of them.
-
-    That is, the first along dimensions that no part of the question declares.
-    """
-    question = QUESTIONS.get(attrs.get("compute", ""))
-    if question is None:
-        return data
-    declared = {n: v for part in question.graph.parts.values() for n, v in part.gives.items()}
-    known = {"effect", "part", *question.graph.labels}
-    first = data.isel({dim: 0 for dim in data.dims if dim not in known}).copy()
-    for name in first.variables.keys() & declared.keys():
-        first[name].attrs |= {"short": declared[str(name)].short}
-    return first
-
-
-# --- line that closes the output -----------------------------------------------------------------
-
-
-#: Endings of the names of shares of an error, and the words for endings that are not shown as such.
-SHARES = ("method", "input", "kernel", "response", "satellites")
+#: Words for shares of an error whose names end otherwise.
 WORDS = {"input": "inputs", "kernel": "positions"}
 
 
@@ -154,9 +62,9 @@ def _error(answer: xr.Dataset) -> str:
     place = {dim: int(index) for dim, index in zip(error.dims, largest, strict=True)}
     size, unit = float(error[place]), error.attrs["units"]
     shares = [
-        f"{WORDS.get(share, share)} {plain(float(answer[f'{error_name}_{share}'][place]))}"
-        for share in SHARES
-        if f"{error_name}_{share}" in answer
+        f"{WORDS.get(name.split('_')[-1], name.split('_')[-1])} {plain(float(answer[name][place]))}"
+        for name in question.graph.variables
+        if name.startswith(f"{error_name}_") and name in answer
     ]
     relative = unit == "1" != value.attrs["units"]
     text = f"{label}: {'largest ' if place else ''}{'relative ' if relative else ''}95 % error "

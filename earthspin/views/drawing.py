@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 import numpy as np
 import xarray as xr
 
-from earthspin.views.closing_line import Result, section
+from earthspin.views.result_contents import Result, stored_section
 from earthspin.views.solids import Solid
 from earthspin.views.tables import TextTable
 
@@ -184,7 +184,7 @@ class PageFigure:
 
     def is_there(self, tree: Result) -> bool:
         """Return True if a result has the section and meets the condition of this figure."""
-        there = not self.section or section(tree, self.section) is not None
+        there = not self.section or stored_section(tree, self.section) is not None
         return there and (self.applies is None or self.applies(tree))
 
     @style()

@@ -12,14 +12,12 @@ from earthspin.engine.accessor import inputs_of, members_needed
 from earthspin.engine.members import MEMBER
 from earthspin.errors import SceneError
 from earthspin.numerics.arrays import FloatArray
-from earthspin.views.closing_line import Result
 from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, PageFigure, Views, axes, literal
+from earthspin.views.result_contents import Result, question_of
 from earthspin.views.tables import TextTable, short_exponents, tables_of, with_error
 
 #: The figure of shares has at most so many bars and colours.
 MOST_ROWS, MOST_COLOURS = 12, 6
-#: Main quantities of answers whose first quantity is not the main one, by question.
-CHIEF = {"precession": ("precession_rate", "mean_torque"), "wobble": ("period_solar",)}
 #: Shares of variance below this are not told apart.
 SMALL = 5e-4
 
@@ -77,34 +75,33 @@ def _spread(answer: xr.Dataset) -> xr.Dataset:
 
 
 def _percentages(answer: xr.Dataset) -> xr.Dataset:
-    """Share of each input in the variance of main quantities, %; last row: unexplained part."""
-    result, shares = answer.earthspin.sensitivity(), xr.Dataset()
+    """Share of each input in the variance of the main quantity, %; last row: unexplained part."""
+    result = answer.earthspin.sensitivity()
     labels = ("input", [*map(str, result["input"].values), "rest"], result["input"].attrs)
     result = result.drop_vars("input")  # xarray 2025.6 cannot concatenate labels that are words
-    for name in _chiefs(answer):
-        share, error, rest = (
-            100 * result[f"{name}_{what}"] for what in ("share", "share_error", "unexplained")
-        )
-        seen = abs(share) >= 100 * SMALL
-        rest = rest.where(abs(rest) >= 100 * SMALL, 0.0).expand_dims("input")
-        share = xr.concat([share.where(seen, 0.0), rest], "input")
-        share.attrs = {
-            "units": "%",
-            "long_name": f"share of the variance of {name.replace('_', ' ')}, from a linear fit "
-            "in all inputs; the last row is the unexplained part",
-            "ancillary_variables": f"{name}_error",
-        }
-        half = xr.concat([error.where(seen, 0.0), xr.zeros_like(rest)], "input")
-        half.attrs = {"units": "%", "long_name": "from the number of members"}
-        shares[name], shares[f"{name}_error"] = share, half
-    return shares.assign_coords(input=labels)
+    name = _main_variable(answer)
+    share, error, rest = (
+        100 * result[f"{name}_{what}"] for what in ("share", "share_error", "unexplained")
+    )
+    shown = abs(share) >= 100 * SMALL
+    rest = rest.where(abs(rest) >= 100 * SMALL, 0.0).expand_dims("input")
+    share = xr.concat([share.where(shown, 0.0), rest], "input")
+    share.attrs = {
+        "units": "%",
+        "long_name": f"share of the variance of {name.replace('_', ' ')}, from a linear fit "
+        "in all inputs; the last row is the unexplained part",
+        "ancillary_variables": f"{name}_error",
+    }
+    half = xr.concat([error.where(shown, 0.0), xr.zeros_like(rest)], "input")
+    half.attrs = {"units": "%", "long_name": "from the number of members"}
+    return xr.Dataset({name: share, f"{name}_error": half}, {"input": labels})
 
 
 def _shares(answer: xr.Dataset) -> tuple[list[VaryingNumber], FloatArray]:
-    """List of main quantities, and share of each input in the variance of each quantity."""
-    result, chiefs = answer.earthspin.sensitivity(), _chiefs(answer)
-    rows = [number for number in _numbers(answer) if number.name in chiefs]
-    return rows, np.array([result[f"{n.name}_share"].sel(n.labels).values for n in rows])
+    """List of main numbers, and share of each input in the variance of each number."""
+    result, name = answer.earthspin.sensitivity(), _main_variable(answer)
+    rows = [number for number in _numbers(answer) if number.name == name]
+    return rows, np.array([result[f"{name}_share"].sel(n.labels).values for n in rows])
 
 
 def lead(tree: Result) -> str:
@@ -112,20 +109,20 @@ def lead(tree: Result) -> str:
     answer = _whole(tree)
     if not _numbers(answer):
         return _alike(answer)
-    number = _chief(answer)
+    number = _main_number(answer)
     low, middle, high = answer.earthspin.quantiles()[number.name].sel(number.labels).values
     value = with_error(middle, (high - low) / 2, number.units.replace("1", "", 1).strip())
     words = f"{answer.sizes[MEMBER]} members: {number.words}, {value}."
     if not _enough(answer):
         return words
     share = answer.earthspin.sensitivity()[f"{number.name}_share"].sel(number.labels)
-    chief = share.input.values[int(share.values.argmax())]
-    return f"{words} {100 * float(share.max()):.1f} % of the variance comes from {chief}."
+    cause = share.input.values[int(share.values.argmax())]
+    return f"{words} {100 * float(share.max()):.1f} % of the variance comes from {cause}."
 
 
 def _caption_of_spread(tree: Result) -> str:
     answer = _whole(tree)
-    words = _chief(answer).words.capitalize()
+    words = _main_number(answer).words.capitalize()
     return f"{words}, of {answer.sizes[MEMBER]} members; the band is the central 95 %."
 
 
@@ -136,7 +133,7 @@ def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Ax
     ----------
     result : Dataset or DataTree
     name : str
-        The chief number of the question by default.
+        The headline of the question by default.
     ax : Axes, optional
 
     Raises
@@ -145,7 +142,7 @@ def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Ax
         If no number of that name differs among the members.
     """
     answer = _whole(result)
-    number = _chief(answer, name)
+    number = _main_number(answer, name)
     values = answer[number.name].sel(number.labels).values
     low, middle, high = np.quantile(values, (0.025, 0.5, 0.975))
     ax = axes(ax, 7.5, 3.6)
@@ -161,7 +158,7 @@ def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Ax
 
 
 def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
-    """Draw the share of each input in the variance of the main quantities, as bars.
+    """Draw the share of each input in the variance of the main numbers, as bars.
 
     Parameters
     ----------
@@ -179,10 +176,10 @@ def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
     rows, share = _shares(answer)
     rows, share, inputs = rows[:MOST_ROWS], share[:MOST_ROWS], [*inputs_of(answer)]
     order = np.argsort(-share.max(axis=0))
-    seen = [int(i) for i in order if share[:, i].max() >= SMALL][:MOST_COLOURS]
+    shown = [int(i) for i in order if share[:, i].max() >= SMALL][:MOST_COLOURS]
     ax = axes(ax, 7.5, 1.2 + 0.32 * len(rows))
     place, left = np.arange(len(rows)), np.zeros(len(rows))
-    for colour, i in zip(CYCLE, seen, strict=False):
+    for colour, i in zip(CYCLE, shown, strict=False):
         ax.barh(place, share[:, i], 0.7, left, color=colour, label=literal(inputs[i]))
         left = left + share[:, i]
     ax.barh(place, 1 - left, 0.7, left, color=GREY, alpha=0.3, label="rest")
@@ -247,24 +244,23 @@ def _alike(answer: xr.Dataset) -> str:
     return f"No finite number differs among the members: {count} members, inputs {inputs}."
 
 
-def _chiefs(answer: xr.Dataset) -> tuple[str, ...]:
-    """Names of the main quantities of a result whose values differ among ensemble members.
+def _main_variable(answer: xr.Dataset) -> str:
+    """Name of the variable that is quoted first, or else of the first that differs among members.
 
-    If the view of the question names none that differs, this is the first number that does; empty
-    if no number differs.
+    Empty if no number differs.
     """
-    differing = dict.fromkeys(number.name for number in _numbers(answer))
-    chiefs = [name for name in CHIEF.get(answer.attrs["compute"], ()) if name in differing]
-    return tuple(chiefs or [*differing][:1])
+    differing = [number.name for number in _numbers(answer)]
+    question = question_of(answer)
+    return next((n for n in differing if question and n == question.headline), [*differing, ""][0])
 
 
-def _chief(answer: xr.Dataset, name: str = "") -> VaryingNumber:
+def _main_number(answer: xr.Dataset, name: str = "") -> VaryingNumber:
     """Last number that differs among ensemble members, in the main variable or the variable `name`.
 
     It is for example the total, or the value at the last time.
     """
-    chiefs = (name,) if name else _chiefs(answer)[:1]
-    numbers = [number for number in _numbers(answer) if number.name in chiefs]
+    variable = name or _main_variable(answer)
+    numbers = [number for number in _numbers(answer) if number.name == variable]
     if numbers:
         return numbers[-1]
     words = f"'{name}' does not differ among the members" if name else _alike(answer)

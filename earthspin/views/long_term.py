@@ -12,8 +12,8 @@ from earthspin.constants import EPSILON_0
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing
-from earthspin.views.closing_line import Result, answer_of, needed
 from earthspin.views.drawing import Axes, PageFigure, Views, axes
+from earthspin.views.result_contents import Result, answer_of, section
 from earthspin.views.star_chart import YEARS, on_the_chart, plot_path, year_labels
 
 #: Sentence at the end of captions.
@@ -230,7 +230,7 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
         Answer to the question ``long-term``; the section ``budget`` is computed if it is missing.
     ax : Axes, optional
     """
-    shares: xr.Dataset = needed(result, "budget")
+    shares: xr.Dataset = section(result, "budget")
     ax = axes(ax, 8.0, 3.6)
     away = np.abs(shares.epoch.values) / 1000
     order = np.argsort(away, kind="stable")[np.count_nonzero(away == 0) :]

@@ -11,8 +11,8 @@ import xarray as xr
 from earthspin.constants import DAYS_PER_YEAR, MAS
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing
-from earthspin.views.closing_line import Result, answer_of, needed, section
 from earthspin.views.drawing import Axes, Figure, PageFigure, Views, axes, note
+from earthspin.views.result_contents import Result, answer_of, section, stored_section
 from earthspin.views.tables import date
 from earthspin.wobble.record import NEAR, YEAR
 
@@ -38,7 +38,7 @@ def plot_amplitude_and_phase(tree: Result) -> Figure:
 
 
 def _caption_of_amplitude(tree: Result) -> str:
-    first, last = needed(tree, "chandler").middle.values[[0, -1]]
+    first, last = section(tree, "chandler").middle.values[[0, -1]]
     near_2018 = " The free wobble almost vanished near 2018 and returned with a different phase."
     return (
         "Amplitude and phase of the free wobble, fitted in sliding windows of one beat of the free "
@@ -97,7 +97,7 @@ def plot_spectra(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
     """
     ax = axes(ax, 7.5, 3.8)
-    spectrum = needed(result, "spectrum").spectral_amplitude
+    spectrum = section(result, "spectrum").spectral_amplitude
     frequency, amplitude = spectrum.frequency.values * DAYS_PER_YEAR, spectrum.values
     for sign, colour, words in ((1, drawing.BLUE, "prograde"), (-1, drawing.RED, "retrograde")):
         inside = (sign * frequency > 0.2) & (sign * frequency < 2.6)
@@ -177,7 +177,7 @@ def plot_phase(result: Result, *, ax: Axes | None = None) -> Axes:
 
 def _fit(result: Result) -> tuple[xr.Dataset, FloatArray]:
     """Return the Dataset of the free wobble fitted in sliding windows, and the window mid-times."""
-    fit = result if "chandler_amplitude" in result else needed(result, "chandler")
+    fit = result if "chandler_amplitude" in result else section(result, "chandler")
     assert isinstance(fit, xr.Dataset)
     return fit, fit[fit.chandler_amplitude.dims[0]].values
 
@@ -261,7 +261,7 @@ def plot_core_nutation(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
     """
     ax = axes(ax, 7.5, 3.6)
-    fit = needed(result, "core_nutation")
+    fit = section(result, "core_nutation")
     time, size = fit.middle.values, fit.core_nutation_amplitude.values
     detected = fit.detected.values.astype(bool)
     error = fit.core_nutation_amplitude_error.values
@@ -287,7 +287,7 @@ def plot_core_nutation(result: Result, *, ax: Axes | None = None) -> Axes:
 
 
 def _caption_of_core_nutation(tree: Result) -> str:
-    fit: xr.Dataset = needed(tree, "core_nutation")
+    fit: xr.Dataset = section(tree, "core_nutation")
     words = (
         "Amplitude of the free core nutation in sliding windows, with its 95 % band. Noise alone "
         "exceeds the dashed limit in 1 % of the windows."
@@ -338,7 +338,7 @@ def plot_coordinates(result: Result, *, figure: Figure | None = None) -> Figure:
     figure : Figure, optional
         Drawn on one of its own by default.
     """
-    answer, bulletin = answer_of(result), section(result, "bulletin_a")
+    answer, bulletin = answer_of(result), stored_section(result, "bulletin_a")
     figure, panels = drawing.stacked(2, 5.2, figure, width=7.5)
     for ax, name, colour in zip(panels, ("x", "y"), (drawing.BLUE, drawing.GREEN), strict=True):
         value, error = answer[name].values * 1e3, answer[f"{name}_error"].values * 1e3
@@ -402,7 +402,7 @@ def plot_skill(result: Result, *, figure: Figure | None = None) -> Figure:
         Answer to the question ``forecast``.
     figure : Figure, optional
     """
-    data = needed(result, "skill").mean("coordinate")
+    data = section(result, "skill").mean("coordinate")
     figure, (errors, shares) = drawing.stacked(2, 5.6, figure, width=7.0, height_ratios=(2, 1))
     for name, (colour, other) in SKILL_SETS.items():
         rows = data.sel(case=data.skill_set == name)

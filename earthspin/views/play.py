@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +22,7 @@ from earthspin.errors import SceneError
 from earthspin.interior.love import elastic, softening
 from earthspin.interior.named import INTERIORS
 from earthspin.scenes import run, run_tree
+from earthspin.views import PLAYS
 from earthspin.views.page import rendered, source
 from earthspin.wobble.ladder import Rotator, inputs_of, love_radius
 
@@ -82,13 +82,8 @@ def _interior() -> dict[str, object]:
     }
 
 
-#: Pages by name, each with the numbers that its script starts from.
-PLAYS: dict[str, Callable[[], dict[str, object]]] = {
-    "precession": _sky,
-    "rotor": dict,
-    "top": dict,
-    "wobble": _interior,
-}
+#: Functions that return the numbers from which the script of a page starts, if it needs any.
+NUMBERS = {"precession": _sky, "wobble": _interior}
 
 
 def play_page(name: str) -> str:
@@ -111,7 +106,7 @@ def play_page(name: str) -> str:
     """
     if name not in PLAYS:
         raise SceneError("play", name, f"take one of {', '.join(PLAYS)}")
-    given = json.dumps(PLAYS[name](), default=lambda number: np.asarray(number).item())
+    given = json.dumps(NUMBERS.get(name, dict)(), default=lambda number: np.asarray(number).item())
     return rendered(
         f"play_{name}.html.j2",
         given=given.replace("<", "\\u003c"),

@@ -9,8 +9,8 @@ from earthspin.constants import DAY, DAYS_PER_YEAR
 from earthspin.interior.named import CORE_NUTATION
 from earthspin.motion.effects import NONRIGID
 from earthspin.views import drawing, tables
-from earthspin.views.closing_line import Result, answer_of, needed
 from earthspin.views.drawing import Axes, PageFigure, Views, axes, note
+from earthspin.views.result_contents import Result, answer_of, section
 from earthspin.views.tables import Column, TextTable, table_along
 
 
@@ -123,12 +123,12 @@ def residuals(tree: Result) -> TextTable:
         "because the body is not rigid; no better integration can remove them."
     )
     title = "Computed pole minus that of IAU 2006/2000A"
-    return table_along(needed(tree, "residual_sizes"), "model", title, columns, note, first="")
+    return table_along(section(tree, "residual_sizes"), "model", title, columns, note, first="")
 
 
 def observed(tree: Result) -> TextTable:
     """Table of rms differences from the observed pole, for each computed pole and the IAU pole."""
-    sizes = needed(tree, "observed")
+    sizes = section(tree, "observed")
     columns = (
         Column("model", lambda row: MODELS.get(row.model.item(), row.model.item())),
         *map(_both_angles, ("observed_rms", "observed_rms_without_core", "observed_rms_unfitted")),
@@ -197,7 +197,7 @@ def plot_pole_residuals(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
         Axes to draw both on; two panels of a new figure by default, of which the first is returned.
     """
-    series = needed(result, "residuals")
+    series = section(result, "residuals")
     # the bands of both are almost alike, and would mix in one panel
     panels = [ax, ax] if ax else drawing.stacked(2, 4.8, width=7.5, sharey=True)[1]
     for panel, name, colour in zip(panels, ("dX", "dY"), (drawing.BLUE, drawing.RED), strict=True):
@@ -222,7 +222,7 @@ def plot_nutation_ratio(result: Result, *, ax: Axes | None = None) -> Axes:
         missing.
     ax : Axes, optional
     """
-    terms, period = needed(result, "nutation"), float(needed(result, "core").core_nutation_period)
+    terms, period = section(result, "nutation"), float(section(result, "core").core_nutation_period)
     terms = terms.assign(frequency=DAYS_PER_YEAR / terms.period).sortby("frequency")
     ax = axes(ax, 7.2, 4.2)
     ax.axvline(DAYS_PER_YEAR / period, color="0.6", lw=0.8, ls="--", zorder=0)
@@ -320,7 +320,7 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
         is missing.
     ax : Axes, optional
     """
-    data, main = needed(result, "transfer"), needed(result, "terms")
+    data, main = section(result, "transfer"), section(result, "terms")
     per_year = DAYS_PER_YEAR * 1.00273781191135448
     frequency = data.frequency.values * per_year
     ax = axes(ax, 7.5, 4.2)

@@ -12,9 +12,9 @@ from earthspin.constants import DAY, JULIAN_YEAR, P_A_RATE, TROPICAL_YEAR
 from earthspin.engine.variables import largest_of, si
 from earthspin.errors import SceneError, listed
 from earthspin.numerics.arrays import FloatArray
-from earthspin.views import closing_line, drawing, star_chart, tables, torque
-from earthspin.views.closing_line import Result, answer_of, changes_of, needed, section
+from earthspin.views import drawing, result_contents, star_chart, tables, torque
 from earthspin.views.drawing import Axes, Figure, PageFigure, Views, axes, note
+from earthspin.views.result_contents import Result, answer_of, changes_of, section, stored_section
 from earthspin.views.tables import Column, TextTable, measured, table_along
 
 #: Once round, arcsec.
@@ -26,12 +26,12 @@ PASSED = 2.0
 
 def lead(tree: Result) -> str:
     """First sentence on the precession page: period of precession, and which torques cause it."""
-    answer, known = answer_of(tree), section(tree, "iau_2006")
+    answer, known = answer_of(tree), stored_section(tree, "iau_2006")
     alone = measured(answer.isel(perturber=-1), "precession_period", "years")
-    pull = f"the pull of {closing_line.perturbers_of(answer)} on the equatorial bulge"
+    pull = f"the pull of {result_contents.perturbers_of(answer)} on the equatorial bulge"
     if moons := _satellites(answer):
         pull += f" and on the orbits of its satellites {moons}, which precess with it"
-    once = f"The axis of {closing_line.body_of(answer)} goes once round in"
+    once = f"The axis of {result_contents.body_of(answer)} goes once round in"
     if known is None:
         return f"{once} {alone} in this model: {pull}, and nothing else."
     period, error = _with_known_effects(known)
@@ -60,7 +60,7 @@ def _with_known_effects(known: xr.Dataset) -> tuple[float, float]:
 
 def periods(tree: Result) -> TextTable:
     """Table of the precession period by three definitions, and the use of each definition."""
-    answer, known, seasons = answer_of(tree), needed(tree, "iau_2006"), needed(tree, "seasons")
+    answer, known, seasons = answer_of(tree), section(tree, "iau_2006"), section(tree, "seasons")
     total, iau = answer.isel(perturber=-1), FULL_TURN / float(known.iau_rate)
     period, error = _with_known_effects(known)
     general = measured(seasons, "general_precession_period"), f"{FULL_TURN / P_A_RATE.value:.3f}"
@@ -134,7 +134,7 @@ def rates(tree: Result) -> TextTable:
 def sky_and_calendar(tree: Result) -> TextTable:
     """Table of general precession, tropical year and calendar drift, with values for comparison."""
     computed = tables.quantities(
-        needed(tree, "seasons"),
+        section(tree, "seasons"),
         "general_precession",
         "general_precession_period",
         Column("time_per_degree", ".3f", "years per degree"),
@@ -170,7 +170,7 @@ _MODELS = {
 
 def models(tree: Result) -> TextTable:
     """Table of H, precession period and wobble period for three models of the Earth's figure."""
-    figure = needed(tree, "figure_models")
+    figure = section(tree, "figure_models")
     columns = (
         Column("earth_model", lambda row: _MODELS[row.earth_model.item()], "model"),
         *("h_by_model:.7f", "period_by_model:.0f", "wobble_by_model:.2f"),
@@ -187,7 +187,7 @@ def models(tree: Result) -> TextTable:
 
 def free_wobble(tree: Result) -> TextTable:
     """Table of the free wobble period of the rigid body, and the observed period if known."""
-    wobble = needed(tree, "free_wobble")
+    wobble = section(tree, "free_wobble")
     notes = ["The formula holds for a rigid body; a real body deforms."]
     rigid, rows = measured(wobble, "free_wobble_period"), []
     if "observed_period" in wobble:
@@ -207,7 +207,8 @@ def free_wobble(tree: Result) -> TextTable:
 
 def iau(tree: Result) -> TextTable:
     """Table of the computed precession rate compared with that of IAU 2006."""
-    known, left_out, answer = needed(tree, "iau_2006"), section(tree, "neglected"), answer_of(tree)
+    known, answer = section(tree, "iau_2006"), answer_of(tree)
+    left_out = stored_section(tree, "neglected")
     effects = () if left_out is None else tables.along(left_out, "effect")
     rows = [
         ("computed", measured(answer.isel(perturber=-1), "precession_rate")),
@@ -229,7 +230,7 @@ def iau(tree: Result) -> TextTable:
 
 def standstills(tree: Result) -> TextTable:
     """Table of lunar standstills: dates, and declinations of the Moon."""
-    extremes, text = needed(tree, "standstills"), {"major": "28.58", "minor": "18.30"}
+    extremes, text = section(tree, "standstills"), {"major": "28.58", "minor": "18.30"}
     error = float(extremes.standstill_declination_error.values.max(initial=0.0))
     columns = (
         Column("standstill", lambda row: tables.date(row.standstill), "date (TDB)"),
@@ -291,7 +292,7 @@ def plot_chain(result: Result, year: Result, *, figure: Figure | None = None) ->
     torque.plot_declination(year, ax=upper)
     torque.plot_torque(year, ax=middle)
     upper.tick_params(labelbottom=False)
-    total, curve = answer_of(result).isel(perturber=-1), needed(result, "convergence")
+    total, curve = answer_of(result).isel(perturber=-1), section(result, "convergence")
     drawing.lines(lower, curve.window_length, curve.rate_by_window.transpose(..., "window"), lw=1.1)
     rate = float(total.precession_rate)
     lower.axhline(rate, color="0.3", lw=0.8, ls="--")
@@ -314,7 +315,7 @@ def plot_convergence(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
-    total, curve = answer_of(result).isel(perturber=-1), needed(result, "convergence")
+    total, curve = answer_of(result).isel(perturber=-1), section(result, "convergence")
     ax = axes(ax)
     difference = abs(curve.rate_by_window - total.precession_rate).clip(1e-8)
     drawing.lines(ax, curve.window_cycles, difference.transpose(..., "window"), lw=1.2)

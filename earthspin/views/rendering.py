@@ -28,8 +28,14 @@ from earthspin.views import (
     torque,
     wobble,
 )
-from earthspin.views.closing_line import Result, answer_of, changes_of, question_of, section
 from earthspin.views.drawing import Drawing, Figure, T, Views, style
+from earthspin.views.result_contents import (
+    Result,
+    answer_of,
+    changes_of,
+    question_of,
+    stored_section,
+)
 from earthspin.views.solids import Solid
 from earthspin.views.tables import BRACKETS, TextTable, along
 
@@ -43,21 +49,8 @@ VIEWS: dict[str, Views] = {
     for word, views in module.VIEWS.items()
 }
 
-#: Titles of the pages of the documentation that explain the method of a question, by their files.
-PAGES = {
-    "precession": "Precession: rate and period",
-    "torques": "Torques and declinations in time",
-    "pole": "The path of the pole, and its comparison with the IAU",
-    "wobble": "From 304 to 433 days: the free wobble",
-    "rotors": "Rotors and tops, from the tensor to the torque",
-    "long_term": "Over millennia and millions of years",
-    "rotation": "The whole attitude",
-    "nutation": "From a rigid Earth to half a milliarcsecond",
-    "frames": "Which model, which time, which frame",
-    "pole_offsets": "Celestial pole offsets and the free core nutation",
-    "forecast": "Forecast of the pole",
-}
-ERRORS = ("work_precision", "Error against run time")
+#: Page of the documentation that explains errors.
+ERRORS = "work_precision"
 
 
 def tables_for(tree: Result) -> list[TextTable]:
@@ -106,7 +99,7 @@ def _made(tree: Result, makers: Iterable[tuple[str, Callable[[Result], T]]]) -> 
     return [
         make(tree)
         for sections, make in makers
-        if all(section(tree, name) is not None for name in sections.split())
+        if all(stored_section(tree, name) is not None for name in sections.split())
     ]
 
 
@@ -243,7 +236,7 @@ def page_of(
         [d for tree in trees for d in drawings_for(tree)] if drawings is None else drawings,
         [solid for tree in trees for solid in solids_for(tree)],
         lead=lead,
-        note=f"{BRACKETS}\n{_explained(trees[0])}",
+        note=f"{BRACKETS}\n{_pages_of(trees[0])}",
         links=links,
         last=what_ran(*trees),
         footer=_footer(answer_of(trees[0])),
@@ -260,7 +253,7 @@ def what_ran(*trees: Result) -> list[TextTable]:
     list of TextTable
         One, or none if the answers do not carry their plans.
     """
-    plans = [parts for tree in trees if (parts := section(tree, "plan")) is not None]
+    plans = [parts for tree in trees if (parts := stored_section(tree, "plan")) is not None]
     rows = []
     for part, row in (row for parts in plans for row in along(parts, "part")):
         reason = row.reason.item()
@@ -276,11 +269,11 @@ def what_ran(*trees: Result) -> list[TextTable]:
     return [TextTable(title, headers, rows, words=(0, 1), cost=cost)] if plans else []
 
 
-def _explained(tree: Result) -> str:
+def _pages_of(tree: Result) -> str:
     """Sentence that names the documentation pages on the method and the errors of a result."""
     page = question.page if (question := question_of(tree)) else ""
-    method = f'the method under "{PAGES[page]}", ' if page else ""
-    return f'In the documentation: {method}the errors under "{ERRORS[1]}".'
+    method = f"the method in docs/{page}.md, " if page else ""
+    return f"In the documentation: {method}the errors in docs/{ERRORS}.md."
 
 
 def _footer(answer: xr.Dataset) -> str:

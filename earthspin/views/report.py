@@ -16,10 +16,10 @@ from earthspin.progress import progress
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.scenes import load_scene, run, run_tree
 from earthspin.views import precession, rotors, torque
-from earthspin.views.closing_line import answer_of, body_of, needed, section
 from earthspin.views.drawing import Drawing
 from earthspin.views.page import page
 from earthspin.views.rendering import drawings_for, page_of, solids_for
+from earthspin.views.result_contents import answer_of, body_of, section, stored_section
 from earthspin.views.solids import Solid
 from earthspin.views.tables import beside_observed, measured
 
@@ -164,12 +164,12 @@ def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
     answer = answer_of(ladder)
     rigid, top = measured(answer.sel(rung="rigid"), "period_solar", "days"), answer.isel(rung=-1)
     period, error = top.period_solar, top.period_solar_error
-    last = beside_observed(period, error, section(ladder, "neglected"), "days")
+    last = beside_observed(period, error, stored_section(ladder, "neglected"), "days")
     *others, other = (ADDED[rung] for rung in answer.rung.values if rung in ADDED)
     return (
         f"If {body_of(answer)} were rigid, its free wobble would have a period of {rigid}; with "
         f"{', '.join(others)} and {other}, the computed period is {last}. The observed period is "
-        f"{measured(needed(pole, 'chandler'), 'chandler_period', 'days')}."
+        f"{measured(section(pole, 'chandler'), 'chandler_period', 'days')}."
     )
 
 

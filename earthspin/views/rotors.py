@@ -10,13 +10,13 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.quaternion import multiply, rotate
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.views import drawing, solids
-from earthspin.views.closing_line import Result, answer_of, needed
 from earthspin.views.drawing import BLUE, GREEN, RED, Axes, Figure, PageFigure, Views, axes
+from earthspin.views.result_contents import Result, answer_of, section
 from earthspin.views.solids import BLACK, GREY, Solid
 
 
 def _caption_of_herpolhode(tree: Result) -> str:
-    poinsot = needed(tree, "poinsot")
+    poinsot = section(tree, "poinsot")
     returns = "The curve does not come back to its start."
     if "herpolhode_advance" in poinsot:
         turned = float(np.degrees(poinsot.herpolhode_advance))
@@ -55,7 +55,7 @@ def plot_herpolhode(result: Result, *, ax: Axes | None = None) -> Axes:
         Answer to the question ``free-rotor``; computed again if the section ``poinsot`` is missing.
     ax : Axes, optional
     """
-    poinsot = needed(result, "poinsot")
+    poinsot = section(result, "poinsot")
     ax = axes(ax, 5, 5)
     turn = np.linspace(0, 2 * np.pi, 181)
     for radius in poinsot.herpolhode_radius.values:
@@ -84,7 +84,7 @@ def ellipsoids_with_polhodes(tree: Result) -> Solid:
 
     The ellipsoids meet in the polhode (source text, I.5.1 to I.5.5).
     """
-    answer, poinsot = answer_of(tree), needed(tree, "poinsot")
+    answer, poinsot = answer_of(tree), section(tree, "poinsot")
     inertia, momentum = poinsot.inertia_ellipsoid.values, poinsot.momentum_ellipsoid.values
     polhode = poinsot.polhode.values
     return Solid(
@@ -110,7 +110,7 @@ def polhode_with_sphere(tree: Result) -> Solid:
 
     See the source text, I.5.4.
     """
-    answer, poinsot = answer_of(tree), needed(tree, "poinsot")
+    answer, poinsot = answer_of(tree), section(tree, "poinsot")
     inertia, polhode = poinsot.inertia_ellipsoid.values, poinsot.polhode.values
     speed = np.linalg.norm(polhode, axis=1)
     mean = float(speed.mean())
@@ -137,7 +137,7 @@ def rolling_ellipsoid(tree: Result) -> Solid:
 
     See Poinsot's construction in the source text, I.5.8 and I.5.9.
     """
-    answer, poinsot = answer_of(tree), needed(tree, "poinsot")
+    answer, poinsot = answer_of(tree), section(tree, "poinsot")
     to_plane = _turn_to_z(answer.angular_momentum_body.values[0])
     attitude = np.array([multiply(to_plane, q) for q in answer.attitude.values])
     omega = rotate(attitude, answer.omega_body.values)
@@ -235,9 +235,9 @@ def plot_effective_potential(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
-    potential = needed(result, "potential").effective_potential
+    potential = section(result, "potential").effective_potential
     ax = axes(ax, 4, 3.4)
-    turning = np.degrees(needed(result, "turning").turning_angle.values)
+    turning = np.degrees(section(result, "turning").turning_angle.values)
     level = float(np.interp(turning, potential.inclination, potential).max())
     lowest = float(potential.min())
     reach = max(level - lowest, 0.05 * abs(lowest), 1e-9)
@@ -270,7 +270,7 @@ def path_of_top(tree: Result) -> solids.Solid:
     theta, phi = answer.theta.values, answer.phi.values
     across, height = np.sin(theta), np.cos(theta)
     tip = np.stack([across * np.sin(phi), -across * np.cos(phi), height], axis=-1)
-    bounds = needed(tree, "turning").turning_angle.values
+    bounds = section(tree, "turning").turning_angle.values
     return solids.Solid(
         title=f"{answer.attrs['title']}: {answer.pattern.item()}",
         caption="The tip of the axis (red) moves between two circles (grey), the turning angles.",
@@ -333,11 +333,12 @@ def plot_attitude_error(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     ax = axes(ax, 8, 3.4)
     answer = answer_of(result)
-    for colour, share in zip(drawing.CYCLE, ("method", "input", "kernel"), strict=False):
-        error = answer[f"attitude_error_{share}"].values
+    shares = [str(name) for name in answer if str(name).startswith("attitude_error_")]
+    for colour, name in zip(drawing.CYCLE, shares, strict=False):
+        error, cause = answer[name].values, name.split("_")[-1]
         shown = np.isfinite(error) & (error > 0)
         if shown.any():
-            ax.semilogy(_days(answer)[shown], error[shown], color=colour, lw=1.2, label=share)
+            ax.semilogy(_days(answer)[shown], error[shown], color=colour, lw=1.2, label=cause)
     ax.axhline(LOST, color="0.4", lw=0.8, ls="--")
     return _label(ax, "error of the attitude (deg)")
 
@@ -353,7 +354,7 @@ def plot_growth(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
     """
     ax = axes(ax, 8, 3.4)
-    neighbour = needed(result, "divergence")
+    neighbour = section(result, "divergence")
     days = _days(neighbour)
     ax.plot(days, neighbour.growth, color=RED, lw=1.2, label="neighbour")
     if "lyapunov_time" in neighbour:

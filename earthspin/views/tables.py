@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from earthspin.engine.variables import error_of, from_si
-from earthspin.views.closing_line import Result, answer_of, needed
+from earthspin.views.result_contents import Result, answer_of, section
 
 MAS_PER_CENTURY = 1e5  # of an arcsec/yr
 #: Below and from here on, numbers are written with a power of ten.
@@ -325,7 +325,7 @@ def tables(tree: Result, without: Iterable[str] = ()) -> list[TextTable]:
     nodes = {} if "" in without else {str(answer.attrs["title"]): answer}
     names = [] if isinstance(tree, xr.Dataset) else [*tree.children]
     for name in (name for name in names if name not in {"plan", *without}):
-        data = needed(tree, name)
+        data = section(tree, name)
         if any(array.size for array in data.values()):
             title = in_words(name)
             nodes[title[0].upper() + title[1:]] = data

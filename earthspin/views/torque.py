@@ -8,11 +8,11 @@ import numpy as np
 import xarray as xr
 
 from earthspin.views import drawing
-from earthspin.views.closing_line import Result, answer_of
 from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, Figure, PageFigure, Views, axes
+from earthspin.views.result_contents import Result, answer_of
 from earthspin.views.tables import along
 
-COLOURS = {"sun": "#E69F00", "moon": "#0072B2", "total": "#222222"}
+COLOURS = {"sun": drawing.ORANGE, "moon": BLUE, "total": "#222222"}
 #: What turns more often than this in a figure is drawn as a band.
 MANY_SWINGS = 200
 

@@ -6,19 +6,19 @@ import numpy as np
 import xarray as xr
 
 from earthspin.views import drawing, tables
-from earthspin.views.closing_line import Result, answer_of, changes_of, needed, section
 from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, Figure, PageFigure, Views, axes
+from earthspin.views.result_contents import Result, answer_of, changes_of, section, stored_section
 from earthspin.views.tables import Column, TextTable, along, table_along
 
 
 def ladder(tree: Result) -> TextTable:
     """Table of the free wobble period for successive models, from rigid to deformable."""
-    answer, observed = answer_of(tree), section(tree, "observed")
+    answer, observed = answer_of(tree), stored_section(tree, "observed")
 
     def period(row: xr.Dataset) -> str:
         if observed is None or row.rung != answer.rung[-1]:
             return tables.measured(row, "period_solar")
-        left_out = section(tree, "neglected")
+        left_out = stored_section(tree, "neglected")
         return tables.beside_observed(row.period_solar, row.period_solar_error, left_out)
 
     def quality(row: xr.Dataset) -> str:
@@ -54,7 +54,8 @@ def ladder(tree: Result) -> TextTable:
 
 
 def _caption_of_ladder(tree: Result) -> str:
-    band = "; the band is the observed period" if section(tree, "observed") is not None else ""
+    observed = stored_section(tree, "observed")
+    band = "" if observed is None else "; the band is the observed period"
     words = (
         "Period of the free wobble from models of increasing detail, with 95 % errors from sampled "
         f"inputs only{band}."
@@ -72,7 +73,7 @@ def plot_ladder(result: Result, *, ax: Axes | None = None) -> Axes:
     ax : Axes, optional
         Drawn on a figure of its own by default.
     """
-    answer, observed = answer_of(result), section(result, "observed")
+    answer, observed = answer_of(result), stored_section(result, "observed")
     ax = axes(ax, 7.5, 4)
     if observed is not None:
         period, error = float(observed.observed_period), float(observed.observed_period_error)
@@ -123,7 +124,7 @@ def plot_by_period(result: Result, *, figure: Figure | None = None) -> Figure:
     figure : Figure, optional
         Drawn on one of its own by default.
     """
-    data = needed(result, "by_period")
+    data = section(result, "by_period")
     figure, (above, below) = drawing.stacked(2, 4.6, figure, width=7.5)
     days = data.love_period.values
     for number, (name, row) in enumerate(along(data, "love")):

@@ -13,7 +13,6 @@ from earthspin.scenes import QUESTIONS, shipped_scenes
 from earthspin.views.page import typeset
 from earthspin.views.rendering import (
     ERRORS,
-    PAGES,
     drawings_for,
     figures_of,
     scene_page,
@@ -81,12 +80,11 @@ def test_a_plain_answer_can_be_drawn(scene: str) -> None:
 
 def test_a_page_names_pages_of_the_documentation_that_there_are() -> None:
     docs = Path(__file__).parents[2] / "docs"
-    assert {question.page for question in QUESTIONS.values()} - {""} == set(PAGES)
-    for name, title in (*PAGES.items(), ERRORS):
-        assert f"\n# {title}\n" in f"\n{(docs / f'{name}.md').read_text(encoding='utf-8')}"
+    for name in {question.page for question in QUESTIONS.values()} - {""} | {ERRORS}:
+        assert (docs / f"{name}.md").exists()
     page = scene_page(shipped.tree("spheroid").to_dataset())
-    assert "Rotors and tops, from the tensor to the torque" in page
-    assert "Error against run time" in page
+    assert "docs/rotors.md" in page
+    assert f"docs/{ERRORS}.md" in page
 
 
 def test_an_answer_draws_itself_and_a_slice_its_slice() -> None:

@@ -25,8 +25,9 @@ from earthspin.top.start import HeavyTop
 from earthspin.torque.average import precessing_torque
 from earthspin.torque.gravity import quadrupole_torque, tidal_tensor
 from earthspin.torque.rates import precession_rate
+from earthspin.views import PLAYS
 from earthspin.views.page import source
-from earthspin.views.play import PLAYS, play_page
+from earthspin.views.play import NUMBERS, play_page
 from earthspin.wobble.ladder import Inputs, roots
 from tests.views.test_browser import browser, opened
 
@@ -282,8 +283,8 @@ def first_number(words: str) -> float:
 
 
 def expected(name: str) -> Iterator[float]:
-    """AnglesWithErrors by the library, before and after a slider is moved."""
-    given = PLAYS[name]()
+    """Readings by the library, before and after a slider is moved."""
+    given = NUMBERS.get(name, dict)()
     if name == "precession":
         pulls = [given["sun"], given["moon"]]
         period = 2 * np.pi / averaged_rate({**given, "pulls": pulls}) / JULIAN_YEAR

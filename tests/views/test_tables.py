@@ -7,8 +7,8 @@ import xarray as xr
 import earthspin
 from earthspin import EARTH
 from earthspin.scenes import QUESTIONS
-from earthspin.views.closing_line import answer_of, needed
 from earthspin.views.rendering import drawings_for, scene_page, tables_for, what_ran
+from earthspin.views.result_contents import answer_of, section
 from earthspin.views.tables import (
     MOST_ROWS,
     SAMPLE,
@@ -133,7 +133,7 @@ def test_every_variable_of_every_section_stands_in_a_table(scene: str) -> None:
     for name, node in tree.children.items():
         if name != "plan":
             for variable, values in node.to_dataset().data_vars.items():
-                words = label(needed(tree, name)[variable]).rpartition(", ")
+                words = label(section(tree, name)[variable]).rpartition(", ")
                 quantity = words[0] or words[2]
                 hidden = "_error" in str(variable) or not values.size
                 assert hidden or any(head.startswith(quantity) for head in heads), variable
