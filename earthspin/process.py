@@ -31,7 +31,7 @@ RESULTS = "the results are stored in"
 TRACEBACK = "EARTHSPIN_TRACEBACK"
 
 #: What ends a program politely; each leaves it time to clear up as an interrupt does.
-_ENDINGS = [getattr(signal, n) for n in ("SIGTERM", "SIGHUP") if hasattr(signal, n)]
+_SIGNALS = [getattr(signal, n) for n in ("SIGTERM", "SIGHUP") if hasattr(signal, n)]
 
 
 def run_command(command: Callable[[], None], *, show_traceback: bool = False) -> int:
@@ -50,9 +50,9 @@ def run_command(command: Callable[[], None], *, show_traceback: bool = False) ->
         be written; 70 for a defect of the program; 130 if interrupted, 143 if terminated, 129 if
         the terminal is gone; 141 if whoever read the output has gone.
     """
-    with warnings.catch_warnings(record=True) as held:
+    with warnings.catch_warnings(record=True) as recorded:
         status = _status(command, show_traceback)
-    for warning in held if status == 0 else ():
+    for warning in recorded if status == 0 else ():
         _say(" ".join(str(warning.message).split()))
     return status
 
@@ -62,20 +62,20 @@ def _status(command: Callable[[], None], show_traceback: bool) -> int:
     try:
         _check_streams()
         logging.getLogger("matplotlib").setLevel(logging.ERROR)  # its own affairs
-        with _endings():
+        with _signals_as_interrupts():
             command()
             sys.stdout.flush()
-    except KeyboardInterrupt as ended:
-        number = ended.args[0] if ended.args else signal.SIGINT
-        how = f"ended by {signal.Signals(number).name}" if ended.args else "interrupted"
-        kept = "; ".join(getattr(ended, "__notes__", ())) or "nothing was left half-written"
+    except KeyboardInterrupt as interrupt:
+        number = interrupt.args[0] if interrupt.args else signal.SIGINT
+        how = f"ended by {signal.Signals(number).name}" if interrupt.args else "interrupted"
+        kept = "; ".join(getattr(interrupt, "__notes__", ())) or "nothing was left half-written"
         _say(f"{how}; {kept}")
         return 128 + int(number)
     except BrokenPipeError:
         _drop_output()  # the interpreter must not try to flush it again
         return READER_GONE
     except Exception as error:
-        status, words = _judged(error)
+        status, words = _outcome(error)
         notes = (note for note in getattr(error, "__notes__", ()) if note.startswith(RESULTS))
         _say("; ".join([words, *notes]))
         if show_traceback or os.environ.get(TRACEBACK, "0") not in ("", "0"):
@@ -84,7 +84,7 @@ def _status(command: Callable[[], None], show_traceback: bool) -> int:
     return 0
 
 
-def _judged(error: Exception) -> tuple[int, str]:
+def _outcome(error: Exception) -> tuple[int, str]:
     """Return the exit status for an error, and the message to print."""
     if isinstance(error, EarthspinError):
         return USAGE_ERROR, str(error)
@@ -139,14 +139,14 @@ def _check_streams() -> None:
 
 
 @contextmanager
-def _endings() -> Iterator[None]:
+def _signals_as_interrupts() -> Iterator[None]:
     """Turn termination signals into KeyboardInterrupt, so that temporary files are removed."""
 
     def end(number: int, frame: FrameType | None) -> None:
         signal.signal(number, signal.SIG_DFL)  # the second one ends it at once
         raise KeyboardInterrupt(number)
 
-    before = [n for n in _ENDINGS if signal.getsignal(n) is signal.SIG_DFL]  # not under nohup
+    before = [n for n in _SIGNALS if signal.getsignal(n) is signal.SIG_DFL]  # not under nohup
     try:
         with suppress(ValueError):  # in another thread than the main one
             for number in before:

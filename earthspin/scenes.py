@@ -617,20 +617,20 @@ def toml(text: str) -> dict[str, Any]:
     return tomllib.loads(text)
 
 
-def files_of(question: Question, but: Iterable[str] = ()) -> list[tuple[str, Path, FileName]]:
+def files_of(question: Question, without: Iterable[str] = ()) -> list[tuple[str, Path, FileName]]:
     """List the files that a question reads: name of the input, path, and expected type of file.
 
     Parameters
     ----------
     question : Question
-    but : iterable of str
+    without : iterable of str
         Keys to leave out.
     """
     members, files = question.members, []
     for name, key in keys_of(type(question)).items():
         dotted = f"{question.table}.{name}" if key.setting else name
         kind = key.kind
-        if not isinstance(kind, FileName) or dotted in but:
+        if not isinstance(kind, FileName) or dotted in without:
             continue
         values = [getattr(question, name)]
         if members is not None and name in members.distributions:

@@ -149,9 +149,9 @@ class Body(FromMass):
     cycle: Annotated[float, Magnitude("s", "4333 d")] = c.JUPITER_ORBITAL_PERIOD.value
     # from the scatter of averages about epochs every 1500 d in DE440 (docs/accuracy.md)
     slow_swing: Annotated[float, Magnitude("", "2e-7")] = 2e-7
-    interior: Annotated[str | LayeredBody | None, kinds.UnderTheSurface()] = None
+    interior: Annotated[str | LayeredBody | None, kinds.InteriorConverter()] = None
     observed_wobble: Annotated[c.Constant | None, kinds.CitedPeriod()] = None
-    position: Annotated[Any, kinds.OwnPlace()] = None
+    position: Annotated[Any, kinds.PositionConverter()] = None
     orbit: Annotated[Orbit | None, Orbit] = None
     relative_uncertainty: Annotated[Mapping[str, float], kinds.Uncertainties()] = field(
         default_factory=dict
@@ -176,11 +176,11 @@ class Body(FromMass):
         if places:
             raise TypeError("Body() takes its arguments by name: Body(name='x', gm=1e14)")
         for key in fields.keys() - cls.KINDS.keys() - {"obliquity"}:
-            use = f"use Body(...).replace({key}=...)" if key in _READ_AS else ""
-            problem = _ANOTHER.get(key) or use or nearest(key, cls.KINDS)
+            use = f"use Body(...).replace({key}=...)" if key in _CONVERTERS else ""
+            problem = _ADVICE.get(key) or use or nearest(key, cls.KINDS)
             raise BodyError(str(fields.get("name", "")), key, fields[key], problem)
-        if fields and (lacks := _lacking(NOTHING, fields)):  # a copy begins without fields
-            raise ArgumentError(f"Body() {lacks}")
+        if fields and (missing := _missing_fields(NOTHING, fields)):  # a copy begins without fields
+            raise ArgumentError(f"Body() {missing}")
         return super().__new__(cls)
 
     def __post_init__(self, obliquity: Any) -> None:
@@ -209,7 +209,7 @@ class Body(FromMass):
 
     def _pole_at(self, value: object) -> PoleModel:
         """Spin axis, fixed in space, with another obliquity but the same equinox direction."""
-        angle = _READ_AS["obliquity"].read(value, Where(f"{self.name}.obliquity"))
+        angle = _CONVERTERS["obliquity"].read(value, Where(f"{self.name}.obliquity"))
         if hasattr(angle, "dims") or np.ndim(angle) or not 0 <= angle <= math.pi:
             allowed = "from 0 to 180 deg; plain numbers are radians, so write '40 deg'"
             raise BodyError(self.name, "obliquity", value, f"give one angle {allowed}")
@@ -263,7 +263,7 @@ class Body(FromMass):
         return hash((self.name, self.naif))
 
     def __repr__(self) -> str:
-        numbers = (f"{name} = {number}" for name, number in self._in_words() if name in _TOLD)
+        numbers = (f"{name} = {number}" for name, number in self._in_words() if name in _IN_REPR)
         return f"<Body {self.name}: {', '.join(numbers)}>"
 
     def _repr_html_(self) -> str:
@@ -283,7 +283,7 @@ class Body(FromMass):
         for name in self.KINDS:
             value, unit = getattr(self, name), self.UNITS.get(name, "")
             labelled = hasattr(value, "dims")
-            if value is None or name in _NOT_TOLD or (not labelled and value in ((), {}, "")):
+            if value is None or name in _HIDDEN_FIELDS or (not labelled and value in ((), {}, "")):
                 continue
             words = f"an array along {', '.join(map(str, value.dims))}" if labelled else f"{value}"
             if name == "satellites":
@@ -338,15 +338,15 @@ class Body(FromMass):
             return _placed(value, where) if hasattr(value, "target") else body(value, where)
         table = dict(value)
         start = table.pop("from", "earth")
-        where.refuse_unknown(table, ["from", *_READ_AS])
-        changes = {key: _READ_AS[key].read(entry, where.at(key)) for key, entry in table.items()}
+        where.refuse_unknown(table, ["from", *_CONVERTERS])
+        changes = {key: _CONVERTERS[key].read(entry, where.at(key)) for key, entry in table.items()}
         if "from" not in value and "name" in changes:
             allowed = "write from = 'earth' or another to change, from = 'nothing' for a new body"
             raise where.error(dict(table), allowed)
         try:
-            if start in _LEAST:
-                if lacks := _lacking(start, changes):
-                    raise where.error(dict(table), f"a body from {start} {lacks}")
+            if start in _REQUIRED_KEYS:
+                if missing := _missing_fields(start, changes):
+                    raise where.error(dict(table), f"a body from {start} {missing}")
                 if start == LAYERS:
                     return cls.from_layers(changes.pop("interior"), **changes)
                 derived = {key: changes.pop(key) for key in _DERIVED & changes.keys()}
@@ -487,7 +487,7 @@ class Body(FromMass):
     def magnitudes(self) -> dict[str, Magnitude]:
         """Converters between text and SI values, by field: for the mass and each known number."""
         numbers = {n: self.KINDS[n] for n in self.UNITS if getattr(self, n) is not None}
-        return numbers | {"mass": _READ_AS["mass"]}
+        return numbers | {"mass": _CONVERTERS["mass"]}
 
     @property
     def labelled(self) -> bool:
@@ -526,13 +526,13 @@ class Body(FromMass):
         0.5
         """
         for key, value in changes.items():
-            if key not in _READ_AS:
-                problem = _ANOTHER.get(key) or nearest(key, _READ_AS)
+            if key not in _CONVERTERS:
+                problem = _ADVICE.get(key) or nearest(key, _CONVERTERS)
                 raise BodyError(self.name, key, value, problem)
             if value is None and key not in self.KINDS:
-                raise BodyError(self.name, key, value, f"give {_READ_AS[key].words}")
+                raise BodyError(self.name, key, value, f"give {_CONVERTERS[key].words}")
             if type(value) is not float and value is not None:
-                changes[key] = _READ_AS[key].read(value, Where(key))
+                changes[key] = _CONVERTERS[key].read(value, Where(key))
         if "mass" in changes:
             if "gm" in changes:
                 raise BodyError(self.name, "mass", changes["mass"], "gm already gives it; set one")
@@ -596,7 +596,7 @@ class Body(FromMass):
 
         This is so if a field that affects the wobble differs by more than 1 % from this body.
         """
-        changed = _OF_THE_WOBBLE & set(changes)
+        changed = _WOBBLE_FIELDS & set(changes)
         return not all(is_close(changes[name], getattr(self, name)) for name in changed)
 
     @property
@@ -605,7 +605,7 @@ class Body(FromMass):
         named = BODIES.get(self.known_as)
         if named is None or self.satellites != named.satellites:
             return False
-        close = (are_close(getattr(self, name), getattr(named, name)) for name in _OF_THE_WOBBLE)
+        close = (are_close(getattr(self, name), getattr(named, name)) for name in _WOBBLE_FIELDS)
         return reduce(and_, close)
 
     @property
@@ -621,47 +621,47 @@ Body.LABELLED = frozenset(Body.UNITS) - {
 }  # fmt: skip
 
 #: Converters of all keys by which a body can be created or changed.
-_READ_AS: dict[str, Any] = {
+_CONVERTERS: dict[str, Any] = {
     **Body.KINDS, "mass": Magnitude("kg", "5.97e24 kg"), "moments": kinds.ThreeMoments(),
     "obliquity": Magnitude("rad", "40 deg"),
 }  # fmt: skip
 
 #: Keys that change other fields of a body.
-_DERIVED = _READ_AS.keys() - Body.KINDS.keys() - {"obliquity"}
+_DERIVED = _CONVERTERS.keys() - Body.KINDS.keys() - {"obliquity"}
 
 #: Required keys of a table, by its "from", each with an example value.
-_LEAST = {
+_REQUIRED_KEYS = {
     NOTHING: {"name": '"ceres"', "gm": '"62.6 km3/s2"'},
     LAYERS: {"name": '"ceres"', "spin_period": '"9.07 h"', "interior": "{layers = [...]}"},
 }
 
 #: Fields that most questions about a spinning body need, and keys that replace some of them.
-_OF_SPIN = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
+SPIN_FIELDS = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
 _INSTEAD = {"j2": "moments", "dynamical_flattening": "moments", "pole": "obliquity"}
 
 
-def _lacking(start: str, given: Mapping[str, Any]) -> str:
+def _missing_fields(start: str, given: Mapping[str, Any]) -> str:
     """Text that lists the required fields that a table or call lacks; empty if it has all."""
-    missing = [f"{name} = {e}" for name, e in _LEAST[start].items() if name not in given]
+    missing = [f"{name} = {e}" for name, e in _REQUIRED_KEYS[start].items() if name not in given]
     if not missing:
         return ""
-    spin = [name for name in _OF_SPIN if not {name, _INSTEAD.get(name)} & given.keys()]
+    spin = [name for name in SPIN_FIELDS if not {name, _INSTEAD.get(name)} & given.keys()]
     spins = f"; a spinning one also needs {', '.join(spin)}" if start == NOTHING and spin else ""
     return f"needs more, like {', '.join(missing)}{spins}"
 
 
 #: Advice for quantities that are no fields where they were given.
-_ANOTHER = {
+_ADVICE = {
     "mass": f"give gm = {c.G.value:g} m3 kg-1 s-2 * mass",
     "polar_moment_factor": "set dynamical_flattening = j2/polar_moment_factor",
 }
 
 #: Fields omitted from the body's card, and fields shown in its repr.
-_NOT_TOLD = {"name", "relative_uncertainty"}
-_TOLD = {"gm", "radius", "j2", "dynamical_flattening", "spin_period"}
+_HIDDEN_FIELDS = {"name", "relative_uncertainty"}
+_IN_REPR = {"gm", "radius", "j2", "dynamical_flattening", "spin_period"}
 
 #: Numbers that determine the free wobble.
-_OF_THE_WOBBLE = {"gm", "radius", "j2", "dynamical_flattening", "flattening", "spin_period"}
+_WOBBLE_FIELDS = {"gm", "radius", "j2", "dynamical_flattening", "flattening", "spin_period"}
 
 
 #: Every built-in body, and the source and uncertainty of its numbers; filled by the body's file.

@@ -58,7 +58,7 @@ Fields = Mapping[str, Any]
 LARGEST_GM, LONGEST_DAY = 1e60, 1e30
 
 #: Usual mean densities, from loose planets to small stars, kg m-3.
-USUAL = 30.0, 1e5
+USUAL_DENSITIES = 30.0, 1e5
 #: Densities that no body has: above those of white dwarfs and below those of neutron stars; and
 #: below 1, but for giant stars, whose GM is larger than `LEAST_STAR`, m3 s-2.
 NO_STAR, LEAST_STAR = (1e11, 1e16), 1e18
@@ -67,11 +67,11 @@ LARGEST_STAR = 6.6e22
 
 #: Bound on the mean moment of a nearly round body: that of a hollow sphere, and 1 %; and bound on
 #: the J2 and the triaxiality of such a body.
-HOLLOW, ROUND = 1.01 * 2 / 3, 0.05
+HOLLOW_SPHERE, NEARLY_ROUND = 1.01 * 2 / 3, 0.05
 
 _THIN_DISC = "C cannot exceed A + B, so H = (C - A)/C is at most 0.5 (the thin disc)"
 #: Conditions on single numbers, in the order of the checks, with the text of the message.
-_HOLDS: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
+_CONDITIONS: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
     ("gm", lambda gm: gm >= 0, "a mass must be zero or more"),
     ("gm", lambda gm: gm <= LARGEST_GM, f"give at most {LARGEST_GM:g} m3 s-2"),
     ("cycle", lambda t: t > 0, "a cycle must be greater than zero"),
@@ -132,7 +132,7 @@ def check_numbers(body: Fields, numbers: Iterable[str]) -> None:
         If no body can have these numbers.
     """
     name = body["name"]
-    for field, holds, allowed in _HOLDS:
+    for field, holds, allowed in _CONDITIONS:
         value = body[field]
         if value is not None and not all_of(holds(value)):
             raise BodyError(name, field, value, allowed)
@@ -167,7 +167,7 @@ def _check_density(name: str, gm: Numeric, radius: Numeric) -> None:
         ("gm", gm, "km3/s2", not_thin, 1e9),
     ):
         meant = density * factor
-        if not all_of(right | (meant <= USUAL[0]) | (meant >= USUAL[1])):
+        if not all_of(right | (meant <= USUAL_DENSITIES[0]) | (meant >= USUAL_DENSITIES[1])):
             allowed = f"no body has this density; if it is in {unit}, write this unit behind it"
             raise BodyError(name, field, value, allowed)
 
@@ -188,8 +188,8 @@ def _check_polar_moment(name: str, j2: Numeric, h: Numeric, triaxiality: Numeric
     if not all_of((triaxiality * abs(h) <= abs(j2)) | (h == 0)):
         raise BodyError(name, "triaxiality", triaxiality, "B - A cannot exceed C")
     # (A + B + C)/3 = 2/3 M <r2>, and no mass of a nearly round body is far outside its radius
-    solid = abs(j2) - 2 / 3 * j2 * abs(h) <= HOLLOW * abs(h)
-    if not all_of(solid | (abs(j2) >= ROUND) | (triaxiality >= ROUND) | (h == 0)):
+    solid = abs(j2) - 2 / 3 * j2 * abs(h) <= HOLLOW_SPHERE * abs(h)
+    if not all_of(solid | (abs(j2) >= NEARLY_ROUND) | (triaxiality >= NEARLY_ROUND) | (h == 0)):
         allowed = "C = (j2/H) M a2 exceeds 2/3 M a2 of a hollow sphere; increase H or reduce j2"
         raise BodyError(name, "dynamical_flattening", h, allowed)
 
@@ -270,11 +270,11 @@ def as_direction(name: str, field: str, value: Any, read: Callable[[Any], Any]) 
 #: faster than gravity alone allows, up to this tension.
 STRONGEST = 1e10
 #: Largest precession per radian of the orbit or of the spin, rad.
-SLOW = 0.01
+FASTEST = 0.01
 #: Bound on the relative error of a first-order average, divided by the sum of the two ratios of
 #: precession rate to orbital and spin rate. Measured values are 0.3 to 1.8, against the rotation
 #: under the Sun's torque, at two obliquities and ratios up to 0.05.
-OF_AVERAGE = 2.0
+SECOND_ORDER_BOUND = 2.0
 
 
 def largest(value: Numeric) -> float:
@@ -355,11 +355,11 @@ def refuse_fast_axis(by_orbit: Numeric, by_spin: Numeric) -> None:
     ------
     UndefinedError
     """
-    if all_of((by_orbit <= SLOW) & (by_spin <= SLOW)):
+    if all_of((by_orbit <= FASTEST) & (by_spin <= FASTEST)):
         return
     orbits, spin = largest(by_orbit), largest(by_spin)
     word, share = ("orbit", orbits) if orbits > spin else ("rotation", spin)
     raise UndefinedError(
         f"an average over orbits needs a slow precession: this axis makes {share:.2g} turns per "
-        f"{word}, and at most {SLOW:g} is allowed; use the question rotation for the full motion"
+        f"{word}, and at most {FASTEST:g} is allowed; use the question rotation for the full motion"
     )

@@ -145,7 +145,7 @@ def kinds_of(record: type) -> dict[str, Any]:
     return {name: hint.__metadata__[0] for name, hint in annotated.items()}
 
 
-class OwnPlace:
+class PositionConverter:
     """Converter of the input `position`: a Skyfield function, `Trajectory` or kernel segments."""
 
     words = "a vector function of Skyfield's, or segments like {kernel, centre, target}"
@@ -291,7 +291,7 @@ def _sampled(table: Any, name: str, reference: str, where: Where) -> LayeredBody
         raise where.error("a table", problem) from None
 
 
-class UnderTheSurface:
+class InteriorConverter:
     """Converter of the input `interior` of a body: a name, a `LayeredBody` or its table."""
 
     words = (

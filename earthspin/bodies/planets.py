@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from earthspin import constants as c
-from earthspin.bodies.body import BODIES, NUMBERS, Body, body
+from earthspin.bodies.body import BODIES, NUMBERS, SPIN_FIELDS, Body, body
 from earthspin.bodies.earth_moon_sun import MOON, SUN
 from earthspin.bodies.giants import ORBITS
 from earthspin.bodies.inner import MERCURY, MERCURY_ORBIT
@@ -35,7 +35,7 @@ LEFT_OUT_OF_RATES: dict[str, dict[str, Constant]] = {
 }
 
 _SUN_AND_MOON = ("sun", "moon")
-_OTHERS = (
+_PERTURBERS = (
     {name: ("sun",) for name in PLANETS if name != "earth"}
     | {"moon": ("earth", "sun")}
     | {name: (orbit.about, "sun") for name, orbit in OF_MOONS.items()}
@@ -44,7 +44,7 @@ _OTHERS = (
 
 def default_perturbers(body: Body) -> tuple[Body, ...]:
     """Default perturbers: Sun (planets), planet and Sun (moons), Sun and Moon (Earth, others)."""
-    return tuple(BODIES[name] for name in _OTHERS.get(body.known_as, _SUN_AND_MOON))
+    return tuple(BODIES[name] for name in _PERTURBERS.get(body.known_as, _SUN_AND_MOON))
 
 
 def on_its_orbit(body: Body) -> Body:
@@ -209,17 +209,14 @@ BEYOND_RIGID = {
 
 # --- lists as text --------------------------------------------------------------------------------
 
-#: Fields that the question precession needs, in the order of the list.
-_ASKED = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
-
 
 def all_in_words() -> str:
     """List all built-in bodies as text: perturber only, or spinning too; and unknown numbers."""
     width = max(map(len, BODIES))
     lines = []
     for name, world in BODIES.items():
-        missing = [field for field in _ASKED if getattr(world, field) is None]
-        facts = ["pulls and spins" if len(missing) < len(_ASKED) - 1 else "pulls"]
+        missing = [field for field in SPIN_FIELDS if getattr(world, field) is None]
+        facts = ["pulls and spins" if len(missing) < len(SPIN_FIELDS) - 1 else "pulls"]
         if name in OF_MOONS:
             facts = [f"{facts[0]} once it has an orbit or a position"]
         if missing and facts[0] != "pulls":

@@ -152,20 +152,20 @@ class Answer:
             total            25712.1
         """
         spread, variables = _spread(self.dataset), [*map(str, self.dataset.data_vars)]
-        wanted = names_in(columns, "columns")
-        if wanted == [ALL]:
-            wanted = [str(n) for n, v in spread.data_vars.items() if v.ndim or not spread.sizes]
+        requested = names_in(columns, "columns")
+        if requested == [ALL]:
+            requested = [str(n) for n, v in spread.data_vars.items() if v.ndim or not spread.sizes]
         # a column belongs to the variable with the longest name with which its own begins
         owners = {
             column: max((v for v in variables if f"{column}_".startswith(f"{v}_")), key=len)
             for column in map(str, spread)
         }
         names: list[str] = []
-        for name in wanted:
-            found = [c for c in owners if name in (c, owners[c]) or c.startswith(f"{name}{_ERROR}")]
-            if not found and name not in spread.dims:
+        for name in requested:
+            own = [c for c in owners if name in (c, owners[c]) or c.startswith(f"{name}{_ERROR}")]
+            if not own and name not in spread.dims:
                 raise SceneError("columns", name, nearest(name, variables))
-            names += [column for column in found if column not in names]
+            names += [column for column in own if column not in names]
         if not spread.sizes:  # an answer without dimensions is one row
             return spread.expand_dims("row").to_dataframe().reset_index(drop=True)[names]
         frame = spread.to_dataframe()
@@ -282,17 +282,17 @@ class Answer:
         [25712.07 25712.08 25712.1 ]
         """
         try:
-            wanted = np.atleast_1d(real_numbers(shares))
+            levels = np.atleast_1d(real_numbers(shares))
         except Exception:  # somebody's class may raise anything
-            wanted = np.empty(0)
-        if not (wanted.ndim == 1 and wanted.size and ((wanted >= 0) & (wanted <= 1)).all()):
+            levels = np.empty(0)
+        if not (levels.ndim == 1 and levels.size and ((levels >= 0) & (levels <= 1)).all()):
             raise SceneError("quantiles", shares, "give numbers between 0 and 1")
         variables = {}
         for name, array in _members(self.dataset, "quantiles").items():
-            values = sampling.quantiles(array.values.astype(float), wanted)
+            values = sampling.quantiles(array.values.astype(float), levels)
             variables[name] = (("quantile", *array.dims[1:]), values, array.attrs)
         attrs = {"long_name": "share of the members below", "units": "1"}
-        labels = {"quantile": ("quantile", wanted, attrs)} | _other_labels(self.dataset)
+        labels = {"quantile": ("quantile", levels, attrs)} | _other_labels(self.dataset)
         return xr.Dataset(variables, labels, dict(self.dataset.attrs))
 
     def sensitivity(self) -> xr.Dataset:

@@ -511,7 +511,7 @@ class BlockSeries:
     def request(self) -> Mapping[str, str]:
         """Texts that identify the run: question, software versions and checksums of files."""
         ends = [*self.question.graph.answer, NEGLECTED]
-        return request_of(self.question, self._run.provenance(ends, but=[BLOCK]))
+        return request_of(self.question, self._run.provenance(ends, without=[BLOCK]))
 
     def make(self, number: int) -> xr.Dataset:
         """Compute and return one block of consecutive times, by block number."""

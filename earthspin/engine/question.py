@@ -467,7 +467,7 @@ class Part(Generic[P, R]):
     ----------
     name : str
         Name of the function; other parts take the result as a parameter of this name.
-    does : str
+    summary : str
         Description of the part: the first line of the docstring.
     needs, uses : tuple of str
         Names of the required and of the optional parameters.
@@ -502,7 +502,7 @@ class Part(Generic[P, R]):
         self.gives, self.fields = returned.schema, frozenset(returned.fields)
         self.name = function.__name__
         line = (function.__doc__ or "").strip().split("\n")[0].rstrip(".")
-        self.does = line[:1].lower() + line[1:] if line[1:2].islower() else line
+        self.summary = line[:1].lower() + line[1:] if line[1:2].islower() else line
         update_wrapper(self, function)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
@@ -528,7 +528,7 @@ class Part(Generic[P, R]):
         return self.name
 
     def __repr__(self) -> str:
-        return f"<part {self.title}: {self.does}>"
+        return f"<part {self.title}: {self.summary}>"
 
     @property
     def title(self) -> str:
@@ -553,7 +553,7 @@ class Part(Generic[P, R]):
     def description(self, keys: dict[str, Any]) -> str:
         """Describe what this part does for the given inputs, for the table of a plan."""
         describe = self.describe
-        return self.does if describe is None else describe(**_arguments(describe, keys))
+        return self.summary if describe is None else describe(**_arguments(describe, keys))
 
 
 @overload

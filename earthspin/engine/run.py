@@ -92,8 +92,8 @@ class Plan:
         rows = [] if cost is None else [Row(IMPORTS, status, note, cost)]
         for part in self.parts:
             state = REUSED if part.name in self.reused else status
-            does = part.description(keys)
-            rows.append(Row(part.title, state, does, self.seconds.get(part.name)))
+            summary = part.description(keys)
+            rows.append(Row(part.title, state, summary, self.seconds.get(part.name)))
         return rows + [Row(title, "left out", why) for title, why in self.left_out.items()]
 
     def to_frame(self) -> pd.DataFrame:
@@ -164,7 +164,7 @@ class Run:
         self._seconds: dict[str, float] = {}
         self._reused: set[str] = set()
         self._reasons: dict[str, str] = {}
-        self._behind: dict[str, dict[str, None]] = {}
+        self._dependencies: dict[str, dict[str, None]] = {}
         self._refuse_taken_dimensions()
         if why := self.why_not(self.graph.answer[0]):
             raise question.error("compute", question.word, f"nothing to do: {why}")
@@ -212,7 +212,7 @@ class Run:
         )
         return [*part.needs, *offered]
 
-    def behind(self, names: Iterable[str]) -> dict[str, None]:
+    def dependencies(self, names: Iterable[str]) -> dict[str, None]:
         """Names of parts (functions) and of all that they depend on, in the order of computation.
 
         Parts that are left out are omitted.
@@ -221,9 +221,9 @@ class Run:
         for name in names:
             if name in self.graph.parts and self.why_not(name):
                 continue
-            if name not in self._behind:
-                self._behind[name] = self.behind(self.inputs(name)) | {name: None}
-            union |= self._behind[name]
+            if name not in self._dependencies:
+                self._dependencies[name] = self.dependencies(self.inputs(name)) | {name: None}
+            union |= self._dependencies[name]
         return union
 
     def plan(self, sections: str | Iterable[str] = ()) -> Plan:
@@ -242,7 +242,7 @@ class Run:
         names, graph = self._named(sections), self.graph
         of_sections = (part for name in names for part in graph.sections[name])
         ends = [*graph.answer, NEGLECTED, *of_sections]
-        parts = tuple(graph.parts[name] for name in self.behind(ends) if name in graph.parts)
+        parts = tuple(graph.parts[name] for name in self.dependencies(ends) if name in graph.parts)
         others = {name: part.title for name, part in graph.parts.items() if part not in parts}
         left_out = {title: self.why_not(n) or NOT_REQUESTED for n, title in others.items()}
         ran = dict(self._seconds), frozenset(self._reused)
@@ -250,17 +250,17 @@ class Run:
 
     def _named(self, sections: str | Iterable[str]) -> list[str]:
         """Names of the requested sections that apply, without duplicates, in standard order."""
-        known, wanted = self.graph.sections, names_in(sections, "sections")
+        known, requested = self.graph.sections, names_in(sections, "sections")
         applicable = [name for name in known if not all(map(self.why_not, known[name]))]
-        if wanted == [ALL]:
+        if requested == [ALL]:
             return applicable
-        for name in wanted:
+        for name in requested:
             if name not in known:
                 raise SceneError("sections", name, nearest(name, [*known, ALL]))
             if name not in applicable:
                 why = self.why_not(known[name][0])
                 raise SceneError("sections", name, f"it does not apply: {why}")
-        return [name for name in known if name in wanted]
+        return [name for name in known if name in requested]
 
     def again(self, question: Question | None = None, **values: Any) -> Self:
         """Return a new run with changed inputs; results that do not depend on them are reused.
@@ -276,7 +276,7 @@ class Run:
         same = {
             name for name, value in new.values.items() if _is_same(self.values.get(name), value)
         }
-        for name in new.behind([*self.graph.answer, NEGLECTED]):
+        for name in new.dependencies([*self.graph.answer, NEGLECTED]):
             inputs = new.inputs(name)
             if name in self.graph.parts and same.issuperset(inputs) and inputs == self.inputs(name):
                 new.values[name] = self[name]
@@ -310,7 +310,7 @@ class Run:
         ends = [*self.graph.answer, NEGLECTED]
         self._load_modules(ends)
         result, neglected = self.numbers(), self.neglected
-        result.attrs = _described(self.question, map(self.__getitem__, self.behind(ends)))
+        result.attrs = _described(self.question, map(self.__getitem__, self.dependencies(ends)))
         result.attrs |= self.provenance(ends)
         result.attrs |= {NEGLECTED: neglected.largest, SCENE: scene_text(self.question)}
         error = error_of(result, self.question.headline)
@@ -338,19 +338,19 @@ class Run:
         neglected: Neglected = self[NEGLECTED]
         return neglected.also(self.question.unused)
 
-    def provenance(self, names: Iterable[str], but: Iterable[str] = ()) -> dict[str, str]:
+    def provenance(self, names: Iterable[str], without: Iterable[str] = ()) -> dict[str, str]:
         """Software versions and checksums of data files on which the results of given parts depend.
 
         Parameters
         ----------
         names : iterable of str
             Names of the parts. Sources of all inputs of the question are included.
-        but : iterable of str
+        without : iterable of str
             Names of inputs; parts that depend on them are omitted, and not computed.
         """
         sources: dict[str, str] = {}
-        for name in [*self.keys, *self.behind(names)]:
-            if not self.behind([name]).keys() & {*but}:
+        for name in [*self.keys, *self.dependencies(names)]:
+            if not self.dependencies([name]).keys() & {*without}:
                 sources |= getattr(self[name], "provenance", {})
         return sources
 
@@ -358,7 +358,7 @@ class Run:
         """Import the modules that some parts (functions) need, so that run times exclude this."""
         begun = time.perf_counter()
         _load_xarray()
-        for name in self.behind(names):
+        for name in self.dependencies(names):
             if name in self.graph.parts:
                 for module in self.graph.parts[name].loads:
                     import_module(module)

@@ -11,7 +11,7 @@ import numpy as np
 from earthspin._lazy import xr
 from earthspin._version import version
 from earthspin.bodies import Body, Numeric
-from earthspin.bodies.checks import OF_AVERAGE, largest, refuse_fast_axis
+from earthspin.bodies.checks import SECOND_ORDER_BOUND, largest, refuse_fast_axis
 from earthspin.constants import DAY
 from earthspin.engine.question import part
 from earthspin.mass.figure import moment_difference
@@ -423,7 +423,7 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         rate=rate,
         torque=torque,
         ratio=array(rates.rate_ratio(means.precessing)),
-        second_order=largest(OF_AVERAGE * (by_orbit + by_spin) * total),
+        second_order=largest(SECOND_ORDER_BOUND * (by_orbit + by_spin) * total),
         gm_over_r3=gm_over_r3,
         satellite_factors=moons,
     )

@@ -20,7 +20,6 @@ from earthspin.engine.variables import (
     labels,
     measured,
     number,
-    words,
 )
 from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
@@ -30,12 +29,10 @@ from earthspin.nutation.rate_budget import RateBudget, budget_of
 from earthspin.progress import progress
 from earthspin.questions.effects_and_torques import ATTRACTORS, Attractors
 from earthspin.questions.iau_comparison import (
+    ARGUMENTS,
     INTERIOR,
-    MERGED,
-    NEIGHBOUR,
-    NEIGHBOUR_SHARE,
-    SERIES,
     Comparison,
+    IAUTerms,
     PoleComparison,
     ResponseFit,
     Shift,
@@ -366,24 +363,13 @@ def observed(differences: Differences, observed_sky: ObservedSky) -> ObservedSiz
     return observed_sky.sizes(plain, differences.error)
 
 
-_ARGUMENTS = "it follows from the adopted arguments of IERS 2003"
 _FIT = "part of a fit; left_in_phase and left_out_of_phase are its residuals"
 
 
-class NutationTerms(Variables, along=("term",)):
+class NutationTerms(IAUTerms):
     """Largest circular nutation terms of the computed pole and of the IAU pole."""
 
-    period = number(
-        "d", "period of the circle in space, negative if retrograde", no_error=_ARGUMENTS
-    )
     rigid = amplitude("mas", "computed rigid amplitude", error="amplitude_error")
-    iau = amplitude("mas", MERGED, error="amplitude_error")
-    amplitude_error = number(
-        "mas", "95 % half-width of an amplitude, without the share of the neighbour"
-    )
-    neighbour = words(NEIGHBOUR)
-    neighbour_in_phase = number("mas", f"{NEIGHBOUR_SHARE}, in phase", no_error=SERIES)
-    neighbour_out_of_phase = number("mas", f"{NEIGHBOUR_SHARE}, out of phase", no_error=SERIES)
     ratio = amplitude(
         "1", "ratio of IAU 2000A to the computed rigid amplitude", error="ratio_error"
     )
@@ -400,7 +386,6 @@ class NutationTerms(Variables, along=("term",)):
         "IAU 2000A minus response times rigid amplitude",
         no_error="a measure of error itself; errors common to both analyses cancel",
     )
-    term = labels()
 
 
 @part
@@ -452,7 +437,7 @@ class FittedCore(Variables, no_error="part of a fit; its residuals measure it"):
         "d",
         "period of the circle in space, negative if retrograde",
         along=("added_to",),
-        no_error=_ARGUMENTS,
+        no_error=ARGUMENTS,
     )
     added = amplitude(
         "uas", "IAU 2000A minus the fitted response", along=("added_to",), error="added_error"

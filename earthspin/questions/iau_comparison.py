@@ -15,6 +15,7 @@ from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
 from earthspin.dates import Epochs, Span, Step
 from earthspin.engine.question import key, part
+from earthspin.engine.variables import Variables, amplitude, labels, number, words
 from earthspin.errors import UndefinedError
 from earthspin.motion import axes
 from earthspin.motion.axes import AxisPath
@@ -43,11 +44,10 @@ HALF_SPAN = 27200.0  # d
 #: mas with 50 years of DE421, 1 to 3 mas with 45, 9 to 11 with 40 and 150 with 35.
 SHORTEST_SPAN = 45 * JULIAN_YEAR / DAY  # d
 SAMPLING = 4.0  # d
-#: Descriptions of amplitudes of terms that this span does not separate, in results.
-MERGED = "amplitude of IAU 2000A, with the share of the neighbour (no published value)"
-NEIGHBOUR = "term that 150 years cannot separate from this one; empty if there is none"
-NEIGHBOUR_SHARE = "share of the neighbour in the amplitude of IAU 2000A"
-SERIES = "coefficients of the adopted series"
+#: Reason why periods of terms have no error.
+ARGUMENTS = "it follows from the adopted arguments of IERS 2003"
+_SHARE = "share of the neighbour in the amplitude of IAU 2000A"
+_SERIES = "coefficients of the adopted series"
 
 
 @part
@@ -401,6 +401,26 @@ def comparison(
         iau_circles=iau_pole.circles,
         difference=eta - iau_pole.nutation,
     )
+
+
+class IAUTerms(Variables, along=("term",)):
+    """Periods and IAU 2000A amplitudes of the largest circular nutation terms."""
+
+    period = number(
+        "d", "period of the circle in space, negative if retrograde", no_error=ARGUMENTS
+    )
+    iau = amplitude(
+        "mas",
+        "amplitude of IAU 2000A, with the share of the neighbour (no published value)",
+        error="amplitude_error",
+    )
+    amplitude_error = number(
+        "mas", "95 % half-width of an amplitude, without the share of the neighbour"
+    )
+    neighbour = words("term that 150 years cannot separate from this one; empty if there is none")
+    neighbour_in_phase = number("mas", f"{_SHARE}, in phase", no_error=_SERIES)
+    neighbour_out_of_phase = number("mas", f"{_SHARE}, out of phase", no_error=_SERIES)
+    term = labels()
 
 
 def largest_terms(poles: PoleComparison, count: int) -> tuple[NDArray[np.intp], dict[str, Any]]:

@@ -222,14 +222,9 @@ def beside(residuals: dict[str, FloatArray]) -> ModelSizes:
 # --- sections ------------------------------------------------------------------------------------
 
 
-class Terms(Variables, along=("term",)):
+class Terms(iau_comparison.IAUTerms):
     """Amplitudes of the largest circular nutation terms, from each model and from IAU 2000A."""
 
-    period = number(
-        "d",
-        "period of the circle in space, negative if retrograde",
-        no_error="it follows from the adopted arguments of IERS 2003",
-    )
     predicted = amplitude(
         "mas",
         "predicted amplitude",
@@ -242,19 +237,7 @@ class Terms(Variables, along=("term",)):
         "95 % half-width of a predicted amplitude, from the parameters of the interior",
         along=("rung", "term"),
     )
-    iau = amplitude("mas", iau_comparison.MERGED, error="amplitude_error")
-    amplitude_error = number(
-        "mas", "95 % half-width of an amplitude from its analysis, without the neighbour's share"
-    )
-    neighbour = words(iau_comparison.NEIGHBOUR)
-    neighbour_in_phase = number(
-        "mas", f"{iau_comparison.NEIGHBOUR_SHARE}, in phase", no_error=iau_comparison.SERIES
-    )
-    neighbour_out_of_phase = number(
-        "mas", f"{iau_comparison.NEIGHBOUR_SHARE}, out of phase", no_error=iau_comparison.SERIES
-    )
     rung = labels()
-    term = labels()
 
 
 @part

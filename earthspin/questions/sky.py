@@ -12,6 +12,7 @@ import numpy as np
 
 from earthspin._version import version
 from earthspin.bodies import EARTH, MOON, SUN, Body, all_of, checks, moons, planets
+from earthspin.bodies.body import SPIN_FIELDS
 from earthspin.constants import DAY
 from earthspin.dates import Span
 from earthspin.engine.question import Question, key, part
@@ -74,7 +75,7 @@ class PerturbedBody(Question):
     source: SourceName = key("jplephem", doc=SOURCE_DOC)
 
     #: Fields of the body that the question needs, besides its mass.
-    needs: ClassVar[tuple[str, ...]] = "radius", "j2", "dynamical_flattening", "spin_period", "pole"
+    needs: ClassVar[tuple[str, ...]] = SPIN_FIELDS
     #: Whether a body may have no perturbers.
     may_be_alone: ClassVar[bool] = False
     #: Whether masses of perturbers may be labelled arrays.

@@ -14,7 +14,7 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.views import drawing
 from earthspin.views.drawing import Axes, PageFigure, Views, axes
 from earthspin.views.result_contents import Result, answer_of, section
-from earthspin.views.star_chart import YEARS, on_the_chart, plot_path, year_labels
+from earthspin.views.star_chart import YEARS, plot_path, project, year_labels
 
 #: Sentence at the end of captions.
 BANDS = "Bands are 95 % half-widths; where none is seen, it is thinner than the line."
@@ -205,7 +205,7 @@ def plot_pole(result: Result, *, ax: Axes | None = None) -> Axes:
 
     def on(times: FloatArray) -> FloatArray:
         poles = joined(times)
-        return on_the_chart(poles / np.linalg.norm(poles, axis=1, keepdims=True), obliquity)
+        return project(poles / np.linalg.norm(poles, axis=1, keepdims=True), obliquity)
 
     first, last = years[near][[0, -1]]
     marked = [year for year in YEARS if first <= year - 2000 <= last]

@@ -261,7 +261,7 @@ TABLES = [
 # --- figures -------------------------------------------------------------------------------------
 
 
-def chain(tree: Result, year: Result) -> drawing.Drawing:
+def chain_figure(tree: Result, year: Result) -> drawing.Drawing:
     """Figure, with caption, of the steps from declination and torque to the precession rate."""
     return PageFigure(
         "From declination to the period of precession",
@@ -336,7 +336,7 @@ def _caption_of_circle(tree: Result) -> str:
     total = answer_of(tree).isel(perturber=-1)
     years = np.arange(-9900, 14001, 100)
     path = _circle(total, years)
-    places = star_chart.on_the_chart(star_chart.star_vectors(), float(np.radians(total.obliquity)))
+    places = star_chart.project(star_chart.star_vectors(), float(np.radians(total.obliquity)))
     passed = []
     for (name, *_), place in zip(star_chart.STARS, places, strict=True):
         away = np.linalg.norm(path - place, axis=1)

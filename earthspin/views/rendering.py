@@ -183,7 +183,7 @@ def print_tables(tree: Result, *, with_plan: bool = False) -> None:
     from earthspin.views.terminal import Terminal
 
     console = Terminal()
-    for table in [*tables_for(tree), *(what_ran(tree) if with_plan else ())]:
+    for table in [*tables_for(tree), *(run_time_tables(tree) if with_plan else ())]:
         console.print_table(table)
         console.print()
     console.print(BRACKETS, style="dim")
@@ -228,8 +228,8 @@ def page_of(
     from earthspin.views.page import page
 
     if lead is None:
-        says = _views(trees[0]).lead
-        lead = says(trees[0]) if says else " ".join(changes_of(answer_of(trees[0])))
+        lead_of = _views(trees[0]).lead
+        lead = lead_of(trees[0]) if lead_of else " ".join(changes_of(answer_of(trees[0])))
     return page(
         title,
         tables.numbered(table for tree in trees for table in tables_for(tree)),
@@ -238,12 +238,12 @@ def page_of(
         lead=lead,
         note=f"{BRACKETS}\n{_pages_of(trees[0])}",
         links=links,
-        last=what_ran(*trees),
+        last=run_time_tables(*trees),
         footer=_footer(answer_of(trees[0])),
     )
 
 
-def what_ran(*trees: Result) -> list[TextTable]:
+def run_time_tables(*trees: Result) -> list[TextTable]:
     """Table of the computations that ran for the results, with run times.
 
     For a single result it also lists the computations that were left out, with reasons.

@@ -92,7 +92,8 @@ def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]
     year, cycle = series(HALF_A_YEAR, "6 h"), series(HALF_A_NODE_CYCLE, "1 d")
     advance(1)
     title = "Declination and torque through a cycle of the Moon's node"
-    drawings = [precession.chain(tree, year), torque.through(cycle, title, smooth_days=MONTH)]
+    chain = precession.chain_figure(tree, year)
+    drawings = [chain, torque.torque_figure(cycle, title, smooth_days=MONTH)]
     advance(1)
     return drawings
 

@@ -51,7 +51,7 @@ def star_vectors() -> FloatArray:
     return directions(np.zeros(1))[:, 0]
 
 
-def on_the_chart(vectors: FloatArray, obliquity: float) -> FloatArray:
+def project(vectors: FloatArray, obliquity: float) -> FloatArray:
     """Positions of unit vectors on the star chart, degrees, by azimuthal equidistant projection.
 
     The sky is seen from inside, with the pole of J2000.0 on top.
@@ -84,7 +84,7 @@ def plot_path(
     dates : list of Label
         Points of it to be marked.
     obliquity : float
-        rad, as of `on_the_chart`.
+        rad, as of `project`.
     ax : Axes, optional
     """
     ax = axes(ax, 6.4, 6.4)
@@ -94,7 +94,7 @@ def plot_path(
     ax.set_ylabel("from the pole of the ecliptic towards longitude 90° (deg)")
     ax.plot(*path.T, color=RED, lw=1.4)
     ax.plot(0, 0, marker="+", color="0.3", ms=9)
-    stars = on_the_chart(star_vectors(), obliquity)
+    stars = project(star_vectors(), obliquity)
     names = [Label("pole of the ecliptic", (0.0, 0.0), "0.3")]
     for star, (x, y) in zip(STARS, stars.tolist(), strict=True):
         ax.plot(x, y, "o", color="0.1", ms=max(1.5, 5.5 - 1.1 * star.magnitude))

@@ -17,7 +17,7 @@ COLOURS = {"sun": drawing.ORANGE, "moon": BLUE, "total": "#222222"}
 MANY_SWINGS = 200
 
 
-def through(tree: Result, title: str, smooth_days: float) -> drawing.Drawing:
+def torque_figure(tree: Result, title: str, smooth_days: float) -> drawing.Drawing:
     """Figure, for an HTML page, of declination and torque over time; fast oscillations as bands."""
     plot = partial(_plot_both, smooth_days=smooth_days)
     return PageFigure(title, _caption_of_torque(tree, smooth_days), plot).drawn(tree)

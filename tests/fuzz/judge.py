@@ -178,7 +178,7 @@ def _given(words: list[str]) -> tuple[str, str]:
         with (
             contextlib.redirect_stdout(out),
             contextlib.redirect_stderr(err),
-            mock.patch.object(process, "_judged", side_effect=process._judged) as judged,
+            mock.patch.object(process, "_outcome", side_effect=process._outcome) as judged,
         ):
             try:
                 status = main(words)

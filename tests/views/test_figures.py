@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 import earthspin
 from earthspin.views import torque
-from earthspin.views.star_chart import STARS, on_the_chart, star_vectors
+from earthspin.views.star_chart import STARS, project, star_vectors
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +37,7 @@ def test_the_pole_passes_the_stars_that_it_should(precession_tree: xr.DataTree) 
         back = np.radians(rate * (year - 2000))
         return radius * np.array([-np.sin(back), np.cos(back)])
 
-    places = on_the_chart(star_vectors(), obliquity)
+    places = project(star_vectors(), obliquity)
     stars = {name: place for (name, *_), place in zip(STARS, places, strict=True)}
     assert abs(np.linalg.norm(pole(2000) - stars["Polaris"]) - 0.74) < 0.05
     years = np.arange(-4000, 14001, 10)

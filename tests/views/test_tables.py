@@ -7,7 +7,7 @@ import xarray as xr
 import earthspin
 from earthspin import EARTH
 from earthspin.scenes import QUESTIONS
-from earthspin.views.rendering import drawings_for, scene_page, tables_for, what_ran
+from earthspin.views.rendering import drawings_for, run_time_tables, scene_page, tables_for
 from earthspin.views.result_contents import answer_of, section
 from earthspin.views.tables import (
     MOST_ROWS,
@@ -44,7 +44,7 @@ def test_digits(value: float, error: float, text: str) -> None:
 
 
 def test_rows_match_headers_and_what_ran_is_named(precession_tree: xr.DataTree) -> None:
-    (ran,) = what_ran(precession_tree)
+    (ran,) = run_time_tables(precession_tree)
     for table in [*tables_for(precession_tree), ran]:
         assert table.rows
         assert all(len(row) == len(table.headers) for row in table.rows)
@@ -64,7 +64,7 @@ def test_a_plain_answer_has_the_tables_of_no_section(precession_tree: xr.DataTre
     answer = precession_tree.to_dataset()
     (table,) = tables_for(answer)
     assert table.rows == tables_for(precession_tree)[1].rows
-    assert what_ran(answer) == []
+    assert run_time_tables(answer) == []
 
 
 @pytest.mark.parametrize("word", ["precession", "torque", "wobble", "free-rotor", "polar-motion"])
