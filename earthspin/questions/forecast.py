@@ -21,7 +21,7 @@ from earthspin.engine.variables import Neglected, Variables, labels, measured, n
 from earthspin.errors import SceneError, SeriesError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import core_nutation
-from earthspin.questions.observed_pole import FILE_DOC, Daily, GivenTable, PoleInput
+from earthspin.questions.observed_pole import FILE_DOC, Daily, DailyPole, GivenTable, PoleInput
 from earthspin.questions.reasons import no_iau_model
 from earthspin.sky import eop
 from earthspin.sky.eop import MJD, GivenSeries, PoleSeries
@@ -187,11 +187,9 @@ def _from_common_day(
     return record.pole[max(skipped, 0) :], (chi1 + 1j * chi2)[max(-skipped, 0) :]
 
 
-class ForecastPole(Daily):
+class ForecastPole(DailyPole):
     """Forecast coordinates x and y of the pole, with half-widths and correlation of errors."""
 
-    x = measured("arcsec", "coordinate of the pole towards the prime meridian")
-    y = measured("arcsec", "coordinate of the pole towards 90 degrees west")
     correlation_xy = number(
         "1", "correlation of the errors of x and y", no_error="it belongs to the errors"
     )

@@ -13,14 +13,7 @@ from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95
 from earthspin.dates import Epochs, datetime64
 from earthspin.engine.public_calls import public_call
 from earthspin.engine.question import part
-from earthspin.engine.variables import (
-    Neglected,
-    Variables,
-    amplitude,
-    labels,
-    measured,
-    number,
-)
+from earthspin.engine.variables import Neglected, Variables, amplitude, labels, measured, number
 from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.numerics.arrays import ComplexArray, FloatArray
@@ -507,26 +500,22 @@ class PrecessionAngles(Variables, along=("angle", "degree")):
 @part
 def angles(comparison: PoleComparison, body: Body) -> PrecessionAngles:
     """Fit polynomials to the precession angles of the computed pole and the IAU pole."""
-    t = comparison.days / DAYS_PER_CENTURY
+    t, degree = comparison.days / DAYS_PER_CENTURY, analysis.SLOW_DEGREE
     ecliptic = iau_models.ecliptic_of_date(comparison.days)
     # what the analysis makes of the pole of IAU 2006 shows what it misses
     computed, reanalysed = (
-        analysis.polynomials(
-            t, analysis.precession_angles(*path.at(t), ecliptic), analysis.SLOW_DEGREE
-        )
+        analysis.polynomials(t, analysis.precession_angles(*path.at(t), ecliptic), degree)
         for path in (comparison.computed, comparison.iau)
     )
-    iau = analysis.polynomials(
-        t, iau_models.precession_angles(comparison.days), analysis.SLOW_DEGREE
-    )
+    iau = analysis.polynomials(t, iau_models.precession_angles(comparison.days), degree)
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
-    of_h = NORMAL_95 * u_h * np.abs(computed) * (np.arange(analysis.SLOW_DEGREE + 1) > 0)
+    of_h = NORMAL_95 * u_h * np.abs(computed) * (np.arange(degree + 1) > 0)
     return PrecessionAngles(
         angle_coefficient=computed,
         angle_coefficient_iau=iau,
         angle_coefficient_error=np.hypot(reanalysed - iau, of_h),
         angle=list(analysis.ANGLES),
-        degree=np.arange(analysis.SLOW_DEGREE + 1.0),
+        degree=np.arange(degree + 1.0),
     )
 
 

@@ -290,8 +290,7 @@ def residual_error(
     """
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     error = math.hypot(comparison.path.error, NORMAL_95 * u_h * float(np.max(np.abs(eta))))
-    between_nodes = iau_models.node_error(days)
-    return math.hypot(error, between_nodes) if between_nodes else error
+    return math.hypot(error, iau_models.node_error(days))
 
 
 def rigid(effects: Sequence[str]) -> list[str]:

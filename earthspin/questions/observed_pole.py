@@ -16,7 +16,7 @@ from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.constants import DAY, DAYS_PER_CENTURY, MAS
 from earthspin.dates import Epochs, Span, datetime64, days
 from earthspin.engine.question import Question, key, part, setting
-from earthspin.engine.variables import Variables, labels, number, si
+from earthspin.engine.variables import Variables, labels, measured, number, si
 from earthspin.errors import SceneError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import core_nutation
@@ -114,7 +114,14 @@ class Daily(Variables, along=("time",)):
     time = labels("time", standard_name="time", comment="0h UTC in daily tables")
 
 
-def not_observed(body: Body) -> str | None:
+class DailyPole(Daily):
+    """Base class of coordinates x and y of the pole, observed or forecast."""
+
+    x = measured("arcsec", "coordinate of the pole towards the prime meridian")
+    y = measured("arcsec", "coordinate of the pole towards 90 degrees west")
+
+
+def no_observed_pole(body: Body) -> str | None:
     """Return the reason (text) to omit polar motion if no observed pole is known, else None."""
     unknown = f"no polar motion of {in_a_sentence(body.name)} is known"
     return unknown if reasons.no_iau_model(body) else None

@@ -66,23 +66,21 @@ class PolarMotion(tables.OfTable, word="polar-motion", call="polar_motion", tabl
     )
 
 
-class ObservedPole(tables.Daily):
+class ObservedPole(tables.DailyPole):
     """Observed coordinates x and y of the pole in time, with errors."""
 
-    x = measured("arcsec", "coordinate of the pole towards the prime meridian")
-    y = measured("arcsec", "coordinate of the pole towards 90 degrees west")
     polar_radius = number(
         "m", "polar radius of the body", along=(), no_error="a given number of the body"
     )
 
 
-@part(unless=tables.not_observed)
+@part(unless=tables.no_observed_pole)
 def pole_table(file: PoleTable, kind: str | None) -> PoleSeries:
     """Read the polar motion of a table of the IERS, for all dates of the table."""
     return read_polar_motion(file, kind)
 
 
-@part(unless=tables.not_observed)
+@part(unless=tables.no_observed_pole)
 def observed_pole(pole_table: PoleSeries, body: Body, span: Span | None) -> ObservedPole:
     """Return the observed polar motion of a table of the IERS within the requested span."""
     series = tables.within(pole_table, span)

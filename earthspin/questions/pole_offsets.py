@@ -61,14 +61,14 @@ class ObservedOffsets(tables.Daily):
     dY = measured("mas", "observed Y of the celestial pole minus that of IAU 2006/2000A")
 
 
-@part(unless=tables.not_observed)
+@part(unless=tables.no_observed_pole)
 def offset_table(file: PoleTable, kind: str | None, span: Span | None) -> PoleSeries:
     """Read the celestial pole offsets of a table of the IERS, within the requested span."""
     first = -math.inf if span is None else span.days[0] + MJD
     return tables.within(read_pole_offsets(file, kind, first), span)
 
 
-@part(unless=tables.not_observed)
+@part(unless=tables.no_observed_pole)
 def observed_offsets(offset_table: PoleSeries) -> ObservedOffsets:
     """Return the observed celestial pole offsets of a table of the IERS, with errors."""
     series = offset_table

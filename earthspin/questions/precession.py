@@ -27,15 +27,7 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import rate_budget
 from earthspin.questions import reasons, satellites
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, Samples
-from earthspin.questions.sky import (
-    SOURCE_DOC,
-    Interval,
-    PerturbedBody,
-    Sky,
-    interval,
-    places,
-    sky,
-)
+from earthspin.questions.sky import SOURCE_DOC, Interval, PerturbedBody, Sky, interval, places, sky
 from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
 from earthspin.sky import iau_models
 from earthspin.sky.sources import SourceName

@@ -19,8 +19,7 @@ def no_iau_model(body: Body) -> str | None:
 
     The model is that of its precession.
     """
-    described = body.pole is not None and body.pole.of_the_iau
-    if described:
+    if body.pole is not None and body.pole.of_the_iau:
         return None
     if body.naif:
         return f"the IAU has no precession model for {in_a_sentence(body.name)}"
@@ -109,14 +108,14 @@ class ObservedWobble(Variables):
     observed_period = measured("d", "observed period of the free wobble")
 
 
-def not_observed(body: Body) -> str | None:
+def no_observed_wobble(body: Body) -> str | None:
     """Return the reason (text) to omit the observed period if no wobble was observed, else None."""
     if body.observed_wobble:
         return None
     return f"no observed wobble of this {proper(body.name)} is known"
 
 
-@part(unless=not_observed)
+@part(unless=no_observed_wobble)
 def observed_wobble(body: Body) -> ObservedWobble:
     """Observed period of the free wobble from the literature."""
     observed = body.observed_wobble

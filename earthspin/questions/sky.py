@@ -6,7 +6,7 @@ import math
 from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -312,8 +312,7 @@ class Sky:
             raise UndefinedError(f"{inside}; the formula of the torque is valid only outside")
 
 
-@dataclass(frozen=True)
-class Interval:
+class Interval(NamedTuple):
     """First and last day of the time span of an average, days from J2000.0 TDB."""
 
     first: float

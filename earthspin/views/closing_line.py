@@ -10,7 +10,7 @@ import xarray as xr
 from earthspin.engine.run import IMPORTS
 from earthspin.engine.variables import error_of, from_si, largest_of
 from earthspin.number_text import plain, shown_unit
-from earthspin.views.result_contents import Result, question_of
+from earthspin.views.result_contents import Result, dataset_of, question_of
 
 #: Words for shares of an error whose names end otherwise.
 WORDS = {"input": "inputs", "kernel": "positions"}
@@ -33,7 +33,7 @@ def closing_line(result: Result, seconds: float | None = None) -> str:
         Such as ``"precession rate: 95 % error 3.3e-5 arcsec/yr (method 1.3e-5, inputs 3e-5); 0.09 s
         (+ 0.5 s imports)"``. Without an error it gives the reason.
     """
-    answer = result.to_dataset() if isinstance(result, xr.DataTree) else result
+    answer = dataset_of(result)
     cost = "" if seconds is None else f"{plain(seconds)} s"
     if isinstance(result, xr.DataTree) and "plan" in result.children:
         run_time = result["plan"].run_time

@@ -13,7 +13,7 @@ from earthspin.engine.members import MEMBER
 from earthspin.errors import SceneError
 from earthspin.numerics.arrays import FloatArray
 from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, PageFigure, Views, axes, literal
-from earthspin.views.result_contents import Result, question_of
+from earthspin.views.result_contents import Result, dataset_of, question_of
 from earthspin.views.tables import TextTable, short_exponents, tables_of, with_error
 
 #: The figure of shares has at most so many bars and colours.
@@ -45,7 +45,7 @@ def tables(tree: Result) -> list[TextTable]:
     The brackets behind a median hold half the width of the interval with the central 95 % of the
     members. If no number differs among the members, the tables are those of the first.
     """
-    answer = _whole(tree)
+    answer = dataset_of(tree)
     if not _numbers(answer):
         first, *others = tables_of(answer.isel({MEMBER: 0}), str(answer.attrs["title"]))
         return [replace(first, note=f"{_alike(answer)}\n{first.note}"), *others]
@@ -106,7 +106,7 @@ def _shares(answer: xr.Dataset) -> tuple[list[VaryingNumber], FloatArray]:
 
 def lead(tree: Result) -> str:
     """Sentence with an ensemble's main quantity, and the input that causes most of its spread."""
-    answer = _whole(tree)
+    answer = dataset_of(tree)
     if not _numbers(answer):
         return _alike(answer)
     number = _main_number(answer)
@@ -121,7 +121,7 @@ def lead(tree: Result) -> str:
 
 
 def _caption_of_spread(tree: Result) -> str:
-    answer = _whole(tree)
+    answer = dataset_of(tree)
     words = _main_number(answer).words.capitalize()
     return f"{words}, of {answer.sizes[MEMBER]} members; the band is the central 95 %."
 
@@ -141,7 +141,7 @@ def plot_spread(result: Result, name: str = "", *, ax: Axes | None = None) -> Ax
     SceneError
         If no number of that name differs among the members.
     """
-    answer = _whole(result)
+    answer = dataset_of(result)
     number = _main_number(answer, name)
     values = answer[number.name].sel(number.labels).values
     low, middle, high = np.quantile(values, (0.025, 0.5, 0.975))
@@ -170,7 +170,7 @@ def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
     SceneError
         If no number differs among the members, or they are too few.
     """
-    answer = _whole(result)
+    answer = dataset_of(result)
     if not _numbers(answer):
         raise SceneError("ensemble", answer.attrs["title"], _alike(answer))
     rows, share = _shares(answer)
@@ -197,13 +197,13 @@ VIEWS = Views(
             "How the members spread",
             _caption_of_spread,
             plot_spread,
-            applies=lambda tree: bool(_numbers(_whole(tree))),
+            applies=lambda tree: bool(_numbers(dataset_of(tree))),
         ),
         PageFigure(
             "Where the spread comes from",
             "Share of each input in the variance of the members.",
             plot_shares,
-            applies=lambda tree: bool(_numbers(_whole(tree))) and _enough(_whole(tree)),
+            applies=lambda tree: bool(_numbers(dataset_of(tree))) and _enough(dataset_of(tree)),
         ),
     ],
     lead=lead,
@@ -211,10 +211,6 @@ VIEWS = Views(
 
 
 # --- what is shown -------------------------------------------------------------------------------
-
-
-def _whole(result: Result) -> xr.Dataset:
-    return result.to_dataset() if isinstance(result, xr.DataTree) else result
 
 
 def _enough(answer: xr.Dataset) -> bool:

@@ -16,10 +16,14 @@ from earthspin.scenes import QUESTIONS, run_tree
 Result = xr.Dataset | xr.DataTree
 
 
+def dataset_of(result: Result) -> xr.Dataset:
+    """Return the main Dataset of a result, with all bodies, initial states and members."""
+    return result.to_dataset() if isinstance(result, xr.DataTree) else result
+
+
 def answer_of(result: Result) -> xr.Dataset:
     """Return the main Dataset of a result; of several bodies or initial states, only the first."""
-    whole = result.to_dataset() if isinstance(result, xr.DataTree) else result
-    return _first_case(whole, whole.attrs)
+    return _first_case(dataset_of(result), result.attrs)
 
 
 def question_of(result: Result) -> type[Question] | None:

@@ -57,7 +57,7 @@ def test_a_part_is_left_out_with_what_it_needs(monkeypatch: pytest.MonkeyPatch) 
         earthspin.plan("torque")
     plan = earthspin.plan("wobble", "all")
     assert "wobble_rungs" in [part.name for part in plan.parts]
-    reason = "it needs inside, which is left out: no kernel today"
+    reason = "it needs inputs, which is left out: no kernel today"
     assert plan.left_out["sensitivity"] == reason
 
 
