@@ -640,12 +640,12 @@ SPIN_FIELDS = ("radius", "j2", "dynamical_flattening", "spin_period", "pole")
 _INSTEAD = {"j2": "moments", "dynamical_flattening": "moments", "pole": "obliquity"}
 
 
-def _missing_fields(start: str, given: Mapping[str, Any]) -> str:
+def _missing_fields(start: str, table: Mapping[str, Any]) -> str:
     """Text that lists the required fields that a table or call lacks; empty if it has all."""
-    missing = [f"{name} = {e}" for name, e in _REQUIRED_KEYS[start].items() if name not in given]
+    missing = [f"{name} = {e}" for name, e in _REQUIRED_KEYS[start].items() if name not in table]
     if not missing:
         return ""
-    spin = [name for name in SPIN_FIELDS if not {name, _INSTEAD.get(name)} & given.keys()]
+    spin = [name for name in SPIN_FIELDS if not {name, _INSTEAD.get(name)} & table.keys()]
     spins = f"; a spinning one also needs {', '.join(spin)}" if start == NOTHING and spin else ""
     return f"needs more, like {', '.join(missing)}{spins}"
 

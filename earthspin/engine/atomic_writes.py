@@ -119,8 +119,8 @@ def replacing(path: str | Path) -> Iterator[Path]:
     remedy = "the existing file is not changed" if target.exists() else ""
     box = target.with_name(f".{target.name}.draft")
     with output_errors(path, remedy), claimed(box, target):
-        for left in (entry for entry in box.iterdir() if entry.name != LOCK):
-            remove(left)
+        for stale in (entry for entry in box.iterdir() if entry.name != LOCK):
+            remove(stale)
         try:
             # A thread that still writes the draft of an earlier error does not touch this one.
             draft = Path(tempfile.mkdtemp(dir=box)) / target.name

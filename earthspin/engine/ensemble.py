@@ -119,14 +119,14 @@ class Ensemble:
         """Raise an error if a few members show that the ensemble takes too much memory or time."""
         first = replace(members, only=tuple(self.which[:ROW].tolist()))
         try:
-            few = Ensemble(self.full_question.replace(members=first), block=1)
+            sample = Ensemble(self.full_question.replace(members=first), block=1)
         except SceneError:  # the first members cannot exist; the others are checked after drawing
             return
-        self.run = few.run  # for the same questions
-        together = ROW if few.width > 1 else 1
-        _ = few.descriptions  # which do not depend on the number of members
+        self.run = sample.run  # for the same questions
+        together = ROW if sample.width > 1 else 1
+        _ = sample.descriptions  # which do not depend on the number of members
         begun = time.perf_counter()
-        answer = few.make(0)
+        answer = sample.make(0)
         days = (time.perf_counter() - begun) / together * self.which.size / 86_400
         arrays = answer.variables.values()
         self._refuse_size(sum(array.nbytes for array in arrays if MEMBER in array.dims))

@@ -90,9 +90,9 @@ def orbit_of(body: Body, orbit: Orbit | None) -> Orbit | None:
 @part
 def orbit_in_use(body: Body, orbit: Orbit | None) -> Orbit:
     """Return the orbit given by the user, or else the body's known orbit, which must exist."""
-    usual = orbit_of(body, orbit)
-    assert usual is not None  # `check` has seen to it
-    return usual
+    known = orbit_of(body, orbit)
+    assert known is not None  # `check` has seen to it
+    return known
 
 
 @part
@@ -145,8 +145,8 @@ def states(body: Body, orbit_in_use: Orbit, locking: Locking) -> CassiniObliquit
     """Compute obliquity, tilt to the mean orbit normal, and stability of every Cassini state."""
     axis = precessing(body, orbit_in_use, locking)
     # a locked body turns with its orbit: there the torque of each orbit is the same at any rate
-    own = 0.0 if locking.locked else 1.5 * abs(axis.axial)
-    rate = max(own, abs(axis.node_rate))
+    torque_rate = 0.0 if locking.locked else 1.5 * abs(axis.axial)
+    rate = max(torque_rate, abs(axis.node_rate))
     checks.refuse_fast_axis(rate / locking.motion, rate / abs(body.spin_rate))
     solution = cassini.cassini_states(axis)
     error = _error(body, orbit_in_use, locking, solution.obliquity)

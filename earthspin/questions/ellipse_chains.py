@@ -93,10 +93,10 @@ def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
         return label
     if member is not body:
         return body.name
-    left = [name for name, other in known.items() if other.orbit is None and other is not body]
-    if len(left) > 1:
-        raise SceneError(f"{member.name}.orbit.about", "", f"give one of {', '.join(left)}")
-    return left[0] if left else ""
+    centres = [name for name, other in known.items() if other.orbit is None and other is not body]
+    if len(centres) > 1:
+        raise SceneError(f"{member.name}.orbit.about", "", f"give one of {', '.join(centres)}")
+    return centres[0] if centres else ""
 
 
 def _refuse_circles(centres: Mapping[str, str]) -> None:
@@ -159,10 +159,10 @@ def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
     orbit: Orbit = member.needed("orbit")
     a, period = orbit.a, orbit.period
     gm = member.gm_on(centre) + centre.gm_on(member)
-    many = hasattr(gm, "dims")
-    if many or not gm > 0:
+    is_array = hasattr(gm, "dims")
+    if is_array or not gm > 0:
         if a is None or period is None:
-            masses = "the masses are an array" if many else "both masses are zero"
+            masses = "the masses are an array" if is_array else "both masses are zero"
             problem = f"{masses}; give both a and period"
             raise SceneError(f"{member.name}.orbit", str(orbit), problem)
     elif a is None:
@@ -172,10 +172,10 @@ def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
         by_law = 2 * math.pi * math.sqrt(a / float(gm)) * a
         period = by_law if period is None else period
         if abs(period / by_law - 1) > THIRD_LAW:
-            given = f"a = {a:.6g} m, period = {period:.6g} s"
+            elements = f"a = {a:.6g} m, period = {period:.6g} s"
             law = f"with GM = {float(gm):.6g} m3 s-2 the period for this a is {by_law:.6g} s"
             problem = f"they contradict each other: {law}; give either a or period"
-            raise SceneError(f"{member.name}.orbit", given, problem)
+            raise SceneError(f"{member.name}.orbit", elements, problem)
     return a, 2 * math.pi / period
 
 

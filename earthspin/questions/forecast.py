@@ -142,9 +142,9 @@ def output_days(record: PoleSeries, days: float, step: float, start: float | Non
     newest = float(record.mjd[-1]) - MJD
     gap, every = 0 if start is None else round(start - newest), round(step / DAY)
     if not 0 <= gap <= model.LONGEST - days:
-        name, given = ("start", date_text(newest + gap)) if gap else ("days", f"{days:g} d")
+        name, value = ("start", date_text(newest + gap)) if gap else ("days", f"{days:g} d")
         problem = f"the last observed day used is {date_text(newest)}; start then or later, "
-        raise SceneError(name, given, f"{problem}and end {model.LONGEST} d after it at the latest")
+        raise SceneError(name, value, f"{problem}and end {model.LONGEST} d after it at the latest")
     return slice(gap + every - 1, gap + int(days), every)
 
 

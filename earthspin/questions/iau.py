@@ -97,8 +97,8 @@ def rates_by_effect(
     on, without = rigid(effects), {}
     with progress("budget", len(on)) as advance:
         for effect in on:
-            rest = [e for e in on if e != effect]
-            path = path_over(attractors, rest, comparison.start, comparison.days)
+            others = [e for e in on if e != effect]
+            path = path_over(attractors, others, comparison.start, comparison.days)
             without[effect] = comparison.analysis.secular(steady_figure(path, comparison.days))
             advance(1)
     # What is off has no share, nor has a transfer function: T = 1 at rest in space.

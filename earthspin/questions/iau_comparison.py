@@ -513,8 +513,8 @@ def response_fit(
     rigid_amplitude = computed.amplitude
     if GEODESIC.name in effects:
         # The interior does not respond to a rotation of the frame, which is no torque.
-        rest = [effect for effect in effects if effect != GEODESIC.name]
-        path = path_over(attractors, rest, comparison.start, comparison.days)
+        others = [effect for effect in effects if effect != GEODESIC.name]
+        path = path_over(attractors, others, comparison.start, comparison.days)
         pole = steady_figure(path, comparison.days)
         eta = analysis.complex_nutation(iau_models.nutation_of(pole, comparison.days))
         rigid_amplitude = comparison.analysis.circles(eta).amplitude

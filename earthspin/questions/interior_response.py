@@ -33,11 +33,11 @@ def interior_of(body: Body) -> named.Interior | None:
 
     If an unmodified body has custom layers, the other known numbers of its interior still apply.
     """
-    own = body.interior
-    if isinstance(own, LayeredBody):
-        usual = BODIES[body.known_as].interior if body.is_as_named else None
-        return named.with_layers(own, named.INTERIORS.get(str(usual)))
-    return named.INTERIORS.get(str(own))
+    value = body.interior
+    if isinstance(value, LayeredBody):
+        default = BODIES[body.known_as].interior if body.is_as_named else None
+        return named.with_layers(value, named.INTERIORS.get(str(default)))
+    return named.INTERIORS.get(str(value))
 
 
 def of_another_body(layers: LayeredBody, body: Body) -> str | None:
@@ -48,8 +48,8 @@ def of_another_body(layers: LayeredBody, body: Body) -> str | None:
     flattening = 0.0 if body.flattening is None else body.flattening
     mean_radius = body.needed("radius") * (1 - flattening / 3)
     numbers = ("mass", body.mass, layers.mass), ("radius", mean_radius, layers.radius)
-    for what, own, model in numbers:
-        if not all_of(abs(own / model - 1) < FIT):
+    for what, value, model in numbers:
+        if not all_of(abs(value / model - 1) < FIT):
             return f"interior '{layers.name}' has another {what}, {model:.4g} in SI units"
     return None
 

@@ -167,11 +167,11 @@ def labelled_series(
         ascending.
     """
     series = _labelled(series)
-    given = [*map(str, getattr(series, "data_vars", ()))]
+    variables = [*map(str, getattr(series, "data_vars", ()))]
     for name in names:
-        if name not in given or series[name].dims != ("time",):
+        if name not in variables or series[name].dims != ("time",):
             problem = f"give a Dataset with '{name}' along 'time', or a pandas table"
-            raise SceneError("series", given or type(series).__name__, problem)
+            raise SceneError("series", variables or type(series).__name__, problem)
         unit, kind = series[name].attrs.get("units"), series[name].dtype
         if kind.kind != "f" or series["time"].dtype.kind != "M":
             raise SceneError(name, str(kind), "give numbers along dates without a zone")

@@ -284,8 +284,8 @@ def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArr
         means = f"means over the steps of the pole, each {step:.3g} d: those between its days"
         remedy = "read_excitation(..., daily=True) makes them from 0h to 0h"
         raise SceneError("excitation", given, f"give {means}; {remedy}")
-    both = slice(start, start + count)
-    return time[both], p[both], driving[first : first + count - 1]
+    common = slice(start, start + count)
+    return time[common], p[common], driving[first : first + count - 1]
 
 
 def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:

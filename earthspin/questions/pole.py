@@ -268,8 +268,8 @@ def pole_angles(
     vectors = np.stack([axes.X, axes.Y, axes.Z], axis=-1)
     ecliptic = body.needed("pole").orbit_axes(body.orbit_pole)
     angles = on_fixed_ecliptic(vectors.reshape(-1, 3), ecliptic).reshape(*vectors.shape[:2], 2)
-    near = np.interp(days_of(epochs, block, "pole.zarr") * DAY, *longitudes)
-    psi = followed(angles[..., 0], near[:, np.newaxis])
+    reference = np.interp(days_of(epochs, block, "pole.zarr") * DAY, *longitudes)
+    psi = followed(angles[..., 0], reference[:, np.newaxis])
     return PoleAngles(time=axes.time, axis=axes.axis, psi=psi, eps=angles[..., 1]).with_attributes(
         eps=reasons.north_note(body)
     )

@@ -185,9 +185,9 @@ def torques(
     positions = attractors.sky.positions(np.array(days[:1]))
     relative_errors = []
     for name, place in attractors.sky.targets.items():
-        angle, far = attractors.sky.error(place, days)
+        angle, distance_error = attractors.sky.error(place, days)
         distance = float(np.linalg.norm(positions[name]))
-        relative_errors.append(solution.relative_tide_error(distance, far, angle))
+        relative_errors.append(solution.relative_tide_error(distance, distance_error, angle))
     relative_error = float(np.max(relative_errors))  # NaN if one is
     return PerturberTorques(forces, relative_error, no_error=attractors.sky.no_error)
 
@@ -268,8 +268,8 @@ def rotor(
     spin_rate = float(body.spin_rate)
     figure = effects_and_torques.figure_of(body, spin_rate)
     if torques is None:
-        alone = Forces(figure=figure, gm={}, positions=lambda times: {})
-        torques = PerturberTorques(effects_and_torques.with_effects(alone, body, _acting(effects)))
+        free = Forces(figure=figure, gm={}, positions=lambda times: {})
+        torques = PerturberTorques(effects_and_torques.with_effects(free, body, _acting(effects)))
     moment = polar_moment(body.number("j2"), figure.h, float(body.mass), body.number("radius"))
     u = body.relative_uncertainty
     relative_errors = {
@@ -527,8 +527,8 @@ def neglected(
         sizes |= node_drifts
         sources.append("nodes: circles of the pole by the torques of the satellites on the bulge")
     known = planets.BEYOND_RIGID.get(body.known_as) if body.is_as_named else None
-    usual = {perturber.name for perturber in planets.default_perturbers(body)}
-    if known is None or not usual <= {perturber.known_as for perturber in perturbers}:
+    defaults = {perturber.name for perturber in planets.default_perturbers(body)}
+    if known is None or not defaults <= {perturber.known_as for perturber in perturbers}:
         unknown.insert(0, _BEYOND)
     else:
         begin, end = epochs.span()

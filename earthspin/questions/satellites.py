@@ -116,8 +116,8 @@ def satellite_factors(body: Body, gm_over_r3: Numeric, obliquity: float) -> Sate
         return SatelliteFactors()
     _refuse_sphere(body)
     names = ("gm", "radius", "j2", "dynamical_flattening", "spin_rate")
-    given = [*(getattr(body, name) for name in names), gm_over_r3]
-    numbers = xr.broadcast(*map(xr.DataArray, given))
+    inputs = [*(getattr(body, name) for name in names), gm_over_r3]
+    numbers = xr.broadcast(*map(xr.DataArray, inputs))
     template = numbers[0]
     columns = [array.values.reshape(-1, 1) for array in numbers]
     planet = _planet(columns, obliquity)
@@ -134,8 +134,8 @@ def satellite_factors(body: Body, gm_over_r3: Numeric, obliquity: float) -> Sate
         if satellite.gm_uncertainty:
             gm = satellites.gm.copy()
             gm[place] += satellite.gm_uncertainty
-            heavier, more = factors(replace(satellites, gm=gm))
-            variance += (heavier / more * (moment / bulge) - 1) ** 2
+            heavier, larger = factors(replace(satellites, gm=gm))
+            variance += (heavier / larger * (moment / bulge) - 1) ** 2
             bulge_variance += (heavier / bulge - 1) ** 2
 
     def labelled(values: FloatArray) -> Numeric:
@@ -258,10 +258,10 @@ def common_precession(body: Body, gm_over_r3: float) -> tuple[FloatArray, float]
     if obliquity is None:
         return None
     h = body.number("dynamical_flattening")
-    alone = 1.5 * gm_over_r3 * math.cos(obliquity) * h / body.spin_rate
+    rate_alone = 1.5 * gm_over_r3 * math.cos(obliquity) * h / body.spin_rate
     moons = satellite_factors(body, gm_over_r3, obliquity)
-    turn = -alone * (moons.rate - 1) * body.needed("pole").orbit_normal(body.orbit_pole)
-    return np.asarray(turn), float(NORMAL_95 * moons.uncertainty * abs(alone * moons.rate))
+    turn = -rate_alone * (moons.rate - 1) * body.needed("pole").orbit_normal(body.orbit_pole)
+    return np.asarray(turn), float(NORMAL_95 * moons.uncertainty * abs(rate_alone * moons.rate))
 
 
 def _planet(columns: list[Any], obliquity: float) -> Planet:

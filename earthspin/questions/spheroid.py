@@ -85,9 +85,9 @@ def field(body: Body, position: FloatArray, point_mass: float) -> Field:
     """Compute potential, attraction and torque of a homogeneous spheroid at given points."""
     from earthspin.mass import spheroid
 
-    given = {name: getattr(body, name) for name in ("gm", "radius", "flattening")}
-    numbers = LabelledNumbers.broadcast(**given, mass=point_mass)
-    gm, radius, flattening, mass = numbers.columns(*given, "mass")
+    fields = {name: getattr(body, name) for name in ("gm", "radius", "flattening")}
+    numbers = LabelledNumbers.broadcast(**fields, mass=point_mass)
+    gm, radius, flattening, mass = numbers.columns(*fields, "mass")
     figure = gm, radius, flattening
     error = spheroid.error_bound(flattening, position / radius[..., np.newaxis])
     return Field(

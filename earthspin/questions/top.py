@@ -153,7 +153,7 @@ def euler_angles(
 
     labelled = inputs.array
     # the error grows with time: the last instants and some before show it
-    some = instants[np.unique(np.linspace(0, instants.size - 1, ERROR_POINTS).astype(int))]
+    sample = instants[np.unique(np.linspace(0, instants.size - 1, ERROR_POINTS).astype(int))]
     return TopMotion(
         theta=labelled(motion.theta, "time"),
         phi=labelled(motion.phi, "time"),
@@ -163,7 +163,7 @@ def euler_angles(
         pattern=labelled(motion.pattern),
         nutation_period=labelled(motion.nutation_period),
         mean_precession_rate=labelled(motion.precession_rate),
-        relative_error=labelled(error_bound(heavy_top_start, some)),
+        relative_error=labelled(error_bound(heavy_top_start, sample)),
         time=instants,
     )
 

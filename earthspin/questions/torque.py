@@ -107,31 +107,31 @@ def torques(
     """Compute declination, distance and torque of each perturber at every time."""
     now = days_of(epochs, block, "series.zarr", (body, *perturbers))
     names = list(sky.targets)
-    seen = sky.radec(body, now, true=equator == "true", nutation=nutation)
+    radec = sky.radec(body, now, true=equator == "true", nutation=nutation)
     kernel_error = {name: sky.error(sky.targets[name], epochs.span()) for name in names}
 
     def stack(values: list[FloatArray], *dims: str, times: Numeric = 1.0) -> xr.DataArray:
-        stacked, many = np.stack(values, axis=1), hasattr(times, "dims")
-        if not many:
+        stacked, is_array = np.stack(values, axis=1), hasattr(times, "dims")
+        if not is_array:
             stacked *= times  # in place: fresh memory costs more than the product
         array = xr.DataArray(variable_of(("time", "perturber", *dims), stacked))
-        return array * times if many else array
+        return array * times if is_array else array
 
     bulge = moment_difference(body.needed("j2"), body.mass, body.needed("radius"))
     u_bulge = body.relative_uncertainty_of_bulge()
-    per_bulge = [torque_from_declination(p.gm_on(body), 1.0, *seen[p.name]) for p in perturbers]
+    per_bulge = [torque_from_declination(p.gm_on(body), 1.0, *radec[p.name]) for p in perturbers]
     error = []
     for p in perturbers:
-        place = (*seen[p.name][1:], *kernel_error[p.name])
+        place = (*radec[p.name][1:], *kernel_error[p.name])
         u_product = math.hypot(u_bulge, p.relative_uncertainty.get("gm", 0.0))
         error.append(torque_error(p.gm_on(body), 1.0, *place, u_product))
     magnitudes = [np.linalg.norm(t, axis=-1) for t in per_bulge]
     return Torques(
         time=datetime64(now),
         perturber=names,
-        right_ascension=stack([seen[name][0] for name in names]),
-        declination=stack([seen[name][1] for name in names]),
-        distance=stack([seen[name][2] for name in names]),
+        right_ascension=stack([radec[name][0] for name in names]),
+        declination=stack([radec[name][1] for name in names]),
+        distance=stack([radec[name][2] for name in names]),
         torque=stack(per_bulge, "component", times=bulge),
         torque_magnitude=(stack(magnitudes, times=abs(bulge)), stack(error, times=abs(bulge))),
         direction_error=[kernel_error[name][0] for name in names],

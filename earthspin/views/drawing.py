@@ -69,8 +69,8 @@ def style() -> Iterator[None]:
     """Use the plot style of this package in a `with` block or a decorated function."""
     matplotlib = _matplotlib()
     defaults = matplotlib.rcParamsDefault.items()
-    own = {name: value for name, value in defaults if not name.startswith(_NO_STYLE)}
-    with matplotlib.rc_context(own | STYLE):
+    settings = {name: value for name, value in defaults if not name.startswith(_NO_STYLE)}
+    with matplotlib.rc_context(settings | STYLE):
         yield
 
 
@@ -184,8 +184,8 @@ class PageFigure:
 
     def is_there(self, tree: Result) -> bool:
         """Return True if a result has the section and meets the condition of this figure."""
-        there = not self.section or stored_section(tree, self.section) is not None
-        return there and (self.applies is None or self.applies(tree))
+        is_present = not self.section or stored_section(tree, self.section) is not None
+        return is_present and (self.applies is None or self.applies(tree))
 
     @style()
     def drawn(self, tree: Result) -> Drawing:

@@ -178,11 +178,11 @@ def plot_shares(result: Result, *, ax: Axes | None = None) -> Axes:
     order = np.argsort(-share.max(axis=0))
     shown = [int(i) for i in order if share[:, i].max() >= SMALL][:MOST_COLOURS]
     ax = axes(ax, 7.5, 1.2 + 0.32 * len(rows))
-    place, left = np.arange(len(rows)), np.zeros(len(rows))
+    place, start = np.arange(len(rows)), np.zeros(len(rows))
     for colour, i in zip(CYCLE, shown, strict=False):
-        ax.barh(place, share[:, i], 0.7, left, color=colour, label=literal(inputs[i]))
-        left = left + share[:, i]
-    ax.barh(place, 1 - left, 0.7, left, color=GREY, alpha=0.3, label="rest")
+        ax.barh(place, share[:, i], 0.7, start, color=colour, label=literal(inputs[i]))
+        start = start + share[:, i]
+    ax.barh(place, 1 - start, 0.7, start, color=GREY, alpha=0.3, label="rest")
     ax.set_yticks(place, [literal(number.words) for number in rows])
     ax.invert_yaxis()
     ax.set(xlim=(0, 1), xlabel="share of the variance")
@@ -265,6 +265,6 @@ def _main_number(answer: xr.Dataset, name: str = "") -> VaryingNumber:
 
 def _digits(value: float, other: float) -> str:
     """Format a number with enough digits to distinguish it from another number."""
-    apart = abs(other - value) / max(abs(value), abs(other), 1e-300)
-    digits = int(np.clip(2 - np.floor(np.log10(max(apart, 1e-15))), 3, 16))
+    difference = abs(other - value) / max(abs(value), abs(other), 1e-300)
+    digits = int(np.clip(2 - np.floor(np.log10(max(difference, 1e-15))), 3, 16))
     return short_exponents(f"{value:.{digits}g}")

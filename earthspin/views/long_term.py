@@ -30,9 +30,9 @@ def _caption_of_climate(tree: Result) -> str:
     )
 
 
-def in_order(of: xr.Dataset) -> xr.Dataset:
+def in_order(data: xr.Dataset) -> xr.Dataset:
     """Sort the epochs of a Dataset in ascending order, and remove repeated epochs."""
-    return of.isel(epoch=np.unique(of.epoch.values, return_index=True)[1])
+    return data.isel(epoch=np.unique(data.epoch.values, return_index=True)[1])
 
 
 def plot_climate(result: Result, *, ax: Axes | None = None) -> Axes:
@@ -232,17 +232,17 @@ def plot_budget(result: Result, *, ax: Axes | None = None) -> Axes:
     """
     shares: xr.Dataset = section(result, "budget")
     ax = axes(ax, 8.0, 3.6)
-    away = np.abs(shares.epoch.values) / 1000
-    order = np.argsort(away, kind="stable")[np.count_nonzero(away == 0) :]
-    away, share = away[order], shares.longitude_share.isel(epoch=order).transpose("epoch", "cause")
+    kyr = np.abs(shares.epoch.values) / 1000
+    order = np.argsort(kyr, kind="stable")[np.count_nonzero(kyr == 0) :]
+    kyr, share = kyr[order], shares.longitude_share.isel(epoch=order).transpose("epoch", "cause")
     share = share.copy(data=np.maximum.accumulate(share.values))
     together = np.sqrt(np.sum(share.values**2, axis=1))
-    ax.plot(away, together, color="0.75", lw=4.0, label="together")
+    ax.plot(kyr, together, color="0.75", lw=4.0, label="together")
     ax.set_prop_cycle(linestyle=("-", "--", "-.", ":"))  # some lines lie upon others
-    drawing.lines(ax, away, share, lw=1.2)
+    drawing.lines(ax, kyr, share, lw=1.2)
     ax.set(xscale="log", yscale="log")
-    if away.size > 1:
-        ax.set_xlim(away[0], away[-1])
+    if kyr.size > 1:
+        ax.set_xlim(kyr[0], kyr[-1])
         ax.set_ylim(LEAST * together[-1], 2 * together[-1])
     ax.set(xlabel="distance from J2000.0 (1000 years)")
     ax.set_ylabel("error of the longitude\nof perihelion (deg)")

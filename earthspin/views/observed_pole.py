@@ -409,8 +409,8 @@ def plot_skill(result: Result, *, figure: Figure | None = None) -> Figure:
         days = rows.horizon.values
         how: dict[str, Any] = {"color": colour, "lw": 1.4, "marker": "o", "ms": 4}
         errors.plot(days, rows.mean_absolute_error, label=f"forecast, {name}", **how)
-        beside = how | {"ls": "--", "mfc": "white"}
-        errors.plot(days, rows.other_mean_absolute_error, label=f"{other}, {name}", **beside)
+        dashed = how | {"ls": "--", "mfc": "white"}
+        errors.plot(days, rows.other_mean_absolute_error, label=f"{other}, {name}", **dashed)
         shares.plot(days, 100 * rows.coverage, **how)
     shares.axhline(95, color=drawing.GREY, lw=1, ls=":")
     errors.set(xscale="log", yscale="log", ylabel="mean absolute error (mas)")

@@ -76,7 +76,7 @@ def _interior() -> dict[str, object]:
         "coreEllipticity": interior.observed_core_ellipticity.value,
         "ocean": inputs.ocean,
         "exponent": inputs.anelastic_exponent,
-        "softening": [of.coef.tolist() for of in soft],
+        "softening": [polynomial.coef.tolist() for polynomial in soft],
         "softeningRange": soft[0].domain.tolist(),
         "observed": run_tree("wobble", ["observed"])["observed"].observed_period.item(),
     }

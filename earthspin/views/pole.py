@@ -325,10 +325,10 @@ def plot_transfer(result: Result, *, ax: Axes | None = None) -> Axes:
     frequency = data.frequency.values * per_year
     ax = axes(ax, 7.5, 4.2)
     ax.axhline(1, color="0.8", lw=0.8, zorder=0)
-    near = np.abs(frequency) < SHOWN
+    inside = np.abs(frequency) < SHOWN
     for rung, colour, width in (("elastic", "0.6", 1.0), (data.rung.values[-1], drawing.BLUE, 1.4)):
         transfer = data.transfer_real.sel(rung=rung).values
-        shown = np.flatnonzero(near & (np.abs(transfer - 1) < BEYOND))
+        shown = np.flatnonzero(inside & (np.abs(transfer - 1) < BEYOND))
         # no line from pole to pole, nor through rest in space
         steps = (np.diff(shown) > 1) | (np.diff(np.sign(frequency[shown])) > 0)
         for number, piece in enumerate(np.split(shown, np.flatnonzero(steps) + 1)):

@@ -100,7 +100,7 @@ def rates(tree: Result) -> TextTable:
         answer = answer.isel(perturber=[0])
     first, last = answer.perturber.values[[0, -1]]
     errors = answer.precession_rate_error_method[-1], answer.precession_rate_error_input[-1]
-    method, given = map(tables.two_digits, errors)
+    method, input_error = map(tables.two_digits, errors)
 
     neglected = answer.attrs["neglected"]
     largest = largest_of(neglected)
@@ -123,7 +123,7 @@ def rates(tree: Result) -> TextTable:
         f"{tables.date(answer.reference_epoch, 'm')} TDB; the obliquity is "
         f"{float(answer.obliquity):.6f} deg. The torques are averages "
         f"({answer.precession_rate.attrs['window']}). In the error of the last rate, {method} "
-        f"arcsec/yr are due to averaging and {given} arcsec/yr to the given numbers."
+        f"arcsec/yr are due to averaging and {input_error} arcsec/yr to the given numbers."
     )
     if moons := _satellites(answer):
         note += " The rate includes the satellites, which precess with the body; it is the mean "

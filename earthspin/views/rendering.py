@@ -71,8 +71,8 @@ def tables_for(tree: Result) -> list[TextTable]:
     answer = answer_of(tree)
     first, *others = ensemble.tables(tree) if is_ensemble(tree) else _tables(tree)
     left_out = f"Left out: {answer.attrs['neglected']}."
-    said = any(left_out in table.note.split("\n") for table in (first, *others))
-    note = [*changes_of(answer), first.note, "" if said else left_out]
+    noted = any(left_out in table.note.split("\n") for table in (first, *others))
+    note = [*changes_of(answer), first.note, "" if noted else left_out]
     return tables.numbered([replace(first, note="\n".join(filter(None, note))), *others])
 
 
@@ -125,10 +125,10 @@ def figures_of(answer: xr.Dataset) -> list[Figure]:
     if "scene" not in answer.attrs:
         problem = "a section or an edited dataset has no scene; plot the whole answer or its tree"
         raise SceneError("plot", answer.attrs.get("title", "a dataset"), problem)
-    there = plan(answer, "all").sections
+    available = plan(answer, "all").sections
     needed = {name for figure in _views(answer).figures for name in (figure.section, *figure.uses)}
     nodes = {"/": answer}
-    if names := [name for name in there if name in needed]:
+    if names := [name for name in available if name in needed]:
         sections = run_tree(answer, names)
         for name in names:  # with the labels of the answer, which may be a slice
             node = sections.earthspin.section(name)

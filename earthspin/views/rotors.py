@@ -391,9 +391,9 @@ SHAPE = (1.0, 0.8, 0.6)
 
 def turning_body(tree: Result) -> Solid:
     """Animated three-dimensional picture of the rotation of a body, drawn as an ellipsoid."""
-    few = answer_of(tree).isel(time=slice(0, POSES))
-    attitude, momentum = few.attitude.values, few.angular_momentum.values
-    omega = rotate(attitude, few.omega.values)
+    poses = answer_of(tree).isel(time=slice(0, POSES))
+    attitude, momentum = poses.attitude.values, poses.angular_momentum.values
+    omega = rotate(attitude, poses.omega.values)
     return Solid(
         title="The body turns",
         caption="An ellipsoid fixed to the principal axes, its longest axis that of least "
@@ -403,11 +403,11 @@ def turning_body(tree: Result) -> Solid:
             solids.mesh(solids.ellipsoid(SHAPE), BLUE, frame="body", opacity=0.2),
             solids.arrow(np.array([1.25, 0.0, 0.0]), RED, "A", frame="body"),
             solids.arrow(np.array([0.0, 0.0, 1.0]), BLACK, "C", frame="body"),
-            solids.moving_arrow(1.3 * omega / _largest(few.omega.values), GREEN, "ω"),
+            solids.moving_arrow(1.3 * omega / _largest(poses.omega.values), GREEN, "ω"),
             solids.moving_arrow(1.3 * momentum / _largest(momentum), BLUE, "L"),
         ],
         radius=1.5,
-        times=_days(few),
+        times=_days(poses),
         unit="d",
         attitude=attitude,
     )

@@ -225,9 +225,9 @@ def beside_observed(
     unit : str
         Written after the numbers.
     """
-    left = math.nan if left_out is None else systematic_size(left_out)
-    if math.isfinite(left):
-        return with_error(value, float(error) + left, unit)
+    neglected = math.nan if left_out is None else systematic_size(left_out)
+    if math.isfinite(neglected):
+        return with_error(value, float(error) + neglected, unit)
     plain = with_error(value, error, unit)
     return f"{plain}, {NUMBERS_ONLY}" if float(error) > 0 else plain
 
@@ -345,16 +345,16 @@ def tables_of(data: xr.Dataset, title: str) -> Iterator[TextTable]:
                 columns.setdefault(dim, []).append(column)
         else:
             wide.append(_DataColumn(name, label(data[name]), data[name]))
-    said: set[str] = set()
+    noted: set[str] = set()
     single = columns.pop("", [])
     if single or wide:
         rows = [(column.head, *column.cells()) for column in single]
         shapes = [" x ".join(map(str, column.values.shape)) for column in wide]
         rows += [(c.head, f"{shape} values") for c, shape in zip(wide, shapes, strict=True)]
-        note = _notes(data, [*single, *wide], said)
+        note = _notes(data, [*single, *wide], noted)
         yield TextTable(title, ("quantity", "value"), rows, note)
     for dim, along in columns.items():
-        yield from _tables_along(data, dim, along, title, said)
+        yield from _tables_along(data, dim, along, title, noted)
 
 
 def numbered(tables: Iterable[TextTable]) -> list[TextTable]:
@@ -372,8 +372,8 @@ def numbered(tables: Iterable[TextTable]) -> list[TextTable]:
 def _names(data: xr.Dataset) -> list[str]:
     """Names of the variables that tables show: all except half-widths and their contributions."""
     names = [str(name) for name in data.data_vars]
-    beside = {_half_width(data, name) for name in names}
-    return [name for name in names if name not in beside and "_error_" not in name]
+    half_widths = {_half_width(data, name) for name in names}
+    return [name for name in names if name not in half_widths and "_error_" not in name]
 
 
 def _half_width(data: xr.Dataset, name: str) -> str:
@@ -413,7 +413,7 @@ def _columns(data: xr.Dataset, name: str) -> Iterator[tuple[str, _DataColumn]]:
 
 
 def _tables_along(
-    data: xr.Dataset, dim: str, columns: list[_DataColumn], title: str, said: set[str]
+    data: xr.Dataset, dim: str, columns: list[_DataColumn], title: str, noted: set[str]
 ) -> Iterator[TextTable]:
     """Yield tables with a row for each label of a dimension; more than one if columns are many."""
     labels, count = _DataColumn(dim, label(data[dim]), data[dim]), data.sizes[dim]
@@ -429,7 +429,7 @@ def _tables_along(
             title,
             tuple(column.head for column in group),
             [*zip(*(texts[column] for column in group), strict=True)],
-            "\n".join(filter(None, (part, _notes(data, group, said)))),
+            "\n".join(filter(None, (part, _notes(data, group, noted)))),
             words=[0, *(k for k, column in enumerate(group) if column.values.dtype.kind in "UO")],
         )
 
@@ -452,7 +452,7 @@ def _side_by_side(
         yield group
 
 
-def _notes(data: xr.Dataset, columns: Iterable[_DataColumn], said: set[str]) -> str:
+def _notes(data: xr.Dataset, columns: Iterable[_DataColumn], noted: set[str]) -> str:
     """Note below a table: meaning, frame, sources of variables that no earlier note explains."""
     lines: list[str] = []
     left_out: dict[str, None] = {}
@@ -461,15 +461,15 @@ def _notes(data: xr.Dataset, columns: Iterable[_DataColumn], said: set[str]) -> 
         error = _half_width(data, name)
         if error:
             left_out[data[error].attrs.get("not_modelled", "")] = None
-        if name not in said:
+        if name not in noted:
             quantity = label(data[name].assign_attrs(units=""))
             words = [str(attrs[key]) for key in NOTED if attrs.get(key, quantity) != quantity]
             if source := attrs.get("references"):
                 words.append(f"source: {source}")
-            if error not in ("", f"{name}_error") and error not in said:
+            if error not in ("", f"{name}_error") and error not in noted:
                 words.append(f"in brackets: {data[error].attrs.get('long_name', error)}")
             lines += [f"{quantity}: {'; '.join(words)}."] if words else []
-            said |= {name, error}
+            noted |= {name, error}
     lines += [f"Left out: {effect}." for effect in left_out if effect]
     return "\n".join(lines)
 

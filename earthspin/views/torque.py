@@ -119,8 +119,8 @@ def _line_or_band(
         ax.plot(series.time, series, color=colour, lw=0.8, zorder=3 - 0.1 * number, label=label)
         return
     width = _samples(series, smooth_days)
-    near, some = series.rolling(time=width, center=True), slice(None, None, max(1, width // 6))
-    low, high = near.min()[some], near.max()[some]
+    window, some = series.rolling(time=width, center=True), slice(None, None, max(1, width // 6))
+    low, high = window.min()[some], window.max()[some]
     ax.fill_between(series.time[some], low, high, color=colour, alpha=0.3, lw=0, label=label)
 
 
@@ -171,8 +171,8 @@ def plot_states(result: Result, *, ax: Axes | None = None) -> Axes:
         colour = BLUE if row.stable else RED
         x, y = np.sin(angle), np.cos(angle)
         ax.annotate("", (x, y), (0, 0), arrowprops={"arrowstyle": "->", "color": colour, "lw": 1.6})
-        beside = 0.8 * x + 0.08 * y, 0.8 * y - 0.08 * x
-        ax.annotate(state, beside, color=colour, weight="bold", ha="center", va="center")
+        label_point = 0.8 * x + 0.08 * y, 0.8 * y - 0.08 * x
+        ax.annotate(state, label_point, color=colour, weight="bold", ha="center", va="center")
     ax.set(xlim=(-1.25, 1.25), ylim=(-1.15, 1.2), aspect="equal")
     ax.axis("off")
     return ax
