@@ -298,7 +298,7 @@ def rigid(effects: Sequence[str]) -> list[str]:
     return [effect for effect in effects if effect != NONRIGID.name]
 
 
-def same_paths(attractors: Attractors, effects: Sequence[str], **inputs: object) -> Hashable:
+def same_paths(attractors: Attractors, effects: tuple[str, ...], **inputs: object) -> Hashable:
     """Cache key: equal if `path_over` would give the same path; None if inputs may change."""
     sky = attractors.sky
     perturbers = *attractors.gm.items(), *attractors.targets.items(), *sky.reach.items()
