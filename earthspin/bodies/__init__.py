@@ -1,6 +1,6 @@
 """The class `Body`, the built-in bodies, and modules with the cited numbers of these bodies."""
 
-from earthspin.bodies.body import BODIES, NUMBERS, Body, body, label_of
+from earthspin.bodies.body import BODIES, NUMBERS, Body, NumberName, body, label_of
 from earthspin.bodies.checks import all_of
 from earthspin.bodies.earth_moon_sun import EARTH, MOON, SUN
 from earthspin.bodies.giants import JUPITER, NEPTUNE, SATURN, URANUS
@@ -12,8 +12,9 @@ from earthspin.numerics.arrays import Numeric
 
 __all__ = [
     "BODIES", "EARTH", "IAPETUS", "JUPITER", "MARS", "MERCURY", "MOON", "NEPTUNE", "NUMBERS",
-    "PHOBOS", "PLANETS", "SATURN", "SUN", "TITAN", "TRITON", "URANUS", "VENUS", "Body", "Numeric",
-    "Orbit", "Satellite", "all_of", "body", "in_a_sentence", "label_of", "proper",
+    "PHOBOS", "PLANETS", "SATURN", "SUN", "TITAN", "TRITON", "URANUS", "VENUS", "Body",
+    "NumberName", "Numeric", "Orbit", "Satellite", "all_of", "body", "in_a_sentence", "label_of",
+    "proper",
 ]  # fmt: skip
 
 _WITH_ARTICLE = (EARTH.name, MOON.name, SUN.name)

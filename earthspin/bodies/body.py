@@ -13,11 +13,12 @@ from dataclasses import InitVar, dataclass, field, fields
 from dataclasses import replace as _replace
 from functools import reduce
 from operator import and_
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Literal, overload
 
 import numpy as np
 
 from earthspin import constants as c
+from earthspin._lazy import xr
 from earthspin.bodies import checks, kinds
 from earthspin.bodies.checks import all_of, are_close, is_close, is_same
 from earthspin.bodies.kinds import Magnitude
@@ -32,6 +33,11 @@ from earthspin.sky.poles import Direction, FixedPole, PoleInText, PoleModel, pol
 from earthspin.sky.sources import describe_position, read_position
 from earthspin.units import Text
 
+#: Fields that hold a number, or None if it is not known.
+NumberName = Literal[
+    "gm", "radius", "j2", "dynamical_flattening", "triaxiality", "j3", "j4", "j2_rate", "meridian",
+    "flattening", "spin_period", "pole_uncertainty", "orbital_period",
+]  # fmt: skip
 #: Values of the key "from" in a table of a body: all numbers are in the table, or the figure
 #: follows from its layers.
 NOTHING, LAYERS = "nothing", "layers"
@@ -213,14 +219,13 @@ class Body(FromMass):
         if hasattr(angle, "dims") or np.ndim(angle) or not 0 <= angle <= math.pi:
             allowed = "from 0 to 180 deg; plain numbers are radians, so write '40 deg'"
             raise BodyError(self.name, "obliquity", value, f"give one angle {allowed}")
-        assert self.pole is not None
         if self.orbit_pole is None:
             allowed = "it is measured from the normal of the orbit: set orbit or orbit_pole"
             raise BodyError(self.name, "obliquity", value, allowed)
         if self.orbit is not None and self.orbit.plane == "equator":
             allowed = "the orbit is given on the equator, which follows from it; choose a plane"
             raise BodyError(self.name, "orbit.plane", "equator", allowed)
-        _, leaning, normal = self.pole.orbit_axes(self.orbit_pole)
+        _, leaning, normal = self.needed("pole").orbit_axes(self.orbit_pole)
         return FixedPole.along(math.cos(angle) * normal + math.sin(angle) * leaning)
 
     def _fields(self) -> dict[str, Any]:
@@ -443,7 +448,13 @@ class Body(FromMass):
             u.get("j2", 0.0), u.get("gm", 0.0), 2 * u.get("radius", 0.0), c.G.relative_uncertainty
         )
 
-    def needed(self, name: str) -> Numeric:
+    @overload
+    def needed(self, name: NumberName) -> float | xr.DataArray: ...
+    @overload
+    def needed(self, name: Literal["pole"]) -> PoleModel: ...
+    @overload
+    def needed(self, name: Literal["orbit"]) -> Orbit: ...
+    def needed(self, name: str) -> Any:
         """Return the value of a field by field name; raise an error if the field is not set.
 
         Raises
@@ -471,7 +482,7 @@ class Body(FromMass):
         if missing:
             raise BodyError.lacking(self.name, {name: self.KINDS[name].form for name in missing})
 
-    def number(self, name: str) -> float:
+    def number(self, name: NumberName) -> float:
         """Return the value of a field as a float; refuse an array.
 
         Raises

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import NamedTuple, Protocol
+from typing import Literal, NamedTuple, Protocol
 
 import numpy as np
 
@@ -20,10 +20,14 @@ from earthspin.torque.gravity import cross, dot
 # --- effects and their register -------------------------------------------------------------------
 
 
+#: Fields of a body on which effects depend.
+Coefficient = Literal["j2", "j2_rate", "j3", "j4", "triaxiality"]
+
+
 class BodyNumbers(Protocol):
     """Protocol of a body whose numeric properties, such as J3, can be looked up by name."""
 
-    def number(self, name: str) -> float:
+    def number(self, name: Coefficient) -> float:
         """Return a numeric property of the body, such as "j3", as a float."""
 
 
@@ -44,7 +48,7 @@ class Effect:
 
     name: str
     switch_on: Callable[[Forces, BodyNumbers], Forces]
-    coefficient: str = ""
+    coefficient: Coefficient | Literal[""] = ""
 
 
 #: All effects by name.
@@ -82,19 +86,19 @@ PLANETS = add(
 # Torques of the nearest masses on the zonal harmonics J3 and J4 of the body.
 
 
-def _zonal_harmonic(degree: int) -> Effect:
+def _zonal_harmonic(degree: int, name: Coefficient) -> Effect:
     def switch_on(forces: Forces, body: BodyNumbers) -> Forces:
-        coefficient = body.number(f"j{degree}")
+        coefficient = body.number(name)
         if not coefficient:
             return forces
         zonal = {**forces.figure.zonal, degree: coefficient}
         return replace(forces, figure=replace(forces.figure, zonal=zonal))
 
-    return add(Effect(f"j{degree}", switch_on, coefficient=f"j{degree}"))
+    return add(Effect(name, switch_on, coefficient=name))
 
 
-J3 = _zonal_harmonic(3)
-J4 = _zonal_harmonic(4)
+J3 = _zonal_harmonic(3, "j3")
+J4 = _zonal_harmonic(4, "j4")
 
 
 # --- triaxiality ----------------------------------------------------------------------------------

@@ -168,9 +168,8 @@ def states(body: Body, orbit_in_use: Orbit, locking: Locking) -> CassiniObliquit
 def _error(body: Body, orbit: Orbit, locking: Locking, obliquity: FloatArray) -> FloatArray:
     """95 % half-width of the obliquity due to the errors of J2, H and the triaxiality, rad."""
     squares = np.zeros_like(obliquity)
-    for name, share in body.relative_uncertainty.items():
-        if name not in ("j2", "dynamical_flattening", "triaxiality"):
-            continue
+    for name in ("j2", "dynamical_flattening", "triaxiality"):
+        share = body.relative_uncertainty.get(name, 0.0)
         # `Body.replace` moves H with J2 unless H is given, too
         changed = {"dynamical_flattening": body.number("dynamical_flattening")}
         changed[name] = body.number(name) * (1 + NORMAL_95 * share)

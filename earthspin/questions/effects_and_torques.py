@@ -145,7 +145,7 @@ class Attractors:
     @property
     def start(self) -> FloatArray:
         """Figure axis at the start of the integration, shape (3,)."""
-        return np.asarray(self.body.needed("pole").true(self.epoch / DAY))
+        return self.body.needed("pole").true(self.epoch / DAY)
 
     def positions(
         self, names: Sequence[str], times: FloatArray, keep: bool
@@ -231,7 +231,7 @@ def precessing_torque(rate: FloatArray) -> Torque:
 
 def figure_of(body: Body, spin_rate: float) -> DynamicalFigure:
     """Make a `DynamicalFigure`: flattening, spin rate, inverse polar moment, radius of a body."""
-    h, radius, meridian = map(body.number, ("dynamical_flattening", "radius", "meridian"))
+    h, radius, meridian = body.number("dynamical_flattening"), body.number("radius"), body.meridian
     inverse = inverse_polar_moment(body.number("j2"), h)
     return DynamicalFigure(
         h=h, spin_rate=spin_rate, inverse_polar_moment=inverse, radius=radius, meridian=meridian

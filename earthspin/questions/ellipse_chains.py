@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from earthspin.bodies import Body, Orbit, checks, in_a_sentence, label_of, moons
+from earthspin.bodies import Body, checks, in_a_sentence, label_of, moons
 from earthspin.errors import SceneError, UndefinedError, nearest
 from earthspin.sky.elements import Ellipse, Plane
 from earthspin.torque.cassini import locked_turns
@@ -83,7 +83,7 @@ def _add_chain(
 
 def _centre(member: Body, body: Body, known: Mapping[str, Body]) -> str:
     """Name of the central body of `member`; an empty text if no known body can be the centre."""
-    about: str = member.needed("orbit").about
+    about = member.needed("orbit").about
     if about:
         label = about if about in known else label_of(about, known.values())
         if label is None or label == member.name:
@@ -113,7 +113,7 @@ def _refuse_circles(centres: Mapping[str, str]) -> None:
 
 def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
     """Ellipse of the orbit of `member` about the body `centre`, from the orbital elements."""
-    orbit: Orbit = member.needed("orbit")
+    orbit = member.needed("orbit")
     a, motion = size_and_motion(member, centre)
     refuse_overlap(member, centre, a)
     node = 0.0 if orbit.node_period is None else 2 * math.pi / orbit.node_period
@@ -156,7 +156,7 @@ def size_and_motion(member: Body, centre: Body) -> tuple[float, float]:
         If semi-major axis and period contradict each other, or one of them is missing and does not
         follow from the masses.
     """
-    orbit: Orbit = member.needed("orbit")
+    orbit = member.needed("orbit")
     a, period = orbit.a, orbit.period
     gm = member.gm_on(centre) + centre.gm_on(member)
     is_array = hasattr(gm, "dims")

@@ -292,7 +292,7 @@ def precession_constant(
         return PrecessionConstant(sun, 0.0, eccentricity, geodesic, ellipticity, j2_rate=j2_rate)
     moon, published = inputs.columns("moon", "published")
     node_rate = 2 * math.pi / MOON.cycle
-    pole = np.asarray(body.needed("pole").mean(np.zeros(1))[0])[:, np.newaxis]
+    pole = body.needed("pole").mean(np.zeros(1))[0][:, np.newaxis]
     by_lag = float((moon_rate_factor(now, pole, node_rate) / dot(now[0], pole)).item())
     return PrecessionConstant(
         sun,
@@ -348,7 +348,7 @@ def solved_axes(
 def _start(inputs: LabelledNumbers, body: Body, orbit_table: OrbitTable) -> FloatArray:
     """Unit vectors of the spin axis at J2000.0, for all sets of inputs, shape (3, ...)."""
     now = np.zeros(1)
-    pole = np.asarray(body.needed("pole").without_nutation().mean(now)[0])
+    pole = body.needed("pole").without_nutation().mean(now)[0]
     obliquity, longitude = (
         np.asarray(inputs.values[name]) for name in ("obliquity_shift", "longitude_shift")
     )

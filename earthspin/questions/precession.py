@@ -160,7 +160,7 @@ def no_figure(body: Body) -> str | None:
     missing = [k for k in ("j2", "flattening", "radius") if getattr(body, k) is None]
     if missing:
         return f"{in_a_sentence(body.name)} has no {missing[0]}"
-    if not all_of(abs(body.needed("flattening")) < 1):
+    if not all_of(np.abs(body.needed("flattening")) < 1):
         return "MacCullagh's formula needs a flattening between -1 and 1"
     if not all_of(body.needed("dynamical_flattening") != 0):
         return "with H = 0 the polar moment does not follow from J2"
@@ -268,7 +268,7 @@ def seasons(
         effects = f"torques of Sun and Moon alone; no published effects apply: {another}"
     chi_rate = iau_models.precession_rates(mean_torques.epoch / DAY).chi_a
     general = rate_budget.general_precession(rate + published, chi_rate, mean_torques.obliquity)
-    year = rate_budget.tropical_year(general, body.needed("orbital_period"))
+    year = rate_budget.tropical_year(general, body.number("orbital_period"))
     period = rates.period(general), rates.period_error(general, error)
     gregorian_drift = rate_budget.time_per_day_of_drift(year, rate_budget.GREGORIAN_YEAR)
     return SeasonsAndCalendar(

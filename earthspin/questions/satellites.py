@@ -181,8 +181,8 @@ def node_nutations(body: Body, gm_over_r3: Numeric, obliquity: float) -> dict[st
     if not body.satellites:
         return {}
     _refuse_sphere(body)
-    names = ("gm", "radius", "j2", "dynamical_flattening")
-    numbers = [*(body.needed(name) for name in names), body.spin_rate, gm_over_r3]
+    figure = (body.needed(name) for name in ("radius", "j2", "dynamical_flattening"))
+    numbers = [body.gm, *figure, body.spin_rate, gm_over_r3]
     planet = _planet([np.full((1, 1), float(np.mean(number))) for number in numbers], obliquity)
     sine = math.sin(obliquity)
     nutations = {}

@@ -23,7 +23,7 @@ from earthspin.sky import sources
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
 from earthspin.sky.ephemeris import NAMED_KERNELS
 from earthspin.sky.iau_models import NutationSpline, true_equator
-from earthspin.sky.poles import FixedPole, IAU2006Pole, MovingPole, PoleModel, rotate, spherical
+from earthspin.sky.poles import FixedPole, IAU2006Pole, MovingPole, rotate, spherical
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
 from earthspin.sky.sources import SourceName
 from earthspin.units import FileName
@@ -259,7 +259,7 @@ class Sky:
 
         For the Earth, they are those of the source if it has its own equator.
         """
-        pole: PoleModel = body.needed("pole")
+        pole = body.needed("pole")
         if isinstance(self.source, OfDate) and pole.of_the_iau:
             return self.source.equator(days)
         return pole.equator(body.orbit_pole, days)
@@ -288,7 +288,7 @@ class Sky:
         nutation : NutationSpline, optional
             Interpolated nutation, for the source jplephem.
         """
-        pole: PoleModel = body.needed("pole")
+        pole = body.needed("pole")
 
         def equator(days: FloatArray) -> FloatArray:
             return pole.equator(body.orbit_pole, days, nutation)

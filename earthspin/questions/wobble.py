@@ -12,7 +12,7 @@ from typing import Annotated, Literal
 import numpy as np
 
 from earthspin._lazy import xr
-from earthspin.bodies import EARTH, Body, Numeric, all_of
+from earthspin.bodies import EARTH, Body, NumberName, Numeric, all_of
 from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY
 from earthspin.engine.public_calls import public_call
@@ -25,8 +25,8 @@ from earthspin.rotor.axisymmetric import free_wobble_error
 from earthspin.units import Number
 from earthspin.wobble import ladder, propagation
 
-_FIGURE = ("dynamical_flattening", "j2", "triaxiality")
-_SPIN = ("gm", "radius", "spin_period")
+_FIGURE: tuple[NumberName, ...] = ("dynamical_flattening", "j2", "triaxiality")
+_SPIN: tuple[NumberName, ...] = ("gm", "radius", "spin_period")
 #: Keys that describe the interior, and the inputs of the ladder that they set.
 _KEYS = ("k2", "core_fraction", "core_ellipticity", "ocean_love_number", "anelastic_exponent")
 _INTERIOR = {name: name for name in _KEYS} | {"ocean_love_number": "ocean"}
@@ -230,7 +230,7 @@ def wobble_rungs(body: Body, inputs: ModelInputs | None = None) -> Rungs:
         pairs = ((turns, models.rotations), (quality, models.quality_factor), (spread, sampled))
         for lower, upper in pairs:
             lower |= {name: inputs.label(value) for name, value in upper.items()}
-    sidereal, day = _stacked(turns, "rung"), abs(body.needed("spin_period"))
+    sidereal, day = _stacked(turns, "rung"), np.abs(body.needed("spin_period"))
     period = sidereal * day
     like = xr.zeros_like(period)
     rungs = Rungs(
@@ -257,7 +257,7 @@ def _rigid_spread(body: Body, turns: Mapping[str, Numeric]) -> dict[str, Numeric
     spread: dict[str, Numeric] = {}
     for name, value in turns.items():
         field = "flattening" if name == "flattening" else "dynamical_flattening"
-        h = 0.0 if name == "flattening" else body.needed(field)
+        h = 0.0 if name == "flattening" else body.needed("dynamical_flattening")
         u = body.relative_uncertainty.get(field, 0.0)
         spread[name] = free_wobble_error(value, h, u) if u else xr.zeros_like(xr.DataArray(value))
     return spread
@@ -334,10 +334,10 @@ def core_nutation(inputs: ModelInputs, body: Body) -> CoreNutationPeriod:
         turns[name] = ladder.non_rigid(numbers, *inputs.setting).core_rotations["fluid-core"]
         half_widths[name] = propagation.core_nutation_half_width(numbers, spread, *inputs.setting)
     nutation = inputs.stack(turns, "core_shape") * body.needed("spin_period")
-    error = inputs.stack(half_widths, "core_shape") * abs(body.needed("spin_period"))
+    error = inputs.stack(half_widths, "core_shape") * np.abs(body.needed("spin_period"))
     return CoreNutationPeriod(
         free_core_nutation=(nutation, error),
-        free_core_nutation_sidereal=nutation / abs(body.needed("spin_period")),
+        free_core_nutation_sidereal=nutation / np.abs(body.needed("spin_period")),
     ).with_attributes(free_core_nutation=attributes)
 
 
