@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from importlib import import_module as _import_module
 
-from earthspin import engine as _engine
+from earthspin import _lazy
 from earthspin import errors as _errors
-from earthspin._lazy import submodule as _submodule
 from earthspin._version import __version__ as __version__
 from earthspin.questions import MODULES as _QUESTIONS
 
@@ -43,8 +42,8 @@ _HOME = {
 _MODULE_OF = _QUESTIONS | {name: module for module, names in _HOME.items() for name in names}
 
 # What answers call in packages above the engine, which knows none of these.
-_engine.FUNCTIONS |= {"load_scene": "earthspin.scenes", "plan": "earthspin.scenes"}
-_engine.METHODS |= {
+_lazy.FUNCTIONS |= {"load_scene": "earthspin.scenes", "plan": "earthspin.scenes"}
+_lazy.METHODS |= {
     "plot": "earthspin.views.rendering",
     "to_iers_table": "earthspin.questions.forecast",
 }
@@ -60,7 +59,7 @@ def __getattr__(name: str) -> object:
             value.__module__, value.__qualname__ = __name__, name  # where pickle finds it
         globals()[name] = value
         return value
-    return _submodule(__name__, name)
+    return _lazy.submodule(__name__, name)
 
 
 def __dir__() -> list[str]:

@@ -1,9 +1,23 @@
-"""Import modules only when they are first used."""
+"""Import modules only when they are first used.
+
+Functions of the packages above the engine that answers call are registered here by their names, by
+``earthspin/__init__.py``.
+"""
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-__all__ = ["erfa", "submodule", "xr"]
+__all__ = ["FUNCTIONS", "METHODS", "erfa", "registered", "submodule", "xr"]
+
+#: Modules of the registered functions, by the names of the functions.
+FUNCTIONS: dict[str, str] = {}
+#: Modules of the functions of an answer that are methods of its accessor, by their names.
+METHODS: dict[str, str] = {}
+
+
+def registered(name: str) -> Any:
+    """Import the module of a function in `FUNCTIONS` or `METHODS`, and return the function."""
+    return getattr(import_module((FUNCTIONS | METHODS)[name]), name)
 
 
 class _Library:

@@ -21,8 +21,7 @@ from astropy.time import Time
 from earthspin.bodies import in_a_sentence
 from earthspin.constants import DAY, J2000_JD
 from earthspin.dates import date_text, two_parts
-from earthspin.engine.question import Question, scene_of
-from earthspin.engine.variables import si
+from earthspin.engine import Question, scene_of, si
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress

@@ -9,7 +9,7 @@ import xarray as xr
 
 from earthspin.bodies import in_a_sentence
 from earthspin.constants import JULIAN_YEAR
-from earthspin.engine.variables import Variables, labels, measured, number, si, words
+from earthspin.engine import Variables, labels, measured, number, si, words
 from earthspin.errors import SceneError, Where
 from earthspin.progress import progress
 from earthspin.sky.stars import STARS, UNKNOWN_MOTION, directions

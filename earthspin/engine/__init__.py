@@ -1,20 +1,14 @@
 """Machinery of all computations: inputs (questions), functions, runs, ensembles, result files.
 
-Functions of the packages above the engine that answers call are registered here by their names, by
-``earthspin/__init__.py``. A module is imported when its function is first called.
+Questions import from here what they declare and run; other packages import the modules.
 """
 
-from __future__ import annotations
+from earthspin.engine.public_calls import public_call
+from earthspin.engine.question import NEGLECTED, Block, Question, key, part, scene_of, setting
+from earthspin.engine.run import Run, in_range
+from earthspin.engine.variables import Neglected, Variables, labels, measured, number, si, words
 
-from importlib import import_module
-from typing import Any
-
-#: Modules of the registered functions, by the names of the functions.
-FUNCTIONS: dict[str, str] = {}
-#: Modules of the functions of an answer that are methods of its accessor, by their names.
-METHODS: dict[str, str] = {}
-
-
-def registered(name: str) -> Any:
-    """Import the module of a function in `FUNCTIONS` or `METHODS`, and return the function."""
-    return getattr(import_module((FUNCTIONS | METHODS)[name]), name)
+__all__ = [
+    "NEGLECTED", "Block", "Neglected", "Question", "Run", "Variables", "in_range", "key", "labels",
+    "measured", "number", "part", "public_call", "scene_of", "setting", "si", "words",
+]  # fmt: skip

@@ -15,7 +15,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from earthspin.engine import METHODS, atomic_writes, registered
+from earthspin._lazy import METHODS, registered
+from earthspin.engine import atomic_writes
 from earthspin.engine.members import MEMBER
 from earthspin.engine.question import ALL, names_in, scene_of
 from earthspin.errors import SceneError, nearest

@@ -13,7 +13,7 @@ from earthspin._version import version
 from earthspin.bodies import Body, Numeric
 from earthspin.bodies.checks import SECOND_ORDER_BOUND, largest, refuse_fast_axis
 from earthspin.constants import DAY
-from earthspin.engine.question import part
+from earthspin.engine import part
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import Estimate, FloatArray
 from earthspin.questions.ellipse_chains import (

@@ -11,9 +11,8 @@ import numpy as np
 from earthspin.bodies import BODIES, MOON, SUN, Body, Orbit, checks, in_a_sentence
 from earthspin.bodies.planets import LEFT_OUT_OF_STATES, PRECESSING_ORBITS
 from earthspin.constants import NORMAL_95
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import Question, key, part
-from earthspin.engine.variables import Neglected, Variables, labels, measured, number
+from earthspin.engine import Neglected, Question, key, part, public_call
+from earthspin.engine.variables import Variables, labels, measured, number
 from earthspin.errors import SceneError, nearest
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.ellipse_chains import refuse_overlap, size_and_motion

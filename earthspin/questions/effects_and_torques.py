@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from earthspin import bodies
 from earthspin.bodies import BODIES, SUN, Body, label_of
 from earthspin.constants import ARCSEC, DAY, NORMAL_95
-from earthspin.engine.question import key, part
+from earthspin.engine import key, part
 from earthspin.errors import EarthspinError, KernelError, UndefinedError, Where, one_line
 from earthspin.mass.figure import inverse_polar_moment
 from earthspin.motion.effects import EFFECTS, GEODESIC, NONRIGID, PLANETS, RIGID

@@ -14,10 +14,8 @@ from earthspin.bodies import EARTH, Body
 from earthspin.bodies.orbit import Epoch
 from earthspin.constants import DAY, MAS, NORMAL_95
 from earthspin.dates import SPACING, TABLES, date_text, datetime64, days
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import Question, key, part
-from earthspin.engine.run import Run
-from earthspin.engine.variables import Neglected, Variables, labels, measured, number, words
+from earthspin.engine import Neglected, Question, Run, key, part, public_call
+from earthspin.engine.variables import Variables, labels, measured, number, words
 from earthspin.errors import SceneError, SeriesError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import core_nutation

@@ -9,9 +9,8 @@ from typing import Annotated
 import numpy as np
 
 from earthspin._lazy import xr
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import Question, part, setting
-from earthspin.engine.variables import Neglected, labels, number, variable_of
+from earthspin.engine import Neglected, Question, part, public_call, setting
+from earthspin.engine.variables import labels, number, variable_of
 from earthspin.errors import Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.time_axes import Seconds, TimesFromStart, instants

@@ -11,9 +11,8 @@ import numpy as np
 from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_CENTURY, NORMAL_95
 from earthspin.dates import Epochs, datetime64
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import part
-from earthspin.engine.variables import Neglected, Variables, amplitude, labels, measured, number
+from earthspin.engine import Neglected, part, public_call
+from earthspin.engine.variables import Variables, amplitude, labels, measured, number
 from earthspin.motion.axes import error_of_input
 from earthspin.motion.effects import EFFECTS, NONRIGID
 from earthspin.numerics.arrays import ComplexArray, FloatArray

@@ -14,7 +14,7 @@ from earthspin.bodies import BODIES, PLANETS, Body
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
 from earthspin.dates import Epochs, Span, Step
-from earthspin.engine.question import key, part
+from earthspin.engine import key, part
 from earthspin.engine.variables import Variables, amplitude, labels, number, words
 from earthspin.errors import UndefinedError
 from earthspin.motion import axes

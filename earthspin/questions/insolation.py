@@ -12,9 +12,8 @@ import numpy as np
 from earthspin._lazy import xr
 from earthspin.bodies import BODIES, EARTH, SUN, Body
 from earthspin.constants import AU, DAY, SOLAR_CONSTANT
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import NEGLECTED, key, part
-from earthspin.engine.variables import Neglected, Variables, labels, measured, si
+from earthspin.engine import NEGLECTED, Neglected, key, part, public_call
+from earthspin.engine.variables import Variables, labels, measured, si
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress

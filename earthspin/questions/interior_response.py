@@ -8,7 +8,7 @@ from typing import Annotated
 
 from earthspin.bodies import BODIES, Body, all_of, in_a_sentence
 from earthspin.bodies.kinds import Layers
-from earthspin.engine.question import Question, part
+from earthspin.engine import Question, part
 from earthspin.errors import nearest
 from earthspin.interior import named
 from earthspin.interior.layers import LayeredBody

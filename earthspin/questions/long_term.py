@@ -12,9 +12,7 @@ from earthspin._lazy import xr
 from earthspin.bodies import MOON, SUN, Body, in_a_sentence, label_of
 from earthspin.constants import ARCSEC, JULIAN_YEAR, PUBLISHED_EFFECTS
 from earthspin.dates import YearList, YearSpan, YearStep, grid
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import key, part
-from earthspin.engine.variables import Neglected, Variables, labels, measured, number
+from earthspin.engine import Neglected, Variables, key, labels, measured, number, part, public_call
 from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, of_perturber

@@ -9,9 +9,7 @@ import numpy as np
 from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY, JULIAN_YEAR
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import Question, key, part
-from earthspin.engine.variables import Neglected, Variables, labels, number
+from earthspin.engine import Neglected, Question, Variables, key, labels, number, part, public_call
 from earthspin.interior.layers import LayeredBody
 from earthspin.interior.love import DegreeTwoLoveNumbers, elastic, solve_love_numbers
 from earthspin.interior.modes import free_modes, mode_period, numbers_of, parts_of

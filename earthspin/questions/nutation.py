@@ -10,17 +10,8 @@ import numpy as np
 from earthspin.bodies import Body
 from earthspin.constants import DAYS_PER_CENTURY
 from earthspin.dates import Epochs
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import part, setting
-from earthspin.engine.variables import (
-    Neglected,
-    Variables,
-    amplitude,
-    labels,
-    measured,
-    number,
-    words,
-)
+from earthspin.engine import Neglected, part, public_call, setting
+from earthspin.engine.variables import Variables, amplitude, labels, measured, number, words
 from earthspin.interior.modes import mode_period
 from earthspin.interior.named import ANELASTIC_EXPONENT
 from earthspin.numerics.arrays import FloatArray

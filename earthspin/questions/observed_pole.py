@@ -15,8 +15,7 @@ from earthspin._lazy import xr
 from earthspin.bodies import EARTH, Body, in_a_sentence
 from earthspin.constants import DAY, DAYS_PER_CENTURY, MAS
 from earthspin.dates import Epochs, Span, datetime64, days
-from earthspin.engine.question import Question, key, part, setting
-from earthspin.engine.variables import Variables, labels, measured, number, si
+from earthspin.engine import Question, Variables, key, labels, measured, number, part, setting, si
 from earthspin.errors import SceneError, Where
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.nutation import core_nutation

@@ -12,10 +12,8 @@ from earthspin._lazy import xr
 from earthspin.bodies import Body
 from earthspin.constants import DAY, DAYS_PER_YEAR, MAS, NORMAL_95
 from earthspin.dates import Span, datetime64
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import part, setting
-from earthspin.engine.run import in_range
-from earthspin.engine.variables import Neglected, Variables, labels, measured, number
+from earthspin.engine import Neglected, in_range, part, public_call, setting
+from earthspin.engine.variables import Variables, labels, measured, number
 from earthspin.errors import SceneError, Where, nearest
 from earthspin.mass.figure import polar_radius
 from earthspin.numerics.arrays import ComplexArray, FloatArray

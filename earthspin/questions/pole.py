@@ -10,9 +10,7 @@ from earthspin._lazy import xr
 from earthspin.bodies import Body, in_a_sentence
 from earthspin.constants import DAY
 from earthspin.dates import Epochs, Span, Step, datetime64
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import Block, key, part
-from earthspin.engine.variables import Neglected, labels, number
+from earthspin.engine import Block, Neglected, key, labels, number, part, public_call
 from earthspin.motion.axes import AXES, AxisPath
 from earthspin.motion.effect_sizes import axis_displacements
 from earthspin.motion.effects import LARGEST_CORE_NUTATION, NONRIGID, RESPONSE

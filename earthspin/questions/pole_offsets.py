@@ -9,9 +9,8 @@ import numpy as np
 
 from earthspin.constants import DAY, DAYS_PER_YEAR, NORMAL_95
 from earthspin.dates import Span, datetime64
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import part, setting
-from earthspin.engine.variables import Neglected, Variables, labels, measured, number
+from earthspin.engine import Neglected, part, public_call, setting
+from earthspin.engine.variables import Variables, labels, measured, number
 from earthspin.errors import UndefinedError
 from earthspin.interior.named import OBSERVED_CORE_NUTATION
 from earthspin.nutation import core_nutation as core

@@ -11,17 +11,8 @@ from earthspin.bodies import Body, all_of, in_a_sentence, label_of
 from earthspin.bodies.planets import LEFT_OUT_OF_RATES
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.dates import Span, datetime64
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import key, part
-from earthspin.engine.variables import (
-    Neglected,
-    Variables,
-    labels,
-    labels_of,
-    measured,
-    number,
-    words,
-)
+from earthspin.engine import Neglected, key, part, public_call
+from earthspin.engine.variables import Variables, labels, labels_of, measured, number, words
 from earthspin.mass import figure
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation import rate_budget

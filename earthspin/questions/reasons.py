@@ -9,8 +9,7 @@ import numpy as np
 
 from earthspin.bodies import Body, in_a_sentence, label_of, proper
 from earthspin.constants import DAY, NORMAL_95, PUBLISHED_EFFECTS
-from earthspin.engine.question import part
-from earthspin.engine.variables import Neglected, Variables, measured
+from earthspin.engine import Neglected, Variables, measured, part
 from earthspin.nutation.rate_budget import published_effects
 
 

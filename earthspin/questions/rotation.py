@@ -10,9 +10,8 @@ import numpy as np
 from earthspin.bodies import Body, checks, planets
 from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import Block, key, part
-from earthspin.engine.variables import Neglected, Variable, labels, number, words
+from earthspin.engine import Block, Neglected, key, part, public_call
+from earthspin.engine.variables import Variable, labels, number, words
 from earthspin.errors import SceneError
 from earthspin.mass.figure import polar_moment
 from earthspin.motion import solution

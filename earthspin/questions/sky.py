@@ -15,7 +15,7 @@ from earthspin.bodies import EARTH, MOON, SUN, Body, all_of, checks, moons, plan
 from earthspin.bodies.body import SPIN_FIELDS
 from earthspin.constants import DAY
 from earthspin.dates import Span
-from earthspin.engine.question import Question, key, part
+from earthspin.engine import Question, key, part
 from earthspin.errors import KernelError, SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.ellipse_chains import EllipseChain, all_by_elements, ellipse_chains

@@ -7,9 +7,8 @@ from typing import Annotated
 import numpy as np
 
 from earthspin.bodies import EARTH, Body, all_of, proper
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import Question, key, part, setting
-from earthspin.engine.variables import Neglected, Variables, labels, number
+from earthspin.engine import Neglected, Question, key, part, public_call, setting
+from earthspin.engine.variables import Variables, labels, number
 from earthspin.mass.figure import eccentricity_squared
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.labelled_numbers import LabelledNumbers

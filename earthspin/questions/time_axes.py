@@ -10,8 +10,7 @@ import numpy as np
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
 from earthspin.dates import Epochs, Span, Step, TimeGrid, TimeList
-from earthspin.engine.question import Block, key, part
-from earthspin.engine.variables import Variables, labels
+from earthspin.engine import Block, Variables, key, labels, part
 from earthspin.errors import SceneError, in_bytes
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.sky import PerturbedBody

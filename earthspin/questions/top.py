@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import Question, part, setting
-from earthspin.engine.variables import Neglected, Variables, labels, number, words
+from earthspin.engine import Neglected, Question, part, public_call, setting
+from earthspin.engine.variables import Variables, labels, number, words
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.labelled_numbers import LabelledNumbers
 from earthspin.questions.time_axes import Seconds, TimesFromStart, instants

@@ -10,9 +10,8 @@ import numpy as np
 from earthspin._lazy import xr
 from earthspin.bodies import Body, Numeric, in_a_sentence
 from earthspin.dates import Epochs, Span, Step, datetime64
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import Block, key, part
-from earthspin.engine.variables import Neglected, labels, measured, number, variable_of
+from earthspin.engine import Block, Neglected, key, part, public_call
+from earthspin.engine.variables import labels, measured, number, variable_of
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions import reasons, satellites

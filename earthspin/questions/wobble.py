@@ -15,9 +15,8 @@ from earthspin._lazy import xr
 from earthspin.bodies import EARTH, Body, NumberName, Numeric, all_of
 from earthspin.bodies.checks import refuse_break_up
 from earthspin.constants import DAY
-from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import Question, key, part, setting
-from earthspin.engine.variables import Neglected, Variables, measured, number, words
+from earthspin.engine import Neglected, Question, key, part, public_call, setting
+from earthspin.engine.variables import Variables, measured, number, words
 from earthspin.interior.named import ANELASTIC_EXPONENT, EXPONENT_RANGE, Interior
 from earthspin.questions import interior_response
 from earthspin.questions.reasons import observed_wobble

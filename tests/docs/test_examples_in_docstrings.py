@@ -13,9 +13,9 @@ from typing import Any
 import pytest
 
 import earthspin
+from earthspin._lazy import METHODS, registered
 from earthspin.bodies import Body
 from earthspin.bodies.orbit import Satellite
-from earthspin.engine import METHODS, registered
 from earthspin.engine.accessor import Answer
 
 
