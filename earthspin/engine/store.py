@@ -23,13 +23,7 @@ from typing import Any
 import numpy as np
 
 from earthspin._lazy import xr
-from earthspin.engine.atomic_writes import (
-    as_path,
-    check_identity,
-    identity,
-    mismatch_error,
-    replacing,
-)
+from earthspin.engine import atomic_writes
 from earthspin.engine.question import SCENE, scene_of
 from earthspin.engine.variables import IN_FILES
 from earthspin.errors import EarthspinError, MissingExtraError, OutputError, in_bytes, one_line
@@ -91,14 +85,14 @@ def write(result: xr.Dataset | xr.DataTree, path: str | Path) -> Path:
     >>> print(earthspin.open(path).identical(tree))
     True
     """
-    place = as_path(path)
+    place = atomic_writes.as_path(path)
     if not hasattr(result, "data_vars"):
         problem = f"{type(result).__name__} is not an answer"
         raise OutputError(place, problem, "give a Dataset or DataTree")
     _refuse_attributes(result, place)
     if place.suffix not in (".nc", ".zarr"):
         raise OutputError(place, "its name ends in neither .nc nor .zarr", "choose one of the two")
-    with replacing(place) as draft:
+    with atomic_writes.replacing(place) as draft:
         (_write_zarr if place.suffix == ".zarr" else write_netcdf)(result, draft)
     return place
 
@@ -262,7 +256,7 @@ def open(path: str | Path) -> xr.Dataset | xr.DataTree:
     """
     import earthspin.engine.accessor  # noqa: F401 - registers ds.earthspin
 
-    nodes = _read(as_path(path))
+    nodes = _read(atomic_writes.as_path(path))
     for node in nodes.values():
         for variable in node.variables.values():
             if SHOWN in variable.attrs:  # a file of earthspin has both spellings
@@ -304,7 +298,7 @@ def verify(path: str | Path) -> Path:
     >>> print(earthspin.verify("precession.nc"))
     precession.nc
     """
-    place = as_path(path)
+    place = atomic_writes.as_path(path)
     if place.suffix == ".zarr":
         zarr_folder = zarr_of()
         with _reading(place):
@@ -344,13 +338,13 @@ def _reading(path: Path) -> Iterator[None]:
     OutputError
         Also if a Zarr store is replaced while it is read.
     """
-    opened = identity(path)
+    opened = atomic_writes.identity(path)
     try:
         yield
         if path.suffix == ".zarr":
-            check_identity(path, opened)
+            atomic_writes.check_identity(path, opened)
     except Exception as error:  # the libraries raise many types for damaged files
-        check_identity(path, opened)
+        atomic_writes.check_identity(path, opened)
         raise _unreadable(path, error) from None
 
 
@@ -385,7 +379,7 @@ def _read_netcdf(path: Path) -> dict[str, xr.Dataset]:
                 node.close()
     attrs = nodes["/"].attrs
     if _format_of(path, attrs) == VERSION and attrs.get(CONTENT) != content_hash(nodes):
-        raise mismatch_error(path, "its names, numbers, words or attributes")
+        raise atomic_writes.mismatch_error(path, "its names, numbers, words or attributes")
     return nodes
 
 

@@ -16,12 +16,7 @@ from earthspin.constants import DAY
 from earthspin.engine import part
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import Estimate, FloatArray
-from earthspin.questions.ellipse_chains import (
-    ellipse_chains,
-    exact_means,
-    locked_error,
-    no_exact_means,
-)
+from earthspin.questions import ellipse_chains as chains
 from earthspin.questions.satellites import SatelliteFactors, satellite_factors, with_mean_pole
 from earthspin.questions.sky import Interval, Sky
 from earthspin.sky.elements import Elements
@@ -86,7 +81,7 @@ class Samples:
 
 
 @part(
-    unless=exact_means,
+    unless=chains.exact_means,
     same_for=lambda sky, interval, body, perturbers: sky.unchanged(
         body, *perturbers, also=interval
     ),
@@ -181,7 +176,7 @@ def _refuse_locked(sky: Sky, body: Body, epoch: float, axis: FloatArray) -> None
         for name, position in sky.positions(times / DAY).items():
             turns = cassini.locked_ratio(times, position, spin_axis, spin_rate)
             if turns is not None:
-                raise locked_error(body, name, turns)
+                raise chains.locked_error(body, name, turns)
 
 
 def slowest_cycle(perturber: Body) -> float:
@@ -240,7 +235,7 @@ def _stored_samples(torque_samples: Samples, perturbers: tuple[Body, ...]) -> Ha
     return torque_samples if torque_samples.are_stored else None
 
 
-@part(unless=exact_means, same_for=_stored_samples)
+@part(unless=chains.exact_means, same_for=_stored_samples)
 def window_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> MeanTorques:
     """Mean torques, computed as weighted means of samples in a time window, with errors.
 
@@ -271,7 +266,7 @@ def window_means(torque_samples: Samples, perturbers: tuple[Body, ...]) -> MeanT
     )
 
 
-@part(unless=no_exact_means)
+@part(unless=chains.no_exact_means)
 def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     """Exact mean torques of perturbers on precessing ellipses, for the spin axis at J2000.0.
 
@@ -281,7 +276,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
     pole, now = body.needed("pole"), np.zeros(1)
     equator = pole.equator(body.orbit_pole, now).reshape(3, 3)
     axis, normal = equator[2], pole.orbit_normal(body.orbit_pole)
-    by_name = ellipse_chains(body, perturbers)
+    by_name = chains.ellipse_chains(body, perturbers)
     gm_array = _varying_masses(body, perturbers)
     torques, errors, inverse_cube = [], [], []
     for p in perturbers:
@@ -290,7 +285,7 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
         for spin_rate in np.ravel(body.spin_rate):
             turns = cassini.locked_turns(float(spin_rate), forward)
             if turns is not None:
-                raise locked_error(body, p.name, turns)
+                raise chains.locked_error(body, p.name, turns)
         square = (
             average.mean_square_of_normal(ellipse.plane.matrix[2], ellipse.i)
             if ellipse.node_rate

@@ -16,15 +16,10 @@ from earthspin.motion.effect_sizes import axis_displacements
 from earthspin.motion.effects import LARGEST_CORE_NUTATION, NONRIGID, RESPONSE
 from earthspin.numerics.arrays import FloatArray
 from earthspin.nutation.analysis import followed, on_fixed_ecliptic
-from earthspin.questions import (
-    effects_and_torques,
-    iau_comparison,
-    interior_response,
-    reasons,
-    satellites,
-)
+from earthspin.questions import effects_and_torques, iau_comparison, interior_response, reasons
 from earthspin.questions.effects_and_torques import ATTRACTORS, Attractors
 from earthspin.questions.iau_comparison import Shift, WithInterior
+from earthspin.questions.satellites import no_satellites
 from earthspin.questions.sky import Sky
 from earthspin.questions.time_axes import SPAN_DOC, Dated, days_of
 
@@ -217,7 +212,7 @@ class SatelliteError(Dated):
     )
 
 
-@part(unless=satellites.no_satellites)
+@part(unless=no_satellites)
 def satellite_error(
     axes: xr.Dataset, attractors: Attractors, epochs: Epochs, block: Block | None = None
 ) -> SatelliteError:
