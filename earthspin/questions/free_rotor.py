@@ -13,9 +13,9 @@ from earthspin.engine import Neglected, Question, part, public_call, setting
 from earthspin.engine.variables import labels, number, variable_of
 from earthspin.errors import Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.questions.time_axes import Seconds, TimesFromStart, instants
+from earthspin.questions.time_axes import TimesFromStart, TimesOfMotion, instants
 from earthspin.rotor.euler import KEYS, axis_stability
-from earthspin.units import Duration, Numbers, Plain, Whole, quantity
+from earthspin.units import Numbers, Plain, quantity
 
 
 @dataclass(frozen=True)
@@ -75,8 +75,20 @@ class RotorMoments:
         return np.stack(columns, axis=-1)
 
 
+class StartOfRotor(Question):
+    """Moments and initial rotation of a free rotor, the keys before the times of its motion."""
+
+    moments: RotorMoments = setting(
+        doc="principal moments about the x, y, z axes of the body, in any order of size"
+    )
+    omega: Annotated[FloatArray, Numbers("rad/s", "1 rad/s", (None, 3), optional_row=True)] = (
+        setting(doc="angular velocity along the principal axes at t = 0; one start or many")
+    )
+
+
 class FreeRotor(
-    Question,
+    TimesOfMotion,
+    StartOfRotor,
     word="free-rotor",
     call="free_rotor",
     table="rotor",
@@ -100,18 +112,6 @@ class FreeRotor(
     """
 
     page, headline = "rotors", "attitude"
-
-    exclusive = ((("times",), ("duration", "points")),)
-
-    moments: RotorMoments = setting(
-        doc="principal moments about the x, y, z axes of the body, in any order of size"
-    )
-    omega: Annotated[FloatArray, Numbers("rad/s", "1 rad/s", (None, 3), optional_row=True)] = (
-        setting(doc="angular velocity along the principal axes at t = 0; one start or many")
-    )
-    times: Seconds | None = setting(None, doc="times from the start")
-    duration: Duration = setting("20 s", doc="last time, if times are not given")
-    points: Annotated[int, Whole()] = setting(401, doc="number of evenly spaced times")
 
 
 _SERIES = ("time", "component")

@@ -10,12 +10,12 @@ import numpy as np
 from earthspin.bodies import Body
 from earthspin.bodies.body import members
 from earthspin.dates import Epochs, Span, Step, TimeGrid, TimeList
-from earthspin.engine import Block, Variables, key, labels, part
+from earthspin.engine import Block, Question, Variables, key, labels, part, setting
 from earthspin.errors import SceneError, in_bytes
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.sky import PerturbedBody
 from earthspin.units import LONGEST_IN_MEMORY as LONGEST_IN_MEMORY
-from earthspin.units import Numbers
+from earthspin.units import Duration, Numbers, Whole
 
 #: Seconds from the start of a motion.
 Seconds = Annotated[FloatArray, Numbers("s", "1 s", (None,))]
@@ -32,6 +32,16 @@ class DateSeries(PerturbedBody):
     span: Span = key(doc=SPAN_DOC)
     step: Step = key(doc="time between two dates")
     times: TimeList | None = key(None, doc="list of dates, instead of span and step")
+
+
+class TimesOfMotion(Question):
+    """Base class of computations of a motion at times from its start."""
+
+    exclusive = ((("times",), ("duration", "points")),)
+
+    times: Seconds | None = setting(None, doc="times from the start")
+    duration: Duration = setting("20 s", doc="last time, if times are not given")
+    points: Annotated[int, Whole()] = setting(401, doc="number of evenly spaced times")
 
 
 class Dated(Variables, along=("time",)):

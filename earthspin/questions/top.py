@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
-from earthspin.engine import Neglected, Question, part, public_call, setting
-from earthspin.engine.variables import Variables, labels, number, words
+from earthspin.engine import Neglected, Variables, labels, number, part, public_call, setting, words
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.labelled_numbers import LabelledNumbers
-from earthspin.questions.time_axes import Seconds, TimesFromStart, instants
+from earthspin.questions.time_axes import TimesFromStart, TimesOfMotion, instants
 from earthspin.top.start import HeavyTop
-from earthspin.units import Duration, Number, Whole
+from earthspin.units import Number
 
 if TYPE_CHECKING:
     from earthspin.top.closed_form import HeavyTopMotion
@@ -29,7 +28,7 @@ Angle = Annotated[float, Number("rad", "30 deg")]
 Rate = Annotated[float, Number("rad/s", "200 rad/s")]
 
 
-class Top(Question, word="top", call="heavy_top", table="top", positional=("times",)):
+class Top(TimesOfMotion, word="top", call="heavy_top", table="top", positional=("times",)):
     """Motion of a heavy symmetric top, by elliptic functions (source text, I.7).
 
     The label `time` is in seconds.
@@ -56,11 +55,6 @@ class Top(Question, word="top", call="heavy_top", table="top", positional=("time
 
     page, headline = "rotors", "theta"
 
-    exclusive = ((("times",), ("duration", "points")),)
-
-    times: Seconds | None = setting(None, doc="times from the start")
-    duration: Duration = setting("20 s", doc="last time, if times are not given")
-    points: Annotated[int, Whole()] = setting(401, doc="number of evenly spaced times")
     transverse_moment: Moment = setting(
         doc="I1, about any line through the pivot perpendicular to the axis"
     )
