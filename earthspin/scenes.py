@@ -27,8 +27,7 @@ from earthspin.engine.question import REMOVED, Question, keys_of, scene_of
 from earthspin.engine.run import Plan, Run
 from earthspin.engine.store import open as open_file
 from earthspin.errors import OutputError, SceneError, Where, nearest, no_plain_file
-from earthspin.questions import MODULES
-from earthspin.questions.time_axes import epochs
+from earthspin.questions import MODULES, time_axes
 from earthspin.units import FileName, Whole, is_whole
 
 
@@ -456,7 +455,7 @@ def series_length(question: Question) -> int:
         return 0
 
     keys = question.keys()
-    return epochs(keys["span"], keys["step"], keys["times"]).size
+    return time_axes.epochs(keys["span"], keys["step"], keys["times"]).size
 
 
 def members_of(question: Question) -> int:

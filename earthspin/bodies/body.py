@@ -19,11 +19,10 @@ import numpy as np
 
 from earthspin import constants as c
 from earthspin._lazy import xr
-from earthspin.bodies import checks, kinds
+from earthspin.bodies import checks, kinds, shapes
 from earthspin.bodies.checks import all_of, are_close, is_close, is_same
 from earthspin.bodies.kinds import Magnitude
 from earthspin.bodies.orbit import Orbit, Satellite, SatelliteList
-from earthspin.bodies.shapes import FromMass, figure_of, moments_of
 from earthspin.errors import ArgumentError, BodyError, EarthspinError, Where, nearest
 from earthspin.html_table import card
 from earthspin.interior.layers import LayeredBody
@@ -46,7 +45,7 @@ _ONE_AXIS = "the pole already gives it; set one of pole and obliquity"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Body(FromMass):
+class Body(shapes.FromMass):
     """A body that spins, exerts a torque, or both.
 
     Numbers carry their units as text or Quantities (``"5 h"``); plain ones are SI and radians.
@@ -439,7 +438,7 @@ class Body(FromMass):
                 self.name, "dynamical_flattening", h, "C of a sphere cannot be derived from j2"
             )
         scale = self.number("gm") / c.G.value * self.number("radius") ** 2
-        return scale * moments_of(self.number("j2"), h, self.number("triaxiality"))
+        return scale * shapes.moments_of(self.number("j2"), h, self.number("triaxiality"))
 
     def relative_uncertainty_of_bulge(self) -> float:
         """Relative standard deviation of C - A = J2 M a2, mainly due to that of G."""
@@ -593,7 +592,7 @@ class Body(FromMass):
                 raise BodyError(self.name, "moments", moments, allowed)
             gm: Numeric = changes.get("gm", self.gm)
             radius: Numeric = changes["radius"] if "radius" in changes else self.needed("radius")
-            return figure_of(self.name, moments, gm / c.G.value * radius**2)
+            return shapes.figure_of(self.name, moments, gm / c.G.value * radius**2)
         j2 = changes.get("j2")
         if j2 is None or self.j2 is None or "dynamical_flattening" in changes:
             return {}

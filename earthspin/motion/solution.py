@@ -26,9 +26,8 @@ from earthspin.motion.equations import (
 )
 from earthspin.motion.forces import Forces, equatorial_basis
 from earthspin.motion.march import CONVERGED, FINEST, ORDER, Masses, Piece, Solver
-from earthspin.numerics import rotations
+from earthspin.numerics import polynomials, rotations
 from earthspin.numerics.arrays import FloatArray
-from earthspin.numerics.polynomials import Windows
 
 # --- bodies and their neighbours ------------------------------------------------------------------
 # A neighbour is the same body with one uncertain number changed by its half-width. The difference
@@ -94,8 +93,8 @@ def rigid_bodies(
 def masses(forces: Forces, epoch: float = 0.0) -> Masses:
     """Convert `Forces` to the `Masses` of the attitude solver, with times counted from `epoch`."""
 
-    def laws(window: Windows, places: Mapping[str, FloatArray]) -> Sequence[SkyLaw]:
-        sky_windows = Windows(window.edges + epoch, window.order)
+    def laws(window: polynomials.Windows, places: Mapping[str, FloatArray]) -> Sequence[SkyLaw]:
+        sky_windows = polynomials.Windows(window.edges + epoch, window.order)
         return [torque(forces, sky_windows, places) for torque in forces.torques]
 
     near = {name: gm for name, gm in forces.gm.items() if name in forces.near}

@@ -10,8 +10,7 @@ import numpy as np
 
 from earthspin._lazy import xr
 from earthspin._version import version
-from earthspin.bodies import Body, Numeric
-from earthspin.bodies.checks import SECOND_ORDER_BOUND, largest, refuse_fast_axis
+from earthspin.bodies import Body, Numeric, checks
 from earthspin.constants import DAY
 from earthspin.engine import part
 from earthspin.mass.figure import moment_difference
@@ -140,7 +139,7 @@ def _orbital_periods(
         rotations = np.cross(r, later[p.name] - r) / square[:, np.newaxis]
         angle = np.linalg.norm(np.mean(rotations, axis=0))
         periods.append(2 * np.pi * VELOCITY_INTERVAL / angle if angle else 0.0)  # 0: it rests
-        strengths.append(largest(p.gm_on(body)) * np.mean(square**-1.5))
+        strengths.append(checks.largest(p.gm_on(body)) * np.mean(square**-1.5))
     return np.array(periods), int(np.argmax(strengths))
 
 
@@ -405,7 +404,7 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
     )
     total = abs(of_perturber(rate.value))
     by_spin = abs(total / body.spin_rate)
-    refuse_fast_axis(by_orbit, by_spin)
+    checks.refuse_fast_axis(by_orbit, by_spin)
     torque = rates.torque_estimate(
         array(np.linalg.norm(means.torque, axis=1)),
         array(np.linalg.norm(means.torque_error, axis=1)),
@@ -418,7 +417,7 @@ def mean_rates(mean_torques: MeanTorques, body: Body, perturbers: tuple[Body, ..
         rate=rate,
         torque=torque,
         ratio=array(rates.rate_ratio(means.precessing)),
-        second_order=largest(SECOND_ORDER_BOUND * (by_orbit + by_spin) * total),
+        second_order=checks.largest(checks.SECOND_ORDER_BOUND * (by_orbit + by_spin) * total),
         gm_over_r3=gm_over_r3,
         satellite_factors=moons,
     )

@@ -8,8 +8,7 @@ from typing import Annotated
 
 import numpy as np
 
-from earthspin.bodies import BODIES, MOON, SUN, Body, Orbit, checks, in_a_sentence
-from earthspin.bodies.planets import LEFT_OUT_OF_STATES, PRECESSING_ORBITS
+from earthspin.bodies import BODIES, MOON, SUN, Body, Orbit, checks, in_a_sentence, planets
 from earthspin.constants import NORMAL_95
 from earthspin.engine import Neglected, Question, key, part, public_call
 from earthspin.engine.variables import Variables, labels, measured, number
@@ -17,7 +16,6 @@ from earthspin.errors import SceneError, nearest
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.ellipse_chains import refuse_overlap, size_and_motion
 from earthspin.torque import cassini
-from earthspin.torque.cassini import Precessing
 
 
 class CassiniStates(
@@ -83,7 +81,7 @@ class Locking:
 
 def orbit_of(body: Body, orbit: Orbit | None) -> Orbit | None:
     """Return the orbit given by the user, or else the body's known orbit; None if there is none."""
-    return orbit or body.orbit or PRECESSING_ORBITS.get(body.known_as)
+    return orbit or body.orbit or planets.PRECESSING_ORBITS.get(body.known_as)
 
 
 @part
@@ -103,7 +101,7 @@ def locking(body: Body, orbit_in_use: Orbit) -> Locking:
         raise SceneError("orbit.about", about, nearest(about, others))
     placed = body.replace(orbit=orbit_in_use)
     a, motion = size_and_motion(placed, BODIES[about])
-    known = PRECESSING_ORBITS.get(body.known_as)
+    known = planets.PRECESSING_ORBITS.get(body.known_as)
     like = f", like about = '{known.about}'" if known is not None and known.about else ""
     advice = "" if orbit_in_use.about else f"; name what it orbits{like}"
     refuse_overlap(placed, BODIES[about], a, advice)
@@ -111,7 +109,7 @@ def locking(body: Body, orbit_in_use: Orbit) -> Locking:
     return Locking(motion, body.spin_rate / motion, locked)
 
 
-def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
+def precessing(body: Body, orbit: Orbit, locking: Locking) -> cassini.Precessing:
     """Compute the torque strengths and orbital precession that determine the Cassini states."""
     axial, locked = cassini.strengths(
         locking.motion,
@@ -122,7 +120,7 @@ def precessing(body: Body, orbit: Orbit, locking: Locking) -> Precessing:
         orbit.e,
     )
     node = 0.0 if orbit.node_period is None else -2 * math.pi / orbit.node_period
-    return Precessing(axial, locked if locking.locked else 0.0, orbit.i, node)
+    return cassini.Precessing(axial, locked if locking.locked else 0.0, orbit.i, node)
 
 
 class CassiniObliquities(Variables, along=("state",), no_error="true or false"):
@@ -181,8 +179,8 @@ def _error(body: Body, orbit: Orbit, locking: Locking, obliquity: FloatArray) ->
 @part
 def neglected(body: Body, orbit_in_use: Orbit) -> Neglected:
     """Published sizes of effects on the obliquity that the theory of Cassini states neglects."""
-    sizes = LEFT_OUT_OF_STATES.get(body.known_as, {})
-    if sizes and body.is_as_named and orbit_in_use == PRECESSING_ORBITS.get(body.known_as):
+    sizes = planets.LEFT_OUT_OF_STATES.get(body.known_as, {})
+    if sizes and body.is_as_named and orbit_in_use == planets.PRECESSING_ORBITS.get(body.known_as):
         return Neglected.cited(sizes, "change of the obliquity in the upright state")
     return Neglected(
         what="libration, torques of other bodies, a decoupled core, and terms in the longitude of "

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 
-from earthspin.bodies import EARTH, Body
-from earthspin.bodies.orbit import Epoch
+from earthspin.bodies import EARTH, Body, orbit
 from earthspin.constants import DAY, MAS, NORMAL_95
 from earthspin.dates import SPACING, TABLES, date_text, datetime64, days
 from earthspin.engine import Neglected, Question, Run, key, part, public_call
@@ -34,7 +33,7 @@ if TYPE_CHECKING:
 _MIDNIGHT = 1e-6
 
 
-class Day(Epoch):
+class Day(orbit.Epoch):
     """Kind of input: a calendar day, which a scene (input) file stores as a date."""
 
     words, hint = 'a date, or "today"', "Date | float"
@@ -92,7 +91,7 @@ class Forecast(
     step: Annotated[float, replace(SPACING, example="1 d")] = key(
         "1 d", doc="time between two epochs, a whole number of days"
     )
-    origin: Annotated[float, Epoch()] | None = key(
+    origin: Annotated[float, orbit.Epoch()] | None = key(
         None, doc="last day whose observation is used; the newest observed day if not given"
     )
     start: Annotated[float, Day()] | None = key(

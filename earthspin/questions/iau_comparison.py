@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from earthspin.bodies import BODIES, PLANETS, Body
-from earthspin.bodies.planets import LEFT_OUT_OF_RATES
+from earthspin.bodies import BODIES, PLANETS, Body, planets
 from earthspin.constants import ARCSEC, ARCSEC_PER_YEAR, DAY, EPSILON_0, JULIAN_YEAR, NORMAL_95
 from earthspin.dates import Epochs, Span, Step
 from earthspin.engine import key, part
@@ -22,9 +21,8 @@ from earthspin.motion.axes import AxisPath
 from earthspin.motion.effects import GEODESIC, NONRIGID, TRIAXIALITY
 from earthspin.motion.forces import fastest_sweep
 from earthspin.numerics.arrays import ComplexArray, FloatArray
-from earthspin.nutation import analysis
+from earthspin.nutation import analysis, rate_budget
 from earthspin.nutation.analysis import Circles, PoleAnalysis, Secular
-from earthspin.nutation.rate_budget import published_effects
 from earthspin.progress import progress
 from earthspin.questions import satellites, time_axes
 from earthspin.questions.effects_and_torques import Attractors, AxisMotion, forces_of, kernel_file
@@ -140,7 +138,7 @@ def displacement_bound(attractors: Attractors, elapsed: FloatArray) -> FloatArra
     nutations = satellites.node_nutations(body, gm_over_r3, obliquity)
     by_node = satellites.displacements(nutations, elapsed).values()
     total = np.sum([*by_node, np.zeros(elapsed.size)], axis=0)
-    published = LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
+    published = planets.LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
     rate = sum(abs(rate.value) * ARCSEC_PER_YEAR for rate in published.values())
     common = satellites.common_precession(body, gm_over_r3)
     rate += common[1] if common else 0.0
@@ -576,7 +574,7 @@ def _shift(comparison: PoleComparison, amplitude: ComplexArray, effects: Sequenc
     Its errors follow from the difference from the IAU pole.
     """
     circles = replace(comparison.computed_circles, amplitude=amplitude)
-    published, sine = published_effects(), np.sin(EPSILON_0.value * ARCSEC)
+    published, sine = rate_budget.published_effects(), np.sin(EPSILON_0.value * ARCSEC)
     # The published rate of the response is applied. The rates of effects that are switched off are
     # listed as neglected, and are not part of the error.
     missing = sum(rate for name, rate in published.items() if name not in rigid(effects))

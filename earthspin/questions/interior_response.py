@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated
 
-from earthspin.bodies import BODIES, Body, all_of, in_a_sentence
-from earthspin.bodies.kinds import Layers
+from earthspin.bodies import BODIES, Body, all_of, in_a_sentence, kinds
 from earthspin.engine import Question, part
 from earthspin.errors import nearest
 from earthspin.interior import named
@@ -25,7 +24,7 @@ FIT = 0.01
 FROM_LAYERS = "they follow from the layers, whose errors are not known"
 
 #: A layered body in any form that `Layers` reads.
-LayeredInterior = Annotated[LayeredBody, Layers()]
+LayeredInterior = Annotated[LayeredBody, kinds.Layers()]
 
 
 def interior_of(body: Body) -> named.Interior | None:

@@ -28,12 +28,10 @@ from earthspin.secular.averaged_torque import (
     geodesic_precession,
     moon_rate_factor,
 )
-from earthspin.secular.derived_angles import equator_and_equinox, equinox_error, inclined_axis
 from earthspin.sky.columns import is_table
 from earthspin.sky.orbit_files import read_orbit
 from earthspin.sky.orbit_table import OrbitTable, shipped
-from earthspin.torque import rates
-from earthspin.torque.gravity import dot
+from earthspin.torque import gravity, rates
 from earthspin.units import FileName, Number, Plain, pack, unpack
 
 # --- orbits --------------------------------------------------------------------------------------
@@ -291,7 +289,7 @@ def precession_constant(
     moon, published = inputs.columns("moon", "published")
     node_rate = 2 * math.pi / MOON.cycle
     pole = body.needed("pole").mean(np.zeros(1))[0][:, np.newaxis]
-    by_lag = float((moon_rate_factor(now, pole, node_rate) / dot(now[0], pole)).item())
+    by_lag = float((moon_rate_factor(now, pole, node_rate) / gravity.dot(now[0], pole)).item())
     return PrecessionConstant(
         sun,
         (moon + published) / (cosine * by_lag),
@@ -321,7 +319,7 @@ def solved_axes(
     output_times: FloatArray,
     body: Body,
     mean_rates: MeanRates,
-) -> solutions.AxisFamily:
+) -> error_budget.AxisFamily:
     """Integrate the motion of the spin axis, and repeat it with each uncertain input changed.
 
     A further integration has windows of twice the length.
@@ -350,14 +348,14 @@ def _start(inputs: LabelledNumbers, body: Body, orbit_table: OrbitTable) -> Floa
     obliquity, longitude = (
         np.asarray(inputs.values[name]) for name in ("obliquity_shift", "longitude_shift")
     )
-    shifted = inclined_axis(pole, orbit_table.at(now)[0][:, 0], obliquity, longitude)
+    shifted = derived_angles.inclined_axis(pole, orbit_table.at(now)[0][:, 0], obliquity, longitude)
     own = np.multiply.outer(pole, np.ones(obliquity.shape))
     return np.where((obliquity == 0) & (longitude == 0), own, shifted)
 
 
 @part
 def angles(
-    solved_axes: solutions.AxisFamily, output_times: FloatArray, body: Body
+    solved_axes: error_budget.AxisFamily, output_times: FloatArray, body: Body
 ) -> derived_angles.AnglesWithErrors:
     """Compute angles and rates, with their errors, from the integrated motions of the spin axis."""
     fixed = body.needed("pole").without_nutation().orbit_axes(body.orbit_pole)
@@ -411,7 +409,7 @@ def series(
     angles: derived_angles.AnglesWithErrors,
     inputs: LabelledNumbers,
     output_times: FloatArray,
-    solved_axes: solutions.AxisFamily,
+    solved_axes: error_budget.AxisFamily,
     orbit_table: OrbitTable,
     body: Body,
     perturbers: tuple[Body, ...],
@@ -516,8 +514,8 @@ def matrices(
     angles: derived_angles.AnglesWithErrors, inputs: LabelledNumbers, series: xr.Dataset, body: Body
 ) -> Matrices:
     """Compute the precession matrices from the GCRS to mean equator and equinox of date."""
-    matrix = equator_and_equinox(angles.nominal.pole, angles.nominal.normal)
-    error = equinox_error(
+    matrix = derived_angles.equator_and_equinox(angles.nominal.pole, angles.nominal.normal)
+    error = derived_angles.equinox_error(
         angles.direction_half_width("pole"),
         angles.direction_half_width("normal"),
         np.sin(angles.nominal.values["obliquity"]),

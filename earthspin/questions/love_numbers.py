@@ -6,8 +6,7 @@ from typing import Annotated
 
 import numpy as np
 
-from earthspin.bodies import EARTH, Body, in_a_sentence
-from earthspin.bodies.checks import refuse_break_up
+from earthspin.bodies import EARTH, Body, checks, in_a_sentence
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.engine import Neglected, Question, Variables, key, labels, number, part, public_call
 from earthspin.interior.layers import LayeredBody
@@ -156,7 +155,7 @@ class Compliances(Variables, along=("number",), no_error=FROM_LAYERS):
 @part(unless=not_turning)
 def compliances(layers: LayeredBody, body: Body) -> Compliances:
     """Compute the compliances, ellipticities and coupling numbers of a layered body."""
-    refuse_break_up(body)
+    checks.refuse_break_up(body)
     by_name = numbers_of(layers, abs(float(body.spin_rate)))
     return Compliances(number_value=list(by_name.values()), number=list(by_name)).with_attributes(
         number_value={"references": layers.reference}
@@ -181,7 +180,7 @@ def modes(layers: LayeredBody, body: Body) -> ElasticModes:
 
     The dynamical flattening H is the observed one.
     """
-    refuse_break_up(body)
+    checks.refuse_break_up(body)
     e = float(ellipticity_from_h(body.number("dynamical_flattening")))
     spin_rate = abs(float(body.spin_rate))
     frequencies = free_modes(parts_of(layers, spin_rate, elastic(layers).response, e))

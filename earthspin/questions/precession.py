@@ -7,8 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from earthspin._lazy import xr
-from earthspin.bodies import Body, all_of, in_a_sentence, label_of
-from earthspin.bodies.planets import LEFT_OUT_OF_RATES
+from earthspin.bodies import Body, all_of, in_a_sentence, label_of, planets
 from earthspin.constants import DAY, JULIAN_YEAR
 from earthspin.dates import Span, datetime64
 from earthspin.engine import Neglected, key, part, public_call
@@ -20,10 +19,8 @@ from earthspin.questions import reasons, satellites
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, Samples
 from earthspin.questions.sky import SOURCE_DOC, Interval, PerturbedBody, Sky, interval, places, sky
 from earthspin.rotor.axisymmetric import free_wobble_error, free_wobble_period
-from earthspin.sky import iau_models
-from earthspin.sky.sources import SourceName
-from earthspin.torque import rates
-from earthspin.torque.average import convergence_curve
+from earthspin.sky import iau_models, sources
+from earthspin.torque import average, rates
 
 #: Points of a curve of convergence.
 CURVE_POINTS = 81
@@ -47,7 +44,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
     page, headline = "precession", "precession_rate"
     with_satellites = True
 
-    source: SourceName = key("skyfield", doc=SOURCE_DOC)
+    source: sources.SourceName = key("skyfield", doc=SOURCE_DOC)
     span: Span | None = key(
         None, doc="first and last date of the average; all that the kernel covers if not given"
     )
@@ -135,7 +132,7 @@ def convergence(torque_samples: Samples, mean_rates: MeanRates, body: Body) -> C
     window = torque_samples.window
     cycles = np.linspace(1.0, window.cycles, CURVE_POINTS)
     total = torque_samples.precessing.sum(axis=1)
-    curves = convergence_curve(window, torque_samples.times, total, cycles)
+    curves = average.convergence_curve(window, torque_samples.times, total, cycles)
     precessing = xr.DataArray(np.stack(list(curves.values())), dims=("window", "window_cycles"))
     h = body.needed("dynamical_flattening") * mean_rates.satellite_factors.rate
     return Convergence(
@@ -345,7 +342,7 @@ def standstills(
 def neglected(body: Body, perturbers: tuple[Body, ...], mean_rates: MeanRates) -> Neglected:
     """Contributions to the precession rate by effects that are not modelled."""
     unknown = reasons.not_the_iaus_earth(body, perturbers)
-    published = LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
+    published = planets.LEFT_OUT_OF_RATES.get(body.known_as, {}) if body.is_as_named else {}
     nutations = satellites.node_nutations(body, mean_rates.gm_over_r3, mean_rates.means.obliquity)
     nodes = {
         f"{name}, period {nutation.years}": nutation.rate for name, nutation in nutations.items()

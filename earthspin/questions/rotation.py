@@ -14,12 +14,10 @@ from earthspin.engine import Block, Neglected, key, part, public_call
 from earthspin.engine.variables import Variable, labels, number, words
 from earthspin.errors import SceneError
 from earthspin.mass.figure import polar_moment
-from earthspin.motion import solution
-from earthspin.motion.effect_sizes import attitude_displacements
+from earthspin.motion import effect_sizes, march, solution
 from earthspin.motion.effects import NONRIGID, SECOND_ORDER
 from earthspin.motion.equations import FLATTENING, ROUNDING, TIDE, TRIAXIALITY, Rigid
 from earthspin.motion.forces import Forces
-from earthspin.motion.march import FINEST, Masses
 from earthspin.motion.solution import COARSEST, KINDS, AttitudeIntegrator, RotationSeries, State
 from earthspin.numerics.arrays import FloatArray
 from earthspin.progress import progress
@@ -78,8 +76,8 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
     torque: CustomTorque | None = key(
         None, doc="custom torque: a Python function, along the principal axes, in N m"
     )
-    tolerance: Annotated[float, Number("", "1e-10", low=FINEST, high=COARSEST)] = key(
-        FINEST, doc="relative tolerance of the integrator in each of its time windows"
+    tolerance: Annotated[float, Number("", "1e-10", low=march.FINEST, high=COARSEST)] = key(
+        march.FINEST, doc="relative tolerance of the integrator in each of its time windows"
     )
 
     needs = ("radius", "j2", "dynamical_flattening")
@@ -212,7 +210,7 @@ class Rotor:
 
     body: Rigid
     changed: tuple[str, ...]
-    masses: Masses
+    masses: march.Masses
     start: State
     begin: float
     end: float
@@ -488,7 +486,7 @@ def effect_changes(
         if {*off} - {*further}
         else {}
     )
-    return unplaced | attitude_displacements(
+    return unplaced | effect_sizes.attitude_displacements(
         rotor.body, rotor.start, rotor.duration, forces, further
     )
 

@@ -19,10 +19,9 @@ from earthspin.engine import Question, key, part
 from earthspin.errors import KernelError, SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.ellipse_chains import EllipseChain, all_by_elements, ellipse_chains
-from earthspin.sky import sources
+from earthspin.sky import iau_models, sources
 from earthspin.sky.elements import CENTRE, USUAL_REACH, ByElements, Elements
 from earthspin.sky.ephemeris import NAMED_KERNELS
-from earthspin.sky.iau_models import NutationSpline, true_equator
 from earthspin.sky.poles import FixedPole, IAU2006Pole, MovingPole, rotate, spherical
 from earthspin.sky.protocol import BY_ELEMENTS, OfDate, Place, Source, words
 from earthspin.sky.sources import SourceName
@@ -271,7 +270,7 @@ class Sky:
         targets: Mapping[str, Place] | None = None,
         *,
         true: bool = False,
-        nutation: NutationSpline | None = None,
+        nutation: iau_models.NutationSpline | None = None,
     ) -> dict[str, tuple[FloatArray, FloatArray, FloatArray]]:
         """Right ascension and declination (rad, equator of date), and distance (m) of perturbers.
 
@@ -295,7 +294,7 @@ class Sky:
 
         if isinstance(self.source, OfDate):
             targets = self.targets if targets is None else targets
-            earth_equator = true_equator if true else None
+            earth_equator = iau_models.true_equator if true else None
             frame = earth_equator if pole.of_the_iau else equator
             coordinates = self.source.radec(targets, self.centre, days, frame)
             for name, (_, _, distance) in coordinates.items():

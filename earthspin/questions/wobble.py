@@ -12,14 +12,12 @@ from typing import Annotated, Literal
 import numpy as np
 
 from earthspin._lazy import xr
-from earthspin.bodies import EARTH, Body, NumberName, Numeric, all_of
-from earthspin.bodies.checks import refuse_break_up
+from earthspin.bodies import EARTH, Body, NumberName, Numeric, all_of, checks
 from earthspin.constants import DAY
 from earthspin.engine import Neglected, Question, key, part, public_call, setting
 from earthspin.engine.variables import Variables, measured, number, words
 from earthspin.interior.named import ANELASTIC_EXPONENT, EXPONENT_RANGE, Interior
-from earthspin.questions import interior_response
-from earthspin.questions.reasons import observed_wobble
+from earthspin.questions import interior_response, reasons
 from earthspin.rotor.axisymmetric import free_wobble_error
 from earthspin.units import Number
 from earthspin.wobble import ladder, propagation
@@ -75,7 +73,7 @@ class Wobble(Question, word="wobble", call="wobble_ladder", table="wobble"):
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of a body that spins is not zero")
         self.body.require(("radius", "j2", "dynamical_flattening", "flattening", "spin_period"))
-        refuse_break_up(self.body)
+        checks.refuse_break_up(self.body)
         interior_response.refuse_unknown(self, self.body)
         rigid = why_rigid(self.body)
         interior = None if rigid else interior_response.interior_of(self.body)
@@ -357,7 +355,7 @@ wobble_ladder = public_call(
     Wobble,
     answer=wobble_rungs,
     sections={
-        "observed": observed_wobble,
+        "observed": reasons.observed_wobble,
         "sensitivity": sensitivity,
         "core_nutation": core_nutation,
         "neglected": neglected,

@@ -18,9 +18,8 @@ from typing import Any
 import numpy as np
 
 from earthspin.errors import UndefinedError
-from earthspin.numerics import quaternion
+from earthspin.numerics import double_double, quaternion
 from earthspin.numerics.arrays import BoolArray, FloatArray
-from earthspin.numerics.double_double import TWO_PI
 from earthspin.rotor import triaxial
 from earthspin.rotor.euler import Moments, finite, principal_moments
 from earthspin.rotor.triaxial import JacobiMotion, Phase, jacobi_motion
@@ -211,7 +210,7 @@ def herpolhode_advance(moments: Moments, omega: Any) -> FloatArray:
             "separatrix, or equal moments let omega stand still; move the start"
         )
     # psi includes one turn of the body per period about this axis.
-    advance = motion.precession.rate * motion.exact_period + TWO_PI * motion.sense
+    advance = motion.precession.rate * motion.exact_period + double_double.TWO_PI * motion.sense
     return np.asarray(advance.hi)
 
 

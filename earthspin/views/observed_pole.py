@@ -10,10 +10,9 @@ import xarray as xr
 
 from earthspin.constants import DAYS_PER_YEAR, MAS
 from earthspin.numerics.arrays import FloatArray
-from earthspin.views import drawing
+from earthspin.views import drawing, tables
 from earthspin.views.drawing import Axes, Figure, PageFigure, Views, axes, note
 from earthspin.views.result_contents import Result, answer_of, section, stored_section
-from earthspin.views.tables import date
 from earthspin.wobble.record import NEAR, YEAR
 
 
@@ -74,7 +73,7 @@ def plot_polhode(result: Result, *, years: float | None = 6.0, ax: Axes | None =
     ax.plot(y, x, color="0.8", lw=0.6, zorder=1)
     dots = ax.scatter(y, x, c=when, s=3, cmap="viridis", zorder=2)
     ax.plot(y[-1], x[-1], "o", color=drawing.RED, ms=6, zorder=3)
-    note(ax, date(answer.time[-1]), (y[-1], x[-1]), (7, 0), color=drawing.RED)
+    note(ax, tables.date(answer.time[-1]), (y[-1], x[-1]), (7, 0), color=drawing.RED)
     ax.set(aspect="equal", ylabel="x, towards the prime meridian (mas)")
     ax.set_xlabel("y, towards 90° west (mas)")
     if metres := _metres(answer):
@@ -278,7 +277,7 @@ def plot_core_nutation(result: Result, *, ax: Axes | None = None) -> Axes:
         last = time[detected][-1] if detected.any() else time[0]
         ax.axvspan(last, time[-1], color="0.93", lw=0, zorder=0)
         where = {"xycoords": ("data", "axes fraction"), "ha": "right", "va": "top"}
-        words = f"not detected\nafter {date(last)}"
+        words = f"not detected\nafter {tables.date(last)}"
         note(ax, words, (time[-1], 0.96), (-2, 0), color=drawing.GREY, **where)
     highest = 1.1 * float(np.max(size + np.minimum(error, size)))
     ax.set(ylim=(0, highest), xlabel="time (UTC)", ylabel="amplitude (µas)")
@@ -368,7 +367,7 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
     answer = answer_of(result)
     x, y = answer.x.values * 1e3, answer.y.values * 1e3
     clear = {"fc": "white", "ec": "none", "alpha": 0.7, "pad": 0.5}
-    words = f"forecast from {date(answer.time[0])}"
+    words = f"forecast from {tables.date(answer.time[0])}"
     ax.plot(y, x, color=drawing.BLUE, lw=1.4, label=words, marker="o", markevery=[0], ms=4)
     days = (answer.time.values - answer.time.values[0]) / np.timedelta64(1, "D")
     marked = [day for day in ELLIPSES if day < 0.7 * days[-1]]
@@ -384,7 +383,7 @@ def plot_path(result: Result, *, ax: Axes | None = None) -> Axes:
         ellipse = Ellipse(centre, width, height, angle=turn, fc="none", ec=drawing.RED, label=words)
         ax.add_patch(ellipse)
         ax.plot(*centre, "o", color=drawing.RED, ms=4)
-        note(ax, date(row.time), centre, (6, 5), color=drawing.RED, bbox=clear)
+        note(ax, tables.date(row.time), centre, (6, 5), color=drawing.RED, bbox=clear)
     ax.set(aspect="equal", ylabel="x, towards the prime meridian (mas)")
     ax.set_xlabel("y, towards 90° west (mas)")
     ax.legend(loc="best")

@@ -15,12 +15,10 @@ from earthspin.engine import atomic_writes, store
 from earthspin.progress import progress
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.scenes import load_scene, run, run_tree
-from earthspin.views import precession, rotors, torque
-from earthspin.views.drawing import Drawing
+from earthspin.views import drawing, precession, rotors, solids, torque
 from earthspin.views.page import page
 from earthspin.views.rendering import drawings_for, page_of, solids_for
 from earthspin.views.result_contents import answer_of, body_of, section, stored_section
-from earthspin.views.solids import Solid
 from earthspin.views.tables import beside_observed, measured
 
 HALF_A_YEAR = np.timedelta64(183, "D")
@@ -78,7 +76,7 @@ def write_report(
     return tree, [*_write(pages), *data]
 
 
-def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]:
+def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[drawing.Drawing]:
     """Draw declination and torque over one year and over one period of the Moon's node."""
     epoch = np.datetime64(answer_of(tree).reference_epoch.values, "D")
     keys = load_scene(tree).keys()
@@ -98,7 +96,7 @@ def _torques(tree: xr.DataTree, advance: Callable[[int], None]) -> list[Drawing]
     return drawings
 
 
-def gallery() -> list[Solid]:
+def gallery() -> list[solids.Solid]:
     """Three-dimensional pictures for the report's page on rotors and tops, as a list."""
     prolate = SymmetricRotor(equatorial=1.0, difference=-0.6, speed=1.0, alpha=0.35)
     oblate = SymmetricRotor(equatorial=1.0, difference=0.8, speed=1.0, alpha=0.6)

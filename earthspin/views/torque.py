@@ -7,10 +7,9 @@ from functools import partial
 import numpy as np
 import xarray as xr
 
-from earthspin.views import drawing
+from earthspin.views import drawing, tables
 from earthspin.views.drawing import BLUE, CYCLE, GREY, RED, Axes, Figure, PageFigure, Views, axes
 from earthspin.views.result_contents import Result, answer_of
-from earthspin.views.tables import along
 
 COLOURS = {"sun": drawing.ORANGE, "moon": BLUE, "total": "#222222"}
 #: What turns more often than this in a figure is drawn as a band.
@@ -69,7 +68,7 @@ def plot_declination(
     """
     answer = answer_of(result)
     ax = axes(ax)
-    for number, (label, row) in enumerate(along(answer, "perturber")):
+    for number, (label, row) in enumerate(tables.along(answer, "perturber")):
         words, colour = drawing.literal(label), _colour(label, number)
         _line_or_band(ax, row.declination, words, number, colour, smooth_days)
     ax.set_ylabel("declination (deg)")
@@ -93,7 +92,7 @@ def plot_torque(
     """
     answer = answer_of(result)
     ax = axes(ax)
-    for number, (label, row) in enumerate(along(answer, "perturber")):
+    for number, (label, row) in enumerate(tables.along(answer, "perturber")):
         torque, colour = row.torque.sel(component="x") * 1e-22, _colour(label, number)
         _line_or_band(ax, torque, "", number, colour, smooth_days)
         if smooth_days:
@@ -166,7 +165,7 @@ def plot_states(result: Result, *, ax: Axes | None = None) -> Axes:
         ax.annotate(words, (x, y), ha=side, color=GREY)
     turn = np.linspace(0, 2 * np.pi, 200)
     ax.plot(np.sin(turn), np.cos(turn), color=GREY, lw=0.5)
-    for state, row in along(answer, "state"):
+    for state, row in tables.along(answer, "state"):
         angle = np.radians(float(row.obliquity)) * (1 if row.towards_pole else -1)
         colour = BLUE if row.stable else RED
         x, y = np.sin(angle), np.cos(angle)

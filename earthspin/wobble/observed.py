@@ -25,10 +25,8 @@ from earthspin.constants import NORMAL_95
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import ComplexArray, FloatArray
 from earthspin.numerics.sampling import block_means, in_blocks
-from earthspin.wobble import record
-from earthspin.wobble.excitation import polar_motion_from
+from earthspin.wobble import excitation, record, state_space
 from earthspin.wobble.record import BAND, NEAR, YEAR, WobbleFit, known_terms
-from earthspin.wobble.state_space import DrivenOscillator, burg
 
 # --- is there a wobble: Fisher's ratio of powers --------------------------------------------------
 # A model without a wobble has a smooth spectrum. What it would hold between the periods of `BAND`
@@ -141,7 +139,7 @@ def fit_burg(time: FloatArray, p: ComplexArray) -> WobbleFit:
     """
     span = time[-1] - time[0]
     time, p, step = in_blocks(time, p, BLOCK)
-    poles = np.roots(burg(record.without_known_terms(time, p), ORDER))
+    poles = np.roots(state_space.burg(record.without_known_terms(time, p), ORDER))
     s = np.log(poles) / (1j * step)
     candidates = s[(s.real > 2 * np.pi / BAND[1]) & (s.real < 2 * np.pi / BAND[0])]
     if candidates.size == 0:
@@ -246,7 +244,7 @@ class Likelihood:
         """
         s, tau = complex(MIDDLE + rate, np.exp(decay)), float(np.exp(memory))
         flat = abs(1j * s.real + 1 / tau) ** 2 / abs(s) ** 2
-        oscillator = DrivenOscillator(
+        oscillator = state_space.DrivenOscillator(
             s,
             tau,
             white=1 / YEAR,
@@ -279,7 +277,7 @@ class LikelihoodWithExcitation(Likelihood):
     def data(self, s: complex) -> ComplexArray:
         """Columns of block means: terms to fit, and observed minus driven pole as last column."""
         start = np.exp(1j * s * (self.time - self.time[0]))
-        driven = polar_motion_from(self.chi, self.step, s)
+        driven = excitation.polar_motion_from(self.chi, self.step, s)
         moving = self._averaged(self.time, np.column_stack([start, driven]))
         return np.column_stack([self.terms, moving[:, :1], self.record - moving[:, 1:]])
 
