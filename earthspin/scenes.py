@@ -19,7 +19,6 @@ from earthspin.bodies import Body, in_a_sentence
 from earthspin.bodies.body import members
 from earthspin.engine import blocks, public_calls
 from earthspin.engine.atomic_writes import as_path
-from earthspin.engine.blocks import BlockSeries
 from earthspin.engine.ensemble import Ensemble
 from earthspin.engine.members import ENDLESS, LARGEST_SEED, MOST_PARTS, TWICE, Members
 from earthspin.engine.question import BLOCK as BY_BLOCK
@@ -362,8 +361,7 @@ def _attributes(scene: Any) -> Mapping[str, Any]:
     """Attributes of a result or of a result file; empty for any other scene."""
     if isinstance(scene, (str, Path)) and Path(str(scene)).suffix in (".nc", ".zarr"):
         scene = open_file(scene)
-    attributes: Mapping[str, Any] = getattr(scene, "attrs", {})
-    return attributes
+    return getattr(scene, "attrs", {})
 
 
 def versions_of(attributes: Mapping[Any, Any]) -> dict[str, Any]:
@@ -432,7 +430,7 @@ def write_series(scene: Any, path: str | Path, *, client: object = None) -> Path
     return blocks.write(_series(load_scene(scene)), path, client=client, replace=True)
 
 
-def _series(question: Question) -> BlockSeries:
+def _series(question: Question) -> blocks.BlockSeries:
     """Prepare to compute a long series of torques, pole or rotation in blocks, as `BlockSeries`.
 
     Refuse all other questions.
@@ -443,7 +441,7 @@ def _series(question: Question) -> BlockSeries:
         raise SceneError("compute", question.word, problem)
     if question.members is not None:
         raise question.error("members", "...", "give the scene and the path to earthspin.ensemble")
-    return BlockSeries(question, size, max(1, BLOCK // members_of(question)))
+    return blocks.BlockSeries(question, size, max(1, BLOCK // members_of(question)))
 
 
 def series_length(question: Question) -> int:

@@ -4,11 +4,11 @@ Questions import from here what they declare and run; other packages import the 
 """
 
 from earthspin.engine.public_calls import public_call
-from earthspin.engine.question import NEGLECTED, Block, Question, key, part, scene_of, setting
+from earthspin.engine.question import Block, Question, key, part, scene_of, setting
 from earthspin.engine.run import Run, in_range
 from earthspin.engine.variables import Neglected, Variables, labels, measured, number, si, words
 
 __all__ = [
-    "NEGLECTED", "Block", "Neglected", "Question", "Run", "Variables", "in_range", "key", "labels",
+    "Block", "Neglected", "Question", "Run", "Variables", "in_range", "key", "labels",
     "measured", "number", "part", "public_call", "scene_of", "setting", "si", "words",
 ]  # fmt: skip

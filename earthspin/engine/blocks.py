@@ -31,7 +31,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from earthspin._lazy import xr
 from earthspin._version import __version__, version
 from earthspin.engine import atomic_writes
-from earthspin.engine.question import BLOCK, NEGLECTED, Block, Question, scene_text
+from earthspin.engine.question import BLOCK, Block, Question, scene_text
 from earthspin.engine.run import Run
 from earthspin.engine.store import FORMAT, MADE_OF, VERSION, encoding_of, spelled, verify, zarr_of
 from earthspin.errors import MissingExtraError, OutputError, SceneError, Where, one_line
@@ -510,8 +510,8 @@ class BlockSeries:
     @cached_property
     def request(self) -> Mapping[str, str]:
         """Texts that identify the run: question, software versions and checksums of files."""
-        ends = [*self.question.graph.answer, NEGLECTED]
-        return request_of(self.question, self._run.provenance(ends, without=[BLOCK]))
+        sources = self._run.provenance(self.question.graph.ends, without=[BLOCK])
+        return request_of(self.question, sources)
 
     def make(self, number: int) -> xr.Dataset:
         """Compute and return one block of consecutive times, by block number."""

@@ -20,10 +20,9 @@ import numpy as np
 
 from earthspin._lazy import xr
 from earthspin.engine import blocks
-from earthspin.engine.blocks import Layout, request_of
 from earthspin.engine.ensemble_inputs import along_members, inputs_of, published, with_values
 from earthspin.engine.members import MEMBER, TWICE, IntArray, Members, draw
-from earthspin.engine.question import NEGLECTED, SCENE, Question, scene_text
+from earthspin.engine.question import SCENE, Question, scene_text
 from earthspin.engine.run import Run
 from earthspin.errors import ApartError, EarthspinError, SceneError
 from earthspin.units import Number
@@ -241,7 +240,7 @@ class Ensemble:
             answer = run.answer()
             described = {str(name): array.attrs for name, array in answer.variables.items()}
             described[_WHOLE] = answer.attrs
-            described[_SOURCES] = run.provenance([*run.graph.answer, NEGLECTED])
+            described[_SOURCES] = run.provenance(run.graph.ends)
             for name, attributes in described.items():
                 descriptions.setdefault(name, {})[names] = attributes
         return descriptions
@@ -265,14 +264,14 @@ class Ensemble:
         return (min(widest, graph.widest) if self.numbers else widest) or 1
 
     @cached_property
-    def layout(self) -> Layout:
+    def layout(self) -> blocks.Layout:
         """Division of the ensemble into blocks of members."""
         length = self._length
         if length is None:
             fits = max(1, BLOCK_BYTES // self.nominal.nbytes)
             rows = max(ROW, min(fits, LONGEST_BLOCK) // ROW * ROW)
             length = rows if self.width > 1 else min(fits, SEPARATE_BLOCK)
-        return Layout(MEMBER, len(self.which), min(length, len(self.which)))
+        return blocks.Layout(MEMBER, len(self.which), min(length, len(self.which)))
 
     @cached_property
     def request(self) -> Mapping[str, str]:
@@ -282,7 +281,7 @@ class Ensemble:
             for names, provenance in self.descriptions[_SOURCES].items()
             for name, source in provenance.items()
         }
-        return request_of(self.full_question, sources)
+        return blocks.request_of(self.full_question, sources)
 
     def hold(self, client: object = None) -> xr.Dataset:
         """Compute the ensemble and return it in memory.

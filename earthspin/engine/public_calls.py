@@ -10,18 +10,9 @@ from typing import Any
 
 from earthspin._lazy import xr
 from earthspin.engine.ensemble import Ensemble
-from earthspin.engine.question import (
-    ALL,
-    NEGLECTED,
-    Graph,
-    Key,
-    Question,
-    define_parts,
-    hint,
-    keys_of,
-)
+from earthspin.engine.question import ALL, Graph, Key, Question, define_parts, hint, keys_of
 from earthspin.engine.run import Run
-from earthspin.engine.variables import Variable
+from earthspin.engine.variables import Neglected, Variable
 from earthspin.errors import SceneError, checked
 from earthspin.progress import progress
 
@@ -69,14 +60,14 @@ def answer_tree(question: Question, sections: str | Iterable[str] = ALL) -> xr.D
         If the question cannot be answered, or another section of an ensemble is requested.
     """
     if question.members is not None:
-        named = [sections] if isinstance(sections, str) else [*sections]
-        if not {*named} <= {ALL, NEGLECTED}:
-            problem = f"an ensemble has only the section '{NEGLECTED}'; request that or none"
+        named, name = [sections] if isinstance(sections, str) else [*sections], Neglected.PART
+        if not {*named} <= {ALL, name}:
+            problem = f"an ensemble has only the section '{name}'; request that or none"
             raise SceneError("sections", sections, problem)
         work = Ensemble(question, in_memory=True)
         nodes = {"/": work.hold(), "plan": work.nominal_run.plan().dataset()}
         if named:
-            nodes[NEGLECTED] = work.nominal_run.tree(NEGLECTED).earthspin.section(NEGLECTED)
+            nodes[name] = work.nominal_run.tree(name).earthspin.section(name)
         return xr.DataTree.from_dict(nodes)
     return Run(question).tree(sections)
 

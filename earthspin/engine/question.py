@@ -23,13 +23,11 @@ from threading import Lock
 from typing import Any, ClassVar, Generic, NamedTuple, ParamSpec, Self, TypeVar, overload
 
 from earthspin.engine.members import Members
-from earthspin.engine.variables import Variable, Variables
+from earthspin.engine.variables import Neglected, Variable, Variables
 from earthspin.errors import EarthspinError, SceneError, Where, nearest
 from earthspin.html_table import card
 from earthspin.units import Kind, kind_of
 
-#: Name of the part that lists the effects that the model of a question does not include.
-NEGLECTED = "neglected"
 #: Word that requests all sections that apply, or all columns.
 ALL = "all"
 #: Attribute of an answer that holds the complete question as the text of a scene file.
@@ -637,6 +635,11 @@ class Graph:
         return {name: v for part in self.parts.values() for name, v in part.gives.items()}
 
     @cached_property
+    def ends(self) -> tuple[str, ...]:
+        """Names of the parts that every answer needs, with that of the neglected effects."""
+        return (*self.answer, Neglected.PART)
+
+    @cached_property
     def labels(self) -> set[str]:
         """Names of all variables and dimensions that the results of the question may have."""
         dims = {name for variable in self.variables.values() for name in variable.dims}
@@ -696,8 +699,8 @@ def define_parts(
             if parameter not in names | keys | {BLOCK}:
                 problem = f"takes '{parameter}', which is neither a key nor a part; add it"
                 raise TypeError(f"{question.__name__}: {part.name} {problem}")
-    if NEGLECTED not in names:
-        raise TypeError(f"{question.__name__} has no part '{NEGLECTED}'")
+    if Neglected.PART not in names:
+        raise TypeError(f"{question.__name__} has no part '{Neglected.PART}'")
     ends = {name: tuple(part.name for part in group) for name, group in groups.items()}
     question.graph = Graph(named, ends.pop("answer"), ends, together, widest)
 

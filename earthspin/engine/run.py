@@ -17,15 +17,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from earthspin._lazy import xr
 from earthspin._version import __version__, version
-from earthspin.engine.question import ALL, NEGLECTED, SCENE, Part, Question, names_in, scene_text
-from earthspin.engine.variables import (
-    CONVENTIONS,
-    Neglected,
-    Variables,
-    error_of,
-    labels_of,
-    variable_of,
-)
+from earthspin.engine.question import ALL, SCENE, Part, Question, names_in, scene_text
+from earthspin.engine.variables import Neglected, Variables, error_of, labels_of, variable_of
 from earthspin.errors import SceneError, UndefinedError, nearest
 from earthspin.html_table import card
 
@@ -241,7 +234,7 @@ class Run:
         """
         names, graph = self._named(sections), self.graph
         of_sections = (part for name in names for part in graph.sections[name])
-        ends = [*graph.answer, NEGLECTED, *of_sections]
+        ends = (*graph.ends, *of_sections)
         parts = tuple(graph.parts[name] for name in self.dependencies(ends) if name in graph.parts)
         others = {name: part.title for name, part in graph.parts.items() if part not in parts}
         left_out = {title: self.why_not(n) or NOT_REQUESTED for n, title in others.items()}
@@ -276,7 +269,7 @@ class Run:
         same = {
             name for name, value in new.values.items() if _is_same(self.values.get(name), value)
         }
-        for name in new.dependencies([*self.graph.answer, NEGLECTED]):
+        for name in new.dependencies(self.graph.ends):
             inputs = new.inputs(name)
             if name in self.graph.parts and same.issuperset(inputs) and inputs == self.inputs(name):
                 new.values[name] = self[name]
@@ -307,12 +300,11 @@ class Run:
 
     def answer(self) -> xr.Dataset:
         """Return the answer as a Dataset, with title, references and other attributes."""
-        ends = [*self.graph.answer, NEGLECTED]
-        self._load_modules(ends)
+        self._load_modules(self.graph.ends)
         result, neglected = self.numbers(), self.neglected
-        result.attrs = _described(self.question, map(self.__getitem__, self.dependencies(ends)))
-        result.attrs |= self.provenance(ends)
-        result.attrs |= {NEGLECTED: neglected.largest, SCENE: scene_text(self.question)}
+        results = map(self.__getitem__, self.dependencies(self.graph.ends))
+        result.attrs = _described(self.question, results) | self.provenance(self.graph.ends)
+        result.attrs |= {Neglected.PART: neglected.largest, SCENE: scene_text(self.question)}
         error = error_of(result, self.question.headline)
         if neglected.sizes and error in result:  # errors do not contain what the model leaves out
             result[error].attrs["not_modelled"] = neglected.largest
@@ -335,7 +327,7 @@ class Run:
     @property
     def neglected(self) -> Neglected:
         """Effects that the model does not include, with sizes if known, as a `Neglected`."""
-        neglected: Neglected = self[NEGLECTED]
+        neglected: Neglected = self[Neglected.PART]
         return neglected.also(self.question.unused)
 
     def provenance(self, names: Iterable[str], without: Iterable[str] = ()) -> dict[str, str]:
@@ -429,7 +421,7 @@ def _described(question: Question, parts: Iterable[object]) -> dict[str, str]:
             bodies[name] = " ".join(items)
     references += filter(None, (getattr(result, "reference", "") for result in parts))
     return {
-        "Conventions": CONVENTIONS,
+        "Conventions": "CF-1.11",
         "title": question.title,
         "source": f"earthspin {__version__}",
         "history": f"earthspin {__version__}: compute = {question.word}",

@@ -22,8 +22,6 @@ from earthspin.numerics.arrays import Estimate
 
 # --- units ----------------------------------------------------------------------------------------
 
-CONVENTIONS = "CF-1.11"
-
 #: Units that are SI themselves; "1" for pure numbers, "" for text and dates.
 _SI = (
     "", "1", "m", "s", "J", "rad", "N m", "kg m2", "kg m2 / s", "rad/s", "rad2 / s2", "1/s",
@@ -415,6 +413,9 @@ class Neglected:
     periodic : tuple of str
         Effects with a size that vanish in the mean over their period, which the answer gives.
     """
+
+    #: Name of the part of a question that returns the sizes.
+    PART: ClassVar[str] = "neglected"
 
     sizes: Mapping[str, float] = field(default_factory=dict)
     unit: str = "1"

@@ -325,9 +325,7 @@ def mean_torques(
     window_means: MeanTorques | None = None, orbit_means: MeanTorques | None = None
 ) -> MeanTorques:
     """Mean torques divided by C - A: exact means for elliptic orbits, otherwise windowed means."""
-    means = orbit_means if window_means is None else window_means
-    assert means is not None  # a plan without both leaves this part out
-    return means
+    return next(filter(None, (window_means, orbit_means)))  # a plan has one of the two
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ import numpy as np
 from earthspin._lazy import xr
 from earthspin.bodies import BODIES, EARTH, SUN, Body
 from earthspin.constants import AU, DAY, SOLAR_CONSTANT
-from earthspin.engine import NEGLECTED, Neglected, key, part, public_call
+from earthspin.engine import Neglected, key, part, public_call
 from earthspin.engine.variables import Variables, labels, measured, si
 from earthspin.errors import SceneError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
@@ -215,7 +215,7 @@ def neglected() -> Neglected:
 insolation = public_call(
     Insolation,
     answer=daily_means,
-    sections={"long_term": long_term.series, "budget": long_term.budget, NEGLECTED: neglected},
+    sections={"long_term": long_term.series, "budget": long_term.budget, Neglected.PART: neglected},
     **long_term.SHARED,
 )
 

@@ -115,9 +115,7 @@ def interior_shift(
     chosen_fit: Shift | None = None, chosen_prediction: Shift | None = None
 ) -> Shift:
     """Return the displacement of the axes by the interior: the fitted or the predicted one."""
-    shift = chosen_fit or chosen_prediction
-    assert shift is not None
-    return shift
+    return next(filter(None, (chosen_fit, chosen_prediction)))
 
 
 _COMPONENT: Any = {"along": ("time", "axis"), "frame": "GCRS"}

@@ -111,8 +111,7 @@ def read_position(value: Any, where: Where) -> VectorFunction | Trajectory:
         hash(value)
     except TypeError:
         raise where.error(value, "it cannot be hashed; make it a frozen dataclass") from None
-    custom: Trajectory = value
-    return custom
+    return value
 
 
 def describe_position(position: object) -> str:

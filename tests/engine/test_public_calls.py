@@ -11,7 +11,7 @@ import xarray as xr
 import earthspin
 from earthspin import EARTH, Scene, load_scene
 from earthspin.bodies.planets import MEAN_SUN
-from earthspin.engine.question import NEGLECTED
+from earthspin.engine.variables import Neglected
 from earthspin.scenes import shipped_scenes
 from tests import shipped
 
@@ -62,7 +62,7 @@ def test_the_docstring_names_each_variable_and_each_section(name: str) -> None:
     for variable in map(str, tree.data_vars):
         name, _, share = variable.partition("_error_")
         assert variable in names or {f"{name}_error", f"_error_{share}"} <= names
-    for section in set(tree.children) - {"plan", NEGLECTED}:
+    for section in set(tree.children) - {"plan", Neglected.PART}:
         assert set(tree[section].data_vars) <= names_in(sections)
 
 
