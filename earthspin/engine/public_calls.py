@@ -183,7 +183,7 @@ def _returns(graph: Graph) -> list[str]:
     lines += ["", "    Sections, from `earthspin.run_tree`:", ""]
     for section, parts in graph.sections.items():
         names = ", ".join(name for name, _, _ in _described(graph, parts))
-        does = graph.parts[parts[0]].does
+        does = graph.parts[parts[0]].summary
         lines += _entry(f"`{section}`", f"{does} ({names})" if names else does)
     return lines
 
