@@ -217,9 +217,9 @@ def test_true_longitude_is_a_flag(past: xr.Dataset) -> None:
 @pytest.mark.parametrize("half", [0.01, 30.0])
 def test_one_epoch_is_that_of_the_whole(past: xr.Dataset, half: float, keys: Any) -> None:
     """Also where the perihelion is sampled, for an error above 0.1 rad."""
-    lost = past.copy()
+    lost = past.isel(epoch=[0, 500, -1])
     name = "longitude_of_perihelion_error"
-    lost[name] = (0 * past[name] + half).assign_attrs(past[name].attrs)
+    lost[name] = (0 * lost[name] + half).assign_attrs(past[name].attrs)
     whole = daily_insolation(lost, "65 deg", "90 deg", **keys).isel(epoch=1)
     one = daily_insolation(lost.isel(epoch=1), "65 deg", "90 deg", **keys)
     xr.testing.assert_identical(one, whole)

