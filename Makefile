@@ -5,11 +5,14 @@ BIN    := $(VENV)/bin
 LOWEST := .venv-lowest
 NEWEST := .venv-newest
 # Another Python than that of $(VENV), by name or by path.
-PYTHON_NEWEST ?= python3.13
-# What test-lowest and test-newest repeat: the quick tests that another version of a library can
-# change. `any_version` marks the others: text of pages, catalogues, style.
-VERSIONS := not slow and not every_kill and not any_version
+PYTHON_NEWEST ?= python3.14
+# What test-lowest and test-newest repeat: the quick tests of what uses more than numpy and SciPy.
+# They run the formulas as well, whose own tests are left out.
+VERSIONED := $(addprefix tests/,docs engine extreme force fuzz numerics questions sky views) tests/test_*.py
 SPHINX := $(BIN)/python -m sphinx -q -W --keep-going -j auto -b html docs docs/_build/html
+
+# One thread of the BLAS for each worker: two would wait for each other on the same core.
+test slow test-lowest test-newest kills extreme: export OPENBLAS_NUM_THREADS := 1
 
 .PHONY: report test slow test-lowest test-newest check docs accuracy bench fuzz kills extreme clean
 
@@ -17,7 +20,7 @@ report: $(VENV)/.core
 	$(BIN)/earthspin report --out report
 
 test: $(VENV)/.test
-	$(BIN)/python -m pytest -q --numprocesses=auto --dist=loadfile
+	$(BIN)/python -m pytest -q --numprocesses=auto --dist=worksteal
 
 # What takes some seconds each: random scenes, clusters, other processes, simulated records.
 slow: $(VENV)/.test
@@ -25,12 +28,12 @@ slow: $(VENV)/.test
 
 # The oldest versions that pyproject.toml allows; what they themselves need is the newest.
 test-lowest: $(LOWEST)/.test
-	$(LOWEST)/bin/python -m pytest -q -m '$(VERSIONS)' --numprocesses=auto --dist=loadfile $(TESTS)
+	$(LOWEST)/bin/python -m pytest -q --numprocesses=auto --dist=worksteal $(or $(TESTS),$(VERSIONED))
 
 # The newest Python and the newest of all that runs on it, sought again each time.
 test-newest: $(NEWEST)/bin/python
 	$(NEWEST)/bin/python -m pip install --quiet --upgrade --upgrade-strategy eager --editable '.[test]'
-	$(NEWEST)/bin/python -m pytest -q -m '$(VERSIONS)' --numprocesses=auto --dist=loadfile $(TESTS)
+	$(NEWEST)/bin/python -m pytest -q --numprocesses=auto --dist=worksteal $(or $(TESTS),$(VERSIONED))
 
 check: $(VENV)/.check
 	$(BIN)/ruff check .
@@ -70,7 +73,7 @@ bench: $(VENV)/.test
 	$(BIN)/python -m tests.benchmarks.how_large
 
 clean:
-	rm -rf $(VENV) $(LOWEST) $(NEWEST) .venv-3.14 report build dist docs/_build
+	rm -rf $(VENV) $(LOWEST) $(NEWEST) report build dist docs/_build
 
 $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV)

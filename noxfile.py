@@ -17,7 +17,8 @@ nox.options.default_venv_backend = "uv|virtualenv"
 def tests(session: nox.Session) -> None:
     """Run the quick tests; further words go to pytest."""
     session.install("--editable", ".[test]")
-    session.run("pytest", "--numprocesses=auto", "--dist=loadfile", *session.posargs)
+    workers = ("--numprocesses=auto", "--dist=worksteal")
+    session.run("pytest", *workers, *session.posargs, env={"OPENBLAS_NUM_THREADS": "1"})
 
 
 @nox.session

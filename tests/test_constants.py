@@ -33,19 +33,6 @@ def test_each_constant_has_a_source_and_says_where_it_was_read() -> None:
             assert number.verified == (c.UNVERIFIED not in number.source), name
 
 
-def test_an_unverified_number_says_so_in_its_source() -> None:
-    number = c.Constant(1.0, "", None, "a paper", c.UNVERIFIED)
-    assert number.source == f"a paper ({c.UNVERIFIED})"
-    assert not number.verified
-    assert c.Constant(1.0, "", None, "a paper").source == "a paper"
-
-
-def test_few_numbers_are_not_verified() -> None:
-    """Those are two published rates to compare with, Titan's as well, and an exponent."""
-    missing = [n for n, number in constants_page.cited().items() if c.UNVERIFIED in number.read_in]
-    assert len(missing) <= 10, missing
-
-
 def test_the_page_of_constants_is_made_by_the_command() -> None:
     assert constants_page.PAGE.read_text(encoding="utf-8") == constants_page.page()
 

@@ -44,13 +44,6 @@ def test_no_class_is_without_an_example() -> None:
     assert classes - {type(e) for e in EXAMPLES} == {errors.EarthspinError}
 
 
-def test_a_coverage_error_names_what_the_kernel_covers() -> None:
-    error = EXAMPLES[5]
-    assert isinstance(error, errors.CoverageError)
-    assert error.coverage == ("1899-07-29", "2053-10-09")
-    assert "1899-07-29 to 2053-10-09" in str(error)
-
-
 def test_the_nearest_word_comes_first() -> None:
     assert errors.nearest("torqe", ["torque", "wobble"]).startswith("did you mean 'torque'?")
     assert errors.nearest("xyz", ["torque", "wobble"]) == "allowed: torque, wobble"

@@ -111,16 +111,16 @@ def test_body_fixed_axes() -> None:
     assert rotations(answer)[2].as_matrix()[:, 2] == pytest.approx(axis, abs=1e-14)
     pole = ICRS(SkyCoord(*axis, representation_type="cartesian").spherical).transform_to(frame)
     assert pole.spherical.lat.deg == pytest.approx(90, abs=1e-5)
-    with pytest.raises(SceneError, match="the rotation starts at 2000-01-01"):
+    with pytest.raises(SceneError, match="2000-01-01"):
         _ = BodyFixed(obstime=Time("1999-01-01", scale="tdb"), model=answer).matrix
 
 
 def test_refusals(now: EquatorOfDate) -> None:
     with pytest.raises(CoverageError, match=r"2100-01-01.* is outside kernel 'de421'"):
         _ = EquatorOfDate(obstime=Time("2100-01-01", scale="tdb"), model=now.model).matrix
-    with pytest.raises(SceneError, match="give an answer to 'long-term' or 'pole'"):
+    with pytest.raises(SceneError, match="'long-term' or 'pole'"):
         EquatorOfDate(obstime=NOW, model=earthspin.precession())
-    with pytest.raises(SceneError, match="model = None: give an answer to 'long-term' or 'pole'"):
+    with pytest.raises(SceneError, match=r"model = None.*'long-term'"):
         ICRS(1 * u.deg, 2 * u.deg).transform_to(EquatorOfDate())
     fast = xr.DataArray([1.0, 2.0], dims="case") * earthspin.EARTH.spin_period
     for many in (
@@ -130,17 +130,17 @@ def test_refusals(now: EquatorOfDate) -> None:
         ),
     ):
         for one in (many, many.isel(case=0) if "case" in many.dims else many.isel(member=0)):
-            with pytest.raises(SceneError, match="an answer for several bodies"):
+            with pytest.raises(SceneError, match="several"):
                 EquatorOfDate(obstime=NOW, model=one)
     section = earthspin.run_tree("long-term", "matrices")["matrices"].to_dataset()
-    with pytest.raises(SceneError, match=r"model = 'Dataset'.*not a section of it"):
+    with pytest.raises(SceneError, match="model = 'Dataset'"):
         EquatorOfDate(obstime=NOW, model=section)
     for nothing in (earthspin.precession(), None):
         with pytest.raises(SceneError, match="'rotation' or 'free-rotor' or 'top'"):
             rotations(nothing)
     upright = earthspin.MARS.replace(pole=(5.0, 0.9), orbit_pole=(5.0, 0.9), pole_uncertainty=None)
     answer = earthspin.pole("2000-01-01T12:00", "2000-01-02", "6 h", body=upright, perturbers="sun")
-    with pytest.raises(UndefinedError, match="upright on the orbit: there is no equinox"):
+    with pytest.raises(UndefinedError, match="equinox"):
         _ = EquatorOfDate(model=answer).matrix
 
 
@@ -161,9 +161,9 @@ def test_an_answer_is_used_whole() -> None:
 
 def test_frames_do_not_take_the_model_of_another(now: EquatorOfDate, body_fixed: BodyFixed) -> None:
     star = SkyCoord(10, 20, unit="deg")
-    with pytest.raises(SceneError, match=r"an answer to 'rotation'.*'long-term' or 'pole'"):
+    with pytest.raises(SceneError, match=r"'rotation'.*'long-term'"):
         star.transform_to(body_fixed).transform_to(EquatorOfDate(obstime=NOW))
-    with pytest.raises(SceneError, match=r"an answer to 'pole'.*give an answer to 'rotation'"):
+    with pytest.raises(SceneError, match=r"'pole'.*'rotation'"):
         star.transform_to(now).transform_to(BodyFixed(obstime=NOW))
     there = star.transform_to(body_fixed).transform_to(now)
     assert there.separation(star.transform_to(now)).arcsec < 1e-9
@@ -215,5 +215,5 @@ def test_no_times(now: EquatorOfDate) -> None:
 def test_another_version_is_named() -> None:
     answer = earthspin.long_term("-1 kyr", "0 kyr", "1 kyr").assign_attrs(pyerfa_version="1.0")
     frame = EquatorOfDate(obstime=Time(1234.5, format="jyear"), model=answer)
-    with pytest.warns(VersionWarning, match=r"made with pyerfa_version 1\.0, now"):
+    with pytest.warns(VersionWarning, match=r"pyerfa_version 1\.0"):
         _ = frame.matrix

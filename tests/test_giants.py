@@ -1,7 +1,6 @@
 """Precession of the giant planets together with their satellites."""
 
 import math
-import re
 from dataclasses import replace
 
 import numpy as np
@@ -21,9 +20,6 @@ from earthspin.questions.satellites import (
     satellite_factors,
 )
 from earthspin.torque.laplace import Planet, Satellites, laplace_tilts
-from earthspin.views.closing_line import closing_line
-from earthspin.views.precession import lead
-from earthspin.views.rendering import tables_for
 from tests.reference import gyroscopes
 
 #: Pull of the Sun, GM/(a3 (1 - e2)^1.5), s-2, and obliquity to the orbit, deg.
@@ -123,17 +119,6 @@ def test_the_pole_holds_the_uncertain_masses_of_satellites() -> None:
     moved = 1.96 * np.linalg.norm(ends[1] - ends[0]) / ARCSEC
     claimed = float(poles[0].direction_error_satellites)
     assert claimed == pytest.approx(moved, rel=0.05, abs=0)
-
-
-def test_the_texts_on_uranus_name_its_satellites_and_what_is_left_out() -> None:
-    answer = earthspin.precession(body=URANUS.replace(dynamical_flattening=0.0156))
-    table, *_ = tables_for(answer)
-    for text in (table.note, lead(answer)):
-        assert all(moon.name in text for moon in URANUS.satellites)
-    assert "node of Miranda" in table.note
-    assert re.search("node of Miranda.* zero in the mean", closing_line(answer))
-    assert "zero in the mean" in table.note
-    assert "with the all" not in table.note
 
 
 @pytest.mark.parametrize(("name", "rate"), [("jupiter", 2.645), ("saturn", 0.720)])
@@ -413,7 +398,7 @@ def test_a_satellite_across_the_laplace_plane_has_a_period() -> None:
 def test_a_satellite_acts_once() -> None:
     moon = Satellite(name="moon", gm=4.9028e12, a=3.844e8)
     earth = BODIES["earth"].replace(satellites=[moon])
-    with pytest.raises(SceneError, match="among the satellites of earth"):
+    with pytest.raises(SceneError, match="satellites of earth"):
         earthspin.precession(body=earth)
     assert float(earthspin.precession(body=earth, perturbers=["sun"]).precession_rate[-1]) > 20
 

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from earthspin.scenes import load_scene, shipped_scenes
+from earthspin.scenes import shipped_scenes
 from tests.processes import printed
 
 #: What costs a second or more to load, and what stands on it.
@@ -56,23 +56,6 @@ def test_the_observed_pole_needs_no_kernel() -> None:
     assert not loaded & {"skyfield", "jplephem", "numba", "matplotlib", "erfa", "rich"}
 
 
-#: Heavy modules that the answer to each question uses, beside numpy and xarray.
-KERNEL = {"jplephem", "erfa"}
-LEAST_SQUARES = {"scipy.linalg", "scipy.sparse"}
-USED = {
-    "precession": {*KERNEL, "skyfield"},
-    "torque": KERNEL,
-    "pole": {*KERNEL, *LEAST_SQUARES, "scipy.optimize"},
-    "long-term": KERNEL,
-    "insolation": KERNEL,
-    "iau": KERNEL | LEAST_SQUARES,
-    "nutation": {*KERNEL, *LEAST_SQUARES, "scipy.special"},
-    "rotation": {*KERNEL, *LEAST_SQUARES, "scipy.spatial", "scipy.special"},
-    "forecast": {"scipy.linalg"},
-    "free-rotor": {"scipy.special"},
-    "top": {"scipy.special"},
-    "spheroid": {"scipy.special"},
-}
 #: What costs a tenth of a second or more, or belongs to drawing, files and workers.
 WATCHED = {
     *("scipy.fft", "scipy.integrate", "scipy.interpolate", "scipy.linalg", "scipy.optimize"),
@@ -101,21 +84,6 @@ def watched_after(programs: list[str]) -> list[set[str]]:
     """Watched modules that a process has imported after each of some programs, run alone."""
     out = printed(CHILDREN, input=json.dumps(programs))
     return [set(line.split()) & WATCHED for line in out.splitlines()]
-
-
-@pytest.mark.slow
-def test_a_question_loads_the_heavy_modules_that_it_uses() -> None:
-    """And no other in a fresh process, but for those that these bring along."""
-    drawing = {"scipy.special"}
-    scenes = {type(load_scene(s)).word: s for s in reversed(list(shipped_scenes()))}  # the first
-    used = {scene: frozenset(USED.get(word, ())) for word, scene in scenes.items()}
-    used |= {f"{word}-ensemble": used[scenes[word]] | drawing for word in ("precession", "wobble")}
-    imports = {names: f"import {', '.join(['numpy', *sorted(names)])}" for names in used.values()}
-    runs = {scene: f"earthspin.run({scene!r})" for scene in used}
-    loaded = watched_after([*imports.values(), *runs.values()])
-    brought = dict(zip(imports, loaded, strict=False))
-    for (scene, names), found in zip(used.items(), loaded[len(imports) :], strict=True):
-        assert names <= found <= names | brought[names], scene
 
 
 #: Runs a scene, and leaves in `sys.modules` only what was imported while a part ran.

@@ -29,40 +29,6 @@ def test_imports_go_one_way() -> None:
     assert lint_imports(config_filename=str(ROOT / "pyproject.toml"), cache_dir=None) == 0
 
 
-def imported(module: str) -> set[str]:
-    """Modules of the package that a module imports, anywhere in it, or names as text to import."""
-    path = PACKAGE.parent.joinpath(*module.split("."))
-    source = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
-    nodes: list[ast.AST] = [ast.parse(source.read_text("utf-8"))]
-    names, folders = set(), set()
-    for node in nodes:  # which grows
-        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
-            continue
-        nodes += ast.iter_child_nodes(node)
-        if isinstance(node, ast.Import):
-            names |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            full = {f"{node.module}.{alias.name}" for alias in node.names}
-            names |= full if full <= set(MODULES) else {*full, str(node.module)}
-        elif isinstance(node, ast.Constant) and "." in str(node.value):
-            names.add(str(node.value))
-        elif isinstance(node, ast.JoinedStr) and isinstance(node.values[0], ast.Constant):
-            folders.add(str(node.values[0].value))  # as in f"earthspin.views.{name}"
-    folders = {folder for folder in folders if re.fullmatch(r"earthspin\.(\w+\.)*", folder)}
-    names |= {name for name in MODULES if name.startswith(tuple(folders))}
-    return names & set(MODULES) - {module}
-
-
-def test_no_modules_import_one_another_in_a_circle_late_imports_included() -> None:
-    """Also where a function imports, or text names the module for `import_module`."""
-    before = {module: imported(module) for module in MODULES}
-    assert "earthspin.views.page" in before["earthspin.views.rendering"]  # a late import
-    assert "earthspin.questions.precession" in before["earthspin.questions"]  # text
-    while free := {module for module, others in before.items() if not others}:
-        before = {module: others - free for module, others in before.items() if others}
-    assert before == {}
-
-
 def test_a_name_of_a_class_or_module_stands_for_one_thing() -> None:
     """The layers of a question share its name: `torque`, `questions.torque`, `views.torque`."""
     classes = Counter(
@@ -82,9 +48,13 @@ def test_a_name_of_a_class_or_module_stands_for_one_thing() -> None:
 
 
 def test_the_project_speaks_of_itself_alone() -> None:
-    files = subprocess.run(
-        ["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=False
-    ).stdout.split()
+    if not (ROOT / ".git").exists():
+        pytest.skip("the files of the project are known where it is checked out with git")
+    listed = subprocess.run(
+        ["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    files = listed.stdout.split()
+    assert "pyproject.toml" in files
     # Put together so that this file does not hold what it looks for.
     forbidden = re.compile("|".join(("/wo" + "rk/", "/ro" + "ot/", "/tm" + "p/", "index-" + "url")))
     for name in files:

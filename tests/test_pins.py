@@ -4,11 +4,8 @@ import ast
 import math
 from pathlib import Path
 
-import pytest
-
 from tests.conftest import REFERENCE, load_pins
 
-pytestmark = pytest.mark.any_version
 #: Comparisons with tolerances of their own, and the keywords that must be named. Left out, they
 #: are wide: rtol = 1e-7 stands beside atol = 1e-15, and 1e-12 is added to what rel = 1e-15 allows.
 TOLERANCES = {

@@ -18,15 +18,6 @@ def test_the_reference_lists_what_there_is() -> None:
     assert INDEX.read_text("utf-8") == index(), "run `python -m data_tools signatures`"
 
 
-def test_every_public_name_has_a_signature() -> None:
-    tree = ast.parse(FILE.read_text("utf-8"))
-    named = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
-    named |= {a.asname for n in tree.body if isinstance(n, ast.ImportFrom) for a in n.names} - {
-        None
-    }
-    assert set(earthspin.__all__) <= named
-
-
 def test_arguments_are_those_of_the_calls() -> None:
     tree = ast.parse(FILE.read_text("utf-8"))
     told = {node.name: node.args for node in tree.body if isinstance(node, ast.FunctionDef)}

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 
-pytestmark = pytest.mark.any_version
 ROOT = Path(__file__).parents[2]
 MAP = tomllib.loads((ROOT / "docs" / "equations.toml").read_text(encoding="utf-8"))["equation"]
 

@@ -69,7 +69,7 @@ def test_vectors_become_coordinates_of_astropy() -> None:
 @pytest.mark.parametrize("name", ["obliquity", "nonsense", ""])
 def test_what_is_no_vector_is_named(name: str) -> None:
     past = earthspin.long_term("-10 kyr", "0 kyr", "5 kyr")
-    with pytest.raises(SceneError, match="name a vector: pole, ecliptic_pole"):
+    with pytest.raises(SceneError, match="pole, ecliptic_pole"):
         past.earthspin.to_skycoord(name)
 
 

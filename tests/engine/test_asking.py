@@ -91,9 +91,9 @@ def test_a_call_in_another_spelling_is_answered_by_what_to_type(question: type[Q
 
 @pytest.mark.parametrize("call", [earthspin.pole, earthspin.torque_series, earthspin.long_term])
 def test_one_end_of_a_span_is_refused_by_its_name(call: Any) -> None:
-    with pytest.raises(SceneError, match=r"stop = None: give both start and stop"):
+    with pytest.raises(SceneError, match="stop = None"):
         call("2000-01-01")
-    with pytest.raises(SceneError, match=r"start = None: give both start and stop"):
+    with pytest.raises(SceneError, match="start = None"):
         call(stop="2000-01-01")
 
 
@@ -102,8 +102,8 @@ def test_times_stand_in_place_of_span_and_step() -> None:
         "torque": {"times": ["2000-01-01"], "step": "1 h"},
         "pole": {"times": ["2000-01-01"], "span": ["2000-01-01", "2001-01-01"]},
     }.items():
-        with pytest.raises(SceneError, match="give either times, or span and step"):
+        with pytest.raises(SceneError, match="times, or span and step"):
             earthspin.Scene(compute=word, **keys)
     moments = {"moments": [1, 2, 2.5], "omega": [0.1, 1, 0.1]}
-    with pytest.raises(SceneError, match="give either times, or duration and points"):
+    with pytest.raises(SceneError, match="times, or duration and points"):
         earthspin.Scene(compute="free-rotor", rotor=moments | {"times": [1.0], "points": 3})

@@ -318,7 +318,7 @@ def test_what_is_no_ensemble_is_refused() -> None:
     for call in (answer.earthspin.quantiles, answer.earthspin.sensitivity):
         with pytest.raises(SceneError, match="it is not an ensemble"):
             call()
-    with pytest.raises(SceneError, match="7 inputs need at least 9 members"):
+    with pytest.raises(SceneError, match="at least 9 members"):
         earthspin.ensemble("precession", 5).earthspin.sensitivity()
     with pytest.raises(SceneError, match="between 0 and 1"):
         earthspin.ensemble("precession", 5).earthspin.quantiles([2])
@@ -389,7 +389,7 @@ def test_an_ensemble_of_days_goes_to_a_store(
     monkeypatch: pytest.MonkeyPatch, few_draws: list[int]
 ) -> None:
     monkeypatch.setattr("earthspin.engine.ensemble.LONGEST_IN_MEMORY", 1e-3)
-    with pytest.raises(SceneError, match=r"they take about .* days.*; give a path"):
+    with pytest.raises(SceneError, match=r"days.*; give a path"):
         earthspin.ensemble(asked("love-numbers", 200_000))
 
 
@@ -490,7 +490,7 @@ def test_whole_numbers_of_numpy_are_those_of_python() -> None:
 
 
 def test_the_address_of_a_scheduler_is_checked_if_one_block_needs_none() -> None:
-    with pytest.raises(SceneError, match="scheduler = 'nonsense': no scheduler answers"):
+    with pytest.raises(SceneError, match="scheduler = 'nonsense'"):
         earthspin.ensemble("precession", 3, client="nonsense")
 
 
@@ -511,7 +511,7 @@ def test_units_of_members_are_read() -> None:
     plain = earthspin.ensemble(now, shifted([np.radians(1.0), np.radians(2.0)], None))
     assert plain.obliquity.values == pytest.approx(answer.obliquity.values, rel=1e-14, abs=0)
     for unit in ("km", "degs"):
-        with pytest.raises(EarthspinError, match=f"obliquity_shift = '{unit}' is not a value in"):
+        with pytest.raises(EarthspinError, match=f"obliquity_shift = '{unit}'"):
             earthspin.ensemble(now, shifted([1.0, 2.0], unit))
 
 

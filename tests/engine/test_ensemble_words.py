@@ -144,10 +144,10 @@ def test_a_file_that_changed_is_noticed(orbits: Path) -> None:
     record = dict(work.request) | {"size": "9 along member by 2", "format of files": "2"}
     (begun / "asked.json").write_text(json.dumps(record))
     write_orbit(ROUND, 0.02)
-    with pytest.raises(OutputError, match="a store of another question"):
+    with pytest.raises(OutputError, match="another question"):
         earthspin.ensemble(mixed(9), path=complete, block=2)
     assert bytes_of(complete) == before
-    with pytest.raises(OutputError, match=r"begun with another orbit sha256 of round\.dat"):
+    with pytest.raises(OutputError, match=r"orbit sha256 of round\.dat"):
         earthspin.ensemble(mixed(9), path="begun.zarr", block=2)
     with pytest.warns(VersionWarning, match="orbit_sha256"):
         earthspin.run(answer)
@@ -239,7 +239,7 @@ def test_words_that_do_not_go_with_the_question_are_left_out() -> None:
     """The Moon does not pull on itself."""
     question = QUESTIONS["precession"](perturbers=["sun", "moon"])
     grid = {"body": {"grid": ["earth", "moon", "earth"]}}
-    with pytest.raises(SceneError, match=r"'1'.*cannot exist.*does not pull on itself"):
+    with pytest.raises(SceneError, match=r"'1'.*cannot exist"):
         earthspin.ensemble(question, grid)
     kept = earthspin.ensemble(question, grid, impossible="drop")
     assert kept.member.values.tolist() == [0, 2]
@@ -247,7 +247,7 @@ def test_words_that_do_not_go_with_the_question_are_left_out() -> None:
 
 
 def test_words_that_change_the_labels_are_refused() -> None:
-    with pytest.raises(SceneError, match="member 1 has other labels along 'perturber'"):
+    with pytest.raises(SceneError, match=r"member 1 .*'perturber'"):
         earthspin.ensemble("precession", {"body": {"grid": ["earth", "mars"]}})
 
 
@@ -274,7 +274,7 @@ def test_the_share_of_words_is_eta_squared(orbits: Path) -> None:
 
 def test_words_ask_for_as_many_members_as_there_are(orbits: Path) -> None:
     three = earthspin.run(long_term({"orbit": {"grid": [OWN, ROUND, COPY]}}))
-    with pytest.raises(SceneError, match="1 inputs need at least 4 members"):
+    with pytest.raises(SceneError, match="at least 4 members"):
         three.earthspin.sensitivity()
     from earthspin.views.ensemble import lead
     from earthspin.views.rendering import tables_for
@@ -323,7 +323,7 @@ test_bad_words_are_refused = pytest.mark.usefixtures("orbits")(
 
 def test_a_table_that_is_no_text_is_refused(orbits: Path) -> None:
     table = earthspin.read_orbit(ROUND)
-    with pytest.raises(SceneError, match="'OrbitTable': members are labelled by text"):
+    with pytest.raises(SceneError, match="'OrbitTable'"):
         earthspin.ensemble(long_term(), {"orbit": {"grid": [OWN, table]}})
 
 
@@ -352,7 +352,7 @@ def test_a_body_whose_orbit_is_not_shipped_has_those_of_its_members(orbits: Path
     """The question by itself has no answer; that of each member has one."""
     write_orbit("wide.dat", 0.02)
     saturn = long_term({"orbit": {"grid": [ROUND, "wide.dat"]}}, body="saturn", perturbers=["sun"])
-    with pytest.raises(EarthspinError, match="no orbit over millions of years is shipped"):
+    with pytest.raises(EarthspinError, match=r"no orbit .*shipped"):
         earthspin.run(saturn.replace(members=None))
     tree = earthspin.run_tree(saturn)
     np.testing.assert_allclose(tree.eccentricity[:, 0], [0.01, 0.02], rtol=1e-9, atol=0)

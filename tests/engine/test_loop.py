@@ -284,7 +284,7 @@ def test_a_disk_that_changes_what_is_written(
         flip(folder / blocks.STORE / "square" / f"{number}.0")
 
     monkeypatch.setattr(blocks, "write_block", damaging)
-    with pytest.raises(OutputError, match="differs from what was just written"):
+    with pytest.raises(OutputError, match="differs"):
         blocks.write(Squares(), tmp_path / "r.zarr")
     monkeypatch.undo()
     blocks.write(Squares(), tmp_path / "r.zarr")
@@ -385,7 +385,7 @@ def test_a_cluster_listens_to_this_machine_only() -> None:
 
 def test_a_scheduler_that_does_not_answer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(blocks, "TIMEOUT", 1)
-    with pytest.raises(SceneError, match="no scheduler answers there within 1 s"):
+    with pytest.raises(SceneError, match="within 1 s"):
         blocks.write(Squares(), tmp_path / "r.zarr", client="tcp://127.0.0.1:9")
     blocks.write(Squares(), tmp_path / "r.zarr")
 

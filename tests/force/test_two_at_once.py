@@ -64,7 +64,7 @@ def test_a_second_writer_is_refused(tmp_path: Path, kind: str) -> None:
     assert other.stdin is not None
     assert other.stdout is not None
     assert other.stdout.readline() == b"begun\n"
-    with pytest.raises(OutputError, match="another run is writing it; wait for that run"):
+    with pytest.raises(OutputError, match="another run"):
         store.write(small(1.0), path)
     assert store.open(path).identical(small(0.0))
     out, complaint = other.communicate(b"\n", timeout=60)
@@ -200,7 +200,7 @@ def test_a_loop_of_links_is_one_line(tmp_path: Path, name: str) -> None:
         calls += [lambda p: earthspin.write_series(scene, p)]
         calls += [lambda p: earthspin.ensemble("precession", 2, path=p)]
     for call in calls:
-        with pytest.raises(OutputError, match="Too many levels of symbolic links"):
+        with pytest.raises(OutputError, match="symbolic links"):
             call(path)
     assert main(["run", "torque", "--out", str(path)]) == 2
     assert {p.name for p in tmp_path.iterdir()} == {first.name, "other"}
@@ -209,5 +209,5 @@ def test_a_loop_of_links_is_one_line(tmp_path: Path, name: str) -> None:
 def test_a_name_that_no_file_can_have() -> None:
     for name in ("a\0b.nc", "\ud800.nc"):
         for call in (store.open, store.verify, lambda p: store.write(small(), p)):
-            with pytest.raises(OutputError, match="no file can have such a name"):
+            with pytest.raises(OutputError, match="name"):
                 call(name)

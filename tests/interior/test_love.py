@@ -67,10 +67,10 @@ def test_a_softer_body_yields_more_and_lags() -> None:
 
 
 def test_love_numbers_need_a_solid_surface_and_one_core() -> None:
-    with pytest.raises(UndefinedError, match=r"'prem-ocean' ends in a liquid; .* solid surface"):
+    with pytest.raises(UndefinedError, match=r"'prem-ocean'.*liquid"):
         solve_love_numbers(PREM_WITH_OCEAN)
     firm, wet = (lambda top: (top, 5e3, 1e11)), (lambda top: (top, 5e3, 0.0))
-    with pytest.raises(UndefinedError, match="has 2 liquids with solids between"):
+    with pytest.raises(UndefinedError, match="2 liquids"):
         solve_love_numbers(sphere(wet(1e6), firm(2e6), wet(3e6), firm(4e6)))
 
 
@@ -120,9 +120,9 @@ def test_a_core_that_cannot_be_told_from_none_is_refused() -> None:
     inner, *rest = PREM.layers
     small = replace(inner, top=6e4)
     liquid = replace(inner, vs=(), shear_q=np.inf)
-    with pytest.raises(UndefinedError, match="an inner core of 60 km is less than a hundredth"):
+    with pytest.raises(UndefinedError, match="inner core of 60 km"):
         solve_love_numbers(replace(PREM, layers=(small, liquid, *rest)))
-    with pytest.raises(UndefinedError, match="a core of 6 km is less than a hundredth"):
+    with pytest.raises(UndefinedError, match="core of 6 km"):
         solve_love_numbers(replace(PREM, layers=(replace(liquid, top=6e3), PREM.layers[-1])))
 
 

@@ -202,7 +202,7 @@ test_bodies_that_cannot_be = refused(
 
 def test_points_too_far_for_floats() -> None:
     for place in ([1e51, 0.0, 0.0], [0.0, 0.0, -1e300]):
-        with pytest.raises(UndefinedError, match="beyond what can be computed"):
+        with pytest.raises(UndefinedError, match="beyond"):
             spheroid.spheroid_potential(1.0, 1.0, 0.1, place)
     assert np.all(np.isfinite(spheroid.spheroid_torque(1.0, 1.0, 0.1, 1.0, [1e49, 0.0, 1e49])))
 

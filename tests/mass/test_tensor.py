@@ -157,11 +157,11 @@ def test_wrong_input() -> None:
         tensor.inertia_tensor([1.0, -2.0], np.eye(3)[:2])
     with pytest.raises(BodyError, match=r"mass = 0\.0"):
         tensor.tensor_about_point(np.eye(3), 0.0, [1, 2, 3])
-    with pytest.raises(UndefinedError, match=r"shape \(2,\), positions \(3, 3\)"):
+    with pytest.raises(UndefinedError, match=r"\(2,\).*\(3, 3\)"):
         tensor.inertia_tensor([1.0, 2.0], np.eye(3))
     with pytest.raises(UndefinedError, match=r"shape \(0, 3\)"):
         tensor.inertia_tensor([], np.zeros((0, 3)))
-    with pytest.raises(UndefinedError, match=r"\[0, 0, 0\] has no direction"):
+    with pytest.raises(UndefinedError, match=r"\[0, 0, 0\]"):
         tensor.moment_about_axis(np.eye(3), [0, 0, 0])
     with pytest.raises(UndefinedError, match="orthogonal matrix by 3"):
         tensor.change_frame(np.eye(3), 2 * np.eye(3))

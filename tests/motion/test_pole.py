@@ -93,7 +93,7 @@ def test_the_word_rigid_fits_bodies_on_given_orbits() -> None:
     """The orbit of Saturn is given by elements, which place no planets."""
     result = earthspin.pole(times=["2010-01-01"], body="saturn", effects="rigid")
     assert result.attrs["effects"].split() == list(RIGID[1:])
-    with pytest.raises(earthspin.SceneError, match="this effect needs a kernel"):
+    with pytest.raises(earthspin.SceneError, match="needs a kernel"):
         earthspin.pole(times=["2010-01-01"], body="saturn", effects=["planets"])
 
 
@@ -204,7 +204,7 @@ def test_what_is_refused() -> None:
         EARTH.replace(dynamical_flattening=0.51)
     with pytest.raises(earthspin.SceneError, match="do not fit"):
         earthspin.pole("1950-01-01", "2050-01-01", "1 s")
-    with pytest.raises(earthspin.SceneError, match="no response of the inside of Mars"):
+    with pytest.raises(earthspin.SceneError, match="Mars"):
         earthspin.pole(body="mars", effects=["nonrigid"])
     for flattening in ([3e-3, 3.1e-3], [3e-3]):
         body = EARTH.replace(dynamical_flattening=xr.DataArray(flattening, dims="draw"))

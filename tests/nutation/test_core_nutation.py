@@ -1,5 +1,7 @@
 """The free core nutation: known ones recovered within their errors, and none seen in noise."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -12,6 +14,7 @@ DAYS = np.arange(1100.0) - 549.5
 DRAWS = 400
 
 
+@cache
 def simulated(
     name: str, amplitude: float, period: float = PERIOD
 ) -> list[core_nutation.CoreNutationAmplitudes]:
@@ -82,7 +85,7 @@ def test_against_least_squares_by_numpy() -> None:
 
 @pytest.mark.parametrize("window", [800.0, 4100.0])
 def test_windows_that_cannot_be(window: float) -> None:
-    with pytest.raises(UndefinedError, match=r"860 d, 2 periods .*the series' 4000 d"):
+    with pytest.raises(UndefinedError, match=r"860 d.*4000 d"):
         core_nutation.fit(np.arange(4000.0), np.ones(4000, dtype=complex), window)
 
 

@@ -180,7 +180,7 @@ def test_a_pole_takes_its_response_by_name() -> None:
     predicted = figure(effects=effects, response="predicted")
     assert np.all(np.linalg.norm(fitted - predicted, axis=1) < 1.7)
     assert np.all(np.linalg.norm(rigid - fitted, axis=1) > 5)
-    with pytest.raises(SceneError, match="no layers with an inner core"):
+    with pytest.raises(SceneError, match="inner core"):
         earthspin.pole(
             times=times, effects=effects, response="predicted", body=EARTH.replace(interior="none")
         )
@@ -197,7 +197,7 @@ def test_the_comparison_shows_both_responses() -> None:
 
 
 def test_a_body_without_layers_is_refused() -> None:
-    with pytest.raises(SceneError, match="IAU has no precession model for Mars"):
+    with pytest.raises(SceneError, match="Mars"):
         earthspin.nutation_ladder(body=MARS)
-    with pytest.raises(SceneError, match="no layers with an inner core"):
+    with pytest.raises(SceneError, match="inner core"):
         earthspin.nutation_ladder(body=EARTH.replace(interior="none"))

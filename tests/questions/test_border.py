@@ -226,7 +226,7 @@ MISALIGNED = {
 @pytest.mark.parametrize("form", MISALIGNED)
 def test_members_that_do_not_align_are_refused(form: str) -> None:
     one, two = MISALIGNED[form]
-    with pytest.raises(BodyError, match="they differ from those of") as error:
+    with pytest.raises(BodyError, match="differ") as error:
         EARTH.replace(
             j2=EARTH.j2 * one,
             dynamical_flattening=EARTH.dynamical_flattening * one,

@@ -198,13 +198,13 @@ def test_wrong_settings_are_refused(past: xr.Dataset, named: dict[str, object], 
 
 
 def test_another_result_is_refused(past: xr.Dataset) -> None:
-    with pytest.raises(EarthspinError, match="give an answer of long_term"):
+    with pytest.raises(EarthspinError, match="long_term"):
         daily_insolation(past.drop_vars("obliquity"), "65 deg", "90 deg")
-    with pytest.raises(EarthspinError, match="give an answer of long_term"):
+    with pytest.raises(EarthspinError, match="long_term"):
         daily_insolation(3, "65 deg", "90 deg")  # type: ignore[arg-type]
     unknown = past.copy()
     unknown["obliquity"] = past.obliquity.assign_attrs(orbit_of="vulcan")
-    with pytest.raises(EarthspinError, match="the year of vulcan is not known"):
+    with pytest.raises(EarthspinError, match="vulcan"):
         daily_insolation(unknown, "65 deg", "90 deg")
 
 

@@ -122,6 +122,6 @@ def test_the_core_nutation_is_part_of_what_is_left(sizes: xr.Dataset) -> None:
 )
 def test_spans_without_observations(span: tuple[str, str]) -> None:
     scene = earthspin.load_scene("iau", {"span": list(span)})
-    with pytest.raises(SceneError, match="fewer than 10 dates lie between 1990 and the last"):
+    with pytest.raises(SceneError, match="10 dates"):
         earthspin.plan(scene, sections=["observed"])
     assert "fewer than 10 dates" in str(earthspin.plan(scene, sections="all"))

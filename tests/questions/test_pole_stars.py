@@ -64,12 +64,12 @@ def test_counts_that_are_none(count: object) -> None:
 
 def test_answers_without_stars_near_the_pole() -> None:
     many = earthspin.ensemble("long-term", 2)
-    with pytest.raises(earthspin.SceneError, match="an answer for several bodies"):
+    with pytest.raises(earthspin.SceneError, match="several"):
         earthspin.pole_stars(many)
     other = earthspin.EARTH.replace(pole=(4.0, 0.5), orbit_pole=earthspin.MARS.orbit_pole)
     for body in ("mars", other):
         answer = earthspin.long_term(times=["0 kyr"], body=body)
-        with pytest.raises(earthspin.SceneError, match="its pole is not that of IAU 2006"):
+        with pytest.raises(earthspin.SceneError, match="IAU 2006"):
             earthspin.pole_stars(answer)
     with pytest.raises(earthspin.SceneError, match="long_term"):
         earthspin.pole_stars(earthspin.wobble_ladder())

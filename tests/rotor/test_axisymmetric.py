@@ -161,7 +161,7 @@ def test_speed_and_cone_at_the_ends() -> None:
         rotor = SymmetricRotor(1.0, 0.5, 0.3, alpha)
         _, found = speed_and_cone(1.0, 0.5, rotor.energy, rotor.angular_momentum)
         assert found == pytest.approx(alpha, abs=1e-7)
-    with pytest.raises(UndefinedError, match=r"L2/2T lies between I1 = 1\.0 and I3 = 1\.5"):
+    with pytest.raises(UndefinedError, match=r"1\.0 and .*1\.5"):
         speed_and_cone(1.0, 0.5, 1.0, 2.0)
     with pytest.raises(UndefinedError, match="sphere"):
         speed_and_cone(1.0, 0.0, 1.0, 1.0)

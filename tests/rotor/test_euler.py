@@ -126,7 +126,7 @@ def test_a_torque_about_the_axis_of_symmetry_spins_it_up() -> None:
 
 
 def test_what_cannot_be_integrated_is_named() -> None:
-    with pytest.raises(BodyError, match=r"shape of omega = \(2, 3\)"):
+    with pytest.raises(BodyError, match=r"omega = \(2, 3\)"):
         integrate_rotation(BODY, np.ones((2, 3)), [1.0])
     with pytest.raises(EarthspinError, match="the integration stopped"):
         integrate_rotation(

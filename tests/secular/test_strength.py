@@ -66,7 +66,7 @@ def test_tides_over_a_million_years() -> None:
 @pytest.mark.parametrize("tides", [Tides(moon=-1e-15), Tides(spin=-1e-15)])
 def test_tides_that_would_stop_spin_or_moon_are_refused(tides: Tides) -> None:
     strength = PrecessionConstant(sun=1e-12, moon=1e-12, tides=tides)
-    with pytest.raises(UndefinedError, match="half; give a smaller factor"):
+    with pytest.raises(UndefinedError, match="smaller factor"):
         strength.constant(np.array([6e14]), NOW)
 
 

@@ -104,7 +104,7 @@ def test_the_source() -> None:
     found = source.positions({"back": back}, CENTRE, days)["back"]
     np.testing.assert_array_equal(found, -one.positions(days))
     assert source.coverage([back]) == (-math.inf, math.inf)
-    with pytest.raises(SceneError, match=r"'mars'.*no orbit by elements"):
+    with pytest.raises(SceneError, match="'mars'"):
         source.code((499,), "mars")
     with pytest.raises(UndefinedError, match="not finite"):
         source.check_times(np.array([math.nan]), [back])

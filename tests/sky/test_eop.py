@@ -170,7 +170,7 @@ def test_finals_with_another_calendar(file: Path) -> None:
     file.write_text("\n".join(rows))
     assert eop.read_polar_motion(file, "finals2000A").mjd[0] == 41684
     file.write_text("\n".join([*rows[:99], "73 4 1" + rows[99][6:], *rows[100:]]))
-    with pytest.raises(SeriesError, match=r"line 100: MJD .* differs from the calendar date"):
+    with pytest.raises(SeriesError, match="line 100: MJD"):
         eop.read_polar_motion(file)
 
 
@@ -406,7 +406,7 @@ def test_other_tables_are_refused_with_a_remedy(file: Path, text: str, words: st
 @pytest.mark.parametrize("text", [part_of_c01(46900, 48000), PUBLISHED["EOP2"][0]], ids=range(2))
 def test_rows_without_a_date_are_refused(file: Path, text: str) -> None:
     file.write_text(re.sub(r"(?m)^\s*(46923\S*|61001\.0)", " nan", text))
-    with pytest.raises(SeriesError, match="the date is nan; give each row a date"):
+    with pytest.raises(SeriesError, match="date is nan"):
         eop.read_polar_motion(file)
 
 

@@ -104,7 +104,7 @@ def test_a_jump_in_a_free_fit_is_refused(tmp_path: Path) -> None:
     piece.series[20, 1, 3] *= 1.5
     kernel = Ephemeris(write_kernel(tmp_path / "jump.bsp", [piece]))
     kernel.positions({"it": 2_000_001}, 0, np.linspace(0, 500, 400))
-    with pytest.raises(KernelError, match="jumps between records 20 and 21"):
+    with pytest.raises(KernelError, match="records 20 and 21"):
         kernel.positions({"it": 2_000_001}, 0, np.linspace(0, 1280, 400))
 
 
@@ -121,7 +121,7 @@ def test_records_that_are_not_used_are_not_read(tmp_path: Path, pieces: list[Pie
 def test_several_segments_for_one_body_are_refused(tmp_path: Path) -> None:
     early = circle(3, 8)
     late = replace(early, start=early.start + 3 * early.length)
-    with pytest.raises(KernelError, match="several segments for one body"):
+    with pytest.raises(KernelError, match="several segments"):
         Ephemeris(write_kernel(tmp_path / "two.bsp", [early, late]))
 
 

@@ -182,7 +182,7 @@ def test_the_published_c01_from_1962_on(tmp_path: Path) -> None:
     ]
     file = tmp_path / "eopc01.txt"
     file.write_text("\n".join(" ".join(row) for row in [*optical, *between, *late]))
-    with pytest.raises(SeriesError, match="before 1962 they are optical; give a span"):
+    with pytest.raises(SeriesError, match=r"1962.*span"):
         earthspin.pole_offsets(file=str(file))
     answer = earthspin.pole_offsets(file=str(file), span=("1962-01-01", "1988-01-01"))
     observed = [row for row in late if float(row[4]) and float(row[0]) < 47161]
@@ -204,7 +204,7 @@ def test_c01_by_year(tmp_path: Path) -> None:
     assert np.array(values) / MAS == pytest.approx([0.169, -0.209, 0.1, 0.1], rel=1e-12, abs=0)
     assert eop.read_polar_motion(file).y[1] == pytest.approx(0.490185 * ARCSEC, rel=1e-14, abs=0)
     file.write_text("1900.0 0.1 0.01 0.1 0.01\n1900.1 0.1 0.01 0.1 0.01\n")
-    with pytest.raises(SeriesError, match="5 columns holds no dX, dY; take one of 11"):
+    with pytest.raises(SeriesError, match=r"5 columns.*dX, dY"):
         eop.read_pole_offsets(file, "c01")
 
 

@@ -3,17 +3,11 @@
 import re
 from collections.abc import Iterator
 from functools import cache
-from itertools import combinations
 
 import pytest
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.dates import DateLocator
 from matplotlib.figure import Figure
-from matplotlib.text import Annotation, Text
-from matplotlib.transforms import Bbox
 
-from earthspin.views.drawing import empty, style
-from earthspin.views.pole import plot_pole_residuals
 from earthspin.views.rendering import drawings_for
 from tests import shipped
 
@@ -47,42 +41,3 @@ def test_every_label_is_a_quantity_and_its_unit_in_brackets(scene: str) -> None:
         figure.draw_without_rendering()
         for label in labels(figure):
             assert LABEL.fullmatch(label), label
-
-
-def words(figure: Figure) -> Iterator[tuple[str, Bbox]]:
-    """Notes, titles and legends, and where they lie."""
-    canvas = FigureCanvasAgg(figure)
-    canvas.draw()
-    renderer = canvas.get_renderer()
-    ticks = {
-        label for ax in figure.axes for label in (*ax.get_xticklabels(), *ax.get_yticklabels())
-    }
-    for text in figure.findobj(Text):
-        if text in ticks or not text.get_visible() or not text.get_text().strip():
-            continue
-        if isinstance(text, Annotation):
-            ax = text.axes
-            assert ax is not None
-            if not ax.bbox.contains(*ax.transData.transform(text.xy)):
-                continue  # it is not drawn
-            yield text.get_text(), Text.get_window_extent(text, renderer)
-        elif not text.get_text().strip("−0123456789."):
-            continue  # a tick beyond the limits
-        else:
-            yield text.get_text(), text.get_window_extent(renderer)
-
-
-def collisions(figure: Figure) -> list[tuple[str, str]]:
-    """Pairs of words that lie over one another."""
-    return [
-        (one, other)
-        for (one, a), (other, b) in combinations(words(figure), 2)
-        if a.padded(-0.5).overlaps(b.padded(-0.5))
-    ]
-
-
-@pytest.mark.parametrize("width", [5.5, 6.4, 8.0])
-def test_words_above_the_residuals_keep_apart(width: float) -> None:
-    with style():
-        ax = plot_pole_residuals(shipped.tree("iau"), ax=empty(width, 3).add_subplot())
-    assert collisions(ax.figure) == []

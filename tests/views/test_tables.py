@@ -7,7 +7,7 @@ import xarray as xr
 import earthspin
 from earthspin import EARTH
 from earthspin.scenes import QUESTIONS
-from earthspin.views.rendering import drawings_for, run_time_tables, scene_page, tables_for
+from earthspin.views.rendering import run_time_tables, scene_page, tables_for
 from earthspin.views.result_contents import answer_of, section
 from earthspin.views.tables import (
     MOST_ROWS,
@@ -97,16 +97,6 @@ def test_another_earth_says_so_and_shows_nothing_observed() -> None:
     ours = scene_page(earthspin.run_tree("precession"))
     assert "43200" not in ours
     assert "Source of the observed period: Nastula" in ours
-
-
-def test_another_ladder_says_so_and_has_no_band() -> None:
-    slow = earthspin.run_tree(earthspin.load_scene("wobble", {"body.spin_period": "20 h"}))
-    assert "earth with spin_period = 72000.0 s" in tables_for(slow)[0].note
-    (drawing,) = drawings_for(slow)
-    assert "band" not in drawing.caption
-    assert "72000.0 s" in drawing.caption
-    (ours,) = drawings_for(earthspin.run_tree("wobble"))
-    assert "the band is the observed period" in ours.caption
 
 
 def test_headers_are_the_declared_labels_with_their_units() -> None:

@@ -5,7 +5,7 @@ from itertools import product
 
 import pytest
 
-from earthspin.views.page import anchor, figure_on_page, source, typeset
+from earthspin.views.page import anchor, source, typeset
 
 SHEET = source("page.css")
 
@@ -34,16 +34,6 @@ def test_words_are_set(plain: str, set_: str) -> None:
 
 def test_a_name_in_links_is_plain() -> None:
     assert anchor("Rates at J2000.0, effect by effect") == "rates-at-j2000-0-effect-by-effect"
-
-
-def test_a_figure_takes_ink_and_paper_of_its_page() -> None:
-    paper = '<g id="a" style="fill: #ffffff; stroke: #0072B2"/>'
-    svg = f'<svg width="1">{paper}<g style="fill: #595959"/></svg>'
-    shown = figure_on_page(svg, "figure-1", 'a "b"', "usual")
-    assert 'aria-label="a &quot;b&quot;"' in shown
-    assert 'id="figure-1-a"' in shown
-    assert "fill: var(--paper); stroke: var(--blue)" in shown
-    assert "color-mix(in srgb, var(--ink) 65%, var(--paper))" in shown
 
 
 def _luminance(colour: str) -> float:

@@ -53,10 +53,6 @@ def test_the_observed_polhode_is_drawn_as_published(pole: xr.DataTree) -> None:
     assert np.ptp(axis.get_ylim()) == pytest.approx((high - low) * 6356752 * MAS, rel=1e-6, abs=0)
 
 
-def test_tables_of_the_pole(pole: xr.DataTree) -> None:
-    assert "quality factor" in words(pole)
-
-
 def test_ladder_figure(ladder: xr.DataTree) -> None:
     ax = wobble.plot_ladder(ladder)
     drawn = ax.containers[0].lines[0]

@@ -287,5 +287,5 @@ def test_interior_inputs_have_a_range(inputs: dict) -> None:
 def test_a_body_whose_ocean_yields_more_than_its_bulge_is_refused() -> None:
     """The secular Love number of the Earth is 0.94, of which the solid Earth takes 0.30."""
     assert float(earthspin.wobble_ladder(ocean_love_number=0.5).period_solar.max()) > 1000
-    with pytest.raises(EarthspinError, match="yields by more than the body's bulge"):
+    with pytest.raises(EarthspinError, match="bulge"):
         earthspin.wobble_ladder(ocean_love_number=0.9)

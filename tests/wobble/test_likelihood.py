@@ -223,10 +223,10 @@ def test_the_modelled_amplitude_follows_the_observed(
 
 def test_what_does_not_go_together_is_refused(synthetic: tuple[xr.Dataset, xr.Dataset]) -> None:
     pole, chi = synthetic
-    with pytest.raises(SceneError, match="with an excitation it is 'likelihood'"):
+    with pytest.raises(SceneError, match="'likelihood'"):
         earthspin.fit_chandler(pole, excitation=chi, method="burg")
     late = chi.assign_coords(time=chi.time + np.timedelta64(3, "h"))
-    with pytest.raises(SceneError, match="means over the steps of the pole"):
+    with pytest.raises(SceneError, match="steps of the pole"):
         earthspin.fit_chandler(pole, excitation=late)
     far = chi.assign_coords(time=chi.time + np.timedelta64(40_000, "D"))
     with pytest.raises(SceneError, match="no span in common"):

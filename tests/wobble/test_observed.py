@@ -203,17 +203,6 @@ def test_the_pole_turns_forwards(c04: tuple[np.ndarray, np.ndarray]) -> None:
 # --- labelled --------------------------------------------------------------------------------
 
 
-def test_contract(tree: xr.DataTree, pole: xr.Dataset) -> None:
-    assert pole.x.attrs["units"] == pole.y.attrs["units"] == "arcsec"
-    fit = earthspin.fit_chandler(pole)
-    assert fit.chandler_amplitude.dims == ("time",)
-    assert fit.chandler_amplitude.attrs["units"] == "mas"
-    assert fit.chandler_period.attrs["units"] == "d"
-    low, high = fit.chandler_quality_factor_low, fit.chandler_quality_factor_high
-    assert float(low) < float(fit.chandler_quality_factor) < float(high)
-    assert float(fit.chandler_period) == float(tree["chandler/chandler_period"])
-
-
 def test_excitation_there_and_back(pole: xr.Dataset) -> None:
     chi = earthspin.excitation(pole, period=432.5, quality_factor=101)
     back = earthspin.polar_motion_from(chi)

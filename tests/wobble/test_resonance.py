@@ -58,7 +58,7 @@ def test_whole_periods_without_loss_leave_no_trace() -> None:
     lossless = ex.chandler_frequency(433.0, np.inf)
     p = np.array([1.0, 2.0, 3.0], dtype=complex)
     for turns in (1, 2, 7):
-        with pytest.raises(UndefinedError, match=f"{turns} free periods .* no trace"):
+        with pytest.raises(UndefinedError, match=f"{turns} free periods"):
             ex.excitation(p, turns * 433.0, lossless)
     for step, s in ((433.0 * 1.001, lossless), (433.0, S), (1e-6, lossless)):
         assert np.all(np.isfinite(ex.excitation(p, step, s)))
