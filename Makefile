@@ -11,8 +11,8 @@ PYTHON_NEWEST ?= python3.14
 VERSIONED := $(addprefix tests/,docs engine extreme force fuzz numerics questions sky views) tests/test_*.py
 SPHINX := $(BIN)/python -m sphinx -q -W --keep-going -j auto -b html docs docs/_build/html
 
-# One thread of the BLAS for each worker: two would wait for each other on the same core.
-test slow test-lowest test-newest kills extreme: export OPENBLAS_NUM_THREADS := 1
+# One thread of the BLAS for each process: those of two would wait for each other on the same cores.
+test slow test-lowest test-newest check docs kills extreme: export OPENBLAS_NUM_THREADS := 1
 
 .PHONY: report test slow test-lowest test-newest check docs accuracy bench fuzz kills extreme clean
 

@@ -84,11 +84,7 @@ def test_j2_alone_keeps_the_polar_moment() -> None:
     )
 
 
-@given(
-    a=st.floats(1e30, 1e38),
-    stretch=st.floats(0.0, 0.5),
-    flat=st.floats(1e-6, 0.4),
-)
+@given(a=st.floats(1e30, 1e38), stretch=st.floats(0.0, 0.5), flat=st.floats(1e-6, 0.4))
 def test_moments_give_the_figure_they_came_from(a: float, stretch: float, flat: float) -> None:
     b = a * (1 + stretch)
     c = (a + b) / 2 * (1 + flat)

@@ -284,15 +284,7 @@ def test_limits_of_the_obliquity() -> None:
         assert at == pytest.approx(near, rel=1e-4, abs=0)
 
 
-def test_a_question_that_leaves_satellites_out_says_so() -> None:
-    figure = JUPITER.replace(flattening=0.06487)
-    ladder = earthspin.wobble_ladder(body=figure)
-    assert "the satellites Io, Europa, Ganymede, Callisto" in ladder.attrs["neglected"]
-    assert "all deformation" in ladder.attrs["neglected"]
-    alone = earthspin.wobble_ladder(body=figure.replace(satellites=[]))
-    assert "satellites" not in alone.attrs["neglected"]
-    turned = earthspin.rotation("2000-01-01T12:00", "2000-01-02", "12 h", body="jupiter")
-    assert "node of Europa" in turned.attrs["neglected"]
+def test_a_question_that_leaves_satellites_out_has_their_sizes() -> None:
     # a chord of 0.18 arcsec radius in half a turn of Io's node, and the diameter thereafter
     found = node_nutations(JUPITER, *pull_and_obliquity("jupiter"))
     for years, size in ((1.0, 0.149), (3.714, 0.3636), (10.0, 0.3636)):

@@ -149,6 +149,8 @@ def test_no_public_name_is_a_modules_name() -> None:
 def test_public_names_alone_are_shown() -> None:
     program = (
         "import earthspin; earthspin.plan('wobble'); earthspin.ensemble\n"
+        "assert earthspin.bodies.JUPITER.name == 'jupiter'\n"
+        "assert not hasattr(earthspin, 'nothing') and not hasattr(earthspin.views, 'nothing')\n"
         "assert dir(earthspin) == sorted(earthspin.__all__)\n"
         "for name in dir(earthspin): getattr(earthspin, name)\n"
         "assert dir(earthspin) == sorted(earthspin.__all__)"

@@ -14,8 +14,7 @@ from earthspin.bodies import SATURN, URANUS
 
 @settings(deadline=None, max_examples=40)
 @given(
-    body=st.sampled_from([EARTH, MARS, SATURN, URANUS]),
-    obliquity=st.floats(0.01, math.pi - 0.01),
+    body=st.sampled_from([EARTH, MARS, SATURN, URANUS]), obliquity=st.floats(0.01, math.pi - 0.01)
 )
 def test_the_axis_leans_as_told_and_the_equinox_stays(body: Body, obliquity: float) -> None:
     tilted = body.replace(obliquity=obliquity)

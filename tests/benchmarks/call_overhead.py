@@ -34,12 +34,7 @@ CALLS: dict[str, Callable[[], xr.Dataset]] = {
     "polar_motion": earthspin.polar_motion,
     "free_rotor": lambda: earthspin.free_rotor([1, 2, 2.8], [0.01, 1, 0], [0, 10, 20]),
     "heavy_top": lambda: earthspin.heavy_top(
-        [0, 1, 2],
-        transverse_moment=1,
-        axial_moment=1.2,
-        weight_moment=1.5,
-        theta="40 deg",
-        spin=3,
+        [0, 1, 2], transverse_moment=1, axial_moment=1.2, weight_moment=1.5, theta="40 deg", spin=3
     ),
     "spheroid_field": lambda: earthspin.spheroid_field(["7000 km", "0 km", "0 km"]),
 }

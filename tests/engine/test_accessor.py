@@ -1,7 +1,5 @@
 """`ds.earthspin`: what an answer knows of itself."""
 
-import re
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -28,11 +26,6 @@ def test_the_plan_is_a_table_with_its_seconds() -> None:
     run = Run(load_scene("wobble", {"wobble.ocean": "global"}))
     run.answer()
     plan = run.plan()
-    text = str(plan)
-    assert re.search(r"^  wobble-rungs .+ \[\d+\.\d ms\]$", text, re.MULTILINE)
-    assert "ran, in this order" in text
-    assert re.search(r"^  sensitivity +its section was not requested$", text, re.MULTILINE)
-    assert repr(plan) == text
     rows = {row.part: row for row in plan.rows}
     assert rows["wobble-rungs"].status == "ran"
     assert rows["wobble-rungs"].seconds is not None

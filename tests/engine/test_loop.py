@@ -317,10 +317,7 @@ for _ in range(times):
 
 @pytest.mark.parametrize(
     "times",
-    [
-        pytest.param(10, marks=pytest.mark.slow),
-        pytest.param(100, marks=pytest.mark.every_kill),
-    ],
+    [pytest.param(10, marks=pytest.mark.slow), pytest.param(100, marks=pytest.mark.every_kill)],
 )
 def test_killed_again_and_again(tmp_path: Path, times: int) -> None:
     """Kill a run again and again; what comes out must be what an undisturbed run gives."""

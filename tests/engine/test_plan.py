@@ -62,9 +62,7 @@ def test_a_dimension_of_results_is_not_one_of_bodies() -> None:
     assert error.value.key == "body.dynamical_flattening"
 
 
-def test_a_changed_question_gets_no_result_of_another_path(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_changed_question_gets_no_result_of_another_path(monkeypatch: pytest.MonkeyPatch) -> None:
     """The key `response` of the pole leaves out parts that take no key themselves."""
     calls: list[str] = []
 

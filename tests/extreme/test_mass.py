@@ -5,10 +5,7 @@ import math
 import numpy as np
 
 from earthspin.constants import G
-from earthspin.mass.figure import (
-    maccullagh_potential,
-    spheroid_moments,
-)
+from earthspin.mass.figure import maccullagh_potential, spheroid_moments
 from earthspin.mass.multipoles import (
     exterior_multipoles,
     inverse_distance,

@@ -14,11 +14,7 @@ from earthspin.questions.torque import torque_series
 from earthspin.sky.iau_models import ecliptic_pole
 from earthspin.sky.poles import spherical
 from earthspin.torque.average import TAPERS, Window, best_window, precessing_torque
-from earthspin.torque.gravity import (
-    torque_from_declination,
-    torque_from_position,
-    zonal_law,
-)
+from earthspin.torque.gravity import torque_from_declination, torque_from_position, zonal_law
 from tests.extreme import Distances, holds, refused, relative_error
 from tests.reference.sky import BODY, J2, H
 

@@ -6,7 +6,5 @@ from earthspin.interior.layers import PREM, Layer
 
 CRUST = replace(PREM.layers[-1], top=6368e3)
 PREM_WITH_OCEAN = replace(
-    PREM,
-    name="prem-ocean",
-    layers=(*PREM.layers[:-1], CRUST, Layer(6371e3, (1020.0,), (1450.0,))),
+    PREM, name="prem-ocean", layers=(*PREM.layers[:-1], CRUST, Layer(6371e3, (1020.0,), (1450.0,)))
 )

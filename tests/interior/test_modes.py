@@ -12,14 +12,7 @@ from earthspin import EARTH
 from earthspin.interior.equilibrium import figure
 from earthspin.interior.layers import PREM
 from earthspin.interior.love import elastic
-from earthspin.interior.modes import (
-    Parts,
-    all_fluid,
-    free_modes,
-    system,
-    transfer,
-    wobble_response,
-)
+from earthspin.interior.modes import Parts, all_fluid, free_modes, system, transfer, wobble_response
 from tests.conftest import load_pins
 
 PINS = load_pins("nutation")

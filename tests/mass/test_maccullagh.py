@@ -104,11 +104,7 @@ test_wrong_input = refused(
         UndefinedError,
         r"\[0, 0, 0\] is the centre",
     ),
-    (
-        lambda: figure.maccullagh_potential(-1.0, np.eye(3), [1.0, 0, 0]),
-        BodyError,
-        r"mass = -1\.0",
-    ),
+    (lambda: figure.maccullagh_potential(-1.0, np.eye(3), [1.0, 0, 0]), BodyError, r"mass = -1\.0"),
     (
         lambda: figure.maccullagh_potential_axisymmetric(1.0, 1.0, 0.0, 0.0),
         BodyError,

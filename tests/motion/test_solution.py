@@ -15,16 +15,7 @@ from earthspin.numerics import rotations
 from earthspin.rotor.triaxial import free_rotation
 from earthspin.top.closed_form import heavy_top_motion
 from earthspin.top.start import HeavyTop
-from tests.motion.kepler import (
-    ALONE,
-    AS_SKY,
-    Ellipse,
-    angle,
-    followed,
-    of_moments,
-    rigid,
-    start,
-)
+from tests.motion.kepler import ALONE, AS_SKY, Ellipse, angle, followed, of_moments, rigid, start
 from tests.reference.attitude import attitude_motion
 
 #: H, (B - A)/C, spin and eccentricity: a tumbling moon, a moon that keeps its face, a fast planet.

@@ -33,16 +33,10 @@ def test_products() -> None:
 def test_products_with_vectors() -> None:
     bare = np.concatenate([np.zeros((1, 50)), V])
     np.testing.assert_allclose(
-        rotations.times_vector(rows(P), V),
-        rotations.times(rows(P), bare),
-        rtol=0,
-        atol=1e-15,
+        rotations.times_vector(rows(P), V), rotations.times(rows(P), bare), rtol=0, atol=1e-15
     )
     np.testing.assert_allclose(
-        rotations.vector_times(V, rows(P)),
-        rotations.times(bare, rows(P)),
-        rtol=0,
-        atol=1e-15,
+        rotations.vector_times(V, rows(P)), rotations.times(bare, rows(P)), rtol=0, atol=1e-15
     )
 
 
@@ -66,9 +60,6 @@ def test_angles_keep_their_digits() -> None:
     found = rotations.angle_between(rows(P), rows(aside * P))
     np.testing.assert_allclose(found, small, rtol=1e-6, atol=0)
     np.testing.assert_allclose(
-        rotations.angle_between(rows(P), rows(Q)),
-        (P.inv() * Q).magnitude(),
-        rtol=0,
-        atol=1e-14,
+        rotations.angle_between(rows(P), rows(Q)), (P.inv() * Q).magnitude(), rtol=0, atol=1e-14
     )
     np.testing.assert_allclose(rotations.angle_between(rows(P), -rows(P)), 0, rtol=0, atol=1e-15)

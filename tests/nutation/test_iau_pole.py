@@ -62,11 +62,6 @@ def test_effects_that_only_swing_leave_the_rate_alone(result: xr.Dataset) -> Non
     assert rate(result, "nonrigid") == 0
 
 
-def test_shares_add_up_to_the_whole(result: xr.Dataset) -> None:
-    assert abs(float(result.psi_rate.sum() - result.psi_rate_total)) < 7e-14
-    assert abs(float(result.omega_rate.sum() - result.omega_rate_total)) < 1e-15
-
-
 def test_first_order_is_the_published_one(result: xr.Dataset) -> None:
     """5494.062986 cos(eps0) - 0.269430 arcsec a century."""
     published = 5494.062986 * np.cos(EPSILON_0.value * ARCSEC) - 0.26943

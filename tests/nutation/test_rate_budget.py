@@ -15,7 +15,6 @@ from earthspin.constants import (
     P_A_RATE,
     PSI_A_RATE,
 )
-from earthspin.motion.effects import EFFECTS
 from earthspin.nutation import rate_budget
 from earthspin.sky.iau_models import precession_rates
 from tests import shipped
@@ -54,14 +53,6 @@ def test_rates_are_erfas(angle: str, constant: object) -> None:
 def test_identity_of_the_general_precession() -> None:
     sum_ = PSI_A_RATE.value - CHI_A_RATE.value * np.cos(EPSILON_0.value * ARCSEC)
     assert abs(sum_ - P_A_RATE.value) < 1e-8
-
-
-def test_effects_are_words_of_the_grammar_the_largest_first() -> None:
-    effects = rate_budget.published_effects()
-    assert set(effects) <= set(EFFECTS)
-    sizes = [abs(v) for v in effects.values()]
-    assert sizes == sorted(sizes, reverse=True)
-    assert next(iter(effects)) == "geodesic"
 
 
 def test_the_published_effects_close_the_difference(precession_tree: xr.DataTree) -> None:
@@ -107,13 +98,6 @@ def test_the_iau_rate_is_that_of_the_same_epoch() -> None:
     result = earthspin.run_tree(scene, "iau_2006")["iau_2006"]
     assert float(result.iau_rate) > PSI_A_RATE.value + 1e-2
     assert abs(float(result.closure)) < 2e-4  # measured: 1.1e-4, where the drifts differ
-
-
-def test_only_sun_and_moon_are_compared() -> None:
-    plan = earthspin.plan(
-        earthspin.Scene(compute="precession", perturbers=["sun", "moon", "venus"])
-    )
-    assert plan.left_out["iau-2006"] == "the comparison is for Sun and Moon only"
 
 
 def test_each_rate_lies_within_its_error_of_the_published_one() -> None:

@@ -5,7 +5,7 @@ import math
 import pytest
 
 import earthspin
-from data_tools.worlds import CIRCULAR, OBSERVED, PUBLISHED, locked, worlds
+from data_tools.worlds import PUBLISHED, locked, worlds
 from earthspin import MARS, MOON
 from earthspin.bodies.earth_moon_sun import MOON_OBLIQUITY
 from earthspin.bodies.moons import TITAN_OBLIQUITY
@@ -102,11 +102,6 @@ def test_nodes_of_satellites_are_no_error_of_the_mean_rate() -> None:
     assert max(sizes(tree).values()) > 0.25
     assert systematic_size(section) == pytest.approx(0.07, rel=1e-12, abs=0)
     assert beside_observed(0.74, 0.013, section) == "0.740(83)"
-
-
-def test_comparisons_with_what_a_number_comes_from_are_marked() -> None:
-    marked = {name for name, of in (PUBLISHED | OBSERVED).items() if of.why.startswith(CIRCULAR)}
-    assert marked == {"venus", "earth", "mars", "mercury"}
 
 
 def test_sizes_add_up_without_their_signs() -> None:

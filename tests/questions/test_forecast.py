@@ -166,11 +166,6 @@ def test_a_dataset_of_polar_motion_and_its_scene(ahead: xr.Dataset) -> None:
     assert np.array_equal(again.x, given.x)
 
 
-def test_polar_motion_reads_finals() -> None:
-    pole = earthspin.polar_motion(span=("2010-01-01", "2010-02-01"), file="finals")
-    assert pole.x.attrs["references"] == "IERS finals2000A"
-
-
 def test_steps_are_rows_of_the_daily_forecast(ahead: xr.Dataset) -> None:
     weekly = earthspin.forecast(365, "7 d", ORIGIN, "c04")
     assert np.array_equal(weekly.x, ahead.x[6::7])

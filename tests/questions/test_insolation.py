@@ -167,8 +167,6 @@ def test_mars_gets_less_by_the_square_of_its_distance() -> None:
     ("arguments", "words"),
     [
         (("91 deg", "0 deg"), "latitude = '91 deg': give at most 90 degrees"),
-        ((65.0, "0 deg"), "write '65 deg'"),
-        (("65 deg", 90.0), "write '90 deg'"),
         (("65E", "0 deg"), "latitude"),
         (("65 deg", "400 deg"), "at most 360 degrees"),
         (("65 km", "0 deg"), "not a value in units of rad"),
@@ -186,7 +184,6 @@ def test_wrong_angles_are_refused(
 @pytest.mark.parametrize(
     ("named", "words"),
     [
-        ({"days": "2 yr"}, "at most a year"),
         ({"days": "0 d"}, "at most a year"),
         ({"solar_constant": -1.0}, "above zero"),
         ({"solar_constant": "1361 W"}, "W/m2"),

@@ -40,8 +40,7 @@ def refused(question: Callable[[], object], words: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "word",
-    ["precession", "pole", "rotation", "iau", "nutation", "long-term", "wobble"],
+    "word", ["precession", "pole", "rotation", "iau", "nutation", "long-term", "wobble"]
 )
 def test_a_spin_above_break_up(word: str) -> None:
     refused(asked(word, body=EARTH.replace(spin_period=FAST)), "spin_period")

@@ -163,9 +163,7 @@ def test_friction_in_newton_metres_slows_the_spin() -> None:
 def test_time_is_counted_from_the_start_and_axes_are_the_bodys() -> None:
     """A push about C for the first half minute alone, for a body that lies on its side."""
     found = earthspin.rotation(
-        body=ROUND,
-        torque=lambda t, q, omega: np.outer(t, [0.0, 0.0, 1e-3]),
-        **ALONE,
+        body=ROUND, torque=lambda t, q, omega: np.outer(t, [0.0, 0.0, 1e-3]), **ALONE
     )
     seconds = np.arange(found.sizes["time"]) * 5.0
     np.testing.assert_allclose(

@@ -98,12 +98,6 @@ def test_the_flattening_of_mars_is_as_uncertain_as_published() -> None:
     assert h * share["dynamical_flattening"] == pytest.approx(1.48e-6, rel=0.01, abs=0)
 
 
-def test_worlds_that_know_their_pole() -> None:
-    known = {name for name, body in BODIES.items() if body.pole_uncertainty is not None}
-    assert known == {"mercury", "earth", "mars", "saturn"}
-    assert EARTH.pole_uncertainty == pytest.approx(0.001 * ARCSEC, rel=1e-12, abs=0)
-
-
 def test_saturns_half_width_holds_another_pole() -> None:
     """Jacobson 2007 (BAAS 39, 317) at J2000.0, its terms included; measured: 2.91 arcsec."""
     off = BODIES["saturn"].pole.mean(np.zeros(1))[0] - vector((40.584857, 83.537661))

@@ -115,11 +115,7 @@ def cases(family: str, count: int) -> Iterator[Case]:
 
 def _cone(speed: float, cone: float, longitude: float) -> list[float]:
     across = speed * math.sin(cone)
-    return [
-        across * math.cos(longitude),
-        across * math.sin(longitude),
-        speed * math.cos(cone),
-    ]
+    return [across * math.cos(longitude), across * math.sin(longitude), speed * math.cos(cone)]
 
 
 @cache

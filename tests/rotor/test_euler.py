@@ -7,12 +7,7 @@ import pytest
 
 from earthspin.errors import BodyError, EarthspinError
 from earthspin.numerics.quaternion import rotate
-from earthspin.rotor.euler import (
-    axis_stability,
-    euler_rates,
-    integrate_rotation,
-    twice_energy,
-)
+from earthspin.rotor.euler import axis_stability, euler_rates, integrate_rotation, twice_energy
 from earthspin.rotor.triaxial import free_rotation
 
 BODY = [1.0, 2.0, 2.5]

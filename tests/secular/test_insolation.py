@@ -6,13 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from earthspin.secular.insolation import (
-    Season,
-    daily,
-    mean_longitude,
-    over_days,
-    true_longitude,
-)
+from earthspin.secular.insolation import Season, daily, mean_longitude, over_days, true_longitude
 
 DEGREE = np.pi / 180
 #: Orbit that climlab takes for today's: its perigee of the Sun is 281.37 degrees.

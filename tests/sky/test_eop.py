@@ -252,10 +252,7 @@ def below(change: Callable[[str], str]) -> Callable[[list[str]], list[str]]:
             ],
             "stands twice",
         ),
-        (
-            at(150, lambda row: row[:26] + "   123.45600" + row[37:]),
-            "line 151: .* milliarcseconds",
-        ),
+        (at(150, lambda row: row[:26] + "   123.45600" + row[37:]), "line 151: .* milliarcseconds"),
         (
             at(150, words_of(lambda words: words[:6] + words[7:])),
             "line 151: 20 columns; .* a column lost",
@@ -264,10 +261,7 @@ def below(change: Callable[[str], str]) -> Callable[[list[str]], list[str]]:
             below(lambda row: row.replace(row[16:26], f"{float(row[16:26]) + 1e5:10.2f}", 1)),
             r"line 7: MJD 137665.00 differs from the calendar date, MJD 37665",
         ),
-        (
-            at(36, lambda row: row[:4] + "   2  30" + row[12:]),
-            "line 37: there is no day 1962-2-30",
-        ),
+        (at(36, lambda row: row[:4] + "   2  30" + row[12:]), "line 37: there is no day 1962-2-30"),
         (below(in_radians), "line .* is it in radians"),
         (
             at(150, lambda row: row[:26] + "    1.899999" + row[38:]),
@@ -279,10 +273,7 @@ def below(change: Callable[[str], str]) -> Callable[[list[str]], list[str]]:
         ),
         (at(150, lambda row: row[:16] + "       nan" + row[26:]), "line 151: .*calendar"),
         (at(150, lambda row: row[:16] + "       inf" + row[26:]), "line 151: .*calendar"),
-        (
-            at(20, lambda row: row[:26] + "       pole " + row[38:]),
-            "line 21: could not convert",
-        ),
+        (at(20, lambda row: row[:26] + "       pole " + row[38:]), "line 21: could not convert"),
         (lambda rows: rows[:6], "none of the known tables"),
         (lambda rows: rows[:7], "holds 1 rows"),
         (lambda rows: ["this is no table", "1 2 3"], "none of the known tables"),

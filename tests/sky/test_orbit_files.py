@@ -169,10 +169,7 @@ def test_both_layouts_are_the_same_orbit(tilt: float, node: float, varpi: float,
     sines = np.sin(tilt / 2)
     other = read_orbit(
         pd.DataFrame({"t": t}).assign(
-            k=e * np.cos(varpi),
-            h=e * np.sin(varpi),
-            q=sines * np.cos(node),
-            p=sines * np.sin(node),
+            k=e * np.cos(varpi), h=e * np.sin(varpi), q=sines * np.cos(node), p=sines * np.sin(node)
         ),
         body="x",
     )

@@ -152,31 +152,9 @@ def test_a_body_with_a_pole_of_its_own() -> None:
     assert apart(fast.torque, slow.torque) < 1e-13  # measured: 2e-15
 
 
-def test_an_answer_says_who_read_the_kernel() -> None:
-    slow = earthspin.torque_series("2000-01-01", "2000-01-03", "1 d", source="skyfield")
-    assert slow.attrs["skyfield_version"]
-    assert earthspin.run(slow).identical(slow)
-    scene = earthspin.load_scene(slow)
-    assert "(body - centre).at(t).frame_latlon(equator)" in str(earthspin.plan(scene))
-    assert "read from de421 with jplephem" in str(earthspin.plan("torque"))
-
-
-def test_a_source_with_an_equator_of_date_leaves_nutation_out() -> None:
-    slow = earthspin.torque_series(
-        "2000-01-01", "2000-01-03", "1 d", source="skyfield", equator="true"
-    )
-    assert slow.direction_error.attrs["method"] == "IAU 2000A nutation at each time"
-    assert "skyfield has the equator of date" in str(slow.earthspin.plan)
-
-
 def test_times_outside_the_kernel(skyfield: Skyfield) -> None:
     with pytest.raises(earthspin.CoverageError, match="1899-07-29"):
         earthspin.torque_series("1899-01-01", "1899-02-01", "1 d", source="skyfield")
     for call in (skyfield.positions, lambda *a: skyfield.radec(*a, None)):
         with pytest.raises(earthspin.CoverageError):
             call(TARGETS, 399, np.array([np.nan]))
-
-
-def test_a_misspelt_source() -> None:
-    with pytest.raises(earthspin.SceneError, match="did you mean 'skyfield'"):
-        earthspin.torque_series("2000-01-01", "2000-01-03", "1 d", source="skyfeild")

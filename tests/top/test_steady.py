@@ -9,11 +9,7 @@ import pytest
 from earthspin.errors import UndefinedError
 from earthspin.top.closed_form import heavy_top_motion
 from earthspin.top.height import nutation_period, turning_angles
-from earthspin.top.patterns import (
-    minimum_spin,
-    sleeping_top,
-    steady_precession,
-)
+from earthspin.top.patterns import minimum_spin, sleeping_top, steady_precession
 from earthspin.top.start import HeavyTop
 from tests.reference.heavy_top import integrate_heavy_top
 

@@ -96,10 +96,7 @@ def test_two_turns_are_refused() -> None:
         best_window(0.0, 50 * JULIAN_YEAR, CYCLE)
 
 
-@given(
-    phases=st.lists(st.floats(0, 2 * np.pi), min_size=4, max_size=4),
-    turns=st.integers(3, 8),
-)
+@given(phases=st.lists(st.floats(0, 2 * np.pi), min_size=4, max_size=4), turns=st.integers(3, 8))
 def test_the_error_covers_incommensurable_waves(phases: list[float], turns: int) -> None:
     """Four waves like those of the Moon's torque: half-month, month, year, node."""
     window = Window(0.0, turns, 6798.38, "sin4")

@@ -56,28 +56,35 @@ def test_every_picture_is_painted_and_the_console_is_clean(
     assert "CONSOLE" not in log, log
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("scene", ["precession", "iau"])
-def test_nothing_lies_beyond_the_edge_of_a_phone(browser: str, scene: str, tmp_path: Path) -> None:
-    """In a frame of 390 pixels, the page is no wider, nor is any of its tables and figures."""
-    frame = tmp_path / "phone.html"
-    content = json.dumps(scene_page(shipped.tree(scene))).replace("<", r"\u003c")
+def title_on_a_phone(browser: str, folder: Path, page: str, script: str) -> str:
+    """Title that a script gives a frame of 390 pixels, in which `page` is the document."""
+    frame = folder / "phone.html"
+    content = json.dumps(page).replace("<", r"\u003c")
     frame.write_text(
         f"""<!DOCTYPE html><iframe width="390" height="800" frameborder="0"></iframe><script>
         const frame = document.querySelector("iframe");
         frame.onload = () => {{
           const page = frame.contentDocument, wide = page.documentElement.scrollWidth;
-          const beyond = [...page.querySelectorAll("main *, header *")]
-            .filter((e) => !e.closest("thead, svg") && e.getBoundingClientRect().right > 390);
-          document.title = `${{wide}} ${{beyond.map((e) => e.outerHTML).join("")}}`;
+          {script}
         }};
         frame.srcdoc = {content};
         </script>""",
         encoding="utf-8",
     )
-    html, log = opened(browser, frame, tmp_path, "--dump-dom")
+    html, log = opened(browser, frame, folder, "--dump-dom")
     assert "CONSOLE" not in log, log
-    assert re.search(r"<title>(.*?)</title>", html, re.DOTALL)[1] == "390 "
+    return re.search(r"<title>(.*?)</title>", html, re.DOTALL)[1]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scene", ["precession", "iau"])
+def test_nothing_lies_beyond_the_edge_of_a_phone(browser: str, scene: str, tmp_path: Path) -> None:
+    """In a frame of 390 pixels, the page is no wider, nor is any of its tables and figures."""
+    script = """const beyond = [...page.querySelectorAll("main *, header *")]
+        .filter((e) => !e.closest("thead, svg") && e.getBoundingClientRect().right > 390);
+        document.title = `${wide} ${beyond.map((e) => e.outerHTML).join("")}`;"""
+    page = scene_page(shipped.tree(scene))
+    assert title_on_a_phone(browser, tmp_path, page, script) == "390 "
 
 
 def test_the_page_needs_no_network(page: Path) -> None:

@@ -10,7 +10,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import earthspin
-from earthspin.scenes import shipped_scenes
+from earthspin.scenes import QUESTIONS, shipped_scenes
 from earthspin.views.drawing import Drawing
 from earthspin.views.page import typeset
 from earthspin.views.rendering import (

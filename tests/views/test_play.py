@@ -29,7 +29,7 @@ from earthspin.views import PLAYS
 from earthspin.views.page import source
 from earthspin.views.play import NUMBERS, play_page
 from earthspin.wobble.ladder import Inputs, roots
-from tests.views.test_browser import browser, opened
+from tests.views.test_browser import browser, opened, title_on_a_phone
 
 __all__ = ["browser"]
 
@@ -420,17 +420,4 @@ def test_a_page_is_one_file_and_no_wider_than_a_phone(
     page = play_page(name)
     assert "http" not in page
     assert not re.search(r"(?:src|href)\s*=\s*\"", page)
-    frame = tmp_path / "phone.html"
-    content = json.dumps(page).replace("<", r"\u003c")
-    frame.write_text(
-        f"""<!DOCTYPE html><iframe width="390" height="800" frameborder="0"></iframe><script>
-        const frame = document.querySelector("iframe");
-        frame.onload = () => {{
-          document.title = frame.contentDocument.documentElement.scrollWidth;
-        }};
-        frame.srcdoc = {content};</script>""",
-        encoding="utf-8",
-    )
-    html, log = opened(browser, frame, tmp_path, "--dump-dom")
-    assert "CONSOLE" not in log, log
-    assert "<title>390</title>" in html
+    assert title_on_a_phone(browser, tmp_path, page, "document.title = wide;") == "390"

@@ -92,11 +92,8 @@ def test_another_earth_says_so_and_shows_nothing_observed() -> None:
         assert "earth with spin_period = 43200.0 s" in tables[title].note
     assert len(tables["Free wobble"].rows) == 1
     page = scene_page(slow)
-    assert "The axis of the Earth with spin_period = 43200.0 s goes once round" in page
-    assert "Nastula" not in page
-    ours = scene_page(earthspin.run_tree("precession"))
-    assert "43200" not in ours
-    assert "Source of the observed period: Nastula" in ours
+    assert "43200.0 s" in page
+    assert "Nastula" not in page  # the source of the observed period
 
 
 def test_headers_are_the_declared_labels_with_their_units() -> None:

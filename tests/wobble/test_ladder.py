@@ -51,11 +51,7 @@ def test_triaxial_rung_against_eulers_equations(h: float, share: float) -> None:
     turns = ladder.triaxial_period(h, j2, 2 * half)
 
     def euler(t: float, w: np.ndarray) -> list[float]:
-        return [
-            (b - c) / a * w[1] * w[2],
-            (c - a) / b * w[2] * w[0],
-            (a - b) / c * w[0] * w[1],
-        ]
+        return [(b - c) / a * w[1] * w[2], (c - a) / b * w[2] * w[0], (a - b) / c * w[0] * w[1]]
 
     def crossing(t: float, w: np.ndarray) -> float:
         return float(w[1])

@@ -133,16 +133,6 @@ def test_rotation_and_ellipticity_in_the_love_number() -> None:
     assert days == pytest.approx(told, rel=0, abs=0.05)
 
 
-def test_the_sizes_stand_in_the_answer() -> None:
-    found = shipped.tree("wobble")["neglected"].neglected_effect
-    assert found.attrs["units"] == "d"
-    assert dict(zip(found.effect.values, found.values, strict=True)) == pytest.approx(
-        {name: of.value for name, of in LEFT_OUT.items()}, rel=1e-15, abs=0
-    )
-    told = shipped.answer("wobble").attrs["neglected"]
-    assert told.startswith("rotation and ellipticity in the Love number: -2.7 d (change of")
-
-
 @pytest.mark.parametrize(
     ("body", "told"),
     [

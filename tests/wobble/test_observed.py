@@ -153,9 +153,7 @@ def test_the_observed_wobble(c04: tuple[np.ndarray, np.ndarray], method: str) ->
     assert low < 101 < high
 
 
-def test_a_short_span_may_leave_the_quality_factor_open(
-    c04: tuple[np.ndarray, np.ndarray],
-) -> None:
+def test_a_short_span_may_leave_the_quality_factor_open(c04: tuple[np.ndarray, np.ndarray]) -> None:
     time, p = c04
     short = (time > -6000) & (time < -1000)
     low, high = observed.fit(time[short], p[short], "likelihood").quality_bounds

@@ -50,12 +50,7 @@ def orbit() -> OrbitTable:
 
 def inputs() -> dict[str, Any]:
     """Inputs of the stored reference, including the checksum of the orbit table."""
-    return {
-        "orbit": orbit().sha256,
-        "strength": asdict(STRENGTH),
-        "span": SPAN,
-        "times": TIMES,
-    }
+    return {"orbit": orbit().sha256, "strength": asdict(STRENGTH), "span": SPAN, "times": TIMES}
 
 
 def times() -> FloatArray:

@@ -3,18 +3,14 @@
 import numpy as np
 import pytest
 
-from tests.benchmarks.accuracy import (
-    LADDERS,
-    excitation,
-)
+from tests.benchmarks.accuracy import LADDERS, excitation
 
 #: Ladders whose errors are taken from many records, seeds or epochs.
 SLOW = {"chandler", "ensemble", "forecast-30", "forecast-90", "precession", "torque"}
 
 
 @pytest.mark.parametrize(
-    "quantity",
-    [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in LADDERS],
+    "quantity", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in LADDERS]
 )
 def test_finest_settings_hold_their_bounds(quantity: str) -> None:
     methods = LADDERS[quantity]()
