@@ -82,7 +82,7 @@ def scene_at(word: str, time: Any) -> str:
 
 @cache
 def expected(day: str) -> tuple[np.ndarray, dict[str, str]]:
-    words = ("precession", "torque", "pole", "rotation", "iau", "polar-motion")
+    words = ("precession", "rotation", "polar-motion")
     return pole_and_axes(tdb(day)), {word: scene_at(word, tdb(day)) for word in words}
 
 

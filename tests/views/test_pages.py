@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 import earthspin
 from earthspin.scenes import QUESTIONS, shipped_scenes
+from earthspin.views import rendering
 from earthspin.views.drawing import Drawing
 from earthspin.views.page import typeset
 from earthspin.views.rendering import (
@@ -31,9 +32,12 @@ def drawings_of(scene: str) -> list[Drawing]:
 
 
 @pytest.mark.parametrize("scene", shipped_scenes())
-def test_the_page_of_a_scene_has_all_that_there_is(scene: str) -> None:
-    tree = shipped.tree(scene)
-    page, drawings, solids = scene_page(tree), drawings_of(scene), solids_for(tree)
+def test_the_page_of_a_scene_has_all_that_there_is(
+    scene: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tree, drawings = shipped.tree(scene), drawings_of(scene)
+    monkeypatch.setattr(rendering, "drawings_for", lambda _: drawings)  # they are drawn once
+    page, solids = scene_page(tree), solids_for(tree)
     headings = [unescape(words) for words in re.findall(r"<h2>(.*?)</h2>", page)]
     # a square first figure stands beside the title, where it needs no heading
     beside_the_title = int(any(drawing.square for drawing in drawings[:1]))
