@@ -14,7 +14,7 @@ SPHINX := $(BIN)/python -m sphinx -q -W --keep-going -j auto -b html docs docs/_
 # One thread of the BLAS for each process: those of two would wait for each other on the same cores.
 test slow test-lowest test-newest check docs kills extreme: export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: report test slow test-lowest test-newest check docs accuracy bench fuzz kills extreme clean
+.PHONY: report test slow test-lowest test-newest check docs accuracy bench fuzz kills mutants extreme clean
 
 report: $(VENV)/.core
 	$(BIN)/earthspin report --out report
@@ -54,6 +54,10 @@ kills: $(VENV)/.test
 
 fuzz: $(VENV)/.test
 	$(BIN)/python -m tests.fuzz $(or $(SEED),1) $(or $(COUNT),20000)
+
+# Random changes of the physics; those that no test notices are printed.
+mutants: $(VENV)/.test
+	$(BIN)/python -m tests.mutants $(or $(N),100) $(or $(SEED),1)
 
 # Error against run time of every method: the tables and figures of the page and of the README.
 accuracy: $(VENV)/.test

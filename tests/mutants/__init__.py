@@ -1,0 +1,1 @@
+"""Random changes of the package: does a test notice each of them?"""
