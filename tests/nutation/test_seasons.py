@@ -1,6 +1,9 @@
 """What the rate means in the sky and in the calendar."""
 
+import datetime
+
 import numpy as np
+import pytest
 import xarray as xr
 
 from earthspin.constants import (
@@ -31,6 +34,14 @@ def test_the_iau_rate_gives_the_tropical_year() -> None:
     assert abs(year - TROPICAL_YEAR.value) < 0.05  # s; measured: 0.006, between the two models
 
 
+def test_the_gregorian_calendar_drifts_by_a_day_in_three_thousand_years() -> None:
+    """Its mean year from the days of 400 years; the tropical year of Meeus & Savoie (1992)."""
+    cycle = datetime.date(2400, 1, 1) - datetime.date(2000, 1, 1)
+    assert cycle.days * DAY / 400 == rate_budget.GREGORIAN_YEAR
+    drift = rate_budget.time_per_day_of_drift(365.24219 * DAY, rate_budget.GREGORIAN_YEAR)
+    assert drift / JULIAN_YEAR == pytest.approx(1 / (365.2425 - 365.24219), rel=1e-9, abs=0)
+
+
 def test_the_motion_of_the_ecliptic_is_taken_off() -> None:
     chi = CHI_A_RATE.value * ARCSEC_PER_YEAR
     eps = EPSILON_0.value * ARCSEC
@@ -43,6 +54,8 @@ def test_results_are_near_the_iaus(precession_tree: xr.DataTree) -> None:
     # 3.8e-5 arcsec/yr and 0.007 s measured, with the published effects that the torques leave out
     assert abs(float(seasons_there.general_precession) - P_A_RATE.value) < 1e-4
     assert abs(float(seasons_there.tropical_year) * DAY - TROPICAL_YEAR.value) < 0.02
+    drift = float(seasons_there.time_per_day_of_gregorian_drift)
+    assert drift * (365.2425 - float(seasons_there.tropical_year)) == pytest.approx(1, abs=1e-9)
     assert float(precession_tree["free_wobble/observed_period"]) == 430.9
     longest = precession_tree["convergence/window_length"].max()
     assert abs(float(longest) - 5 * 18.6129) < 1e-3

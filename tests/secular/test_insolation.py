@@ -6,7 +6,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from earthspin.secular.insolation import Season, daily, mean_longitude, over_days, true_longitude
+from earthspin.secular.insolation import (
+    Season,
+    daily,
+    mean_longitude,
+    over_days,
+    true_longitude,
+    with_error,
+)
 
 DEGREE = np.pi / 180
 #: Orbit that climlab takes for today's: its perigee of the Sun is 281.37 degrees.
@@ -129,3 +136,18 @@ def test_a_short_window_is_its_day_and_a_year_is_the_year() -> None:
     whole = np.mean(daily(PMIP, latitude, true_longitude(PMIP, mean)))
     # within the year a polar night would be a kink; here there is none
     assert over_days(PMIP, latitude, sun, 1.0) == pytest.approx(whole, rel=1e-6, abs=0)
+
+
+def test_a_perihelion_that_is_hardly_known_is_sampled_from_a_tenth_of_a_radian() -> None:
+    """With the Sun at perihelion, half the difference of the changes on both sides is zero.
+
+    The 95 % half-width is the change at the half-width of the longitude, since the change grows
+    with its size on either side.
+    """
+    half = np.array([0.05, 0.0999, 0.1001, 0.19, 0.6])
+    sun, latitude, e = np.array(np.pi / 2), np.array(0.3), 0.04
+    season = Season(np.array(0.4), np.array(e), sun - np.pi)
+    value, error = with_error(season, Season(np.zeros(5), np.zeros(5), half), latitude, sun)
+    assert value == pytest.approx(daily(season, latitude, sun), rel=1e-12, abs=0)
+    change = 1 - ((1 + e * np.cos(half)) / (1 + e)) ** 2
+    assert error == pytest.approx(np.where(half > 0.1, value * change, 0), rel=0.05, abs=1e-12)

@@ -43,6 +43,21 @@ def test_one_direction_in_every_form(pole: MovingPole) -> None:
     assert pole_of(pole) is pole
 
 
+def test_terms_of_ten_thousand_years_and_longer_are_no_nutation() -> None:
+    """Of Neptune's 688 years none stays; of those of Mars (Archinal et al. 2018), one does."""
+    assert SLOW.without_nutation() == MovingPole.published((299.36, 0.0), (43.46, 0.0))
+    ra = [(0.000068, 198.991226, 19139.4819985), (0.419057, 79.398797, 0.5042615)]
+    dec = [(0.000051, 122.433576, 19139.9407476), (1.591274, 166.325722, 0.5042615)]
+    mars = MovingPole.published((317.269202, -0.10927547), (54.432516, -0.05827105), ra, dec)
+    slow = mars.without_nutation()
+    assert slow.right_ascension_swings == mars.right_ascension_swings[1:]
+    assert slow.declination_swings == mars.declination_swings[1:]
+    for centuries, stays in ((99, 0), (101, 1)):
+        term = [(0.1, 20.0, 360 / centuries), (0.1, 20.0, -360 / centuries)]
+        pole = MovingPole.published((10.0, 0.0), (80.0, 0.0), term, term).without_nutation()
+        assert len(pole.right_ascension_swings) == len(pole.declination_swings) == 2 * stays
+
+
 def test_an_upright_pole_that_moves_has_an_equator_still() -> None:
     days = np.array([0.0, 10.0])
     axes = EVEN.equator(EVEN.at(0.0), days)
