@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from earthspin.interior.layers import PREM, LayeredBody
+from earthspin.interior.mars import MARS
 from tests.interior.prem import PREM_WITH_OCEAN
 
 
@@ -30,3 +31,15 @@ def test_moments_against_quadrature(body: LayeredBody) -> None:
     assert np.isclose(body.moment_of_inertia(), whole, rtol=4e-15, atol=0)
     core = 8 * np.pi / 3 * moment(4, body.core_radius)
     assert np.isclose(body.core_fraction, core / whole, rtol=4e-15, atol=0)
+
+
+def test_layers_of_mars_have_its_mass_and_its_polar_moment() -> None:
+    """C = I + 2/3 J2 M a2 with the mean moment I of spherical layers; J2 and a of MRO110B.
+
+    C/(M a2) is that of Baland et al. (2020); the mean radius of the IAU is 6.5 km smaller than a.
+    """
+    gm, a, j2 = 4.282837e13, 3396e3, 1.95661e-3
+    assert [layer.top for layer in MARS.layers] == [1835e3, 2334.5e3, 3341.5e3, 3389.5e3]
+    assert MARS.mass == pytest.approx(gm / 6.6743e-11, rel=1e-6, abs=0)
+    polar = MARS.moment_of_inertia() / (MARS.mass * a**2) + 2 / 3 * j2
+    assert polar == pytest.approx(0.36367, rel=0, abs=1e-7)
