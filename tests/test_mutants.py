@@ -49,7 +49,7 @@ def test_changes_that_no_test_notices_are_shown(
     for name, text in files.items():
         (project / name).parent.mkdir(parents=True, exist_ok=True)
         (project / name).write_text(text, encoding="utf-8")
-    main(["9", "1", "fall", "--jobs", "1", "--out", str(out)], project, tmp_path / "cache")
+    main(["9", "1", "fall", "--jobs", "2", "--out", str(out)], project, tmp_path / "cache")
     printed = capsys.readouterr().out
     assert "1 changes mean nothing" in printed
     assert "1 of 2 noticed; 95 % interval 9.5% to 90.5%" in printed

@@ -23,9 +23,7 @@ from tests.mutants.trial import run_tests
 #: that are near because a fixture or a cache can hide that they run them.
 LONGEST, LONGEST_NEAR = 120.0, 20.0
 #: Folders and files of tests about pages, files, texts of the checkout, and changes themselves.
-_NOT_RECORDED = re.compile(
-    r"^tests/(docs|views|fuzz|force|data_tools)/|/test_(package|signatures|mutants|pins)\.py$"
-)
+_NOT_RECORDED = re.compile(r"^tests/(docs|views|fuzz|force|data_tools)/|/test_(pack|sig|mut|pin)")
 
 
 class Record:
@@ -122,7 +120,8 @@ def _lines_and_names(change: Change) -> tuple[range, set[str]]:
 def _recorded(project: Path, files: Sequence[str], lines: Path, jobs: int) -> dict[str, float]:
     """Run test files, add their lines to a file, and return the times of those that passed."""
     options = ["--cov=earthspin", "--cov-context=test", "--cov-report=", "--cov-append", "-rp"]
-    options += ["-vv", "--durations=0", "--durations-min=0", "-n", str(jobs if jobs > 1 else 0)]
+    options += ["-vv", "--durations=0", "--durations-min=0", "--dist=loadfile"]
+    options += ["-n", str(jobs if jobs > 1 else 0)]
     ended = run_tests(project, files, options, "unlimited", str(lines))
     if ended.returncode > 1:
         raise RuntimeError(f"{files}: pytest ended with {ended.returncode}\n{ended.stderr[-2000:]}")
