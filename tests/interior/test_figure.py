@@ -27,6 +27,22 @@ def test_published_moments_of_prem() -> None:
     PINS["inner core over body"].check(figure(PREM, SPIN).inner)
 
 
+@pytest.mark.parametrize("faster", [1, 6])
+def test_mean_moments_of_the_regions_are_those_of_the_layers(faster: int) -> None:
+    """With C = A (1 + e), the mean moment (2 A + C)/3 of each region is A (1 + e/3)."""
+    f = figure(PREM, faster * SPIN)
+    mean = PREM.moment_of_inertia()
+    a = mean / (1 + f.e / 3)
+    inner = PREM.moment_of_inertia(PREM.inner_core_radius)
+    core = PREM.moment_of_inertia(PREM.core_radius)
+    assert np.isclose(f.inner * a * (1 + f.e_s / 3), inner, rtol=1e-12, atol=0)
+    assert np.isclose(f.fluid * a * (1 + f.e_f / 3), core - inner, rtol=1e-12, atol=0)
+    excess = f.e_s * f.inner + f.e_f * f.fluid
+    assert np.isclose(excess * a, f.e_core * core / (1 + f.e_core / 3), rtol=1e-12, atol=0)
+    unit = (faster * SPIN) ** 2 * PREM.radius**5 / (3 * G.value * a)
+    assert np.isclose(f.unit, unit, rtol=1e-12, atol=0)
+
+
 def test_an_even_body_is_as_flat_as_maclaurin_has_it() -> None:
     """Flattening 5 q/4 and as much for all that is inside; no excess in the inner core."""
     even = sphere((1e6, 5e3, 1e11), (3e6, 5e3, 0.0), (6e6, 5e3, 1e11))

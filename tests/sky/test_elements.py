@@ -148,3 +148,25 @@ def test_rounding_is_within_its_bound(e: float) -> None:
             across.append(float(mpmath.sqrt(mpmath.norm(off) ** 2 - radial**2) / distance / angle))
     assert max(along) <= 1
     assert 0.2 < max(across) < 0.5
+
+
+@pytest.mark.parametrize("e", [0.0, 0.05])
+@pytest.mark.parametrize("day", [-3e5, 3e4])
+def test_rounding_of_the_tidal_tensor_is_of_the_claimed_size(e: float, day: float) -> None:
+    """Root mean square of the relative error of r r^T/r^5, against 50 digits; measured: 0.7 to 0.9.
+
+    The claimed size enters the rotation as a factor that is constant in time, not as a bound.
+    """
+    one = ellipse(e=e, node_rate=1e-9, pericentre_rate=3e-9)
+    days = day + np.random.default_rng(1).uniform(0, 1000, 60)
+    squares = []
+    with mpmath.workdps(DIGITS):
+        for at, found in zip(days.tolist(), one.positions(days).tolist(), strict=True):
+            true, near = (tide([mpmath.mpf(x) for x in r]) for r in (place(one, at), found))
+            squares.append((mpmath.norm(true - near) / mpmath.norm(true) / one.rounding(at)) ** 2)
+    assert 0.6 < math.sqrt(sum(squares) / len(squares)) < 1.1
+
+
+def tide(r: list[mpmath.mpf]) -> mpmath.matrix:
+    """Tensor r r^T/r^5 as one column."""
+    return mpmath.matrix([a * b for a in r for b in r]) / mpmath.norm(r) ** 5
