@@ -174,7 +174,7 @@ def budget_of(
 
 # --- H and C that the rate implies ----------------------------------------------------------------
 # The published H is inferred from the observed precession, so closure of the rate only tests
-# consistency. Only an interior model gives an independent C.
+# consistency. So does C of PREM, whose data include a moment of inertia from the precession.
 
 #: Effects whose published sizes measure the error of the computed ones.
 COMPARED = ("planets", "j4", "geodesic", "second-order")

@@ -291,7 +291,8 @@ class RateDifference(Variables):
 def iau_2006(mean_rates: MeanRates, mean_torques: MeanTorques, body: Body) -> RateDifference:
     """Compute precession rate minus IAU 2006 rate, before and after adding published effects.
 
-    The observed H contains the observed precession; H = J2 M a2/C with C of PREM does not.
+    The observed H comes from the observed precession. So does the moment of inertia among the data
+    of PREM: the period with C of PREM tests that the model kept the moment that it was given.
     """
     rate, error = mean_rates.total()
     iau_rate = iau_models.precession_rates(mean_torques.epoch / DAY).psi_a

@@ -177,7 +177,7 @@ class SymmetricRotor:
         return self._in_node_plane(self.speed, -self.tilt, times)
 
     def figure_axis(self, times: Numeric) -> FloatArray:
-        """Unit vector of the figure axis along inertial axes, shape (..., n, 3) (H.3.12).
+        """Unit vector of the figure axis along inertial axes, shape (..., n, 3).
 
         Parameters
         ----------
