@@ -14,7 +14,7 @@ from earthspin.bodies.body import Body
 from earthspin.bodies.inner import IAU_2015, SWING
 from earthspin.bodies.orbit import Orbit, Satellite
 from earthspin.bodies.shapes import flattening_of
-from earthspin.constants import ARCSEC, AU, DAY, Constant, Tabulated
+from earthspin.constants import ARCSEC, AU, DAY, JULIAN_YEAR, Constant, Tabulated
 from earthspin.sky.poles import Direction, MovingPole
 
 ELEMENTS = "Standish & Williams, approximate elements 1800-2050"
@@ -150,8 +150,20 @@ def _numbers(
     }
 
 
-def _orbit(a: float, e: float, i: float, node: float, perihelion: float, mean: float) -> Orbit:
-    """Make the mean elliptical orbit of a planet, from a in au and angles in degrees."""
+def _orbit(
+    a: float,
+    e: float,
+    i: float,
+    node: float,
+    perihelion: float,
+    mean: float,
+    error: tuple[float, float, float, float],
+) -> Orbit:
+    """Make the mean elliptical orbit of a planet, from a in au and angles in degrees.
+
+    The errors are in arcsec, arcsec per Julian year, m, and a fraction of the mean torque.
+    """
+    direction, drift, distance, rate = error
     return Orbit(
         a=a * AU,
         e=e,
@@ -161,16 +173,31 @@ def _orbit(a: float, e: float, i: float, node: float, perihelion: float, mean: f
         mean_anomaly=math.radians(mean - perihelion),
         about="sun",
         reference=ELEMENTS,
+        direction_error=direction * ARCSEC,
+        direction_drift=drift * ARCSEC / JULIAN_YEAR,
+        distance_error=distance,
+        rate_error=rate,
     )
 
 
 ELLIPSES = Tabulated("mean orbits of the giant planets", ELEMENTS, c.STANDISH_READ)
+#: Bounds on what the planets of DE440, 1551 to 2646, differ from their ellipses by: angle at
+#: J2000.0 (arcsec) and its growth (arcsec/yr), distance (m), and share of the mean torque.
+_DEPARTURES = {
+    "jupiter": (720.0, 3.8, 1.7e9, 2.2e-4),
+    "saturn": (550.0, 22.5, 1.5e10, 1.9e-3),
+    "uranus": (300.0, 11.2, 4.8e9, 4.0e-3),
+    "neptune": (160.0, 5.5, 5.2e9, 5.0e-4),
+}
 #: Mean orbits, for averages over intervals longer than kernels cover.
 ORBITS = {
-    "jupiter": _orbit(5.20288700, 0.04838624, 1.30439695, 100.47390909, 14.72847983, 34.39644051),
-    "saturn": _orbit(9.53667594, 0.05386179, 2.48599187, 113.66242448, 92.59887831, 49.95424423),
-    "uranus": _orbit(19.18916464, 0.04725744, 0.77263783, 74.01692503, 170.95427630, 313.23810451),
-    "neptune": _orbit(30.06992276, 0.00859048, 1.77004347, 131.78422574, 44.96476227, -55.12002969),
+    name: _orbit(*elements, _DEPARTURES[name])
+    for name, elements in {
+        "jupiter": (5.20288700, 0.04838624, 1.30439695, 100.47390909, 14.72847983, 34.39644051),
+        "saturn": (9.53667594, 0.05386179, 2.48599187, 113.66242448, 92.59887831, 49.95424423),
+        "uranus": (19.18916464, 0.04725744, 0.77263783, 74.01692503, 170.95427630, 313.23810451),
+        "neptune": (30.06992276, 0.00859048, 1.77004347, 131.78422574, 44.96476227, -55.12002969),
+    }.items()
 }
 
 

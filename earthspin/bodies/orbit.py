@@ -76,6 +76,10 @@ class Orbit:
         Name of the central body; empty for the spinning body.
     reference : str
         Source of the numbers.
+    direction_error, direction_drift, distance_error, rate_error : float or None
+        For mean elements of a real orbit, bounds on what the ellipse differs from it by: angle at
+        the epoch, rad; growth of this angle, rad/s; distance, m; and relative error of the mean
+        torque. None: the elements define the orbit.
 
     Raises
     ------
@@ -107,6 +111,10 @@ class Orbit:
     plane: Annotated[str, Word(PLANES)] = "ecliptic"
     about: Annotated[str, Text()] = ""
     reference: Annotated[str, Text()] = ""
+    direction_error: Annotated[float | None, Magnitude("rad", "700 arcsec")] = None
+    direction_drift: Annotated[float | None, Magnitude("rad/s", "3 arcsec/yr")] = None
+    distance_error: Annotated[float | None, Magnitude("m", "7e5 km")] = None
+    rate_error: Annotated[float | None, Magnitude("", "0.001")] = None
 
     words: ClassVar[str] = 'a table of elements, like {a = "384399 km", e = 0.0549}'
     hint: ClassVar[str] = "Orbit | Mapping[str, Any]"
@@ -160,7 +168,10 @@ _RULES: dict[str, tuple[Callable[[float], bool], str]] = {
     "i": (lambda i: 0 <= i <= math.pi, "an inclination must be 0 to 180 deg"),
     "node_period": (lambda p: p != 0, "a period is not zero; negative is backwards"),
     "pericentre_period": (lambda p: p != 0, "a period is not zero; negative is backwards"),
-}
+} | dict.fromkeys(
+    ("direction_error", "direction_drift", "distance_error", "rate_error"),
+    (lambda size: 0 <= size <= _LARGEST, "a bound on an error is zero or more"),
+)
 
 
 def _checked(elements: Mapping[str, Any], where: Where) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from earthspin.bodies.inner import MERCURY, MERCURY_ORBIT
 from earthspin.bodies.moons import ORBITS as OF_MOONS
 from earthspin.bodies.moons import TITAN_OBLIQUITY
 from earthspin.bodies.orbit import Orbit
-from earthspin.constants import ARCSEC, AU, DAY, DAYS_PER_CENTURY, Constant
+from earthspin.constants import ARCSEC, AU, DAY, DAYS_PER_CENTURY, JULIAN_YEAR, Constant
 from earthspin.errors import Where
 
 # --- planets and default perturbers ---------------------------------------------------------------
@@ -86,7 +86,8 @@ NODE_RATE = Constant(-6967919.3631, "0.01 arcsec yr-1", None, MEAN_ELEMENTS, c.S
 
 _TURN = 1296000.0 * DAYS_PER_CENTURY * DAY  # arcsec s / (100 yr)
 
-#: The Sun on its apparent elliptical orbit about the Earth.
+#: The Sun on its apparent elliptical orbit about the Earth. Bounds on its errors, as those of the
+#: Moon and the giant planets, are differences from DE440.
 MEAN_SUN = SUN.replace(
     orbit=Orbit(
         a=SUN_DISTANCE.value,
@@ -96,6 +97,10 @@ MEAN_SUN = SUN.replace(
         mean_anomaly=math.radians(SUN_LONGITUDE.value - SUN_PERIGEE.value),
         about="earth",
         reference=MEAN_ELEMENTS,
+        direction_error=50.0 * ARCSEC,
+        direction_drift=0.55 * ARCSEC / JULIAN_YEAR,
+        distance_error=8e7,
+        rate_error=2e-6,
     )
 )
 #: The Moon on an ellipse with its sidereal period, with precessing node and perigee.
@@ -112,6 +117,9 @@ MEAN_MOON = MOON.replace(
         pericentre_period=_TURN / (PERIGEE_RATE.value - NODE_RATE.value),
         about="earth",
         reference=f"{LUNAR_ELEMENTS}; {MEAN_ELEMENTS}",
+        direction_error=8700.0 * ARCSEC,
+        distance_error=7e6,
+        rate_error=2.8e-3,
     )
 )
 #: Orbits referred to their Laplace planes, by name of the body.

@@ -293,7 +293,8 @@ def orbit_means(body: Body, perturbers: tuple[Body, ...]) -> MeanTorques:
         gm = float(p.gm_on(body)) if gm_array is None else 1.0
         tide = average.mean_tide(gm, ellipse.a, ellipse.e, square)
         torques.append(average.mean_torque(tide, axis))
-        errors.append(average.rounding(tide))
+        mean_orbit = (p if p.orbit is not None else body).needed("orbit").rate_error or 0.0
+        errors.append(average.rounding(tide) + mean_orbit * float(np.linalg.norm(torques[-1])))
         inverse_cube.append((ellipse.a**2 * (1 - ellipse.e**2)) ** -1.5)
     vectors, error = np.stack(torques), np.array(errors)
     if gm_array is not None:

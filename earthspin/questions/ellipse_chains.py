@@ -130,6 +130,9 @@ def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
         node_rate=node,
         pericentre_rate=turn,
         plane=Plane.of(orbit.plane, body.pole, body.orbit_pole),
+        direction_error=orbit.direction_error or 0.0,
+        direction_drift=orbit.direction_drift or 0.0,
+        distance_error=orbit.distance_error or 0.0,
     )
 
 

@@ -43,6 +43,7 @@ class Precession(PerturbedBody, word="precession", call="precession"):
 
     page, headline = "precession", "precession_rate"
     with_satellites = True
+    averages = True
 
     source: sources.SourceName = key("skyfield", doc=SOURCE_DOC)
     span: Span | None = key(

@@ -175,10 +175,12 @@ def torques(
     days = epochs.span()
     attractors.sky.check_times(days, attractors.targets)
     forces = forces_of(replace(attractors, body=_spinning(body, start_omega)), _acting(effects))
+    rounding = 0.0
     if isinstance(attractors.sky.source, Elements):
-        places = (p for p in attractors.sky.targets.values() if isinstance(p, ByElements))
+        places = [p for p in attractors.sky.targets.values() if isinstance(p, ByElements)]
         rounding = max(place.rounding(day) for place in places for day in days)
-        return PerturberTorques(forces, rounding=rounding)
+        if not any(place.is_mean for place in places):
+            return PerturberTorques(forces, rounding=rounding)
     positions = attractors.sky.positions(np.array(days[:1]))
     relative_errors = []
     for name, place in attractors.sky.targets.items():
@@ -186,7 +188,7 @@ def torques(
         distance = float(np.linalg.norm(positions[name]))
         relative_errors.append(solution.relative_tide_error(distance, distance_error, angle))
     relative_error = float(np.max(relative_errors))  # NaN if one is
-    return PerturberTorques(forces, relative_error, no_error=attractors.sky.no_error)
+    return PerturberTorques(forces, relative_error, rounding, attractors.sky.no_error)
 
 
 @dataclass(frozen=True)

@@ -75,6 +75,8 @@ class PerturbedBody(Question):
 
     #: Fields of the body that the question needs, besides its mass.
     needs: ClassVar[tuple[str, ...]] = SPIN_FIELDS
+    #: Whether torques are averaged over revolutions, of which kernels cover too few for the giants.
+    averages: ClassVar[bool] = False
     #: Whether a body may have no perturbers.
     may_be_alone: ClassVar[bool] = False
     #: Whether masses of perturbers may be labelled arrays.
@@ -84,7 +86,8 @@ class PerturbedBody(Question):
         """Set default perturbers, and refuse a body or perturbers without required properties."""
         if "perturbers" not in self.given:
             object.__setattr__(self, "perturbers", planets.default_perturbers(self.body))
-            object.__setattr__(self, "body", planets.on_its_orbit(self.body))
+            if self.averages:
+                object.__setattr__(self, "body", planets.on_its_orbit(self.body))
         if not all_of(self.body.gm > 0):
             raise self.error("body", self.body.name, "the mass of the body must not be zero")
         self.body.require(self.needed())
@@ -158,12 +161,16 @@ class Sky:
         Place of each perturber.
     reach : dict of str to float
         Smallest allowed distance of each perturber, m.
+    offset : float
+        Largest distance of the body from the barycentre of its satellites, if the source has only
+        this barycentre, m.
     """
 
     source: Source
     centre: Place
     targets: dict[str, Place]
     reach: dict[str, float]
+    offset: float = 0.0
 
     @cached_property
     def provenance(self) -> dict[str, str]:
@@ -177,12 +184,18 @@ class Sky:
 
     def error(self, target: Place, days: Iterable[float] = (0.0,)) -> tuple[float, float]:
         """Largest error of a body's position over given days: angle (rad) and distance (m)."""
-        errors = [self.source.error(target, self.centre, day) for day in days]
-        return max(angle for angle, _ in errors), max(distance for _, distance in errors)
+        days = np.array([*days])
+        errors = [self.source.error(target, self.centre, day) for day in days.tolist()]
+        angle, distance = (max(sizes) for sizes in zip(*errors, strict=True))
+        if self.offset:
+            positions = self.source.positions({"": target}, self.centre, days)[""]
+            angle += self.offset / float(np.linalg.norm(positions, axis=1).min())
+        return angle, distance + self.offset
 
     def drift(self, name: str, distance: float) -> float:
         """Relative error of the spin axis motion due to the position error of one perturber."""
-        return self.source.drift(self.targets[name], self.centre, distance)
+        drift = self.source.drift(self.targets[name], self.centre, distance)
+        return drift + 5 * self.offset / distance  # two of direction, three of distance
 
     @property
     def unmeasured(self) -> tuple[str, ...]:
@@ -383,7 +396,10 @@ def sky(ephemeris: str, places: Places, source: SourceName) -> Sky:
     for name, place in targets.items():
         if place == centre:
             raise SceneError("perturbers", name, "a body does not pull on itself")
-    return Sky(opened, centre, targets, places.reach)
+    body = places.body
+    moons = body.satellites if centre in body.naif[1:] else ()
+    offset = sum(moon.gm * moon.a for moon in moons) / float(np.min(body.gm)) if moons else 0.0
+    return Sky(opened, centre, targets, places.reach, offset)
 
 
 @part

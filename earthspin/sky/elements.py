@@ -1,7 +1,8 @@
 """Positions of bodies from Keplerian orbital elements, without an ephemeris kernel.
 
-Orbits are ellipses whose node and pericentre precess at constant rates. The elements define the
-orbit, so the only errors are those of rounding.
+Orbits are ellipses whose node and pericentre precess at constant rates. If the elements define the
+orbit, the only errors are those of rounding; mean elements of a real orbit state how far it departs
+from the ellipse.
 """
 
 from __future__ import annotations
@@ -107,6 +108,9 @@ class Ellipse:
     motion, node_rate, pericentre_rate : float
         Rates of mean anomaly, node, and argument of the pericentre, rad/s.
     plane : Plane
+    direction_error, direction_drift, distance_error : float
+        Bounds on what the ellipse differs from the real orbit by: angle at the epoch, rad, its
+        growth, rad/s, and distance, m; zero if the elements define the orbit.
     """
 
     a: float
@@ -120,6 +124,9 @@ class Ellipse:
     node_rate: float
     pericentre_rate: float
     plane: Plane
+    direction_error: float = 0.0
+    direction_drift: float = 0.0
+    distance_error: float = 0.0
 
     @property
     def normal(self) -> FloatArray:
@@ -154,16 +161,23 @@ class Ellipse:
         return np.asarray(in_plane @ self.plane.matrix)
 
     def error(self, day: float) -> tuple[float, float]:
-        """Bounds on the rounding errors of the body's direction (rad) and distance (m) on a day.
+        """Bounds on the errors of the body's direction (rad) and distance (m) on a day.
 
-        An error of the mean anomaly is amplified in direction by at most sqrt(1 + e)/(1 - e)^(3/2).
+        They contain rounding, and the difference of the ellipse from the real orbit. An error of
+        the mean anomaly is amplified in direction by at most sqrt(1 + e)/(1 - e)^(3/2).
         """
         time = abs(day - self.epoch) * DAY
         angles = abs(self.mean_anomaly) + abs(self.node) + abs(self.pericentre)
         rates = abs(self.motion) + abs(self.node_rate) + abs(self.pericentre_rate)
         steepest = math.sqrt(1 + self.e) / (1 - self.e) ** 1.5
         angle = ROUNDINGS * _EPS * (1 + angles + rates * time) * steepest
-        return angle, self.a * (1 + self.e) * angle
+        real, far = self.departure(day)
+        return angle + real, self.a * (1 + self.e) * angle + far
+
+    def departure(self, day: float) -> tuple[float, float]:
+        """Bounds on the angle (rad) and distance (m) of the ellipse from the real orbit."""
+        time = abs(day - self.epoch) * DAY
+        return self.direction_error + self.direction_drift * time, self.distance_error
 
     def rounding(self, day: float) -> float:
         """Relative error of the tidal tensor on a given day due to rounding of the mean longitude.
@@ -203,8 +217,13 @@ class ByElements:
             total = total + sign * ellipse.positions(days)
         return total
 
+    @property
+    def is_mean(self) -> bool:
+        """Return True if a real orbit is known to differ from one of the ellipses."""
+        return any(max(ellipse.departure(0.0)) > 0 for ellipse, _ in self.ellipses)
+
     def error(self, day: float) -> tuple[float, float]:
-        """Errors of direction (rad) and distance (m) due to rounding, summed over the ellipses."""
+        """Bounds on the errors of direction (rad) and distance (m), summed over the ellipses."""
         angles, distances = zip(*(ellipse.error(day) for ellipse, _ in self.ellipses), strict=True)
         return sum(angles), sum(distances)
 
@@ -257,11 +276,11 @@ class Elements:
         }
 
     def error(self, target: Place, centre: Place, day: float = 0.0) -> tuple[float, float]:
-        """Bounds on the rounding errors of a body's direction (rad) and distance (m) on a day."""
+        """Bounds on the errors of a body's direction (rad) and distance (m) on a day."""
         return _trajectory(target).error(day)
 
     def drift(self, target: Place, centre: Place, distance: float) -> float:
-        """Relative error of the spin axis motion due to rounding of a perturber's position.
+        """Relative error of the spin axis motion due to the position error of a perturber.
 
         It is a fraction of the angle by which the axis moves.
         """
