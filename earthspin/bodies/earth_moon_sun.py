@@ -28,6 +28,8 @@ _WOBBLE_READ = "value and uncertainty as quoted in a text on the wobble in a pub
 _C22, _S22 = 2.43938357e-6, -1.40027370e-6
 #: Earth Rotation Angle, turns: rate per day of UT1, and value at J2000.0 UT1.
 _TURNS_A_DAY, _TURNS_AT_START = 1.00273781191135448, 0.7790572732640
+#: Longitude of the axis of least moment, rad.
+EARTH_LONG_AXIS = math.atan2(_S22, _C22) / 2
 
 EARTH_NUMBERS = {
     "gm": Constant(398600.435507e9, "m3 s-2", 8e5, _GM, c.GM_HORIZONS),
@@ -43,9 +45,9 @@ EARTH_NUMBERS = {
     "j4": Constant(-5.39965866e-7 * 3.0, "", None, _EGM2008, _EGM2008_READ),
     "j2_rate": Constant(-3.001e-9 / (DAYS_PER_CENTURY * DAY), "s-1", None, _REBOUND, _REBOUND_READ),
     # Angle of the axis of least moment at J2000.0 TDB from the x axis of the GCRS: the Earth
-    # Rotation Angle at UT1 = TDB - 63.83 s, and the longitude atan2(S22, C22)/2 = -14.93 deg.
+    # Rotation Angle at UT1 = TDB - 63.83 s, and the longitude of that axis, -14.93 deg.
     "meridian": Constant(
-        2 * math.pi * (_TURNS_AT_START - _TURNS_A_DAY * 63.83 / DAY) + math.atan2(_S22, _C22) / 2,
+        2 * math.pi * (_TURNS_AT_START - _TURNS_A_DAY * 63.83 / DAY) + EARTH_LONG_AXIS,
         "rad",
         1e-4,
         f"{_ROTATION_ANGLE}; {_EGM2008}",

@@ -365,7 +365,7 @@ class AttitudeIntegrator:
 
 
 def shares_of(
-    series: RotationSeries, changed: Sequence[str], tide_error: float
+    series: RotationSeries, changed: Sequence[str], tide_error: float, turn_error: float = 0.0
 ) -> dict[str, FloatArray]:
     """Errors of a rotation due to method, inputs and kernel, and in total, shape (3, t).
 
@@ -376,6 +376,8 @@ def shares_of(
         Input that is changed in each further column.
     tide_error : float
         Relative error of the tides; NaN if it was not measured.
+    turn_error : float
+        Error of the first angle about the axis of spin, rad.
 
     Returns
     -------
@@ -387,6 +389,7 @@ def shares_of(
     by_name = dict(zip(changed, series.error[1:], strict=True))
     kernel = np.full_like(zero, np.nan) if np.isnan(tide_error) else by_name.get(TIDE, zero)
     inputs = np.hypot(by_name.get(FLATTENING, zero), by_name.get(TRIAXIALITY, zero))
+    inputs[0] = np.hypot(inputs[0], turn_error)
     method = series.error[0] + by_name.get(ROUNDING, zero)
     shares = {"method": method, "input": inputs, "kernel": kernel}
     shares[""] = np.sqrt(shares["method"] ** 2 + inputs**2 + kernel**2)

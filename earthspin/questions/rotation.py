@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from earthspin.bodies import Body, checks, planets
-from earthspin.constants import DAY, NORMAL_95
+from earthspin.bodies import EARTH, Body, checks, planets
+from earthspin.bodies.earth_moon_sun import EARTH_LONG_AXIS
+from earthspin.constants import ARCSEC, DAY, NORMAL_95
 from earthspin.dates import Epochs, Span, Step, TimeList, datetime64
 from earthspin.engine import Block, Neglected, key, part, public_call
 from earthspin.engine.variables import Variable, labels, number, words
@@ -32,6 +33,7 @@ from earthspin.questions.satellites import (
 from earthspin.questions.sky import Sky
 from earthspin.questions.time_axes import SPAN_DOC, Dated, days_of
 from earthspin.sky.elements import ByElements, Elements
+from earthspin.sky.ut1 import earth_rotation
 from earthspin.units import Number, Numbers
 
 if TYPE_CHECKING:
@@ -49,8 +51,8 @@ class Rotation(AxisMotion, word="rotation", call="rotation", positional=("start"
 
     The body may have any three moments and any spin, and may be locked or tumble. The motion begins
     at the first date, with the pole, meridian and spin of the body, or with `start_attitude` and
-    `start_omega`. The effects `second-order` and `triaxiality` are always included; `nonrigid` is
-    not available.
+    `start_omega`; the angle of the Earth about its axis follows from UT1 at that date. The effects
+    `second-order` and `triaxiality` are always included; `nonrigid` is not available.
 
     Errors are the largest up to that time.
 
@@ -203,6 +205,8 @@ class Rotor:
         Changed input of each copy.
     masses : Masses
     start : State
+    turn_error : float
+        95 % half-width of the first angle about the axis, from UT1, rad.
     begin, end : float
         Days from J2000.0 TDB.
     polar_moment : float
@@ -214,6 +218,7 @@ class Rotor:
     changed: tuple[str, ...]
     masses: march.Masses
     start: State
+    turn_error: float
     begin: float
     end: float
     polar_moment: float
@@ -245,6 +250,22 @@ class Rotor:
     def since(self, days: float | FloatArray) -> FloatArray:
         """Convert days from J2000.0 to s after the initial date, rounded to the microsecond."""
         return np.asarray(np.round((days - self.begin) * DAY, 6))
+
+
+def turns_as_observed(body: Body) -> bool:
+    """Return True for the Earth with its own spin, whose angle about the axis follows from UT1."""
+    spin = body.meridian, body.spin_period
+    return body.needed("pole").of_the_iau and spin == (EARTH.meridian, EARTH.spin_period)
+
+
+def _start_note(rotor: Rotor, body: Body) -> dict[str, str]:
+    """Attribute of a result which states where the attitude at the first date comes from."""
+    if not turns_as_observed(body):
+        return effects_and_torques.start_note(body)
+    half, source = rotor.turn_error / ARCSEC, earth_rotation(rotor.begin)[2]
+    return {
+        "start": f"pole of the IAU and {source}, within {half:.2g} arcsec about the axis (95 %)"
+    }
 
 
 @part(loads=("scipy.spatial.transform", "scipy.special"))
@@ -284,14 +305,17 @@ def rotor(
         epoch,
         None if torque is None else torque.over(moment),
     )
-    attitude = start_attitude
+    attitude, turn_error = start_attitude, 0.0
     if attitude is None:
         turned = figure.meridian + spin_rate * epoch
+        if turns_as_observed(body):
+            meridian, turn_error, _ = earth_rotation(begin)
+            turned = meridian + EARTH_LONG_AXIS
         attitude = solution.upright(body.needed("pole").true(begin), turned)
     omega = np.array([0.0, 0.0, spin_rate]) if start_omega is None else start_omega
     start = solution.start_of(rigid, attitude, omega)
     masses = solution.masses(torques.forces, epoch)
-    return Rotor(rigid, changed, masses, start, begin, end, moment, torques)
+    return Rotor(rigid, changed, masses, start, turn_error, begin, end, moment, torques)
 
 
 @part
@@ -382,7 +406,8 @@ def attitudes(
     series = _followed(motion, rotor, seconds, begin)
     back = np.argsort(order, kind="stable")
     size = rotor.polar_moment * abs(rotor.body.unit)
-    shares = solution.shares_of(series, rotor.changed, rotor.torques.relative_error)
+    tide_error, turn_error = rotor.torques.relative_error, rotor.turn_error
+    shares = solution.shares_of(series, rotor.changed, tide_error, turn_error)
     errors = {
         f"{name}_error": [factor * shares[cause][kind][back] for cause in ("", *_CAUSES)]
         for kind, (name, factor) in enumerate(zip(KINDS, (1.0, 1.0, size), strict=True))
@@ -401,7 +426,7 @@ def attitudes(
             "method": f"Gauss windows of {motion.order} nodes, in two forms",
             # the number that a whole series takes is not known from one block of it
             **({"evaluations": motion.evaluations} if block is None else {}),
-            **({} if start_attitude is not None else effects_and_torques.start_note(body)),
+            **({} if start_attitude is not None else _start_note(rotor, body)),
             **effects_and_torques.inactive_effects_note(body, effects),
         },
         omega_error=comment,
