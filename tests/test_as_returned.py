@@ -161,3 +161,38 @@ def test_polar_motion_is_that_of_astropys_reader() -> None:
     np.testing.assert_allclose(answer.y, table["PM_y"].to_value("arcsec"), rtol=0, atol=1e-15)
     dates = Time(table["MJD"], format="mjd", scale="utc").datetime64
     assert np.all(answer.time.values == dates)
+
+
+def test_precession_angles_are_those_of_the_pole_that_pole_returns() -> None:
+    """ERFA's psi_A and omega_A; without the rate of the interior psi_A was 21 mas/cy more."""
+    tree = earthspin.run_tree(earthspin.compare_iau(), sections=["angles"])
+    rate = tree["angles"].dataset.sel(angle="psi_A", degree=1)
+    p03 = 5038.481507  # arcsec per century, Capitaine, Wallace & Chapront 2003
+    assert float(rate.angle_coefficient_iau) == pytest.approx(p03, rel=1e-7, abs=0)
+    apart = float(rate.angle_coefficient) - p03
+    assert apart == pytest.approx(float(tree.dataset.closure) * 100, abs=2e-4)
+    assert abs(apart) < 1.2 * float(rate.angle_coefficient_error)
+
+
+@pytest.mark.parametrize(("name", "share"), [("mercury", 0.9), ("saturn", 0.9)])
+def test_torques_contain_the_uncertainty_of_the_pole(name: str, share: float) -> None:
+    """The pole moved by its 95 % half-width, to the sides: largest change of the declination."""
+    body = earthspin.BODIES[name]
+    span = ("2000-01-01", "2030-01-01", "20 d")
+    series = earthspin.torque_series(*span, body=body)
+    pole = body.needed("pole").true(0.0)
+    half = 1.96 * body.pole_uncertainty
+    largest = 0.0
+    for side in np.linspace(0, np.pi, 8, endpoint=False):
+        east = np.cross([0.0, 0.0, 1.0], pole) / np.hypot(pole[0], pole[1])
+        moved = pole + half * (np.cos(side) * east + np.sin(side) * np.cross(pole, east))
+        bodies = [body.replace(pole=direction(axis)) for axis in (moved, pole)]
+        both = (earthspin.torque_series(*span, body=one).declination for one in bodies)
+        largest = max(largest, float(abs(np.subtract(*both)).max()) * 3600)
+    assert share < largest / float(series.direction_error[0]) < 1.01
+
+
+def direction(vector: np.ndarray) -> tuple[str, str]:
+    """Right ascension and declination."""
+    angles = np.arctan2(vector[1], vector[0]), np.arctan2(vector[2], np.hypot(*vector[:2]))
+    return tuple(f"{angle} rad" for angle in angles)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from earthspin import bodies
 from earthspin.bodies import BODIES, SUN, Body, label_of
-from earthspin.constants import ARCSEC, DAY, NORMAL_95
+from earthspin.constants import ARCSEC, DAY
 from earthspin.engine import key, part
 from earthspin.errors import EarthspinError, KernelError, UndefinedError, Where, one_line
 from earthspin.mass.figure import inverse_polar_moment
@@ -23,7 +23,7 @@ from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.polynomials import Windows
 from earthspin.questions.ellipse_chains import all_by_elements
 from earthspin.questions.satellites import common_precession, obliquity_of, satellite_factors
-from earthspin.questions.sky import KernelName, Sky, places, sky
+from earthspin.questions.sky import KernelName, Sky, places, sky, start_error
 from earthspin.questions.time_axes import DateSeries, epochs
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.protocol import Place
@@ -266,13 +266,6 @@ def inactive_effects_note(body: Body, effects: Sequence[str]) -> dict[str, str]:
     owner = bodies.in_a_sentence(body.name)
     words = ", ".join(f"{name} ({field} of {owner} is 0)" for name, field in idle.items())
     return {"effects_that_do_nothing": words} if idle else {}
-
-
-def start_error(body: Body) -> float | None:
-    """95 % half-width of the pole's direction at J2000.0, rad; None if it is not known."""
-    if body.pole_uncertainty is None:
-        return None
-    return NORMAL_95 * body.number("pole_uncertainty")
 
 
 #: Parts that compute `attractors` and `epochs`, for questions that use them.

@@ -283,6 +283,11 @@ def differences(
     )
 
 
+_OFFSET = "computed {} of the celestial pole minus that of IAU 2006/2000A"
+_NO_SEMIDIURNAL = (
+    "without the semidiurnal motion due to triaxiality, which is polar motion by the definition of "
+    "the celestial pole"
+)
 _LINE_REMOVED = "straight line removed"
 _LONGITUDE = f"computed pole minus the IAU's in longitude times sin(eps), {_LINE_REMOVED}"
 _OBLIQUITY = f"computed pole minus the IAU's in obliquity, {_LINE_REMOVED}"
@@ -293,8 +298,8 @@ _UNFITTED_HALF_WIDTH = "95 % half-width of a residual without a fit, from H and 
 class Residuals(Dated, error="residual_error"):
     """Time series of computed pole minus IAU pole, with and without a fitted trend removed."""
 
-    dX = measured("mas", "computed X of the celestial pole minus that of IAU 2006/2000A")
-    dY = measured("mas", "computed Y of the celestial pole minus that of IAU 2006/2000A")
+    dX = measured("mas", _OFFSET.format("X"), comment=_NO_SEMIDIURNAL)
+    dY = measured("mas", _OFFSET.format("Y"), comment=_NO_SEMIDIURNAL)
     dpsi_sineps = number("mas", _LONGITUDE)
     deps = number("mas", _OBLIQUITY)
     residual_error = number("mas", f"{_HALF_WIDTH}, and the response of the interior", along=())
@@ -497,14 +502,18 @@ class PrecessionAngles(Variables, along=("angle", "degree")):
 
 
 @part
-def angles(comparison: PoleComparison, body: Body) -> PrecessionAngles:
+def angles(comparison: PoleComparison, body: Body, effects: tuple[str, ...]) -> PrecessionAngles:
     """Fit polynomials to the precession angles of the computed pole and the IAU pole."""
     t, degree = comparison.days / DAYS_PER_CENTURY, analysis.SLOW_DEGREE
+    psi, omega = comparison.computed.at(t)
+    if NONRIGID.name in effects:  # as in the residuals
+        elapsed = t * analysis.CENTURY - comparison.epoch
+        psi = psi + rate_budget.published_effects()[NONRIGID.name] * elapsed
     ecliptic = iau_models.ecliptic_of_date(comparison.days)
     # what the analysis makes of the pole of IAU 2006 shows what it misses
     computed, reanalysed = (
-        analysis.polynomials(t, analysis.precession_angles(*path.at(t), ecliptic), degree)
-        for path in (comparison.computed, comparison.iau)
+        analysis.polynomials(t, analysis.precession_angles(*mean_pole, ecliptic), degree)
+        for mean_pole in ((psi, omega), comparison.iau.at(t))
     )
     iau = analysis.polynomials(t, iau_models.precession_angles(comparison.days), degree)
     u_h = body.relative_uncertainty.get("dynamical_flattening", 0.0)

@@ -16,11 +16,10 @@ from earthspin.engine import Neglected, Variables, key, labels, measured, number
 from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, of_perturber
-from earthspin.questions.effects_and_torques import start_error
 from earthspin.questions.labelled_numbers import LabelledNumbers
 from earthspin.questions.reasons import no_iau_model, north_note, not_sun_and_moon
 from earthspin.questions.satellites import mean_pole_error
-from earthspin.questions.sky import Interval, PerturbedBody, Sky, places, sky
+from earthspin.questions.sky import Interval, PerturbedBody, Sky, places, sky, start_error
 from earthspin.secular import derived_angles, error_budget
 from earthspin.secular.averaged_torque import (
     PrecessionConstant,

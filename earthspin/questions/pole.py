@@ -20,7 +20,7 @@ from earthspin.questions import effects_and_torques, iau_comparison, interior_re
 from earthspin.questions.effects_and_torques import ATTRACTORS, Attractors
 from earthspin.questions.iau_comparison import Shift, WithInterior
 from earthspin.questions.satellites import no_satellites
-from earthspin.questions.sky import Sky
+from earthspin.questions.sky import Sky, start_error
 from earthspin.questions.time_axes import SPAN_DOC, Dated, days_of
 
 
@@ -299,7 +299,7 @@ def neglected(
         sizes |= {NONRIGID.name: max(map(RESPONSE.at, epochs.span()))}
         sources.append("nonrigid: measured on DE421 from 1950 to 2050")
     if not body.needed("pole").of_the_iau:
-        half = effects_and_torques.start_error(body)
+        half = start_error(body)
         if half is None:
             unknown.append("uncertainty of the pole at the start")
         else:

@@ -13,7 +13,7 @@ import numpy as np
 from earthspin._version import version
 from earthspin.bodies import EARTH, MOON, SUN, Body, all_of, checks, moons, planets
 from earthspin.bodies.body import SPIN_FIELDS
-from earthspin.constants import DAY
+from earthspin.constants import DAY, NORMAL_95
 from earthspin.dates import Span
 from earthspin.engine import Question, key, part
 from earthspin.errors import KernelError, SceneError, UndefinedError, Where
@@ -120,6 +120,13 @@ class PerturbedBody(Question):
         """Refuse a spin so fast that the body would break up, if the computation needs the spin."""
         if "spin_period" in self.needed():
             checks.refuse_break_up(self.body)
+
+
+def start_error(body: Body) -> float | None:
+    """95 % half-width of the pole's direction at J2000.0, rad; None if it is not known."""
+    if body.pole_uncertainty is None:
+        return None
+    return NORMAL_95 * body.number("pole_uncertainty")
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from earthspin.engine.variables import labels, measured, number, variable_of
 from earthspin.mass.figure import moment_difference
 from earthspin.numerics.arrays import FloatArray
 from earthspin.questions import reasons, satellites
-from earthspin.questions.sky import Sky, places, sky
+from earthspin.questions.sky import Sky, places, sky, start_error
 from earthspin.questions.time_axes import SPAN_DOC, Dated, DateSeries, days_of, epochs
 from earthspin.sky.iau_models import NUTATION_NODE_STEP, NutationSpline
 from earthspin.sky.sources import OF_DATE, SourceName
@@ -86,7 +86,9 @@ class Torques(Dated, along=("time", "perturber")):
     )
     torque_magnitude = measured("N m", "magnitude of the torque")
     direction_error = number(
-        "arcsec", "bound on the error of right ascension and declination", along=("perturber",)
+        "arcsec",
+        "bound on the error of right ascension and declination: positions, and pole at J2000.0",
+        along=("perturber",),
     )
     distance_error = number("m", "bound on the error of the distance", along=("perturber",))
     perturber = labels()
@@ -107,7 +109,11 @@ def torques(
     now = days_of(epochs, block, "series.zarr", (body, *perturbers))
     names = list(sky.targets)
     radec = sky.radec(body, now, true=equator == "true", nutation=nutation)
-    kernel_error = {name: sky.error(sky.targets[name], epochs.span()) for name in names}
+    pole_error = start_error(body)
+    errors = {}
+    for name in names:
+        angle, far = sky.error(sky.targets[name], epochs.span())
+        errors[name] = math.hypot(angle, pole_error or 0.0), far
 
     def stack(values: list[FloatArray], *dims: str, times: Numeric = 1.0) -> xr.DataArray:
         stacked, is_array = np.stack(values, axis=1), hasattr(times, "dims")
@@ -121,7 +127,7 @@ def torques(
     per_bulge = [torque_from_declination(p.gm_on(body), 1.0, *radec[p.name]) for p in perturbers]
     error = []
     for p in perturbers:
-        place = (*radec[p.name][1:], *kernel_error[p.name])
+        place = (*radec[p.name][1:], *errors[p.name])
         u_product = math.hypot(u_bulge, p.relative_uncertainty.get("gm", 0.0))
         error.append(torque_error(p.gm_on(body), 1.0, *place, u_product))
     magnitudes = [np.linalg.norm(t, axis=-1) for t in per_bulge]
@@ -133,14 +139,19 @@ def torques(
         distance=stack([radec[name][2] for name in names]),
         torque=stack(per_bulge, "component", times=bulge),
         torque_magnitude=(stack(magnitudes, times=abs(bulge)), stack(error, times=abs(bulge))),
-        direction_error=[kernel_error[name][0] for name in names],
-        distance_error=[kernel_error[name][1] for name in names],
+        direction_error=[errors[name][0] for name in names],
+        distance_error=[errors[name][1] for name in names],
     ).with_attributes(
         no_error=sky.no_error,
         torque={"frame": f"{equator} equator and equinox of date"},
         direction_error={
             "method": _equator_words(equator, nutation),
             "evaluations": epochs.size * len(names) + getattr(nutation, "evaluations", 0),
+            **(
+                {}
+                if pole_error is not None
+                else {"not_included": "uncertainty of the pole, not known"}
+            ),
         },
     )
 
