@@ -218,7 +218,9 @@ def _amplitude_error(residuals: ComplexArray, spacing: float, rate: float) -> Fl
     order, with the power of its spectrum at the frequency of the wobble.
     """
     power = np.mean(abs(residuals) ** 2, axis=1)
-    correlation = np.mean(residuals[:, 1:] * residuals[:, :-1].conj(), axis=1) / power
+    # Over as many samples as the power: the size of the correlation then never exceeds 1.
+    products = np.sum(residuals[:, 1:] * residuals[:, :-1].conj(), axis=1)
+    correlation = products / (residuals.shape[1] * power)
     whitening = abs(1 - correlation * np.exp(-1j * rate * spacing)) ** 2
     density = power * (1 - abs(correlation) ** 2) / whitening
     return np.asarray(AMPLITUDE_EXCESS * NORMAL_95 * np.sqrt(density / (2 * residuals.shape[1])))

@@ -282,3 +282,15 @@ def test_windows_may_be_longer() -> None:
     scene = earthspin.load_scene("polar-motion", {"polar_motion.window": "12 yr"})
     longer, usual = (earthspin.run_tree(s)["chandler"] for s in (scene, "polar-motion"))
     assert longer.sizes["middle"] < usual.sizes["middle"]
+
+
+@pytest.mark.parametrize("period", [500.0, 540.0, 600.0, 700.0])
+def test_envelope_with_a_smooth_residual(period: float) -> None:
+    """A second line near the wobble, without noise: consecutive residuals are almost equal."""
+    t = np.arange(0.0, 60 * 365.25, 30.0)
+    line = 60 * np.exp(2j * np.pi * t / period)
+    with np.errstate(all="raise"):
+        seen = record.envelope(t, 200 * np.exp(2j * np.pi * t / 433) + line, 433.0)
+    # In a window the line differs from the wobble by at most its own amplitude.
+    assert np.all(abs(abs(seen.chandler) - 200) < 60)
+    assert np.all((seen.error > 0) & (seen.error < 2 * 60))
