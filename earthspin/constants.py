@@ -55,8 +55,8 @@ class Constant:
 
     @property
     def relative_uncertainty(self) -> float:
-        """Relative standard deviation of the constant; 0 if the uncertainty is not known."""
-        return abs((self.uncertainty or 0.0) / self.value)
+        """Relative standard deviation of the constant; NaN if the uncertainty is not known."""
+        return math.nan if self.uncertainty is None else abs(self.uncertainty / self.value)
 
 
 @dataclass(frozen=True, slots=True)

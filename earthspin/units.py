@@ -22,7 +22,7 @@ from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeGuard, TypeV
 import numpy as np
 
 from earthspin.errors import EarthspinError, UnitsError, Where, is_one_line, nearest, one_line
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import Array, FloatArray
 
 #: What a scene file can hold: text, numbers, truth, lists and tables of them.
 Plain = Any
@@ -128,7 +128,16 @@ def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
         raise where.error(f"shape {np.shape(plain)}", "give one number or more")
     if not np.all(np.isfinite(plain)):
         raise where.error(value, "give finite numbers")
-    return converted
+    if hasattr(converted, "dims"):
+        return converted.copy(deep=True, data=frozen(plain))
+    return frozen(converted) if isinstance(converted, np.ndarray) else converted
+
+
+def frozen(array: Array) -> Array:
+    """Copy an array so that neither its owner nor a user of the copy can change it."""
+    copy = np.array(array)
+    copy.flags.writeable = False
+    return copy
 
 
 @dataclass(frozen=True)

@@ -11,9 +11,11 @@ import xarray as xr
 from hypothesis import given
 from hypothesis import strategies as st
 
+import earthspin
 from earthspin import EARTH, MARS, SUN, BodyError, Scene, SceneError, UnitsError
 from earthspin.bodies import BODIES, body
 from earthspin.bodies.body import Body
+from earthspin.constants import Constant
 from earthspin.errors import Where
 
 
@@ -282,3 +284,21 @@ def test_a_number_that_is_usual_in_kilometres_is_refused(
 )
 def test_dense_and_thin_bodies_are_possible(gm: float, radius: float) -> None:
     assert Body(name="x", gm=gm, radius=radius).gm == gm
+
+
+@pytest.mark.parametrize("field", ["j2", "spin_period"])
+def test_an_array_given_to_a_body_is_copied_and_cannot_be_changed(field: str) -> None:
+    given = xr.DataArray([1.0, 1.1], dims="case") * getattr(EARTH, field)
+    body = EARTH.replace(**{field: given})
+    before = earthspin.precession(body=body)
+    kept = getattr(body, field).values.copy()
+    given[0] = 5.0
+    np.testing.assert_array_equal(getattr(body, field), kept)
+    with pytest.raises(ValueError, match="read-only"):
+        getattr(body, field)[1] = 7.0
+    xr.testing.assert_equal(earthspin.precession(body=body), before)
+
+
+def test_an_unknown_uncertainty_is_not_zero() -> None:
+    assert math.isnan(Constant(3.0, "m", None, "a source").relative_uncertainty)
+    assert Constant(3.0, "m", 0.0, "by definition").relative_uncertainty == 0

@@ -28,7 +28,8 @@ if TYPE_CHECKING:
 def flattening_of(j2: Constant, moment: Constant) -> Constant:
     """Dynamical flattening H = J2/(C/(M R2)), with its propagated uncertainty."""
     h = j2.value / moment.value
-    u = math.hypot(j2.relative_uncertainty, moment.relative_uncertainty)
+    # The source of Venus's J2 gives none; that of its moment, 7 %, is far larger.
+    u = math.hypot(*(n.relative_uncertainty for n in (j2, moment) if n.uncertainty is not None))
     source = f"J2 over C/(M R2): {j2.source}; {moment.source}"
     return Constant(h, "", h * u, source, f"{j2.read_in}; {moment.read_in}")
 

@@ -171,7 +171,7 @@ def period(offset_table: PoleSeries) -> CorePeriod:
         problem = f"the method of the free wobble finds no free core nutation: {error}"
         raise UndefinedError(problem) from None
     published = OBSERVED_CORE_NUTATION
-    half_width = NORMAL_95 * (published.uncertainty or 0.0) * DAY
+    half_width = NORMAL_95 * published.relative_uncertainty * published.value * DAY
     return CorePeriod(
         core_nutation_period=(-mode.period * DAY, mode.period_error * DAY),
         core_nutation_period_published=(published.value * DAY, half_width),

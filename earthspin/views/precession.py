@@ -82,9 +82,9 @@ def periods(tree: Result) -> TextTable:
         f"the rate and {abs(float(known.closure / known.closure_error)):.1f} half-widths: the "
         "half-widths contain the uncertainties of H, of the masses and of the average, but the "
         "published sizes of the known effects have none. H was inferred from the observed "
-        "precession, so the agreement with IAU 2006 is a test of consistency. With J2 and the layers "
-        f"of PREM the second period is {float(known.period_from_prem):.1f} years; the moment of "
-        "inertia among the data of PREM also came from the precession.",
+        "precession, so the agreement with IAU 2006 is a test of consistency. With J2 and the "
+        f"layers of PREM the second period is {float(known.period_from_prem):.1f} years; the "
+        "moment of inertia among the data of PREM also came from the precession.",
         words=(0, 3),
     )
 
