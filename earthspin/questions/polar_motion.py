@@ -104,12 +104,11 @@ class ObservedFreeWobble(
         "mas",
         "amplitude of the free wobble",
         cell_methods="middle: mean (one beat of the wobbles)",
-        comment="mean over one beat of the free and the annual wobble",
+        comment="mean over one beat of the free and the annual wobble, as is its error; within a "
+        "beat the amplitude changes by more",
     )
     chandler_phase = number("deg", "phase of the free wobble relative to a sinusoid of its period")
-    annual_amplitude = number(
-        "mas", "amplitude of the annual wobble, prograde", error="chandler_amplitude_error"
-    )
+    annual_amplitude = measured("mas", "amplitude of the annual wobble, prograde")
     annual_retrograde_amplitude = number(
         "mas", "amplitude of the annual wobble, retrograde", error="chandler_amplitude_error"
     )
@@ -149,7 +148,7 @@ def _free_wobble(
         chandler_period=(fit.period * DAY, fit.period_error * DAY),
         chandler_amplitude=(abs(wobbles.chandler) * MAS, wobbles.error * MAS),
         chandler_phase=np.unwrap(np.angle(wobbles.chandler)),
-        annual_amplitude=abs(wobbles.annual) * MAS,
+        annual_amplitude=(abs(wobbles.annual) * MAS, wobbles.annual_error * MAS),
         annual_retrograde_amplitude=abs(wobbles.annual_retrograde) * MAS,
         mean_pole=np.column_stack(ex.coordinates_of(wobbles.drift)) * MAS,
         chandler_quality_factor=fit.quality_factor,

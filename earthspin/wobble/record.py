@@ -128,6 +128,9 @@ WINDOW_BLOCK = 30.0  # d
 #: How far amplitudes scatter beyond the noise that is left in a window, from simulations: the
 #: fit takes some of it away.
 AMPLITUDE_EXCESS = 1.3
+#: The same of the annual amplitude beside that: the excitation of the free wobble within a window
+#: is near the year, and is fitted as a part of the annual wobble.
+ANNUAL_EXCESS = 1.6
 
 
 @dataclass(frozen=True)
@@ -140,8 +143,9 @@ class Envelope:
         Middles of the windows, d.
     chandler, annual, annual_retrograde : complex array
         Sizes and phases at time 0: terms a exp(2 pi i time/T).
-    error : array
-        95 % half-width of the amplitudes.
+    error, annual_error : array
+        95 % half-widths of the mean amplitude of the free wobble in the window (and of the
+        retrograde annual amplitude), and of the amplitude of a steady annual wobble.
     drift : complex array
         Mean position in the window.
     """
@@ -152,6 +156,7 @@ class Envelope:
     annual_retrograde: ComplexArray
     drift: ComplexArray
     error: FloatArray
+    annual_error: FloatArray
 
 
 def envelope(
@@ -207,8 +212,12 @@ def envelope(
     to_time_zero = np.exp(-2j * np.pi * middle[:, None] / np.array(periods[:3]))
     amplitudes = sizes[:, 2:5] * to_time_zero
     chandler, annual, retrograde = amplitudes.T
-    error = _amplitude_error(residuals, spacing, 2 * np.pi / period)
-    return Envelope(middle, chandler, annual, retrograde, sizes[:, 0], error)
+    # The free wobble is prograde only: what excites it within the window changes its mean and is no
+    # error of it. The noise is that at the opposite frequency.
+    rate = 2 * np.pi / period
+    error = _amplitude_error(residuals, spacing, -rate)
+    annual_error = ANNUAL_EXCESS * _amplitude_error(residuals, spacing, rate)
+    return Envelope(middle, chandler, annual, retrograde, sizes[:, 0], error, annual_error)
 
 
 def _amplitude_error(residuals: ComplexArray, spacing: float, rate: float) -> FloatArray:

@@ -131,6 +131,46 @@ def test_errors_of_the_amplitude_cover_it() -> None:
     assert 0.88 < np.mean(inside) < 0.995
 
 
+def test_errors_of_amplitudes_are_those_of_means_over_the_window() -> None:
+    """A wobble driven at random: the mean of its phasor in each window is known.
+
+    Measured in 25 runs, share inside and half-width needed for 95 % over that claimed: free 0.995
+    and 0.63, annual 0.96 and 0.95, retrograde 0.98 and 0.86.
+    """
+    time = np.arange(0.0, 25 * 365.25, 10.0)
+    beat = record.shortest_span()
+    ratios = []
+    for seed in range(25):
+        wobble, background = driven(time, 433.0, seed)
+        p = wobble + background + 94 * record.turning(time, record.YEAR)
+        seen = record.envelope(time, p + 4.5 * record.turning(time, -record.YEAR), 433.0)
+        phasor = wobble * record.turning(time, -433.0)
+        means = [phasor[abs(time - middle) <= beat / 2].mean() for middle in seen.time]
+        ratios.append(
+            [
+                (abs(seen.chandler) - np.abs(means)) / seen.error,
+                (abs(seen.annual) - 94) / seen.annual_error,
+                (abs(seen.annual_retrograde) - 4.5) / seen.error,
+            ]
+        )
+    needed = np.quantile(abs(np.array(ratios)), 0.95, axis=(0, 2))
+    assert np.all((needed > (0.45, 0.7, 0.7)) & (needed < 1.05))
+
+
+def driven(time: np.ndarray, period: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Draw a wobble of Q = 100 that white noise drives, and a red background beside it, mas."""
+    generator, step = np.random.default_rng(seed), time[1] - time[0]
+    rate = 2 * np.pi / period
+    rates = (1j * rate - rate / 200, 128), (-1 / 365, 10), (-1 / 15, 8)
+    parts = []
+    for exponent, size in rates:
+        kick = generator.standard_normal((time.size, 2)) @ [1, 1j] / np.sqrt(2)
+        keep = np.exp(exponent * step)
+        kick[1:] *= np.sqrt(1 - abs(keep) ** 2)
+        parts.append(size * lfilter([1.0], [1.0, -keep], kick))
+    return parts[0], parts[1] + parts[2]
+
+
 def test_spectrum_tells_the_sense_of_rotation() -> None:
     t = np.arange(0.0, 20000.0)
     frequency, amplitude = record.spectrum(t, 100 * np.exp(2j * np.pi * t / 433))
