@@ -138,6 +138,10 @@ def chandler(observed_pole: xr.Dataset, method: str, window: float | None) -> Ob
     return _free_wobble(time, p, observed.fit(time, p, method), window)
 
 
+#: Condition of the errors of period and quality factor; docs/wobble.md has its figures and papers.
+_CONDITION = "white or red excitation near the wobble's frequency, not a narrow band"
+
+
 def _free_wobble(
     time: FloatArray, p: ComplexArray, fit: record.WobbleFit, window: float | None
 ) -> ObservedFreeWobble:
@@ -155,7 +159,12 @@ def _free_wobble(
         chandler_quality_factor_low=low,
         chandler_quality_factor_high=high,
         middle=datetime64(wobbles.time),
-    ).with_attributes(chandler_period={"method": fit.method})
+    ).with_attributes(
+        chandler_period={"method": fit.method},
+        chandler_period_error={"condition": _CONDITION},
+        chandler_quality_factor_low={"condition": _CONDITION},
+        chandler_quality_factor_high={"condition": _CONDITION},
+    )
 
 
 class Spectrum(
@@ -215,7 +224,8 @@ def fit_chandler(
     ----------
     ds : Dataset or DataFrame
         `x` and `y` over `time`, evenly spaced, with units ("arcsec" or "mas"). A pandas table has
-        dates as its index, or a column `MJD`, and the unit in ``attrs["units"]``.
+        dates as its index, or a column `MJD`, and the unit in ``attrs["units"]``. Small gaps are
+        filled as by ``polar_motion(file=ds)``, and described in the attribute ``repairs``.
     method : str, optional
         ``"burg"`` (the default) or ``"likelihood"``.
     window : duration, optional
@@ -230,13 +240,14 @@ def fit_chandler(
     -------
     Dataset
         `chandler_period` (d) and `chandler_quality_factor`, `..._low`, `..._high` with 95 %
-        intervals; over `time`, the middles of the windows, `chandler_amplitude` (mas) and
-        its phase, the annual amplitudes and the mean pole.
+        intervals, whose attribute ``condition`` says for which excitation they hold; over `time`,
+        the middles of the windows, `chandler_amplitude` (mas) and its phase, the annual amplitudes
+        and the mean pole.
 
     Raises
     ------
     EarthspinError
-        If the series is uneven, has no numbers, or is too short (the message names the needed
+        If the series has a long gap or no numbers, is too short (the message names the needed
         length), or contains no wobble.
 
     Examples
@@ -247,27 +258,46 @@ def fit_chandler(
     >>> print(f"{wobble.chandler_period:.0f} ± {wobble.chandler_period_error:.0f} d")
     434 ± 6 d
     """
+    from earthspin.wobble import observed
+
     length = None if window is None else _DAYS.read(window, Where("window"))
     if excitation is None:
         word = kind_of(Method).read("burg" if method is None else method, Where("method"))
-        wobble = chandler(ds, word, length)
+        time, p, repairs = _given_pole(ds)
+        fit = observed.fit(time, p, word)
     else:
         if not (method is None or (isinstance(method, str) and method == "likelihood")):  # type: ignore[redundant-expr]
             raise SceneError("method", method, "with an excitation it is 'likelihood'")
-        from earthspin.wobble.observed import fit_with_excitation
-
-        time, p, chi = _together(ds, excitation)
-        wobble = _free_wobble(time, p, fit_with_excitation(time, p, chi), length)
+        time, p, chi, repairs = _together(ds, excitation)
+        fit = observed.fit_with_excitation(time, p, chi)
     source = {"source": ds.attrs["source"]} if "source" in ds.attrs else {}
-    return wobble.dataset().rename(middle="time").assign_attrs(source)
+    wobble = _free_wobble(time, p, fit, length).dataset()
+    return wobble.rename(middle="time").assign_attrs(source | repairs)
 
 
-def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArray, ComplexArray]:
-    """Return dates, pole and mean excitation for the days that both series cover.
+def _given_pole(
+    pole: xr.Dataset | pd.DataFrame,
+) -> tuple[FloatArray, ComplexArray, dict[str, str]]:
+    """Days from J2000.0, polar motion in mas, and an attribute that describes repairs, if any.
+
+    Small gaps and rows without numbers are repaired as in tables of the pole.
+    """
+    time, p = complex_pole(pole)
+    steps = np.diff(time)
+    if np.isfinite(p).all() and np.all(abs(steps - steps[0]) <= SAME_DAY):
+        return time, p, {}
+    table = read_polar_motion(tables.PoleInput().read(pole, Where("ds")))
+    return table.mjd - MJD, table.pole, {"repairs": table.repairs} if table.repairs else {}
+
+
+def _together(
+    pole: xr.Dataset | pd.DataFrame, chi: xr.Dataset
+) -> tuple[FloatArray, ComplexArray, ComplexArray, dict[str, str]]:
+    """Return dates, pole, mean excitation and repairs for the days that both series cover.
 
     The excitation is the mean over each step between dates; pole and excitation are in mas.
     """
-    time, p = complex_pole(pole)
+    time, p, repairs = _given_pole(pole)
     middles, driving = _complex_excitation(chi)
     ends = ex.ends_of_steps(middles, _even_step(middles))
     step = _even_step(time)
@@ -282,7 +312,7 @@ def _together(pole: xr.Dataset, chi: xr.Dataset) -> tuple[FloatArray, ComplexArr
         remedy = "read_excitation(..., daily=True) makes them from 0h to 0h"
         raise SceneError("excitation", given, f"give {means}; {remedy}")
     common = slice(start, start + count)
-    return time[common], p[common], driving[first : first + count - 1]
+    return time[common], p[common], driving[first : first + count - 1], repairs
 
 
 def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
@@ -314,7 +344,7 @@ def excitation(
     Parameters
     ----------
     ds : Dataset or DataFrame
-        `x` and `y` over `time`, evenly spaced, as for `fit_chandler`.
+        `x` and `y` over `time`, as for `fit_chandler`.
     period : duration
         Period of the free wobble; plain numbers are in days.
     quality_factor : float
@@ -328,7 +358,7 @@ def excitation(
     Raises
     ------
     EarthspinError
-        If the series is uneven or has no numbers.
+        If the series has a long gap or no numbers.
 
     Examples
     --------
@@ -339,7 +369,7 @@ def excitation(
     1828 1827
     """
     days, q = _DAYS.read(period, Where("period")), _PURE.read(quality_factor, _Q)
-    time, p = complex_pole(ds)
+    time, p, repairs = _given_pole(ds)
     step = _even_step(time)
     chi = ex.excitation(p, step, ex.chandler_frequency(days, q))
     start_x, start_y = ex.coordinates_of(p[0])
@@ -354,6 +384,7 @@ def excitation(
         start_day=float(time[0]),
         step=step,
         comment=f"means over the step (d) around each time; {start}",
+        **repairs,
     )
 
 
@@ -418,7 +449,7 @@ def polar_motion_from(
     if fitted_to is not None:
         if start is not None:
             raise SceneError("start", start, "fitted_to determines it; remove one of them")
-        ends, observed, driving = _together(fitted_to, chi)
+        ends, observed, driving, _ = _together(fitted_to, chi)
         begin = ex.fitted_start(ends, observed, driving, s)
     else:
         begin = complex(ex.pole_of(*_given_start(chi, start, ends[0])))

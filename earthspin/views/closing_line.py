@@ -39,7 +39,17 @@ def closing_line(result: Result, seconds: float | None = None) -> str:
         run_time = result["plan"].run_time
         imports = float(run_time.sel(part=IMPORTS)) if IMPORTS in run_time.part else 0.0
         cost = f"{plain(float(run_time.sum()) - imports)} s (+ {plain(imports)} s imports)"
-    return "; ".join(filter(None, (_error(answer), cost)))
+    return "; ".join(filter(None, (_error(answer), *_conditions(result), cost)))
+
+
+def _conditions(result: Result) -> list[str]:
+    """Conditions of the errors in the sections of a result, each said once."""
+    parts = result.children.values() if isinstance(result, xr.DataTree) else ()
+    conditions: dict[str, str] = {}
+    for name, error in (pair for part in parts for pair in part.data_vars.items()):
+        if "condition" in error.attrs:
+            conditions.setdefault(error.attrs["condition"], str(name).replace("_", " "))
+    return [f"{name} holds for {condition}" for condition, name in conditions.items()]
 
 
 def _error(answer: xr.Dataset) -> str:

@@ -11,10 +11,11 @@ from hypothesis import strategies as st
 from scipy.signal import lfilter
 
 import earthspin
-from earthspin import SceneError, UndefinedError, UnitsError
+from earthspin import SceneError, SeriesError, UndefinedError, UnitsError
 from earthspin.constants import ARCSEC, DAY, MAS, TROPICAL_YEAR
 from earthspin.numerics.sampling import block_means
 from earthspin.sky.eop import read_polar_motion
+from earthspin.views.closing_line import closing_line
 from earthspin.wobble import observed, record
 from earthspin.wobble.state_space import burg
 from tests.conftest import load_pins
@@ -278,13 +279,9 @@ def units(pole: xr.Dataset, **words: str) -> xr.Dataset:
 @pytest.mark.parametrize(
     ("spoil", "message"),
     [
-        (lambda pole: pole.isel(time=np.r_[0:9000, 9100:20000]), "not evenly spaced"),
+        (lambda pole: pole.isel(time=np.r_[0:9000, 9100:20000]), "gaps up to 10 d are bridged"),
         (lambda pole: pole.isel(time=np.r_[0:9000, 8999:20000]), "drop_duplicates"),
         (lambda pole: pole.isel(time=np.r_[9000:20000, 0:9000]), "sortby"),
-        (
-            lambda pole: units(pole.where(pole.time != pole.time[500]), x="mas", y="mas"),
-            "no numbers",
-        ),
         (lambda pole: units(pole, x="rad"), "'arcsec' or 'mas'"),
         (lambda pole: units(pole * 1e3, x="arcsec", y="arcsec"), "check the unit"),
         (lambda pole: units(pole * ARCSEC, x="arcsec", y="arcsec"), "check the unit"),
@@ -303,8 +300,33 @@ def test_bad_input_is_refused(
         spoilt = spoil(pole[["x", "y"]])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        with pytest.raises((SceneError, UndefinedError), match=message):
+        with pytest.raises((SceneError, SeriesError, UndefinedError), match=message):
             earthspin.fit_chandler(spoilt)
+
+
+def test_small_gaps_are_filled_as_in_a_table(pole: xr.Dataset) -> None:
+    """Absent rows and rows without numbers; the fit is that of the table as it is read."""
+    frame = pole[["x", "y"]].isel(time=slice(9000, 16000)).to_dataframe()
+    absent, empty = frame.drop(frame.index[[500, 501, 2000]]), frame.copy()
+    empty.iloc[[500, 501, 2000], 0] = np.nan
+    for table in (absent, empty):
+        table.attrs["units"] = "arcsec"
+        known = earthspin.polar_motion(file=table)
+        fit, chi = earthspin.fit_chandler(table), earthspin.excitation(table)
+        assert "3 missing steps" in fit.attrs["repairs"] == chi.attrs["repairs"]
+        expected = earthspin.fit_chandler(known).chandler_period
+        assert float(fit.chandler_period) == pytest.approx(float(expected), rel=1e-9, abs=0)
+        xr.testing.assert_allclose(chi, earthspin.excitation(known), rtol=0, atol=1e-6)
+        driven_pole = earthspin.polar_motion_from(chi, fitted_to=table)
+        assert driven_pole.sizes["time"] == known.sizes["time"]
+
+
+def test_errors_of_the_wobble_state_their_condition(tree: xr.DataTree, pole: xr.Dataset) -> None:
+    fit = earthspin.fit_chandler(pole)
+    names = ("period_error", "quality_factor_low", "quality_factor_high")
+    (condition,) = {fit[f"chandler_{name}"].attrs["condition"] for name in names}
+    assert closing_line(tree).count(condition) == 1
+    assert condition not in closing_line(pole)
 
 
 def test_unknown_methods_and_windows(pole: xr.Dataset) -> None:
