@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 import earthspin
@@ -21,7 +22,6 @@ from earthspin.constants import NORMAL_95, PSI_A_RATE, UNVERIFIED, Constant
 from earthspin.errors import EarthspinError
 from earthspin.questions.cassini_states import CassiniStates
 from earthspin.questions.precession import Precession
-from earthspin.views.tables import systematic_size
 
 #: Signs of units, and their size in degrees; obliquities below `SMALL` (deg) are in minutes of arc.
 UNITS, SMALL = {"arcmin": "′", "deg": "°"}, 0.1
@@ -145,8 +145,11 @@ def left_out(tree: xr.DataTree) -> float:
 
     The nodes of satellites do not count: they move the pole about the mean that has this rate.
     """
-    section = tree["neglected"].to_dataset()
-    return systematic_size(section)
+    sizes = tree["neglected"].neglected_effect
+    if not sizes.size or sizes.attrs.get("of_unknown_size"):
+        return math.nan
+    periodic = sizes.attrs.get("zero_in_the_mean", "").split("; ")
+    return float(abs(sizes[~np.isin(sizes["effect"].values, periodic)]).sum())
 
 
 def world(name: str) -> World:

@@ -189,11 +189,9 @@ def models(tree: Result) -> TextTable:
 def free_wobble(tree: Result) -> TextTable:
     """Table of the free wobble period of the rigid body, and the observed period if known."""
     wobble = section(tree, "free_wobble")
-    notes = ["The formula holds for a rigid body; a real body deforms."]
+    notes = ["The formula holds for a rigid body, as does the error; a real body deforms."]
     rigid, rows = measured(wobble, "free_wobble_period"), []
     if "observed_period" in wobble:
-        period, error = wobble.free_wobble_period, wobble.free_wobble_period_error
-        rigid = tables.beside_observed(period, error, None)
         rows.append(("observed", measured(wobble, "observed_period"), ""))
         source = wobble.observed_period.attrs["references"]
         notes.append(f"Source of the observed period: {source}.")

@@ -12,14 +12,15 @@ import xarray as xr
 
 from earthspin._version import __version__
 from earthspin.engine import atomic_writes, store
+from earthspin.engine.variables import largest_of
 from earthspin.progress import progress
 from earthspin.rotor.axisymmetric import SymmetricRotor
 from earthspin.scenes import load_scene, run, run_tree
 from earthspin.views import drawing, precession, rotors, solids, torque
 from earthspin.views.page import page
 from earthspin.views.rendering import drawings_for, page_of, solids_for
-from earthspin.views.result_contents import answer_of, body_of, section, stored_section
-from earthspin.views.tables import beside_observed, measured
+from earthspin.views.result_contents import answer_of, body_of, section
+from earthspin.views.tables import measured
 
 HALF_A_YEAR = np.timedelta64(183, "D")
 HALF_A_NODE_CYCLE = np.timedelta64(3400, "D")
@@ -162,13 +163,14 @@ def _explained_and_observed(ladder: xr.DataTree, pole: xr.DataTree) -> str:
     """Sentence with the rigid, computed and observed periods of the free wobble."""
     answer = answer_of(ladder)
     rigid, top = measured(answer.sel(rung="rigid"), "period_solar", "days"), answer.isel(rung=-1)
-    period, error = top.period_solar, top.period_solar_error
-    last = beside_observed(period, error, stored_section(ladder, "neglected"), "days")
+    last = measured(top, "period_solar", "days")
+    largest = largest_of(answer.attrs["neglected"])
+    left_out = f", without {largest[0]} ({largest[1]:g} {largest[2]})" if largest else ""
     *others, other = (ADDED[rung] for rung in answer.rung.values if rung in ADDED)
     return (
         f"If {body_of(answer)} were rigid, its free wobble would have a period of {rigid}; with "
-        f"{', '.join(others)} and {other}, the computed period is {last}. The observed period is "
-        f"{measured(section(pole, 'chandler'), 'chandler_period', 'days')}."
+        f"{', '.join(others)} and {other}, the computed period is {last}{left_out}. The "
+        f"observed period is {measured(section(pole, 'chandler'), 'chandler_period', 'days')}."
     )
 
 

@@ -32,9 +32,6 @@ BRACKETS = (
 SPELLING = {"iau": "IAU", "bulletin a": "Bulletin A", "dpsi sineps": "dpsi sin(eps)"}
 SPELLING |= {word: word.capitalize() for word in ("chandler", "gregorian", "lyapunov", "love")}
 
-#: Note beside a half-width that includes the uncertainty of the inputs, but no neglected effects.
-NUMBERS_ONLY = "error from inputs only"
-
 
 @dataclass(frozen=True)
 class TextTable:
@@ -208,40 +205,6 @@ def short_exponents(text: str) -> str:
 def two_digits(value: SupportsFloat) -> str:
     """Format a number to two digits; exponents are used below 0.0001 and above 999999."""
     return short_exponents(f"{float(f'{float(value):.2g}'):g}")
-
-
-def beside_observed(
-    value: SupportsFloat, error: SupportsFloat, left_out: xr.Dataset | None, unit: str = ""
-) -> str:
-    """Format a value for comparison with observation; the error includes known neglected effects.
-
-    Parameters
-    ----------
-    value, error : float
-        The half-width is due to the uncertainty of the inputs only.
-    left_out : Dataset or None
-        The section `neglected` in the same unit: its sizes, which are systematic, are added to the
-        half-width. If any size is unknown, `NUMBERS_ONLY` follows the value.
-    unit : str
-        Written after the numbers.
-    """
-    neglected = math.nan if left_out is None else systematic_size(left_out)
-    if math.isfinite(neglected):
-        return with_error(value, float(error) + neglected, unit)
-    plain = with_error(value, error, unit)
-    return f"{plain}, {NUMBERS_ONLY}" if float(error) > 0 else plain
-
-
-def systematic_size(left_out: xr.Dataset) -> float:
-    """Sum of the sizes of neglected effects; NaN if there are no sizes or any size is unknown.
-
-    Periodic effects vanish in the mean and are excluded.
-    """
-    sizes = left_out.neglected_effect
-    if not sizes.size or sizes.attrs.get("of_unknown_size"):
-        return math.nan
-    periodic = sizes.attrs.get("zero_in_the_mean", "").split("; ")
-    return float(abs(sizes[~np.isin(sizes["effect"].values, periodic)]).sum())
 
 
 def measured(data: xr.Dataset, name: str, unit: str = "") -> str:

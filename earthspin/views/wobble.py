@@ -15,12 +15,6 @@ def ladder(tree: Result) -> TextTable:
     """Table of the free wobble period for successive models, from rigid to deformable."""
     answer, observed = answer_of(tree), stored_section(tree, "observed")
 
-    def period(row: xr.Dataset) -> str:
-        if observed is None or row.rung != answer.rung[-1]:
-            return tables.measured(row, "period_solar")
-        left_out = stored_section(tree, "neglected")
-        return tables.beside_observed(row.period_solar, row.period_solar_error, left_out)
-
     def quality(row: xr.Dataset) -> str:
         return f"{float(row.quality_factor):.0f}" if np.isfinite(row.quality_factor) else ""
 
@@ -41,11 +35,10 @@ def ladder(tree: Result) -> TextTable:
         source = observed.observed_period.attrs.get("references", "")
         notes.append(
             f"Source of the observed period: {source}. "
-            "The errors include the uncertainty of the inputs; that of the last rung, compared "
-            "with the observed period, also includes the known sizes of neglected effects."
+            "The errors include the uncertainty of the inputs, but no neglected effects."
         )
     columns = (
-        Column("period_solar", period, "days of 86400 s"),
+        Column("period_solar", "", "days of 86400 s"),
         *("period_sidereal:.3f", "factor:.6f"),
         Column("quality_factor", quality),
     )

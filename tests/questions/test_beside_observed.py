@@ -1,19 +1,19 @@
-"""Results beside observations: printed uncertainties hold what is neglected, or say that not."""
+"""Results beside observations, and the sizes of what is neglected."""
 
 import math
+from pathlib import Path
 
 import pytest
 
 import earthspin
-from data_tools.worlds import PUBLISHED, locked, worlds
+from data_tools.worlds import PUBLISHED, left_out, locked, worlds
 from earthspin import MARS, MOON
 from earthspin.bodies.earth_moon_sun import MOON_OBLIQUITY
 from earthspin.bodies.moons import TITAN_OBLIQUITY
-from earthspin.engine.variables import Neglected
 from earthspin.questions.cassini_states import CassiniStates
 from earthspin.questions.precession import Precession
 from earthspin.views.rendering import tables_for
-from earthspin.views.tables import NUMBERS_ONLY, beside_observed, systematic_size
+from earthspin.views.report import write_wobble_report
 from tests.reference import lunar_state
 
 
@@ -68,14 +68,19 @@ def test_a_table_of_states_gives_the_size_that_is_larger_than_its_errors() -> No
     assert f"Left out: {effect}: {largest:.3g} deg" in table.note
 
 
-def test_the_rung_beside_the_observed_wobble_holds_what_it_leaves_out() -> None:
+def test_the_computed_wobble_is_one_number_in_table_report_and_readme(tmp_path: Path) -> None:
     tree = earthspin.run_tree("wobble", ["observed", "neglected"])
     top = tree.to_dataset().isel(rung=-1)
-    half = float(top.period_solar_error) + sum(abs(size) for size in sizes(tree).values())
+    one = f"{float(top.period_solar):.1f}({float(top.period_solar_error):.1f})"
     ladder, *_ = tables_for(tree)
-    assert ladder.rows[-2][1] == f"{float(top.period_solar):.1f}({half:.1f})"
-    alone, *_ = tables_for(earthspin.run_tree("wobble", ["observed"]))
-    assert NUMBERS_ONLY in alone.rows[-2][1]
+    assert ladder.rows[-2][1] == one
+    assert f"Left out: {tree.attrs['neglected']}" in ladder.note
+    _, (page, *_) = write_wobble_report(tmp_path, figures=False)
+    text = page.read_text()
+    assert text.count(one) == 2 == text.count(f"{float(top.period_solar):.1f}(")
+    readme = Path("README.md").read_text()
+    assert one in readme
+    assert one.replace("(", " ± ").replace(")", " days") in readme
 
 
 def test_rates_of_worlds_beside_observed_ones() -> None:
@@ -92,21 +97,13 @@ def test_rates_of_worlds_beside_observed_ones() -> None:
     assert rows["mars"].rate + told["geodesic"] == pytest.approx(7.6083, rel=0, abs=0.0041)
     other = earthspin.run_tree(Precession(body=MARS.replace(j2=1e-3)), ["neglected"])
     assert "geodesic" not in sizes(other)
-    assert math.isnan(systematic_size(other["neglected"].to_dataset()))
+    assert math.isnan(left_out(other))
 
 
 def test_nodes_of_satellites_are_no_error_of_the_mean_rate() -> None:
     """Of what is neglected for Saturn, only C counts; the nodes are zero in the mean."""
     tree = earthspin.run_tree(Precession(body="saturn"), ["neglected"])
-    section = tree["neglected"].to_dataset()
     assert max(sizes(tree).values()) > 0.25
-    assert systematic_size(section) == pytest.approx(0.07, rel=1e-12, abs=0)
-    assert beside_observed(0.74, 0.013, section) == "0.740(83)"
+    assert left_out(tree) == pytest.approx(0.07, rel=1e-12, abs=0)
 
 
-def test_sizes_add_up_without_their_signs() -> None:
-    left_out = Neglected({"a": -0.02, "b": 0.01}, "1").dataset()
-    assert beside_observed(1.0, 0.02, left_out) == "1.000(50)"
-    assert beside_observed(1.0, 0.02, left_out, "d") == "1.000(50) d"
-    assert beside_observed(1.0, 0.02, None) == f"1.000(20), {NUMBERS_ONLY}"
-    assert beside_observed(1.0, 0.0, Neglected().dataset()) == "1"
