@@ -270,12 +270,14 @@ def components(
 _COUNTED = "counted over the origins of the table"
 
 
-class Skill(Variables, along=("case", "coordinate"), no_error=_COUNTED):
+class Skill(Variables, along=("case", "coordinate"), no_error="the size of errors themselves"):
     """Measured errors of past forecasts of polar motion, by number of days after the origin."""
 
     mean_absolute_error = number("mas", "mean absolute error of the forecast", short="MAE")
     root_mean_square = number("mas", "root mean square error of the forecast", short="RMS")
-    coverage = number("1", "share of 95 % intervals that contain the observed pole")
+    coverage = number(
+        "1", "share of 95 % intervals that contain the observed pole", no_error=_COUNTED
+    )
     other_mean_absolute_error = number(
         "mas",
         "mean absolute error of Bulletin A on the same releases, or of least squares with "
@@ -283,8 +285,8 @@ class Skill(Variables, along=("case", "coordinate"), no_error=_COUNTED):
         short="other MAE",
     )
     skill_set = words("table and origins", along=("case",))
-    horizon = number("d", "days after the origin", along=("case",))
-    origins = number("1", "number of origins", along=("case",))
+    horizon = number("d", "days after the origin", along=("case",), no_error="it is chosen")
+    origins = number("1", "number of origins", along=("case",), no_error=_COUNTED)
     case = labels()
     coordinate = labels(default=["x", "y"])
 

@@ -403,6 +403,7 @@ def nutation(comparison: PoleComparison, core_response: Response) -> NutationTer
     )
 
 
+_RESIDUAL = "the size of residuals, a measure of error itself"
 _ABSORBING = "the fit to IAU 2000A with its additive terms"
 
 
@@ -423,12 +424,15 @@ class FittedCore(Variables, no_error="part of a fit; its residuals measure it"):
         f"period of the free core nutation from {_ABSORBING}",
         no_error="its difference from core_nutation_period shows the effect of these terms",
     )
-    response_rms = number("uas", f"root mean square of the residuals of {_ABSORBING}")
-    response_maximum = number("uas", f"largest residual of {_ABSORBING}")
+    response_rms = number(
+        "uas", f"root mean square of the residuals of {_ABSORBING}", no_error=_RESIDUAL
+    )
+    response_maximum = number("uas", f"largest residual of {_ABSORBING}", no_error=_RESIDUAL)
     apart_rms = number(
         "uas",
         "root mean square of the residuals of the fit to IAU 2000A without its additive terms; "
         "the prograde annual term is excluded",
+        no_error=_RESIDUAL,
     )
     added_period = number(
         "d",

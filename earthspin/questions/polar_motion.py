@@ -94,9 +94,7 @@ def observed_pole(pole_table: PoleSeries, body: Body, span: Span | None) -> Obse
 _END = "an end of an interval of 95 %"
 
 
-class ObservedFreeWobble(
-    Variables, along=("middle",), no_error="a mean over one beat, whose scatter was not propagated"
-):
+class ObservedFreeWobble(Variables, along=("middle",)):
     """Period and amplitude of the free wobble, amplitudes of the annual wobble, and mean pole."""
 
     chandler_period = measured("d", "period of the free wobble", along=(), short="period")
@@ -107,12 +105,19 @@ class ObservedFreeWobble(
         comment="mean over one beat of the free and the annual wobble, as is its error; within a "
         "beat the amplitude changes by more",
     )
-    chandler_phase = number("deg", "phase of the free wobble relative to a sinusoid of its period")
+    chandler_phase = measured(
+        "deg", "phase of the free wobble relative to a sinusoid of its period"
+    )
     annual_amplitude = measured("mas", "amplitude of the annual wobble, prograde")
     annual_retrograde_amplitude = number(
         "mas", "amplitude of the annual wobble, retrograde", error="chandler_amplitude_error"
     )
-    mean_pole = number("mas", "mean position of the pole", along=("middle", "axis"))
+    mean_pole = number(
+        "mas",
+        "mean position of the pole",
+        along=("middle", "axis"),
+        no_error="a mean of observed positions; errors of the table were not propagated",
+    )
     chandler_quality_factor = number(
         "1",
         "quality factor of the free wobble",
@@ -151,7 +156,10 @@ def _free_wobble(
     return ObservedFreeWobble(
         chandler_period=(fit.period * DAY, fit.period_error * DAY),
         chandler_amplitude=(abs(wobbles.chandler) * MAS, wobbles.error * MAS),
-        chandler_phase=np.unwrap(np.angle(wobbles.chandler)),
+        chandler_phase=(
+            np.unwrap(np.angle(wobbles.chandler)),
+            np.minimum(wobbles.error / abs(wobbles.chandler), np.pi),
+        ),
         annual_amplitude=(abs(wobbles.annual) * MAS, wobbles.annual_error * MAS),
         annual_retrograde_amplitude=abs(wobbles.annual_retrograde) * MAS,
         mean_pole=np.column_stack(ex.coordinates_of(wobbles.drift)) * MAS,
@@ -321,11 +329,14 @@ def _complex_excitation(chi: xr.Dataset) -> tuple[FloatArray, ComplexArray]:
     return time, ex.excitation_of(chi1, chi2) / MAS
 
 
-class Excitation(tables.Daily, no_error=tables.NO_ERRORS):
+class Excitation(tables.Daily, no_error="the files give no errors"):
     """Excitation of polar motion."""
 
     chi1 = number("mas", "excitation, towards the prime meridian")
     chi2 = number("mas", "excitation, towards 90 degrees east")
+
+
+_FROM_POLE = "errors of x and y, whose correlation between days is unknown, were not propagated"
 
 
 class DrivenPole(tables.Daily, no_error="excitation and free wobble are given without errors"):
@@ -375,6 +386,7 @@ def excitation(
     start_x, start_y = ex.coordinates_of(p[0])
     middles = datetime64(ex.middles_of_steps(time))
     result = Excitation(time=middles, chi1=chi.real * MAS, chi2=chi.imag * MAS)
+    result.with_attributes(chi1={"no_error": _FROM_POLE}, chi2={"no_error": _FROM_POLE})
     start = "start of the pole in mas and in days from J2000.0"
     return result.dataset().assign_attrs(
         chandler_period=days,

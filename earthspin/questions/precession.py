@@ -13,7 +13,7 @@ from earthspin.dates import Span, datetime64
 from earthspin.engine import Neglected, key, part, public_call
 from earthspin.engine.variables import Variables, labels, labels_of, measured, number, words
 from earthspin.mass import figure
-from earthspin.numerics.arrays import FloatArray
+from earthspin.numerics.arrays import FloatArray, Numeric
 from earthspin.nutation import rate_budget
 from earthspin.questions import reasons, satellites
 from earthspin.questions.averages import MEANS, MeanRates, MeanTorques, Samples
@@ -122,7 +122,12 @@ class Convergence(Variables, no_error="the curve itself shows the error of each 
     rate_by_window = number(
         "arcsec/yr", "rate of precession by all perturbers", along=("window", "window_cycles")
     )
-    window_length = number("yr", "length of the averaging window", along=("window_cycles",))
+    window_length = number(
+        "yr",
+        "length of the averaging window",
+        along=("window_cycles",),
+        no_error="it is chosen",
+    )
     window = labels()
     window_cycles = labels("length of the averaging window in cycles")
 
@@ -156,19 +161,30 @@ def no_figure(body: Body) -> str | None:
     return None
 
 
-class FigureModels(
-    Variables,
-    along=("earth_model",),
-    no_error="a model of the figure, for comparison with the others",
-):
+class FigureModels(Variables, along=("earth_model",)):
     """Dynamical flattening, precession period and wobble period, for three figure models."""
 
-    h_by_model = number("1", "dynamical flattening (C - A)/C", short="H = (C-A)/C")
-    period_by_model = number("yr", "period of one full turn of precession", short="precession")
-    wobble_by_model = number("d", "period of the rigid free wobble", short="wobble")
-    moment_difference = number("kg m2", "C - A from J2", along=())
-    polar_moment_factor = number("1", "C/(M a2) from J2 and H", along=())
-    j2_from_moment_difference = number("1", "J2 computed back from C - A", along=())
+    h_by_model = number(
+        "1",
+        "dynamical flattening (C - A)/C",
+        short="H = (C-A)/C",
+        no_error="the models differ by more than the errors of their inputs",
+    )
+    period_by_model = number(
+        "yr",
+        "period of one full turn of precession",
+        short="precession",
+        no_error="that of the measured H has the error of precession_period",
+    )
+    wobble_by_model = number(
+        "d",
+        "period of the rigid free wobble",
+        short="wobble",
+        no_error="that of the measured H has the error of free_wobble_period",
+    )
+    moment_difference = measured("kg m2", "C - A from J2", along=())
+    polar_moment_factor = measured("1", "C/(M a2) from J2 and H", along=())
+    j2_from_moment_difference = measured("1", "J2 computed back from C - A", along=())
 
 
 @part(unless=(no_figure, reasons.mass_is_array))
@@ -181,13 +197,19 @@ def figure_models(mean_torques: MeanTorques, mean_rates: MeanRates, body: Body) 
     precessing, radius = mean_torques.precessing[-1], body.needed("radius")
     difference, e = figure.moment_difference(j2, body.mass, radius), figure.ellipticity_from_h(h)
     rate = rates.precession_rate(precessing, h * mean_rates.satellite_factors.rate, body.spin_rate)
+    u_j2, u_h = (body.relative_uncertainty.get(n, 0.0) for n in ("j2", "dynamical_flattening"))
+    factor = figure.polar_moment_factor(j2, measured_h)
+    back = figure.j2_from_moment_difference(difference, body.mass, radius)
     return FigureModels(
         h_by_model=h,
         period_by_model=rates.period(rate),
         wobble_by_model=free_wobble_period(e, body.needed("spin_period")),
-        moment_difference=difference,
-        polar_moment_factor=figure.polar_moment_factor(j2, measured_h),
-        j2_from_moment_difference=figure.j2_from_moment_difference(difference, body.mass, radius),
+        moment_difference=(
+            difference,
+            rates.half_width(difference, body.relative_uncertainty_of_bulge()),
+        ),
+        polar_moment_factor=(factor, rates.half_width(factor, u_j2, u_h)),
+        j2_from_moment_difference=(back, rates.half_width(back, u_j2)),
     )
 
 
@@ -197,11 +219,11 @@ def is_sphere(body: Body) -> str | None:
     return None if oblate else "a sphere does not wobble"
 
 
-class RigidFreeWobble(Variables, no_error="its relative error is that of free_wobble_period"):
+class RigidFreeWobble(Variables):
     """Period of the free wobble of the body, computed as if the body were rigid."""
 
     free_wobble_period = measured("d", "period of the rigid free wobble, A/(C - A)")
-    free_wobble_period_sidereal = number(
+    free_wobble_period_sidereal = measured(
         "1", "period of the rigid free wobble in turns of the body, its sidereal days"
     )
 
@@ -210,15 +232,16 @@ class RigidFreeWobble(Variables, no_error="its relative error is that of free_wo
 def free_wobble(body: Body) -> RigidFreeWobble:
     """Compute the period of the free wobble of the body, as if the body were rigid."""
     h = body.needed("dynamical_flattening")
+    turns = free_wobble_period(figure.ellipticity_from_h(h), 1.0)
     period = free_wobble_period(figure.ellipticity_from_h(h), body.needed("spin_period"))
     u = body.relative_uncertainty.get("dynamical_flattening", 0.0)
     return RigidFreeWobble(
         free_wobble_period=(period, free_wobble_error(period, h, u)),
-        free_wobble_period_sidereal=free_wobble_period(figure.ellipticity_from_h(h), 1.0),
+        free_wobble_period_sidereal=(turns, free_wobble_error(turns, h, u)),
     )
 
 
-class SeasonsAndCalendar(Variables, no_error="its relative error is that of general_precession"):
+class SeasonsAndCalendar(Variables):
     """Motion of the equinox, tropical year, and drift of the calendar relative to the seasons."""
 
     general_precession = measured(
@@ -228,15 +251,15 @@ class SeasonsAndCalendar(Variables, no_error="its relative error is that of gene
     general_precession_period = measured(
         "yr", "period of one full turn of the equinox", short="period"
     )
-    time_per_degree = number("yr", "time in which the equinox moves by one degree")
-    tropical_year = number("d", "tropical year, the period of the seasons")
-    time_per_day_of_drift = number(
+    time_per_degree = measured("yr", "time in which the equinox moves by one degree")
+    tropical_year = measured("d", "tropical year, the period of the seasons")
+    time_per_day_of_drift = measured(
         "yr", "time in which years of 365.25 d drift by a day against the seasons"
     )
     time_per_dropped_leap_day = number(
-        "yr", "time in which the Gregorian calendar drops one leap day, 400/3"
+        "yr", "time in which the Gregorian calendar drops one leap day, 400/3", no_error="a rule"
     )
-    time_per_day_of_gregorian_drift = number(
+    time_per_day_of_gregorian_drift = measured(
         "yr", "time in which Gregorian years drift by a day against the seasons"
     )
 
@@ -259,15 +282,22 @@ def seasons(
     general = rate_budget.general_precession(rate + published, chi_rate, mean_torques.obliquity)
     year = rate_budget.tropical_year(general, body.number("orbital_period"))
     period = rates.period(general), rates.period_error(general, error)
-    gregorian_drift = rate_budget.time_per_day_of_drift(year, rate_budget.GREGORIAN_YEAR)
+    u_year = body.relative_uncertainty.get("orbital_period", 0.0)
+    year_error = np.hypot(year**2 / (2 * np.pi) * error, rates.half_width(year, u_year))
+
+    def drift(calendar: float) -> tuple[Numeric, Numeric]:
+        """Time in which a calendar drifts by a day against the seasons, and its half-width, s."""
+        time = rate_budget.time_per_day_of_drift(year, calendar)
+        return time, np.abs(time / (calendar - year)) * year_error
+
     return SeasonsAndCalendar(
         general_precession=(general, error),
         general_precession_period=period,
-        time_per_degree=rate_budget.time_per_degree(general),
-        tropical_year=year,
-        time_per_day_of_drift=rate_budget.time_per_day_of_drift(year),
+        time_per_degree=(rate_budget.time_per_degree(general), period[1] / 360),
+        tropical_year=(year, year_error),
+        time_per_day_of_drift=drift(JULIAN_YEAR),
         time_per_dropped_leap_day=rate_budget.DROPPED_LEAP_DAY * JULIAN_YEAR,
-        time_per_day_of_gregorian_drift=gregorian_drift,
+        time_per_day_of_gregorian_drift=drift(rate_budget.GREGORIAN_YEAR),
     ).with_attributes(no_error=mean_torques.no_error, general_precession={"effects": effects})
 
 

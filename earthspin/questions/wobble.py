@@ -186,27 +186,27 @@ def inputs(
 # --- the answer ------------------------------------------------------------------------------
 
 
-class Rungs(
-    Variables,
-    along=("rung",),
-    no_error="its relative error is that of period_solar; the quality factor follows from "
-    "published ones",
-):
+class Rungs(Variables, along=("rung",)):
     """Period of the free wobble from each model of the ladder, from rigid to deformable."""
 
     period_solar = measured("d", "period of the free wobble in days of 86400 s")
-    period_sidereal = number(
+    period_sidereal = measured(
         "1",
         "period of the free wobble in turns of the body, its sidereal days",
         short="sidereal days",
     )
-    factor = number("1", "ratio of the period to that of the model before")
+    factor = number(
+        "1",
+        "ratio of the period to that of the model before",
+        no_error="the errors of both periods are correlated, and were not propagated to the ratio",
+    )
     quality_factor = number(
         "1",
         "quality factor of the free wobble",
         comment="infinite without dissipation; the exponent of anelasticity is a free choice, "
         "so the anelastic rung is a check of consistency, not a prediction",
         short="Q",
+        no_error="it follows from published quality factors, which have no errors",
     )
     rung_formula = words("formula for the turns of the body per wobble, with its source")
 
@@ -228,11 +228,11 @@ def wobble_rungs(body: Body, inputs: ModelInputs | None = None) -> Rungs:
         for lower, upper in pairs:
             lower |= {name: inputs.label(value) for name, value in upper.items()}
     sidereal, day = _stacked(turns, "rung"), np.abs(body.needed("spin_period"))
-    period = sidereal * day
+    period, half_width = sidereal * day, _stacked(spread, "rung")
     like = xr.zeros_like(period)
     rungs = Rungs(
-        period_solar=(period, _stacked(spread, "rung") * day + like),
-        period_sidereal=sidereal + like,
+        period_solar=(period, half_width * day + like),
+        period_sidereal=(sidereal + like, half_width + like),
         factor=period.copy(data=ladder.factors(sidereal.values)),
         quality_factor=_stacked(quality, "rung") + like,
         rung_formula=np.array([ladder.FORMULAS[name] for name in turns]),
@@ -273,17 +273,23 @@ def _stacked(values: Mapping[str, Numeric], dim: str) -> xr.DataArray:
 # --- sections --------------------------------------------------------------------------------
 
 
-class Sensitivity(Variables, along=("input",), no_error="a part of an error, or an input of it"):
+class Sensitivity(Variables, along=("input",)):
     """Derivative of the wobble period with respect to each input, and error of that input.
 
     The period is that of the most detailed model; errors are 95 % half-widths.
     """
 
-    days_per_unit = number("d", "change of the period of the last model per unit of the input")
-    input_value = number("1", "value of the input")
-    input_half_width = number("1", "95 % half-width of the input")
+    days_per_unit = number(
+        "d",
+        "change of the period of the last model per unit of the input",
+        no_error="a derivative of the model, from a central difference",
+    )
+    input_value = number("1", "value of the input", error="input_half_width")
+    input_half_width = number("1", "95 % half-width of the input", no_error="an error itself")
     days_from_input = number(
-        "d", "95 % half-width of the period of the last model from the uncertainty of the input"
+        "d",
+        "95 % half-width of the period of the last model from the uncertainty of the input",
+        no_error="a part of an error",
     )
 
 
@@ -302,13 +308,11 @@ def sensitivity(inputs: ModelInputs) -> Sensitivity:
     )
 
 
-class CoreNutationPeriod(
-    Variables, along=("core_shape",), no_error="its relative error is that of free_core_nutation"
-):
+class CoreNutationPeriod(Variables, along=("core_shape",)):
     """Period of the free core nutation, for different shapes of the core."""
 
     free_core_nutation = measured("d", "period of the free core nutation in space")
-    free_core_nutation_sidereal = number(
+    free_core_nutation_sidereal = measured(
         "1", "period of the free core nutation in turns of the body"
     )
 
@@ -331,10 +335,10 @@ def core_nutation(inputs: ModelInputs, body: Body) -> CoreNutationPeriod:
         turns[name] = ladder.non_rigid(numbers, *inputs.setting).core_rotations["fluid-core"]
         half_widths[name] = propagation.core_nutation_half_width(numbers, spread, *inputs.setting)
     nutation = inputs.stack(turns, "core_shape") * body.needed("spin_period")
-    error = inputs.stack(half_widths, "core_shape") * np.abs(body.needed("spin_period"))
+    turns_error, day = inputs.stack(half_widths, "core_shape"), np.abs(body.needed("spin_period"))
     return CoreNutationPeriod(
-        free_core_nutation=(nutation, error),
-        free_core_nutation_sidereal=nutation / np.abs(body.needed("spin_period")),
+        free_core_nutation=(nutation, turns_error * day),
+        free_core_nutation_sidereal=(nutation / day, turns_error),
     ).with_attributes(free_core_nutation=attributes)
 
 

@@ -91,10 +91,9 @@ def period_error(rate: Numeric, rate_error: Numeric) -> Numeric:
 
     The result is infinite for rate zero, and NaN if the error of any other rate is unknown.
     """
-    with np.errstate(divide="ignore", invalid="ignore"):
-        # fmax ignores the NaN of 0/0, so that an infinite period has an infinite half-width
-        relative = np.fmax(rate_error / np.abs(rate), np.finfo(float).tiny)
-        return period(rate) * np.maximum(relative, np.minimum(rate_error, 0.0))
+    with np.errstate(divide="ignore"):
+        # x**0 is 1 even for NaN, so that an infinite period has an infinite half-width
+        return period(rate) * (rate_error ** np.not_equal(rate, 0.0) / np.abs(rate))
 
 
 def rate_ratio(precessing: Numeric) -> Numeric:

@@ -125,3 +125,22 @@ def test_every_number_has_an_error_or_says_why_not(nodes: dict[str, xr.Dataset])
             named = of.attrs.get("ancillary_variables", "").split()
             assert bool(named) != bool(of.attrs.get("no_error")), (path, name)
             assert set(named) <= set(result.data_vars) | root, (path, name)
+
+
+#: Texts that hold for numbers of several units: a relative error, or what is a share of an error.
+FOR_SEVERAL = ("relative_error holds", "a share of an error")
+
+
+@pytest.mark.parametrize("scene", sorted(shipped.SCENES.values()))
+def test_a_reason_for_no_error_is_that_of_one_kind_of_number(scene: str) -> None:
+    """Every float of every shipped scene has an error, or a text that no other unit shares."""
+    for path, node in shipped.tree(scene).subtree_with_keys:
+        units: dict[str, set[str]] = {}
+        for name, of in node.to_dataset(inherit=False).data_vars.items():
+            if path == "plan" or of.dtype.kind != "f" or "error" in str(name).split("_"):
+                continue
+            reason = of.attrs.get("no_error", "")
+            assert reason or of.attrs.get("ancillary_variables"), (path, name)
+            units.setdefault(reason, set()).add(of.attrs["units"])
+        shared = {reason for reason, found in units.items() if reason and len(found) > 1}
+        assert not {reason for reason in shared if not reason.endswith(FOR_SEVERAL)}, path

@@ -15,6 +15,7 @@ from earthspin.constants import (
     JULIAN_YEAR,
     P_A_RATE,
     PSI_A_RATE,
+    SIDEREAL_YEAR,
     TROPICAL_YEAR,
 )
 from earthspin.nutation import rate_budget
@@ -59,6 +60,30 @@ def test_results_are_near_the_iaus(precession_tree: xr.DataTree) -> None:
     assert float(precession_tree["free_wobble/observed_period"]) == 430.9
     longest = precession_tree["convergence/window_length"].max()
     assert abs(float(longest) - 5 * 18.6129) < 1e-3
+
+
+def test_errors_of_seasons_and_calendar(precession_tree: xr.DataTree) -> None:
+    """The rate is changed by its half-width, and everything computed again from it."""
+    there = precession_tree["seasons"]
+    error = float(there.general_precession_error)
+    days = SIDEREAL_YEAR.value / DAY
+
+    def derived(rate: float) -> dict[str, float]:
+        year = 1 / (1 / days + rate / 1296000 / 365.25)
+        return {
+            "general_precession_period": 1296000 / rate,
+            "time_per_degree": 3600 / rate,
+            "tropical_year": year,
+            "time_per_day_of_drift": 1 / (365.25 - year),
+            "time_per_day_of_gregorian_drift": 1 / (365.2425 - year),
+        }
+
+    rate = float(there.general_precession)
+    low, middle, high = (derived(rate + by) for by in (-error, 0.0, error))
+    for name, value in middle.items():
+        assert float(there[name]) == pytest.approx(value, rel=1e-9, abs=0), name
+        change = abs(high[name] - low[name]) / 2
+        assert float(there[f"{name}_error"]) == pytest.approx(change, rel=1e-3, abs=0), name
 
 
 def test_no_precession_no_drift_between_years() -> None:

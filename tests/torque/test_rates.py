@@ -185,6 +185,11 @@ def test_periods() -> None:
     assert period_error(np.float64(2.0), np.float64(0.02)) == pytest.approx(
         np.pi * 0.01, rel=1e-15, abs=0
     )
+    rate, error = np.array([0.0, 0.0, 0.0, 1.0, 1.0]), np.array([1.0, 0.0, np.nan, np.nan, 0.0])
+    half_widths = period_error(rate, error)
+    np.testing.assert_array_equal(half_widths, [np.inf, np.inf, np.inf, np.nan, 0.0])
+    for pair, half_width in zip(zip(rate, error, strict=True), half_widths, strict=True):
+        np.testing.assert_array_equal(period_error(*pair), half_width)
 
 
 def test_uncertainties_of_the_masses_add_up_as_squares() -> None:
