@@ -99,5 +99,5 @@ def _label(point: xr.DataArray, dim: Hashable, index: int) -> str:
     if label.dtype.kind == "M":
         return str(label.values.astype("M8[D]"))
     if label.dtype.kind in "fiu":
-        return f"{dim} {plain(float(label))}{shown_unit(label.attrs.get('units', '1'))}"
+        return f"{dim} {float(label):.9g}{shown_unit(label.attrs.get('units', '1'))}"
     return str(label.item())

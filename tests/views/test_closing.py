@@ -49,6 +49,13 @@ def test_a_series_gives_its_largest_error_and_the_date() -> None:
     assert f"at {date}, {name}" in closing_line(answer)
 
 
+def test_a_headline_names_an_epoch_of_the_answer() -> None:
+    """The largest error at epoch -2,963,000 was announced at -3e6."""
+    answer = earthspin.long_term(times=["0 yr", "-2963000 yr"])
+    line = closing_line(answer)
+    assert float(re.findall(r"at epoch (\S+) yr", line)[0]) in answer.epoch.values
+
+
 def test_an_effect_is_named_only_where_it_exceeds_the_error() -> None:
     assert "not modelled: geodesic" in closing_line(earthspin.precession())
     vague = EARTH.replace(relative_uncertainty={"dynamical_flattening": 0.01})
