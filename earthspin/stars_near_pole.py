@@ -8,11 +8,11 @@ import numpy as np
 import xarray as xr
 
 from earthspin.bodies import in_a_sentence
-from earthspin.constants import JULIAN_YEAR
+from earthspin.constants import JULIAN_YEAR, MAS, NORMAL_95
 from earthspin.engine import Variables, labels, measured, number, si, words
 from earthspin.errors import SceneError, Where
 from earthspin.progress import progress
-from earthspin.sky.stars import STARS, UNKNOWN_MOTION, directions
+from earthspin.sky.stars import STARS, directions
 from earthspin.units import Whole
 
 
@@ -20,7 +20,12 @@ class NearestStars(Variables, along=("nearest", "epoch")):
     """Variables of the result of `pole_stars`: the nearest listed stars at each epoch."""
 
     star = words("star")
-    separation = measured("deg", "distance from the celestial pole")
+    separation = measured(
+        "deg",
+        "distance from the celestial pole",
+        comment="the error contains that of the pole and the catalogue's errors of the proper "
+        "motions, but not the orbits of double stars",
+    )
     magnitude = number("1", "visual magnitude", no_error="a number of the catalogue")
     nearest = labels()
     epoch = labels()
@@ -31,8 +36,7 @@ def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
     """Bright stars nearest to the celestial pole, at each epoch of a result of `long_term`.
 
     The stars are those of magnitude 4 or brighter near the circle of the pole (Hipparcos catalogue,
-    ESA 1997), moved by their proper motions. For stars without a listed proper motion, the error
-    contains the unknown motion.
+    ESA 1997), moved by their proper motions.
 
     Parameters
     ----------
@@ -78,9 +82,8 @@ def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
     separation = np.arctan2(sine, np.sum(stars * axis, axis=-1))
     order = np.argsort(separation, axis=0)[:count]
     columns = np.arange(seconds.size)
-    unknown = np.array([star.proper_motion is None for star in STARS])
-    motion = np.where(unknown[order], UNKNOWN_MOTION * np.abs(seconds), 0.0)
-    error = np.hypot(motion, si(result["pole_error"]).values)
+    motion_error = NORMAL_95 * MAS / JULIAN_YEAR * np.array([s.proper_motion_error for s in STARS])
+    error = np.hypot(motion_error[order] * np.abs(seconds), si(result["pole_error"]).values)
     near = NearestStars(
         star=np.array([star.name for star in STARS])[order],
         separation=(separation[order, columns], error),
