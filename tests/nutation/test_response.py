@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from earthspin.constants import ARCSEC, DAY
+from earthspin.interior.named import K_ICB
 from earthspin.nutation.analysis import (
     MULTIPLES,
     FrequencyAnalysis,
@@ -15,7 +16,7 @@ from earthspin.nutation.analysis import (
     precession_angles,
     without_line,
 )
-from earthspin.nutation.response import Response, fit_response
+from earthspin.nutation.response import INNER_CORE_NUTATION, Response, fit_response
 from earthspin.sky import iau_models
 
 H, SPIN = 0.0032737949, 7.292115e-5
@@ -26,6 +27,13 @@ ARGUMENTS, RATES = iau_models.delaunay_arguments(DAYS), iau_models.delaunay_rate
 @pytest.fixture(scope="module")
 def analysis() -> FrequencyAnalysis:
     return FrequencyAnalysis(DAYS / 36525, ARGUMENTS, RATES)
+
+
+def test_the_inner_core_nutation_has_the_period_and_the_loss_of_its_authors() -> None:
+    """1025 days (Mathews, Herring & Buffett 2002); its damping is that of the coupling K_ICB."""
+    days = 1 / (1 + INNER_CORE_NUTATION.real) / 1.00273790935
+    assert days == pytest.approx(1025, abs=1.5, rel=0)  # measured: 1023.9
+    assert INNER_CORE_NUTATION.imag == pytest.approx(-K_ICB[1].value, rel=1e-9, abs=0)
 
 
 def test_circles_that_were_put_in_come_out(analysis: FrequencyAnalysis) -> None:
