@@ -22,7 +22,7 @@ def test_the_unexplained_rest_is_one_number(precession_tree: xr.DataTree) -> Non
     pattern = r"(0\.0\d+)\s+years.{0,80}unexplained"
     (printed_rest,) = re.findall(pattern, periods(precession_tree).note)
     paper = (ROOT / "docs" / "paper" / "paper.md").read_text(encoding="utf-8")
-    texts = [*PAGES, paper]
+    texts = [README, paper]
     rests = {rest for text in texts for rest in re.findall(pattern, text, flags=re.DOTALL)}
     assert rests == {printed_rest}
 

@@ -105,5 +105,3 @@ def test_nodes_of_satellites_are_no_error_of_the_mean_rate() -> None:
     tree = earthspin.run_tree(Precession(body="saturn"), ["neglected"])
     assert max(sizes(tree).values()) > 0.25
     assert left_out(tree) == pytest.approx(0.07, rel=1e-12, abs=0)
-
-
