@@ -231,8 +231,8 @@ def precessing_torque(rate: FloatArray) -> Torque:
 
 def figure_of(body: Body, spin_rate: float) -> DynamicalFigure:
     """Make a `DynamicalFigure`: flattening, spin rate, inverse polar moment, radius of a body."""
-    h, radius, meridian = body.number("dynamical_flattening"), body.number("radius"), body.meridian
-    inverse = inverse_polar_moment(body.number("j2"), h)
+    h, radius = body.number("dynamical_flattening"), body.number("radius")
+    meridian, inverse = body.number("meridian"), inverse_polar_moment(body.number("j2"), h)
     return DynamicalFigure(
         h=h, spin_rate=spin_rate, inverse_polar_moment=inverse, radius=radius, meridian=meridian
     )
