@@ -153,13 +153,11 @@ def _free_wobble(
     """Return the fitted period and quality factor, and wobble amplitudes in sliding windows."""
     wobbles = record.envelope(time, p, fit.period, window)
     low, high = fit.quality_bounds
+    phase_error = np.minimum(wobbles.error / abs(wobbles.chandler), np.pi)
     return ObservedFreeWobble(
         chandler_period=(fit.period * DAY, fit.period_error * DAY),
         chandler_amplitude=(abs(wobbles.chandler) * MAS, wobbles.error * MAS),
-        chandler_phase=(
-            np.unwrap(np.angle(wobbles.chandler)),
-            np.minimum(wobbles.error / abs(wobbles.chandler), np.pi),
-        ),
+        chandler_phase=(np.unwrap(np.angle(wobbles.chandler)), phase_error),
         annual_amplitude=(abs(wobbles.annual) * MAS, wobbles.annual_error * MAS),
         annual_retrograde_amplitude=abs(wobbles.annual_retrograde) * MAS,
         mean_pole=np.column_stack(ex.coordinates_of(wobbles.drift)) * MAS,

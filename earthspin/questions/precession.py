@@ -123,10 +123,7 @@ class Convergence(Variables, no_error="the curve itself shows the error of each 
         "arcsec/yr", "rate of precession by all perturbers", along=("window", "window_cycles")
     )
     window_length = number(
-        "yr",
-        "length of the averaging window",
-        along=("window_cycles",),
-        no_error="it is chosen",
+        "yr", "length of the averaging window", along=("window_cycles",), no_error="it is chosen"
     )
     window = labels()
     window_cycles = labels("length of the averaging window in cycles")
@@ -161,27 +158,16 @@ def no_figure(body: Body) -> str | None:
     return None
 
 
-class FigureModels(Variables, along=("earth_model",)):
+class FigureModels(
+    Variables,
+    along=("earth_model",),
+    no_error="a model of the figure, for comparison with the others",
+):
     """Dynamical flattening, precession period and wobble period, for three figure models."""
 
-    h_by_model = number(
-        "1",
-        "dynamical flattening (C - A)/C",
-        short="H = (C-A)/C",
-        no_error="the models differ by more than the errors of their inputs",
-    )
-    period_by_model = number(
-        "yr",
-        "period of one full turn of precession",
-        short="precession",
-        no_error="that of the measured H has the error of precession_period",
-    )
-    wobble_by_model = number(
-        "d",
-        "period of the rigid free wobble",
-        short="wobble",
-        no_error="that of the measured H has the error of free_wobble_period",
-    )
+    h_by_model = number("1", "dynamical flattening (C - A)/C", short="H = (C-A)/C")
+    period_by_model = number("yr", "period of one full turn of precession", short="precession")
+    wobble_by_model = number("d", "period of the rigid free wobble", short="wobble")
     moment_difference = measured("kg m2", "C - A from J2", along=())
     polar_moment_factor = measured("1", "C/(M a2) from J2 and H", along=())
     j2_from_moment_difference = measured("1", "J2 computed back from C - A", along=())
@@ -200,14 +186,12 @@ def figure_models(mean_torques: MeanTorques, mean_rates: MeanRates, body: Body) 
     u_j2, u_h = (body.relative_uncertainty.get(n, 0.0) for n in ("j2", "dynamical_flattening"))
     factor = figure.polar_moment_factor(j2, measured_h)
     back = figure.j2_from_moment_difference(difference, body.mass, radius)
+    difference_error = rates.half_width(difference, body.relative_uncertainty_of_bulge())
     return FigureModels(
         h_by_model=h,
         period_by_model=rates.period(rate),
         wobble_by_model=free_wobble_period(e, body.needed("spin_period")),
-        moment_difference=(
-            difference,
-            rates.half_width(difference, body.relative_uncertainty_of_bulge()),
-        ),
+        moment_difference=(difference, difference_error),
         polar_moment_factor=(factor, rates.half_width(factor, u_j2, u_h)),
         j2_from_moment_difference=(back, rates.half_width(back, u_j2)),
     )

@@ -280,9 +280,7 @@ class Sensitivity(Variables, along=("input",)):
     """
 
     days_per_unit = number(
-        "d",
-        "change of the period of the last model per unit of the input",
-        no_error="a derivative of the model, from a central difference",
+        "d", "change of the period of the last model per unit of the input", no_error="a derivative"
     )
     input_value = number("1", "value of the input", error="input_half_width")
     input_half_width = number("1", "95 % half-width of the input", no_error="an error itself")

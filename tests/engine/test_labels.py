@@ -127,8 +127,8 @@ def test_every_number_has_an_error_or_says_why_not(nodes: dict[str, xr.Dataset])
             assert set(named) <= set(result.data_vars) | root, (path, name)
 
 
-#: Texts that hold for numbers of several units: a relative error, or what is a share of an error.
-FOR_SEVERAL = ("relative_error holds", "a share of an error")
+#: Ends of texts that hold for numbers of several units: a relative error, a share, a comparison.
+FOR_SEVERAL = ("relative_error holds", "a share of an error", "for comparison with the others")
 
 
 @pytest.mark.parametrize("scene", sorted(shipped.SCENES.values()))
