@@ -103,7 +103,8 @@ class Insolation(
     equinox, 90 degrees the June solstice. A true longitude is a place on the orbit. A day is one of
     a calendar in which the March equinox is always day 80, 21 March, of 365.2422 days: a mean
     longitude of (day - 80)/365.2422 turns (Huybers & Eisenman 2006). Other seasons then begin on
-    days that change with the perihelion.
+    days that change with the perihelion. A `window` is counted in the same year of 365.2422 days,
+    because longitudes are counted from the moving equinox; for other bodies in the sidereal year.
 
     The answer is also along `latitude`, and along `longitude` or `day`, if these are lists. The
     label `epoch` is in Julian years from J2000.0 TDB. The error follows from those of obliquity,
@@ -190,7 +191,7 @@ def daily_means(
         raise SceneError("insolation", f"{count} values", problem)
     year = body.number("orbital_period")
     constant = _solar_constant(year) if solar_constant is None else solar_constant
-    share = None if window is None else window / year
+    share = None if window is None else window / _year_of_seasons(body.known_as, year)
     coords = {"latitude": place.latitude.variable, season: sun[season].variable}
     single = [f"{name} {c.item():g} {c.attrs['units']}" for name, c in coords.items() if not c.ndim]
     length = "a day" if window is None else f"{window / DAY:g} d"
@@ -252,7 +253,8 @@ def daily_insolation(
         from the March equinox, so that 90 degrees are a quarter of a year after the equinox.
     days : str, Quantity or float, optional
         Length of a time window for the average, like ``"30 d"``, centred on the instant of the
-        longitude; by default, one day with the Sun at the longitude.
+        longitude; by default, one day with the Sun at the longitude. A year of the Earth has
+        365.2422 days, because longitudes are counted from the moving equinox.
     solar_constant : str, Quantity or float, optional
         Solar constant in W/m2 at the mean distance of the body; by default 1361 W/m2 at one
         astronomical unit (IAU 2015 Resolution B3). Many published tables use 1365 or more.
@@ -293,7 +295,8 @@ def daily_insolation(
         words = "give one length of time, at most a year"
         kind = Number("d", "30 d", above=0.0, high=year / DAY, limits=words)
         length = kind.read(days, Where("days", _CALL))
-        window, mean = length * DAY / year, f"mean over {length:g} d"
+        window = length * DAY / _year_of_seasons(body, year)
+        mean = f"mean over {length:g} d"
     if year is not None and solar_constant is None:
         constant = _solar_constant(year)
     else:
@@ -339,6 +342,12 @@ def _solar_constant(year: float) -> float:
     """Solar flux at the mean distance of a planet with a given sidereal year (s), W/m2."""
     distance = (SUN.gm * (year / _TURN) ** 2) ** (1 / 3)
     return float(SOLAR_CONSTANT.value * (AU / distance) ** 2)
+
+
+def _year_of_seasons(body: str, sidereal: float) -> float:
+    """Year of which windows are fractions, s: tropical for the Earth, sidereal for other bodies."""
+    tropical = CALENDAR_YEAR * DAY / EARTH.number("orbital_period")
+    return sidereal * (tropical if body == EARTH.known_as else 1.0)
 
 
 def _with_error(

@@ -89,7 +89,7 @@ def test_a_window_of_days_is_a_mean_of_days(past: xr.Dataset) -> None:
     answer = daily_insolation(today, "65 deg", "90 deg", days="30 d")
     assert answer.attrs["comment"].startswith("mean over 30 d; true longitude")
     window = answer.item()
-    share = 360 * 30 / 365.25636
+    share = 360 * 30 / 365.2422
     e, w = float(today.eccentricity[0]), np.radians(float(today.longitude_of_perihelion[0]))
 
     def area(true: float) -> float:
@@ -102,6 +102,21 @@ def test_a_window_of_days_is_a_mean_of_days(past: xr.Dataset) -> None:
     assert window == pytest.approx(by_days, rel=1e-5, abs=0)
     year = daily_insolation(today, "0 deg", "0 deg", days="365.256 d").item()
     assert year == pytest.approx(416.93 * 1361 / 1365, rel=0, abs=0.2)  # of the PMIP
+
+
+@pytest.mark.parametrize("latitude", ["90N", "85N", "75N", "45N"])
+def test_a_window_of_a_year_is_the_year_at_any_longitude(latitude: str) -> None:
+    """At the pole S sin(eps)/(pi sqrt(1 - e^2)); before, the difference was 430 half-widths."""
+    keys = {"times": ["0 kyr"], "window": "365.2422 d", "solar_constant": "1361 W/m2"}
+    found = insolation(**keys, latitude=latitude, longitude=["0 deg", "77 deg", "213 deg"])
+    assert (
+        np.ptp(found.insolation.values) < 1e-9
+    )  # 3e-5 of a day more or less is 0.007 W/m2 at 45 N
+    if latitude == "90N":
+        past = earthspin.long_term(times=["0 kyr"])
+        at_pole = 1361 / np.pi * np.sin(np.radians(past.obliquity.item()))
+        at_pole /= np.sqrt(1 - past.eccentricity.item() ** 2)
+        assert np.abs(found.insolation - at_pole).max() < 1e-9
 
 
 def test_the_error_is_that_of_the_answer(past: xr.Dataset) -> None:
