@@ -79,54 +79,71 @@ def test_a_core_in_a_rigid_mantle() -> None:
     assert np.isclose(modes["chandler_wobble"].real, F.e / mantle, rtol=4e-3, atol=0)
 
 
+def momenta(w: Parts, x: np.ndarray, phi: complex) -> np.ndarray:
+    """H, H_f, H_s over A Omega, in a frame that turns with the mantle."""
+    m, m_f, m_s, n = x
+    whole, fluid, inner = w.inertia @ np.array([m - phi, m_f, m_s])
+    return np.array(
+        [
+            m + w.fluid * m_f + w.inner * m_s + whole + w.inner * w.a3 * w.e_s * n,
+            w.fluid * (m + m_f) + fluid - w.inner * w.a1 * w.e_s * n,
+            w.inner * (m + m_s) + inner + w.inner * w.e_s * n,
+        ]
+    )
+
+
+def changes(w: Parts, x: np.ndarray, phi: complex) -> np.ndarray:
+    """Rates of `momenta`, over A Omega2, by the torques of the module's words."""
+    m, m_f, m_s, n = x
+    whole, fluid, inner = momenta(w, x, phi)
+    axial = np.array([1 + w.e, w.fluid * (1 + w.e_f), w.inner * (1 + w.e_s)])
+    gyration = -1j * (np.array([whole, fluid, inner]) - axial * m)
+    # torque on the bulge of the whole; of the fluid, w x (I w); of the inner core besides,
+    # the pull on its excess
+    on_whole = -1j * w.e * phi
+    spin_f = m + m_f
+    coupling = w.k_icb * w.inner * (m_f - m_s)
+    on_fluid = 1j * (fluid - axial[1] * spin_f) - 1j * (w.k_cmb * w.fluid * m_f + coupling)
+    own = inner + w.inner * (m_f - m_s)  # I_s times the spin of the fluid around it
+    pull = w.inner * w.e_s * (w.a3 * (spin_f - phi) - (1 - w.a2) * n)
+    on_inner = 1j * (own - axial[2] * spin_f) + 1j * pull + 1j * coupling
+    return gyration + np.array([on_whole, on_fluid, on_inner])
+
+
+@pytest.mark.parametrize("sigma", [-1.1, -1 - 1 / 460, -1 + 1 / 183.0, -0.5, 0.3, 0.002])
+@pytest.mark.parametrize("coupling", [0.0, 0.05 - 0.02j])
+def test_one_frequency_balances_momenta_and_torques(sigma: float, coupling: complex) -> None:
+    """Four linear equations by unit vectors; large compliances, so that each element counts."""
+    answers = 0.1 * WHOLE.answers / np.abs(WHOLE.answers).max() + 0.01 * np.arange(9).reshape(3, 3)
+    w = replace(WHOLE, answers=answers, k_cmb=coupling, k_icb=1j * coupling, e=0.03, e_f=0.02)
+
+    def balance(x: np.ndarray, phi: float) -> np.ndarray:
+        of_axis = x[2] + sigma * x[3]
+        return np.array([*(1j * sigma * momenta(w, x, phi) - changes(w, x, phi)), of_axis])
+
+    columns = np.array([balance(unit, 0.0) for unit in np.eye(4)]).T
+    expected = np.linalg.solve(columns, -balance(np.zeros(4), 1.0))[0]
+    found = wobble_response(w, np.array(sigma))
+    np.testing.assert_allclose(found, expected, rtol=1e-11, atol=0)
+
+
 @pytest.mark.slow
 def test_motion_in_time_under_a_torque_of_one_frequency() -> None:
     """Angular momenta integrated in time, and the forced wobble read off: the transfer function.
 
-    The momenta of whole, fluid core and inner core change by the torques of the module's words;
-    the matrices of `system` are not used. The free motions are read off together with it.
+    The matrices of `system` are not used. The free motions are read off together with it.
     """
     w = replace(WHOLE, e=OBSERVED)
-    c, f, s = w.inertia, w.fluid, w.inner
     sigma = -1 + 1 / 183.0
-    phi_0 = 1.0
-
-    def momenta(x: np.ndarray, phi: complex) -> np.ndarray:
-        """H, H_f, H_s over A Omega, in a frame that turns with the mantle."""
-        m, m_f, m_s, n = x
-        wobbles = np.array([m - phi, m_f, m_s])
-        whole, fluid, inner = c @ wobbles
-        return np.array(
-            [
-                m + f * m_f + s * m_s + whole + s * w.a3 * w.e_s * n,
-                f * (m + m_f) + fluid - s * w.a1 * w.e_s * n,
-                s * (m + m_s) + inner + s * w.e_s * n,
-            ]
-        )
-
-    unit = np.eye(4)
-    inertia = np.array([momenta(unit[i], 0.0) for i in range(4)]).T  # of the four, without phi
-    tide = momenta(np.zeros(4), 1.0)
+    inertia = np.array([momenta(w, unit, 0.0) for unit in np.eye(4)]).T  # without phi
+    tide = momenta(w, np.zeros(4), 1.0)
 
     def slope(t: float, x: np.ndarray) -> np.ndarray:
-        m, m_f, m_s, n = x
-        phi = phi_0 * np.exp(1j * sigma * t)
-        whole, fluid, inner = momenta(x, phi)
-        axial = np.array([1 + w.e, f * (1 + w.e_f), s * (1 + w.e_s)])
-        gyration = -1j * (np.array([whole, fluid, inner]) - axial * m)
-        # torque on the bulge of the whole; of the fluid, w x (I w); of the inner core besides,
-        # the pull on its excess
-        on_whole = -1j * w.e * phi
-        spin_f = m + m_f
-        on_fluid = 1j * (fluid - axial[1] * spin_f)
-        own = inner + s * (m_f - m_s)  # I_s times the spin of the fluid around it
-        pull = s * w.e_s * w.a3 * (spin_f - phi) - s * (1 - w.a2) * w.e_s * n
-        on_inner = 1j * (own - axial[2] * spin_f) + 1j * pull
-        change = gyration + np.array([on_whole, on_fluid, on_inner])
-        change = change - tide * 1j * sigma * phi
+        phi = np.exp(1j * sigma * t)
+        change = changes(w, x, phi) - tide * 1j * sigma * phi
         # four unknowns, three momenta, and dn/dt = i m_s... of the tilt: m_s = -sigma n
-        rates = np.linalg.solve(inertia[:, :3], change - inertia[:, 3] * (-1j * m_s))
-        return np.array([*rates, -1j * m_s])
+        rates = np.linalg.solve(inertia[:, :3], change - inertia[:, 3] * (-1j * x[2]))
+        return np.array([*rates, -1j * x[2]])
 
     t = np.linspace(0.0, 2 * np.pi * 900, 6000)
     run = solve_ivp(slope, (0, t[-1]), np.zeros(4, complex), "DOP853", t, rtol=1e-11, atol=1e-13)
