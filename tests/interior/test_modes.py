@@ -114,8 +114,8 @@ def changes(w: Parts, x: np.ndarray, phi: complex) -> np.ndarray:
 @pytest.mark.parametrize("coupling", [0.0, 0.05 - 0.02j])
 def test_one_frequency_balances_momenta_and_torques(sigma: float, coupling: complex) -> None:
     """Four linear equations by unit vectors; large compliances, so that each element counts."""
-    answers = 0.1 * WHOLE.answers / np.abs(WHOLE.answers).max() + 0.01 * np.arange(9).reshape(3, 3)
-    w = replace(WHOLE, answers=answers, k_cmb=coupling, k_icb=1j * coupling, e=0.03, e_f=0.02)
+    inertia = 0.1 * WHOLE.inertia / np.abs(WHOLE.inertia).max() + 0.01 * np.arange(9).reshape(3, 3)
+    w = replace(WHOLE, inertia=inertia, k_cmb=coupling, k_icb=1j * coupling, e=0.03, e_f=0.02)
 
     def balance(x: np.ndarray, phi: float) -> np.ndarray:
         of_axis = x[2] + sigma * x[3]
