@@ -8,7 +8,6 @@ import pytest
 from tests.mutants.__main__ import EQUIVALENT, ROOT, interval, main
 from tests.mutants.changes import SHARES, draw
 
-pytestmark = pytest.mark.any_version
 LAW = '''"""The law of 1638."""
 
 
