@@ -60,7 +60,7 @@ def tried(changes: Sequence[Change], root: Path, cache: Path, jobs: int) -> Iter
     def attempt(change: Change) -> Outcome:
         copy, begin = free.get(), time.perf_counter()
         tests = record.likely(change, earlier.get(function_of(change), []))
-        test = noticed_by(copy, change, tests, sum(record.seconds[test] for test in tests))
+        test = noticed_by(copy, change, {test: record.seconds[test] for test in tests})
         free.put(copy)
         return change, test, time.perf_counter() - begin
 
