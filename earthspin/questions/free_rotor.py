@@ -129,7 +129,8 @@ class RotorMotion(TimesFromStart, along=_SERIES, error="relative_error"):
     energy = number("J", "kinetic energy of rotation", along=("time",), short="kinetic energy")
     relative_error = number(
         "1",
-        "95 % half-width of each quantity relative to its largest value, for exact inputs",
+        "bound on the error of each quantity relative to its largest value, for exact inputs; it "
+        "grows with time beyond 1e15 rad",
         along=(),
     )
     quaternion = labels(default=["w", "x", "y", "z"])
@@ -154,7 +155,8 @@ def free_rotation(moments: RotorMoments, omega: FloatArray, instants: FloatArray
         omega_inertial=lay(motion.omega_inertial, "component"),
         attitude=lay(motion.attitude, "quaternion"),
         energy=lay(motion.energy),
-        relative_error=triaxial.CLOSED_FORM_ERROR,
+        # one bound for all starts
+        relative_error=xr.DataArray(motion.error.max(-1) if starts else motion.error, dims=[*many]),
         time=motion.times,
     )
 

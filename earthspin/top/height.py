@@ -234,7 +234,9 @@ def height_at(nutation: TopNutation, place: Place) -> AxisHeight:
     return AxisHeight(
         gaps.upper_pole + descent,
         gaps.lower_pole + climbed,
-        np.where(upper, gaps.upper - descent, climbed - gaps.lower),
+        np.where(
+            gaps.upper + descent < climbed + gaps.lower, gaps.upper - descent, climbed - gaps.lower
+        ),
         rate,
     )
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from earthspin.errors import BodyError
 from earthspin.numerics.arrays import BoolArray, FloatArray
+from earthspin.numerics.double_double import as_double_double, where
 
 _NAME = "heavy top"
 #: Largest rate, rad/s; larger ones would overflow.
@@ -155,6 +156,12 @@ def axis_heights(theta: FloatArray) -> AxisHeights:
     return AxisHeights(below, above, np.cos(theta))
 
 
+def _over_power_of_two(first: FloatArray, *others: FloatArray) -> list[FloatArray]:
+    """Numbers over the power of two that takes the first to 0.5 to 1, without rounding."""
+    exponent = -np.frexp(first)[1]
+    return [np.ldexp(number, exponent) for number in (first, *others)]
+
+
 def _broadcast(names: list[str], values: list[FloatArray]) -> list[FloatArray]:
     """Broadcast all fields of a top to one array shape; raise an error if they do not fit."""
     try:
@@ -208,6 +215,9 @@ class AxisStart(NamedTuple):
         1 - u, 1 + u and u at the start.
     theta_rate, phi_rate, a, beta : ndarray
         In units of `rate_unit`, or its square.
+    lag, stability : ndarray
+        a - 2 phi' and a^2 - 2 beta, without cancellation; both are nearly zero near the critical
+        spin of a sleeping top, which is stable for a^2 > 2 beta.
     """
 
     turned: BoolArray
@@ -219,6 +229,8 @@ class AxisStart(NamedTuple):
     phi_rate: FloatArray
     a: FloatArray
     beta: FloatArray
+    lag: FloatArray
+    stability: FloatArray
 
     @property
     def sine2(self) -> FloatArray:
@@ -238,7 +250,8 @@ class AxisStart(NamedTuple):
     @property
     def b_minus_a(self) -> FloatArray:
         """Difference b - a of vertical and axial angular momentum, divided by I1."""
-        return self.below * (self.phi_rate * self.above - self.a)
+        upright = -self.lag - self.phi_rate * self.below
+        return self.below * np.where(self.below < 1, upright, self.phi_rate * self.above - self.a)
 
     @property
     def b_plus_a(self) -> FloatArray:
@@ -280,27 +293,32 @@ class Gaps(NamedTuple):
 def axis_start(top: HeavyTop) -> AxisStart:
     """Compute the initial state of a top's axis; its opposite end if weight moment < 0."""
     below, above, cosine = axis_heights(top.theta)
-    a = top.axial_moment / top.transverse_moment * top.spin
-    beta = 2 * top.weight_moment / top.transverse_moment
-    horizontal = top.phi_rate * np.sqrt(below * above)
-    rates = np.abs(np.stack([top.theta_rate, horizontal, a, np.sqrt(np.abs(beta))]))
-    fastest = np.max(rates, axis=0)
+    # the same power of two for all moments, so that no product overflows
+    one, axial, weight = _over_power_of_two(
+        top.transverse_moment, top.axial_moment, 2 * top.weight_moment
+    )
+    rates = [top.theta_rate, top.phi_rate * np.sqrt(below * above), axial / one * top.spin]
+    fastest = np.max(np.abs([*rates, np.sqrt(np.abs(weight / one))]), axis=0)
     still = fastest < _SLOWEST
     unit = np.ldexp(1.0, np.frexp(np.where(still, 1.0, fastest))[1])
-    theta_rate = top.theta_rate / unit
-    weight = np.abs(beta) / unit / unit
-    inverted = np.asarray(beta < 0)
+    theta_rate, phi_rate = top.theta_rate / unit, np.where(still, 0.0, top.phi_rate / unit)
+    inverted = np.asarray(weight < 0)
     sign = np.where(inverted, -1.0, 1.0)
+    a = as_double_double(np.where(still, 0.0, sign * top.spin / unit)) * axial / one
+    beta = as_double_double(np.abs(weight) / unit / unit) / one
+    beta = where(still | (beta.hi < _NEGLIGIBLE**2), 0.0, beta)
     return AxisStart(
-        inverted,
-        unit,
-        np.where(inverted, above, below),
-        np.where(inverted, below, above),
-        sign * cosine,
-        np.where(np.abs(theta_rate) < _NEGLIGIBLE, 0.0, sign * theta_rate),
-        np.where(still, 0.0, top.phi_rate / unit),
-        np.where(still, 0.0, sign * a / unit),
-        np.where(still | (weight < _NEGLIGIBLE**2), 0.0, weight),
+        turned=inverted,
+        rate_unit=unit,
+        below=np.where(inverted, above, below),
+        above=np.where(inverted, below, above),
+        cosine=sign * cosine,
+        theta_rate=np.where(np.abs(theta_rate) < _NEGLIGIBLE, 0.0, sign * theta_rate),
+        phi_rate=phi_rate,
+        a=np.asarray(a.hi),
+        beta=np.asarray(beta.hi),
+        lag=np.asarray((a - 2 * phi_rate).hi),
+        stability=np.asarray((a * a - beta.scaled(2.0)).hi),
     )
 
 
@@ -309,10 +327,13 @@ def cubic_gaps(start: AxisStart) -> Gaps:
     # Expanded about the start, u = u(0) + x, and times beta^2 with X = beta x:
     # X^3 + c2 X^2 + beta c1 X + beta^2 c0.
     beta = start.beta
-    # a^2 - 2 beta is nearly zero for a sleeping top near its critical spin.
-    c2 = -(start.rate2 + (start.a**2 - 2 * beta) + 2 * beta * start.below)
-    acceleration = 2 * start.phi_rate * (start.a - start.cosine * start.phi_rate) - beta
-    c1 = start.sine2 * acceleration - 2 * start.cosine * start.theta_rate**2
+    c2 = -(start.rate2 + start.stability + 2 * beta * start.below)
+    # Near the critical spin, with a^2 = 2 beta and phi' = a/2, the first form would cancel.
+    pull = _smaller_terms(
+        (2 * start.phi_rate * (start.a - start.cosine * start.phi_rate), -beta),
+        (start.stability / 2, -(start.lag**2) / 2, 2 * start.phi_rate**2 * start.below),
+    )
+    c1 = start.sine2 * pull - 2 * start.cosine * start.theta_rate**2
     c0 = start.sine2 * start.theta_rate**2
     centre = -c2 / 3
     # At the mean of the roots the cubic is negative if the lower two are closer together.
@@ -359,8 +380,12 @@ def _pair_about_pole(
     beta, below = start.beta, start.below
     # Expanded about the pole, u = 1 - p, and times beta^2 with P = beta p:
     # P^3 - d2 P^2 - 2 beta d1 P + beta^2 (b - a)^2.
-    d2 = (2 * beta - start.a**2) - start.rate2 + beta * below
-    tilt = start.above * start.phi_rate * (start.phi_rate - start.a) + start.a**2 - beta
+    d2 = beta * below - start.stability - start.rate2
+    pace = start.phi_rate * (start.a - start.phi_rate)
+    tilt = _smaller_terms(
+        (-start.above * pace, start.a**2 - beta),
+        (start.stability / 2, start.lag**2 / 2, below * pace),
+    )
     d1 = start.theta_rate**2 + below * tilt
     d0 = start.b_minus_a**2
     scaled_root = _largest_root(-d2, -2 * beta * d1, beta**2 * d0, wanted)  # beta (1 - u1)
@@ -374,6 +399,12 @@ def _pair_about_pole(
     upper = np.where(upper_pole <= 0.75 * below, below - upper_pole, _ratio(c0, lower * third))
     lower = np.where(depth >= 1.5 * below, lower, _ratio(c0, upper * third))
     return lower, upper, upper_pole, outer
+
+
+def _smaller_terms(*sums: tuple[FloatArray, ...]) -> FloatArray:
+    """Return that of two equal sums which has the smaller terms, and so the smaller rounding."""
+    first, second = (np.sum(np.abs(terms), axis=0) for terms in sums)
+    return np.where(first < second, np.sum(sums[0], axis=0), np.sum(sums[1], axis=0))
 
 
 def _largest_root(c2: FloatArray, c1: FloatArray, c0: FloatArray, wanted: BoolArray) -> FloatArray:
