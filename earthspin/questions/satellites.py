@@ -15,11 +15,7 @@ from earthspin.constants import JULIAN_YEAR, NORMAL_95
 from earthspin.errors import BodyError
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.poles import angle
-from earthspin.torque.laplace import Planet, Satellites, laplace_tilts, nodes, shares
-
-#: Relative half-width of the contribution of satellites, 95 %: eccentricities, and differences from
-#: an integration of spin and orbit normals (0.13 % for Saturn over 60,000 years).
-UNMODELLED = 2e-3
+from earthspin.torque.laplace import Planet, Satellites, laplace_tilts, nodes, omitted, shares
 
 #: Relative bound on the error of the nutations by nodes: the terms of the IAU's pole of Jupiter
 #: differ by up to 22 %, that of Neptune by 10 % for C/(M R2) = 0.23.
@@ -122,19 +118,19 @@ def satellite_factors(body: Body, gm_over_r3: Numeric, obliquity: float) -> Sate
     columns = [array.values.reshape(-1, 1) for array in numbers]
     planet = _planet(columns, obliquity)
 
-    def factors(satellites: Satellites) -> tuple[FloatArray, FloatArray]:
-        q, moment = (share.sum(1) for share in shares(planet, satellites))
-        return 1 + q / planet.j2[:, 0], 1 + moment / planet.polar_moment[:, 0]
+    def factors(q: FloatArray, moment: FloatArray) -> tuple[FloatArray, FloatArray]:
+        return 1 + q.sum(1) / planet.j2[:, 0], 1 + moment.sum(1) / planet.polar_moment[:, 0]
 
     satellites = _satellites(body)
-    bulge, moment = factors(satellites)
-    variance = (UNMODELLED / NORMAL_95 * (1 - 1 / bulge)) ** 2
+    terms = shares(planet, satellites)
+    bulge, moment = factors(*terms)
+    variance = (omitted(planet, satellites, *terms) / NORMAL_95) ** 2
     bulge_variance = variance.copy()
     for place, satellite in enumerate(body.satellites):
         if satellite.gm_uncertainty:
             gm = satellites.gm.copy()
             gm[place] += satellite.gm_uncertainty
-            heavier, larger = factors(replace(satellites, gm=gm))
+            heavier, larger = factors(*shares(planet, replace(satellites, gm=gm)))
             variance += (heavier / larger * (moment / bulge) - 1) ** 2
             bulge_variance += (heavier / bulge - 1) ** 2
 
@@ -204,8 +200,8 @@ def largest_torques_of_satellites(body: Body, gm_over_r3: float) -> dict[str, fl
     if obliquity is None:
         return {}
     moment = body.number("j2") * float(body.mass) * body.number("radius") ** 2
-    # tilts do not depend on H and spin
-    numbers = [body.gm, body.number("radius"), body.number("j2"), 1.0, 1.0, gm_over_r3]
+    # the precession, which is slow beside the nodes, is left out: H = 0.1 and an infinite spin
+    numbers = [body.gm, body.number("radius"), body.number("j2"), 0.1, np.inf, gm_over_r3]
     planet = _planet([np.full((1, 1), float(number)) for number in numbers], obliquity)
     tilts = laplace_tilts(planet, _satellites(body))[0]
     torques = {}

@@ -9,19 +9,21 @@ the planet, m_j of a satellite with the mean motion n_j, and S = GMsun <1/r3>:
     K_j  = (3/8) S m_j a_j2                  torque of the Sun on a satellite
     P_j  = (3/4) M m_j J2 R2 / a_j3          torque of the bulge on a satellite
     P_ij = m_i m_j \alpha b(\alpha) / (8 a)  torque of two satellites, a of the outer one
-    P_j sin 2\theta_j + sum_i P_ij sin 2(\theta_j - \theta_i) = K_j sin 2(\epsilon - \theta_j)
+    P_j sin 2\theta_j + sum_i P_ij sin 2(\theta_j - \theta_i) + h_j w sin(\epsilon - \theta_j)
+        = K_j sin 2(\epsilon - \theta_j)
 
     J2' = J2 + q,  q = (1/2) sum (m/M) (a/R)2 sin 2(\epsilon - \theta) / sin 2\epsilon
     C'  = C + l,   l = sum (m/M) (a/R)2 (n/Omega) sin(\epsilon - \theta) / sin \epsilon
 
-with C in M R2. Averaged over its node, an orbit inclined by i to the Laplace plane contributes
-(3 cos2 i - 1)/2 of its q and cos i of its l. Eccentricities of satellites change the rate by 0.1 %
-and are left out.
+with C in M R2, the angular momentum h_j of an orbit, and the common rate w, which follows from J2'
+and C'. Averaged over its node, an orbit inclined by i to the Laplace plane contributes
+(3 cos2 i - 1)/2 of its torques and cos i of its angular momentum. `omitted` estimates the rest.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -29,6 +31,12 @@ from earthspin.numerics.arrays import FloatArray
 
 #: Largest number of Newton's steps; five are usual.
 _MOST_STEPS = 50
+#: Newton step, rad, after which the error, of the order of its square, is below rounding.
+_LAST_STEP = 1e-9
+#: Longest Newton step, rad: a longer one may lead to another balance, an unstable one.
+_LONGEST_STEP = 0.2
+#: Eccentricity that the orbits of satellites are taken to have at most; Titan has 0.029.
+ECCENTRICITY = 0.03
 #: Least |sin 2 epsilon|: q and l have a limit at 0 and 90 deg, where their formulas are 0/0.
 _LEAST_SINE = 1e-6
 
@@ -55,6 +63,12 @@ class Satellites:
     a: FloatArray
     i: FloatArray
 
+    @property
+    def node_factor(self) -> FloatArray:
+        """Mean over the node, (3 cos2 i - 1)/2, of the torques on an inclined orbit; shape (n,)."""
+        return np.asarray(1.5 * np.cos(self.i) ** 2 - 0.5)
+
+    @cached_property
     def mutual(self) -> FloatArray:
         """Torques P_ij between pairs of satellites, m5 s-4, shape (n, n), 0 on the diagonal."""
         torque = np.zeros((self.gm.size, self.gm.size))
@@ -95,23 +109,49 @@ class Planet:
         bulge = 0.75 * self.gm * satellites.gm * self.j2 * self.radius**2 / satellites.a**3
         return sun, bulge
 
+    def momenta(self, satellites: Satellites) -> FloatArray:
+        """Angular momenta of the orbits, m5 s-3, shape (m, n), for the torques of `torques`.
+
+        Averaged over the node they are h cos i; they are divided by the factor of the torques, at
+        least 1/2.
+        """
+        momentum = satellites.gm * np.sqrt((self.gm + satellites.gm) * satellites.a)
+        return momentum * np.cos(satellites.i) / np.maximum(satellites.node_factor, 0.5)
+
 
 def laplace_tilts(planet: Planet, satellites: Satellites) -> FloatArray:
     """Tilts of the Laplace planes from the equator towards the orbit, shape (m, n), rad."""
     sun, bulge = planet.torques(satellites)
-    pairs, twice = satellites.mutual(), 2 * planet.obliquity
-    # without the other satellites
-    tilt = np.arctan2(sun * np.sin(twice), bulge + sun * np.cos(twice)) / 2
+    h, size = planet.momenta(satellites), planet.gm * planet.radius**2
+    spin, own = planet.polar_moment * size * planet.spin_rate, 0.75 * planet.pull * size * planet.j2
+    eps, twice = planet.obliquity, 2 * planet.obliquity
+    pairs = satellites.mutual * satellites.node_factor  # of the other of two satellites
+    # without precession: all in one plane, then each in its stable balance with the others
+    sine, cosine = sun * np.sin(twice), bulge + sun * np.cos(twice)
+    tilt = np.arctan2(sine.sum(-1, keepdims=True), cosine.sum(-1, keepdims=True)) / 2
+    tilt = np.broadcast_to(tilt, bulge.shape).copy()
+    for place in range(tilt.shape[1]):
+        others = np.sin(2 * tilt) @ pairs[place], np.cos(2 * tilt) @ pairs[place]
+        tilt[:, place] = np.arctan2(sine[:, place] + others[0], cosine[:, place] + others[1]) / 2
     for _ in range(_MOST_STEPS):
         delta = 2 * (tilt[:, :, np.newaxis] - tilt[:, np.newaxis])
-        free = twice - 2 * tilt
-        residual = bulge * np.sin(2 * tilt) + (pairs * np.sin(delta)).sum(-1) - sun * np.sin(free)
+        free = eps - tilt
+        level = spin * np.sin(eps) + (h * np.sin(free)).sum(-1, keepdims=True)
+        level = np.where(level == 0, 1.0, level)  # an upright planet
+        torque = own * np.sin(twice) + (sun * np.sin(2 * free)).sum(-1, keepdims=True)
+        turn = torque / level
+        residual = bulge * np.sin(2 * tilt) + (pairs * np.sin(delta)).sum(-1)
+        residual += turn * h * np.sin(free) - sun * np.sin(2 * free)
+        # change of the rate `turn` with each tilt
+        slope = (turn * h * np.cos(free) - 2 * sun * np.cos(2 * free)) / level
         stiffness = 2 * pairs * np.cos(delta)
-        diagonal = 2 * bulge * np.cos(2 * tilt) + stiffness.sum(-1) + 2 * sun * np.cos(free)
-        jacobian = diagonal[:, :, np.newaxis] * np.eye(tilt.shape[1]) - stiffness
+        each = 2 * bulge * np.cos(2 * tilt) + stiffness.sum(-1) + 2 * sun * np.cos(2 * free)
+        each -= turn * h * np.cos(free)
+        jacobian = each[:, :, np.newaxis] * np.eye(tilt.shape[1]) - stiffness
+        jacobian += (h * np.sin(free))[:, :, np.newaxis] * slope[:, np.newaxis]
         step = np.linalg.solve(jacobian, residual[:, :, np.newaxis])[:, :, 0]
-        tilt = tilt - step
-        if np.max(np.abs(step), initial=0.0) < 1e-14:
+        tilt = tilt - np.clip(step, -_LONGEST_STEP, _LONGEST_STEP)
+        if np.max(np.abs(step), initial=0.0) < _LAST_STEP:
             break
     return np.asarray(tilt)
 
@@ -132,9 +172,36 @@ def shares(planet: Planet, satellites: Satellites) -> tuple[FloatArray, FloatArr
     spread = satellites.gm / planet.gm * (satellites.a / planet.radius) ** 2
     motion = np.sqrt((planet.gm + satellites.gm) / satellites.a**3)
     cosine = np.cos(satellites.i)
-    q = spread / 2 * (1.5 * cosine**2 - 0.5) * np.sin(2 * free) / np.sin(2 * obliquity)
+    q = spread / 2 * satellites.node_factor * np.sin(2 * free) / np.sin(2 * obliquity)
     moment = spread * motion / planet.spin_rate * cosine * np.sin(free) / np.sin(obliquity)
     return q, moment
+
+
+def omitted(
+    planet: Planet, satellites: Satellites, q: FloatArray, moment: FloatArray
+) -> FloatArray:
+    """Relative half-width of the torque due to what q and l leave out, shape (m,).
+
+    The half-width of each satellite's share, with S1 = sqrt(S), contains eccentricity up to
+    `ECCENTRICITY`, 3/2 e2; the period of the Sun, (3/8) S1/n, as in the lunar theory; and inclined
+    orbits that do not circle about the Laplace plane at their inclination alone, because of the
+    precession and of other satellites: sin2 i times their torques, with factors as measured. The
+    axis of the planet circles with each node, which changes its part of the momentum.
+    """
+    sun, bulge = planet.torques(satellites)
+    tilt, pairs = laplace_tilts(planet, satellites), satellites.mutual
+    torque = planet.j2 + q.sum(-1, keepdims=True)
+    level = planet.polar_moment + moment.sum(-1, keepdims=True)
+    turn = 1.5 * planet.pull * np.cos(planet.obliquity) * torque / (level * planet.spin_rate)
+    sine2, motion2 = np.sin(satellites.i) ** 2, (planet.gm + satellites.gm) / satellites.a**3
+    stiffness = bulge * np.cos(tilt) ** 2 + sun * np.cos(planet.obliquity - tilt) ** 2
+    h = np.abs(planet.momenta(satellites))
+    mixing = np.abs(turn) * h * sine2 + 2 * (pairs @ sine2 + pairs.sum(0) * sine2)
+    squares = (1.5 * ECCENTRICITY**2) ** 2 + 0.375**2 * planet.pull / motion2
+    squares = squares + (3 * mixing / (stiffness + pairs.sum(0))) ** 2
+    spin = planet.polar_moment * planet.gm * planet.radius**2 * planet.spin_rate
+    circles = sine2 * (h / spin * bulge / stiffness) ** 2 * planet.polar_moment / level
+    return np.asarray(np.sqrt((squares * (q / torque) ** 2 + circles**2).sum(-1)))
 
 
 @dataclass(frozen=True)
@@ -170,7 +237,7 @@ def nodes(planet: Planet, satellites: Satellites) -> list[Node]:
     h = np.append(spin[0], momentum)
 
     pairs = np.zeros((h.size, h.size))
-    pairs[1:, 1:] = satellites.mutual()
+    pairs[1:, 1:] = satellites.mutual
     pairs[0, 1:] = pairs[1:, 0] = bulge
     delta = tilt[:, np.newaxis] - tilt
     free = planet.obliquity - tilt[1:]
