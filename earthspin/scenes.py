@@ -369,7 +369,7 @@ def versions_of(attributes: Mapping[Any, Any]) -> dict[str, Any]:
 
     `sampled` is of earlier versions, whose answers had errors from a sample on request.
     """
-    endings = ("_version", "_sha256", "sampled")
+    endings = ("_version", "ephemeris_sha256", "orbit_sha256", "table_sha256", "sampled")
     return {name: value for name, value in attributes.items() if str(name).endswith(endings)}
 
 

@@ -123,7 +123,7 @@ def laplace_tilts(planet: Planet, satellites: Satellites) -> FloatArray:
     """Tilts of the Laplace planes from the equator towards the orbit, shape (m, n), rad."""
     sun, bulge = planet.torques(satellites)
     h, size = planet.momenta(satellites), planet.gm * planet.radius**2
-    spin, own = planet.polar_moment * size * planet.spin_rate, 0.75 * planet.pull * size * planet.j2
+    spin, own = planet.polar_moment * size * planet.spin_rate, 0.75 * planet.tide * size * planet.j2
     eps, twice = planet.obliquity, 2 * planet.obliquity
     pairs = satellites.mutual * satellites.node_factor  # of the other of two satellites
     # without precession: all in one plane, then each in its stable balance with the others
@@ -192,12 +192,12 @@ def omitted(
     tilt, pairs = laplace_tilts(planet, satellites), satellites.mutual
     torque = planet.j2 + q.sum(-1, keepdims=True)
     level = planet.polar_moment + moment.sum(-1, keepdims=True)
-    turn = 1.5 * planet.pull * np.cos(planet.obliquity) * torque / (level * planet.spin_rate)
+    turn = 1.5 * planet.tide * np.cos(planet.obliquity) * torque / (level * planet.spin_rate)
     sine2, motion2 = np.sin(satellites.i) ** 2, (planet.gm + satellites.gm) / satellites.a**3
     stiffness = bulge * np.cos(tilt) ** 2 + sun * np.cos(planet.obliquity - tilt) ** 2
     h = np.abs(planet.momenta(satellites))
     mixing = np.abs(turn) * h * sine2 + 2 * (pairs @ sine2 + pairs.sum(0) * sine2)
-    squares = (1.5 * ECCENTRICITY**2) ** 2 + 0.375**2 * planet.pull / motion2
+    squares = (1.5 * ECCENTRICITY**2) ** 2 + 0.375**2 * planet.tide / motion2
     squares = squares + (3 * mixing / (stiffness + pairs.sum(0))) ** 2
     spin = planet.polar_moment * planet.gm * planet.radius**2 * planet.spin_rate
     circles = sine2 * (h / spin * bulge / stiffness) ** 2 * planet.polar_moment / level

@@ -40,7 +40,7 @@ def test_mean_moments_of_the_regions_are_those_of_the_layers(faster: int) -> Non
     excess = f.e_s * f.inner + f.e_f * f.fluid
     assert np.isclose(excess * a, f.e_core * core / (1 + f.e_core / 3), rtol=1e-12, atol=0)
     unit = (faster * SPIN) ** 2 * PREM.radius**5 / (3 * G.value * a)
-    assert np.isclose(f.unit, unit, rtol=1e-12, atol=0)
+    assert np.isclose(f.tidal_inertia, unit, rtol=1e-12, atol=0)
 
 
 def test_an_even_body_is_as_flat_as_maclaurin_has_it() -> None:

@@ -12,6 +12,7 @@ from jplephem.spk import SPK
 
 import earthspin
 from earthspin.bodies import BODIES, MARS
+from earthspin.bodies.planets import on_its_orbit
 from earthspin.constants import ARCSEC, DAY, MAS, PUBLISHED_EFFECTS
 from earthspin.motion.effects import EFFECTS, RESPONSE, RIGID
 from earthspin.numerics.rotations import angle_between
@@ -119,7 +120,7 @@ def test_planets_without_positions_move_a_planet_by_their_mean_torque(body: str)
 
 def test_the_planets_have_a_size_where_orbits_are_given_by_elements() -> None:
     """Saturn, whose satellites carry it along, under the Sun."""
-    sizes = told("pole", TEN_YEARS, body="saturn")
+    sizes = told("pole", TEN_YEARS, body=on_its_orbit(BODIES["saturn"]))
     # the pull of Jupiter over that of the Sun, and the precession of the IAU's pole
     ratio = 1 / 1047.35 * float(np.mean(np.abs(1 - 0.5451 * np.exp(1j * np.arange(360.0))) ** -3))
     expected = 0.456e3 * 10 * math.sin(math.radians(26.73)) * ratio

@@ -10,7 +10,8 @@ from jplephem.excerpter import write_excerpt
 from jplephem.spk import SPK
 
 import earthspin
-from earthspin import EARTH, MARS, MOON
+from earthspin import BODIES, EARTH, MARS, MOON
+from earthspin.bodies.planets import on_its_orbit
 from earthspin.constants import ARCSEC
 from earthspin.engine.variables import largest_of
 from earthspin.sky import iau_models
@@ -91,10 +92,11 @@ def test_the_error_of_a_slightly_changed_moon_holds_the_change() -> None:
 
 def test_the_word_rigid_fits_bodies_on_given_orbits() -> None:
     """The orbit of Saturn is given by elements, which place no planets."""
-    result = earthspin.pole(times=["2010-01-01"], body="saturn", effects="rigid")
+    saturn = on_its_orbit(BODIES["saturn"])
+    result = earthspin.pole(times=["2010-01-01"], body=saturn, effects="rigid")
     assert result.attrs["effects"].split() == list(RIGID[1:])
     with pytest.raises(earthspin.SceneError, match="needs a kernel"):
-        earthspin.pole(times=["2010-01-01"], body="saturn", effects=["planets"])
+        earthspin.pole(times=["2010-01-01"], body=saturn, effects=["planets"])
 
 
 def test_a_renamed_planet_does_not_pull_on_itself() -> None:

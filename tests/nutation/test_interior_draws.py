@@ -12,7 +12,7 @@ from earthspin.interior.modes import mode_period
 from earthspin.interior.named import EXPONENT_RANGE
 from earthspin.nutation.interior_models import changed, inputs_of, rungs_of, spread_of
 from earthspin.questions.interior_response import Prediction
-from earthspin.questions.nutation import left
+from earthspin.questions.nutation import residuals
 
 #: Draws of all inputs together; three standard errors of their share are 0.046.
 DRAWS = 200
@@ -47,12 +47,12 @@ def drawn(models: Prediction) -> list[Prediction]:
 def test_95_per_cent_of_draws_move_the_rms_by_less_than_its_error(
     run: Run, drawn: list[Prediction]
 ) -> None:
-    inputs = {name: run[name] for name in left.needs}
-    nominal = run["left"]
+    inputs = {name: run[name] for name in residuals.needs}
+    nominal = run["residuals"]
     inputs["interior_spread"] = SimpleNamespace(rms_half_width=lambda *_: 0.0)
     moves = []
     for models in drawn:
-        drawn_rms = left.function(**inputs | {"models": models})
+        drawn_rms = residuals.function(**inputs | {"models": models})
         moves.append({name: abs(drawn_rms[name] - nominal[name])[:2] for name in nominal})
     for name in ("fluid-core", "inner-core", "ocean", "anelastic", "core-ellipticity", "coupling",
                  "core-in-rigid-mantle", "hydrostatic"):  # fmt: skip

@@ -10,7 +10,7 @@ from scipy.optimize import minimize_scalar
 
 import earthspin
 from earthspin import EARTH, MOON, SUN, Body, EarthspinError, Scene
-from earthspin.bodies.checks import SLOW
+from earthspin.bodies import checks
 from earthspin.bodies.planets import PRECESSING_ORBITS
 from earthspin.constants import ARCSEC_PER_YEAR, DAY, G
 from earthspin.dates import datetime64
@@ -112,7 +112,7 @@ def test_the_average_is_off_by_about_the_limit_where_it_is_refused() -> None:
     first, last = (np.sum(taper * part) / taper.sum() for part in (node[:193], node[-193:]))
     rate = -(last - first) / ((days[-193] - days[0]) * DAY)
     off = abs(rate / (float(average) * ARCSEC_PER_YEAR) - 1)
-    assert SLOW / 10 < off < SLOW
+    assert checks.FASTEST / 10 < off < checks.FASTEST
     # the answer says so, beside an error of rounding
     assert tree.precession_rate_error_method[-1] < 1e-9 * average
     left_out = float(tree["neglected"].neglected_effect.sum() / average)
