@@ -404,7 +404,7 @@ def _pair_about_pole(
 def _smaller_terms(*sums: tuple[FloatArray, ...]) -> FloatArray:
     """Return that of two equal sums which has the smaller terms, and so the smaller rounding."""
     first, second = (np.sum(np.abs(terms), axis=0) for terms in sums)
-    return np.where(first < second, np.sum(sums[0], axis=0), np.sum(sums[1], axis=0))
+    return np.asarray(np.where(first < second, np.sum(sums[0], axis=0), np.sum(sums[1], axis=0)))
 
 
 def _largest_root(c2: FloatArray, c1: FloatArray, c0: FloatArray, wanted: BoolArray) -> FloatArray:
