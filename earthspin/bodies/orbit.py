@@ -236,7 +236,7 @@ class Satellite:
     >>> planet = earthspin.MARS.replace(satellites=[moon])
     >>> rate = earthspin.precession(body=planet).precession_rate.sel(perturber="total")
     >>> print(planet.satellites[0].a, rate.round(2).item())  # without satellites 7.61 arcsec/yr
-    30000000.0 35.9
+    30000000.0 35.97
     """
 
     name: Annotated[str, Text()]
