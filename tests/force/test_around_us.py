@@ -130,15 +130,15 @@ def test_signals_end_in_one_line_that_says_how_to_go_on(
         if int(sys.argv[2]) == signal.SIGINT:
             signal.signal(signal.SIGINT, signal.default_int_handler)
         from earthspin import cli, scenes
-        from earthspin.engine.blocks import Series
+        from earthspin.engine.blocks import BlockSeries
         def slow(series, number):
             while number == 2:
                 print("half-way", flush=True)
                 time.sleep(60)
             return real(series, number)
-        real, Series.make = Series.make, slow
-        from earthspin.questions import times
-        times.LONGEST_IN_MEMORY, scenes.BLOCK = 100, 500
+        real, BlockSeries.make = BlockSeries.make, slow
+        from earthspin.questions import time_axes
+        time_axes.LONGEST_IN_MEMORY, scenes.BLOCK = 100, 500
         sys.exit(cli.main(["run", "torque", "--out", sys.argv[1]]))
     """
     path = store.write(earthspin.run("top-loop"), tmp_path / "r.zarr")
