@@ -70,10 +70,8 @@ def tried(changes: Sequence[Change], root: Path, cache: Path, jobs: int) -> Iter
         record = Record(free.queue[0], cache, jobs)
         with ThreadPoolExecutor(jobs) as pool:
             for change, test, seconds in pool.map(attempt, changes):
-                others = earlier.get(function_of(change), [])
-                earlier[function_of(change)] = list(filter(None, dict.fromkeys([test, *others])))[
-                    :5
-                ]
+                tests = dict.fromkeys([test, *earlier.get(function_of(change), [])])
+                earlier[function_of(change)] = list(filter(None, tests))[:5]
                 stored.write_text(json.dumps(earlier), encoding="utf-8")
                 yield change, test, seconds
 

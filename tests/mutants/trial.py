@@ -42,6 +42,8 @@ def noticed_by(copy: Path, change: Change, seconds: Mapping[str, float]) -> str:
                 # A number in the name of a case has changed.
                 files = sorted({test.partition("::")[0] for test in part})
                 ended = run_tests(copy, files, ["-x"], limit)
+            if ended.returncode == -15:  # SIGTERM: not by the limits
+                raise InterruptedError(f"{change.place}: the tests were ended from outside")
             if ended.returncode:
                 failed = re.search(r"(?m)^(?:FAILED|ERROR) (.+?)(?: - |$)", ended.stdout)
                 return failed[1] if failed else f"pytest ended with {ended.returncode}"
