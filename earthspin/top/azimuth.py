@@ -35,7 +35,7 @@ from scipy.special import ellipkm1, elliprj
 
 from earthspin.numerics.arrays import BoolArray, FloatArray
 from earthspin.numerics.elliptic import complete_third_kind
-from earthspin.top.height import Place, TopNutation, nutation_of
+from earthspin.top.height import Place, TopNutation
 from earthspin.top.start import HeavyTop
 
 # cosine of a whole number of quarter turns
@@ -93,14 +93,13 @@ def shared_rate(nutation: TopNutation) -> FloatArray:
     return np.where(_has_lower_arc(nutation), 0.0, nutation.start.a / 2)
 
 
-def mean_precession_rate(top: HeavyTop) -> FloatArray:
+def mean_precession_rate(top: HeavyTop, nutation: TopNutation) -> FloatArray:
     """Mean precession rate phi' of a top over one nutation period, rad/s.
 
     For a top that passes exactly over a pole it is the mean of the limits from both sides, for a
     sleeping top its initial phi', and for a top that approaches the upright position asymptotically
     the limit b/2.
     """
-    nutation = nutation_of(top)
     start = nutation.start
     full = _complete_integrals(nutation)
     sigma = np.where(nutation.crosses_lower_pole, 0.0, _lower_winding(nutation))

@@ -139,10 +139,10 @@ def heavy_top_motion(top: HeavyTop, times: ArrayLike) -> HeavyTopMotion:
         psi=psi.radians,
         attitude=_attitude(theta, phi, psi),
         omega_body=_omega_body(spread, nutation, height, psi),
-        turning_angle=turning_angles(top),
-        pattern=nutation_pattern(top),
-        nutation_period=nutation_period(top),
-        precession_rate=mean_precession_rate(top),
+        turning_angle=turning_angles(nutation).reshape(*top.shape, 2),
+        pattern=nutation_pattern(nutation.start).reshape(top.shape),
+        nutation_period=nutation_period(nutation).reshape(top.shape),
+        precession_rate=mean_precession_rate(spread, nutation).reshape(top.shape),
     )
 
 

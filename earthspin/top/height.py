@@ -263,7 +263,7 @@ def cubic_roots(top: HeavyTop) -> FloatArray:
     return np.where(start.turned[..., np.newaxis], -roots[..., ::-1], roots)
 
 
-def turning_angles(top: HeavyTop) -> FloatArray:
+def turning_angles(nutation: TopNutation) -> FloatArray:
     """Smallest and largest inclination of a top's axis, rad, accurate also near the poles.
 
     Returns
@@ -271,7 +271,6 @@ def turning_angles(top: HeavyTop) -> FloatArray:
     ndarray, shape (..., 2)
         rad; equal for steady motion.
     """
-    nutation = nutation_of(top)
     gaps = nutation.gaps
     below = np.sqrt(np.stack([gaps.upper_pole, nutation.depth], axis=-1))
     above = np.sqrt(np.stack([nutation.height, gaps.lower_pole], axis=-1))
@@ -280,13 +279,12 @@ def turning_angles(top: HeavyTop) -> FloatArray:
     return np.where(turned, other_end, 2 * np.arctan2(below, above))
 
 
-def nutation_period(top: HeavyTop) -> FloatArray:
+def nutation_period(nutation: TopNutation) -> FloatArray:
     """Period of the nutation (oscillation of the inclination theta) of a top, s.
 
     For steady motion it is the period of a small nutation; infinite if theta approaches the upright
     position asymptotically, or never turns.
     """
-    nutation = nutation_of(top)
     never = (nutation.stiffness == 0) | (nutation.complement == 0)
     half_period = np.where(never, 1.0, nutation.half_period)
     return np.where(never, np.inf, 2 * half_period / nutation.start.rate_unit)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from earthspin.errors import UndefinedError
 from earthspin.numerics.arrays import BoolArray, FloatArray
-from earthspin.top.start import AxisStart, HeavyTop, axis_start, top_constants
+from earthspin.top.start import AxisStart, HeavyTop, top_constants
 
 # --- patterns -------------------------------------------------------------------------------------
 
@@ -26,7 +26,7 @@ from earthspin.top.start import AxisStart, HeavyTop, axis_start, top_constants
 _ROUNDING = 16 * float(np.finfo(float).eps)
 
 
-def nutation_pattern(top: HeavyTop) -> NDArray[np.str_]:
+def nutation_pattern(start: AxisStart) -> NDArray[np.str_]:
     """Name of the pattern that the tip of a top's axis traces, such as a wave or loop (I.7.19).
 
     Returns
@@ -38,7 +38,6 @@ def nutation_pattern(top: HeavyTop) -> NDArray[np.str_]:
         plane pendulum, and an axis that passes exactly over a pole.
         Steady motion and cusps are recognised to within rounding of the start.
     """
-    start = axis_start(top)
     turning = start.b_minus_a * start.b_plus_a < 0  # |b| < |a|
     # a alpha and b beta (I.7.7), whose difference separates waves from loops
     inertia, weight = start.a * start.rate2, start.beta * start.phi_rate * start.sine2
@@ -50,7 +49,7 @@ def nutation_pattern(top: HeavyTop) -> NDArray[np.str_]:
         turning & (start.a * drive > 0),
     ]
     names = ["sleeping", "steady", "cusp", "loop"]
-    return np.select(conditions, names, default="wave").reshape(top.shape)
+    return np.select(conditions, names, default="wave").reshape(np.shape(start.below))
 
 
 def _is_steady(start: AxisStart) -> BoolArray:

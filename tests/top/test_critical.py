@@ -10,7 +10,7 @@ import mpmath as mp
 import numpy as np
 
 from earthspin.top.closed_form import error_bound, heavy_top_motion
-from earthspin.top.height import nutation_period
+from earthspin.top.height import nutation_of, nutation_period
 from earthspin.top.start import HeavyTop
 from tests.top.families import Start
 from tests.top.textbook import Textbook
@@ -63,7 +63,7 @@ def test_near_the_critical_spin_nothing_cancels() -> None:
             found = heavy_top_motion(top, times).theta
             off = [float(abs(x / y - 1)) for x, y in zip(map(mp.mpf, found), exact, strict=True)]
             assert max(off) < 3e-14, start
-            assert abs(float(nutation_period(top) / period - 1)) < 1e-14, start
+            assert abs(float(nutation_period(nutation_of(top)) / period - 1)) < 1e-14, start
         assert error_bound(top, np.array(times)) < 1e-10  # before, up to 2e-4
 
 

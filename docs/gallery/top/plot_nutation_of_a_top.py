@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import earthspin
-from earthspin.top.height import effective_potential, turning_angles
+from earthspin.top.height import effective_potential, nutation_of, turning_angles
 from earthspin.top.start import HeavyTop
 
 # %%
@@ -35,7 +35,7 @@ for number, (name, push) in enumerate({"let go": 0.0, "pushed back": -0.6}.items
         phi_rate=push,
     )
     ax.plot(np.degrees(angle), effective_potential(top, angle), color=f"C{number}", label=name)
-    ends = turning_angles(top)
+    ends = turning_angles(nutation_of(top))
     level = effective_potential(top, ends)
     ax.plot(np.degrees(ends), level, "o--", color=f"C{number}", lw=0.9)
     print(f"{name}: between {np.degrees(ends[0]):.2f} and {np.degrees(ends[1]):.2f} deg")
