@@ -16,8 +16,9 @@ _MJD_OF_JD0 = 2400000.5
 TT_MINUS_TAI = 32.184  # s
 #: Ratio of the errors of predicted rows to the stated ones: these hold 71 % at 90 days.
 _PREDICTED = 2.0
-#: Half-width from the tides with periods of a day and less, which daily tables leave out, s.
-_DIURNAL = 7e-5
+#: Half-width from the tides with periods of a day and less, which daily tables leave out, s: 95 %
+#: of the values of the IERS Conventions (2010), table 8.3, which reach 89 us.
+_DIURNAL = 4.9e-5
 #: First day of finals2000A.
 _BEGIN_OF_FINALS = 41684.0
 #: Standard deviations of TT - UT1 before the table: year, s. Morrison & Stephenson 2004, J. Hist.
@@ -27,9 +28,14 @@ _PAST = np.array(
     [(-1000, 636.0), (-500, 431.0), (0, 265.0), (500, 139.0), (1000, 54.0), (1200, 31.0),
      (1300, 20.0), (1600, 20.0), (1700, 5.0), (1800, 1.0), (1900, 0.1), (1960, 0.1), (1962, 0.3)]
 ).T  # fmt: skip
-#: Standard deviation of a prediction of UT1 over one year, s, and the power with which it grows:
-#: 68 ms, and 308 ms after three years (Gambis & Bizouard, IERS, predictions of 1963 to 2003).
-_FUTURE, _POWER = 0.068, 1.4
+#: Errors of UT1 after the last observed day: years, and half-width that holds 95 % of them over
+#: 1.96, s. Measured from each 60th day of C04, 1972 to 2026, with the curve of Skyfield for a table
+#: that ends a year earlier, moved to the day. Later they grow with a power of time.
+_FUTURE = np.array(
+    [(0.1, 0.018), (0.25, 0.041), (0.5, 0.071), (1, 0.15), (2, 0.33), (3, 0.57), (5, 1.1),
+     (10, 2.5), (20, 5.6)]
+).T  # fmt: skip
+_POWER = 1.4
 
 
 def earth_rotation(day: float) -> tuple[float, float, str]:
@@ -106,12 +112,17 @@ def _estimated(day: float) -> tuple[float, float, str]:
     """TT - UT1 outside the tables: history of eclipses and occultations, and its continuation."""
     from earthspin.sky.skyfield import timescale
 
-    year = 2000.0 + day / DAYS_PER_YEAR
-    late = float(timescale().tdb_jd(J2000_JD + day).delta_t)
+    year, scale = 2000.0 + day / DAYS_PER_YEAR, timescale()
+    late = float(scale.tdb_jd(J2000_JD + day).delta_t)
     if year > 2000.0:
-        last = max(float(row[7:15]) for row in _lines("finals") if row[58:68].strip())
-        after = (J2000_JD - _MJD_OF_JD0 + day - last) / DAYS_PER_YEAR
-        return late, NORMAL_95 * _FUTURE * max(after, 0.1) ** _POWER, "UT1 extrapolated"
+        rows = [row for row in _lines("finals") if row[58:68].strip()]
+        observed = max(float(row[7:15]) for row in rows if row[57] == "I")
+        end = _MJD_OF_JD0 + float(rows[-1][7:15]) - 2 - J2000_JD  # within four rows
+        late += tt_minus_ut1(end)[0] - float(scale.tdb_jd(J2000_JD + end).delta_t)
+        after = (J2000_JD - _MJD_OF_JD0 + day - observed) / DAYS_PER_YEAR
+        longer = max(after / _FUTURE[0, -1], 1.0) ** _POWER
+        half = NORMAL_95 * float(np.interp(after, *_FUTURE)) * float(longer)
+        return late, half, "UT1 extrapolated"
     before = year < _PAST[0, 0]
     sigma = 0.8 * ((year - 1820) / 100) ** 2 if before else float(np.interp(year, *_PAST))
     return late, NORMAL_95 * sigma, "UT1 from Stephenson, Morrison & Hohenkerk 2016"
