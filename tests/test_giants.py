@@ -433,6 +433,8 @@ def test_torques_of_giant_planets_follow_the_kernel(name: str) -> None:
     apart = abs(ellipse.declination - series.declination) * 3600
     assert float((apart / ellipse.direction_error).max()) < 1
     assert float(apart.max()) > 30
-    assert float((abs(ellipse.distance - series.distance) / ellipse.distance_error).max()) < 1
+    # a bound that is not far too wide either: 2.4 to 5.6 times the departures before
+    used = float((abs(ellipse.distance - series.distance) / ellipse.distance_error).max())
+    assert 0.7 < used < 1
     torques = ellipse.torque_magnitude, series.torque_magnitude
     assert float((abs(torques[0] - torques[1]) / ellipse.torque_magnitude_error).max()) < 1

@@ -76,10 +76,10 @@ class Orbit:
         Name of the central body; empty for the spinning body.
     reference : str
         Source of the numbers.
-    direction_error, direction_drift, distance_error, rate_error : float or None
+    direction_error, direction_drift, distance_error, distance_drift, rate_error : float or None
         For mean elements of a real orbit, bounds on what the ellipse differs from it by: angle at
-        the epoch, rad; growth of this angle, rad/s; distance, m; and relative error of the mean
-        torque. None: the elements define the orbit.
+        the epoch, rad, and its growth, rad/s; distance at the epoch, m, and its growth, m/s; and
+        relative error of the mean torque. None: the elements define the orbit.
 
     Raises
     ------
@@ -114,6 +114,7 @@ class Orbit:
     direction_error: Annotated[float | None, Magnitude("rad", "700 arcsec")] = None
     direction_drift: Annotated[float | None, Magnitude("rad/s", "3 arcsec/yr")] = None
     distance_error: Annotated[float | None, Magnitude("m", "7e5 km")] = None
+    distance_drift: Annotated[float | None, Magnitude("m/s", "0.06 m/s")] = None
     rate_error: Annotated[float | None, Magnitude("", "0.001")] = None
 
     words: ClassVar[str] = 'a table of elements, like {a = "384399 km", e = 0.0549}'
@@ -169,7 +170,7 @@ _RULES: dict[str, tuple[Callable[[float], bool], str]] = {
     "node_period": (lambda p: p != 0, "a period is not zero; negative is backwards"),
     "pericentre_period": (lambda p: p != 0, "a period is not zero; negative is backwards"),
 } | dict.fromkeys(
-    ("direction_error", "direction_drift", "distance_error", "rate_error"),
+    ("direction_error", "direction_drift", "distance_error", "distance_drift", "rate_error"),
     (lambda size: 0 <= size <= _LARGEST, "a bound on an error is zero or more"),
 )
 

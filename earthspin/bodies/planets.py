@@ -99,7 +99,8 @@ MEAN_SUN = SUN.replace(
         reference=MEAN_ELEMENTS,
         direction_error=50.0 * ARCSEC,
         direction_drift=0.55 * ARCSEC / JULIAN_YEAR,
-        distance_error=8e7,
+        distance_error=1.3e7,
+        distance_drift=1.55e5 / JULIAN_YEAR,
         rate_error=2e-6,
     )
 )

@@ -133,6 +133,7 @@ def _ellipse(member: Body, centre: Body, body: Body) -> Ellipse:
         direction_error=orbit.direction_error or 0.0,
         direction_drift=orbit.direction_drift or 0.0,
         distance_error=orbit.distance_error or 0.0,
+        distance_drift=orbit.distance_drift or 0.0,
     )
 
 

@@ -108,9 +108,10 @@ class Ellipse:
     motion, node_rate, pericentre_rate : float
         Rates of mean anomaly, node, and argument of the pericentre, rad/s.
     plane : Plane
-    direction_error, direction_drift, distance_error : float
-        Bounds on what the ellipse differs from the real orbit by: angle at the epoch, rad, its
-        growth, rad/s, and distance, m; zero if the elements define the orbit.
+    direction_error, direction_drift, distance_error, distance_drift : float
+        Bounds on what the ellipse differs from the real orbit by: angle at the epoch, rad, and its
+        growth, rad/s; distance at the epoch, m, and its growth, m/s; zero if the elements define
+        the orbit.
     """
 
     a: float
@@ -127,6 +128,7 @@ class Ellipse:
     direction_error: float = 0.0
     direction_drift: float = 0.0
     distance_error: float = 0.0
+    distance_drift: float = 0.0
 
     @property
     def normal(self) -> FloatArray:
@@ -164,20 +166,25 @@ class Ellipse:
         """Bounds on the errors of the body's direction (rad) and distance (m) on a day.
 
         They contain rounding, and the difference of the ellipse from the real orbit. An error of
-        the mean anomaly is amplified in direction by at most sqrt(1 + e)/(1 - e)^(3/2).
+        the mean anomaly is amplified in direction by at most sqrt(1 + e)/(1 - e)^(3/2); in
+        distance, to which node and pericentre do not matter, by a e/sqrt(1 - e^2).
         """
         time = abs(day - self.epoch) * DAY
         angles = abs(self.mean_anomaly) + abs(self.node) + abs(self.pericentre)
         rates = abs(self.motion) + abs(self.node_rate) + abs(self.pericentre_rate)
         steepest = math.sqrt(1 + self.e) / (1 - self.e) ** 1.5
         angle = ROUNDINGS * _EPS * (1 + angles + rates * time) * steepest
+        radial = self.e / math.sqrt((1 - self.e) * (1 + self.e))
+        anomaly = ROUNDINGS * _EPS * (1 + abs(self.mean_anomaly) + abs(self.motion) * time)
+        rounding = self.a * ((ROUNDINGS + 1) * _EPS * (1 + self.e) + anomaly * radial)
         real, far = self.departure(day)
-        return angle + real, self.a * (1 + self.e) * angle + far
+        return angle + real, rounding + far
 
     def departure(self, day: float) -> tuple[float, float]:
         """Bounds on the angle (rad) and distance (m) of the ellipse from the real orbit."""
         time = abs(day - self.epoch) * DAY
-        return self.direction_error + self.direction_drift * time, self.distance_error
+        angle = self.direction_error + self.direction_drift * time
+        return angle, self.distance_error + self.distance_drift * time
 
     def rounding(self, day: float) -> float:
         """Relative error of the tidal tensor on a given day due to rounding of the mean longitude.

@@ -98,7 +98,7 @@ def test_exact_means_are_those_of_windows() -> None:
 def defining(body: Body) -> Body:
     """The same elements, taken as the definition of the orbit."""
     mean = body.needed("orbit")
-    names = "direction_error", "direction_drift", "distance_error", "rate_error"
+    names = "direction_error", "direction_drift", "distance_error", "distance_drift", "rate_error"
     return body.replace(orbit=replace(mean, **dict.fromkeys(names)))
 
 

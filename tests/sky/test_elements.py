@@ -130,7 +130,8 @@ def test_longitude_advances_by_the_sidereal_motion() -> None:
 def test_rounding_is_within_its_bound(e: float) -> None:
     """Against 50 digits, near pericentre over two centuries; the bound is twice what is needed.
 
-    Measured: 0.33 to 0.36 of the bound of the direction at the most.
+    Measured: 0.33 to 0.36 of the bound of the direction at the most, and 0.4 to 0.7 of that of the
+    distance, which does not depend on node and pericentre.
     """
     one = ellipse(e=e)
     turns = np.rint(np.linspace(-1, 1, 151) * 36525 * DAY * one.motion / math.tau)
@@ -146,7 +147,7 @@ def test_rounding_is_within_its_bound(e: float) -> None:
             angle, metres = one.error(day)
             along.append(float(abs(radial) / metres))
             across.append(float(mpmath.sqrt(mpmath.norm(off) ** 2 - radial**2) / distance / angle))
-    assert max(along) <= 1
+    assert 0.3 < max(along) < 0.9
     assert 0.2 < max(across) < 0.5
 
 
