@@ -278,7 +278,7 @@ def differences(
         offsets=([*models.values()][chosen] - iau_pole)[:, :2],
         offset_error=np.hypot(unfitted_error, response_error),
         error=error,
-        fitted_error=math.hypot(error, fitted_shift.residual if chosen == 2 else 0.0),
+        fitted_error=math.hypot(error, fitted_shift.fitted_residual if chosen == 2 else 0.0),
         unfitted_error=unfitted_error,
     )
 

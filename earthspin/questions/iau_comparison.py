@@ -542,6 +542,9 @@ class Shift:
     residual : float
         Half-width that, combined with the closure, contains 95 % of the differences from IAU
         2006/2000A, rad.
+    fitted_residual : float
+        Half-width that contains 95 % of the differences after a constant and a rate are removed,
+        rad.
     """
 
     start: FloatArray
@@ -550,6 +553,7 @@ class Shift:
     rate: float
     closure: float
     residual: float
+    fitted_residual: float
 
     def apply(self, directions: dict[str, FloatArray], days: FloatArray) -> None:
         """Add the precession and nutation due to the non-rigid interior to the axes, in place.
@@ -582,11 +586,14 @@ def _shift(comparison: PoleComparison, amplitude: ComplexArray, effects: Sequenc
     difference = comparison.difference + circles.at(iau_models.delaunay_arguments(comparison.days))
     difference += missing * sine * elapsed
     pair = np.stack([difference.real, difference.imag], axis=1)
-    closure = float(np.linalg.norm(np.polynomial.polynomial.polyfit(elapsed, pair, 1)[1]))
+    line = np.polynomial.polynomial.polyfit(elapsed, pair, 1)
+    closure = float(np.linalg.norm(line[1]))
     remainder = np.abs(difference) ** 2 - (closure * elapsed) ** 2
     residual = math.sqrt(max(0.0, float(np.quantile(remainder, 0.95))))
-    rate = published[NONRIGID.name] * sine
-    return Shift(comparison.start, comparison.epoch, circles, rate, closure, residual)
+    rest = np.linalg.norm(pair - line[0] - np.outer(elapsed, line[1]), axis=1)
+    fitted_residual = float(np.quantile(rest, 0.95))
+    rate, start = published[NONRIGID.name] * sine, comparison.start
+    return Shift(start, comparison.epoch, circles, rate, closure, residual, fitted_residual)
 
 
 @part

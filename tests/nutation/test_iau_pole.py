@@ -207,8 +207,9 @@ def test_half_widths_hold_the_residuals_as_returned() -> None:
         size, error = abs(residuals[name]), residuals[f"{name}_error"]
         assert (size <= error).all()
         assert error.max() < 2.5 * size.max()
-    for name in ("dpsi_sineps", "deps"):
-        assert (abs(residuals[name]) <= residuals.residual_error).all()
+    # 0.063 mas, 1.1 times what 95 % of the residuals of either angle need; 0.22 mas before
+    angles = abs(np.concatenate([residuals.dpsi_sineps, residuals.deps]))
+    assert 1.0 < residuals.residual_error / np.quantile(angles, 0.95) < 1.5
 
 
 def test_error_of_residuals_as_computed_is_the_effect_of_the_uncertainty_of_h() -> None:
