@@ -42,4 +42,7 @@ def rows() -> Iterator[Row]:
             side = np.where(truth > q, np.log(high / q), np.log(q / np.maximum(low, 1e-9)))
             offset = abs(np.log(truth / q)) / side
             inside = float(((low <= truth) & (truth <= high)).mean())
-            yield Row(f"quality factor, {method}", span, "truth", offset.max(), inside, q.size)
+            width = 1 / float(np.quantile(offset, 0.95))
+            yield Row(
+                f"quality factor, {method}", span, "truth", offset.max(), inside, width, q.size
+            )

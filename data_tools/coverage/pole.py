@@ -1,4 +1,4 @@
-"""The figure axis against IAU 2006/2000A, with the response of the interior."""
+"""The figure axis against IAU 2006/2000A, with the response of the interior, and stars near it."""
 
 from __future__ import annotations
 
@@ -10,11 +10,15 @@ import numpy as np
 
 import earthspin
 from data_tools.coverage import Row
-from earthspin.constants import J2000_JD, MAS
+from earthspin.constants import DAYS_PER_YEAR, J2000_JD, MAS
 from earthspin.dates import days
 from earthspin.errors import Where
 from earthspin.motion.effects import EFFECTS
+from earthspin.sky.stars import STARS
+from tests.questions.test_pole_stars import DOUBLE, NEW_REDUCTION
 
+#: Epoch of the Hipparcos catalogue, year.
+HIPPARCOS = 1991.25
 #: Kernel, first and last date, and step.
 SPANS = {
     "1950 to 2050": ("de421", "1950-01-02", "2050-01-01", "9.7 d"),
@@ -23,7 +27,66 @@ SPANS = {
 }
 
 
+#: Spans of the residuals of `compare_iau`.
+RESIDUALS = (
+    ("1900-01-02", "2050-01-01"),
+    ("1950-01-02", "2050-01-01"),
+    ("1990-01-01", "2020-01-01"),
+)
+#: Years from J2000.0 at which the stars are compared.
+YEARS = (-8000.0, -5000.0, -2000.0, 2000.0)
+
+
 def rows() -> Iterator[Row]:
+    """Yield the rows of the topic."""
+    yield from directions()
+    yield from residuals()
+    yield from stars()
+
+
+def residuals() -> Iterator[Row]:
+    """Coverage of the residuals of `compare_iau`, without a fit and with a line removed."""
+    for span in RESIDUALS:
+        scene = earthspin.load_scene("iau", {"span": list(span)})
+        section = earthspin.run_tree(scene, sections=["residuals"])["residuals"]
+        years = f"{span[0][:4]} to {span[1][:4]}"
+        offsets = [section[name].values for name in ("dX", "dY", "dX_error", "dY_error")]
+        yield Row.comparing(
+            "`dX`, `dY` of `compare_iau`", years, "IAU 2006/2000A (ERFA)", offsets[:2], offsets[2:]
+        )
+        fitted = [section.dpsi_sineps.values, section.deps.values]
+        error = float(section.residual_error)
+        yield Row.comparing(
+            "`residual_error` of `compare_iau`", years, "IAU 2006/2000A (ERFA)", fitted, error
+        )
+
+
+def stars() -> Iterator[Row]:
+    """Separations of stars from the pole beside the new reduction of Hipparcos, with our pole."""
+    past = earthspin.long_term(times=[f"{year} yr" for year in YEARS])
+    ours = earthspin.pole_stars(past, count=len(STARS))
+    cases: dict[bool, list[tuple[float, float]]] = {False: [], True: []}
+    for epoch, year in enumerate(YEARS):
+        at, pole = ours.isel(epoch=epoch), past.pole.values[epoch]
+        for name, separation, error in zip(
+            at.star.values.tolist(), at.separation.values, at.separation_error.values, strict=True
+        ):
+            ra, dec, along, north, *_ = NEW_REDUCTION[name]
+            motion = np.radians(np.array([along / np.cos(dec), north]) / 3.6e6)
+            days = DAYS_PER_YEAR * (year + 2000 - HIPPARCOS)
+            place = erfa.pmsafe(ra, dec, *motion, 1e-3, 0.0, J2000_JD, 0.0, J2000_JD, days)
+            star = erfa.s2c(*place[:2])
+            away = np.degrees(np.arctan2(np.linalg.norm(np.cross(pole, star)), pole @ star))
+            cases[name in DOUBLE].append((separation - away, error))
+    span = f"{len(YEARS)} epochs, {YEARS[0]:.0f} to {YEARS[-1]:+.0f} yr"
+    for is_double, words in ((False, "single"), (True, "double")):
+        quantity = f"`separation` of {len(cases[is_double]) // len(YEARS)} {words} stars"
+        yield Row.comparing(
+            quantity, span, "Hipparcos, new reduction", *np.transpose(cases[is_double])
+        )
+
+
+def directions() -> Iterator[Row]:
     """Coverage of the direction of the figure axis, by response and span."""
     for response in ("fitted", "predicted"):
         for span, (kernel, *dates) in SPANS.items():

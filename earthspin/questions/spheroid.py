@@ -73,7 +73,7 @@ class Field(Variables, along=_VECTOR, error="relative_error"):
     torque = number("N m", "torque of the point mass on the spheroid", frame=_FRAME)
     relative_error = number(
         "1",
-        "95 % half-width of potential, attraction and torque relative to their sizes",
+        "bound on the errors of potential, attraction and torque relative to their sizes",
         along=("point",),
     )
     component = labels(default=["x", "y", "z"])

@@ -130,7 +130,7 @@ class TopMotion(TimesFromStart, error="relative_error"):
     mean_precession_rate = number("rad/s", "mean rate of phi", along=(), short="mean precession")
     relative_error = number(
         "1",
-        "95 % half-width of theta relative to itself, of the others relative to their largest "
+        "bound on the error of theta relative to itself, of the others relative to their largest "
         "values, from rounding of the initial values and of the closed form",
         along=(),
     )

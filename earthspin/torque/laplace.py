@@ -182,26 +182,43 @@ def omitted(
 ) -> FloatArray:
     """Relative half-width of the torque due to what q and l leave out, shape (m,).
 
-    The half-width of each satellite's share, with S1 = sqrt(S), contains eccentricity up to
-    `ECCENTRICITY`, 3/2 e2; the period of the Sun, (3/8) S1/n, as in the lunar theory; and inclined
-    orbits that do not circle about the Laplace plane at their inclination alone, because of the
-    precession and of other satellites: sin2 i times their torques, with factors as measured. The
-    axis of the planet circles with each node, which changes its part of the momentum.
+    It contains `uneven`, and in the share of each satellite, with S1 = sqrt(S), eccentricity up to
+    `ECCENTRICITY`, 3/2 e2, and the period of the Sun, (3/8) S1/n, as in the lunar theory.
+    """
+    motion2 = (planet.gm + satellites.gm) / satellites.a**3
+    squares = (1.5 * ECCENTRICITY**2) ** 2 + 0.375**2 * planet.tide / motion2
+    rest = squares * (q / (planet.j2 + q.sum(-1, keepdims=True))) ** 2
+    return np.hypot(np.sqrt(rest.sum(-1)), uneven(planet, satellites, q, moment))
+
+
+def uneven(planet: Planet, satellites: Satellites, q: FloatArray, moment: FloatArray) -> FloatArray:
+    """Relative half-width of the torque as inclined orbits do not circle evenly, shape (m,).
+
+    All parts are in proportion to sin2 i: a precession that is not slow beside the node; circles
+    that are ellipses, which are stiffer across the tilt (`bend`) than along it (`stretch`); the
+    axis of the planet, which circles with each node; and torques of two satellites, which do not
+    cancel where the Sun takes unequal parts of them. The factors were chosen on 90 random planets.
     """
     sun, bulge = planet.torques(satellites)
     tilt, pairs = laplace_tilts(planet, satellites), satellites.mutual
+    free, delta = planet.obliquity - tilt, tilt[:, :, np.newaxis] - tilt[:, np.newaxis]
     torque = planet.j2 + q.sum(-1, keepdims=True)
     level = planet.polar_moment + moment.sum(-1, keepdims=True)
     turn = 1.5 * planet.tide * np.cos(planet.obliquity) * torque / (level * planet.spin_rate)
-    sine2, motion2 = np.sin(satellites.i) ** 2, (planet.gm + satellites.gm) / satellites.a**3
-    stiffness = bulge * np.cos(tilt) ** 2 + sun * np.cos(planet.obliquity - tilt) ** 2
-    h = np.abs(planet.momenta(satellites))
-    mixing = np.abs(turn) * h * sine2 + 2 * (pairs @ sine2 + pairs.sum(0) * sine2)
-    squares = (1.5 * ECCENTRICITY**2) ** 2 + 0.375**2 * planet.tide / motion2
-    squares = squares + (3 * mixing / (stiffness + pairs.sum(0))) ** 2
-    spin = planet.polar_moment * planet.gm * planet.radius**2 * planet.spin_rate
-    circles = sine2 * (h / spin * bulge / stiffness) ** 2 * planet.polar_moment / level
-    return np.asarray(np.sqrt((squares * (q / torque) ** 2 + circles**2).sum(-1)))
+    bend = bulge * np.cos(tilt) ** 2 + sun * np.cos(free) ** 2
+    bend += (pairs * np.cos(delta) ** 2).sum(-1)
+    sun = sun * np.cos(2 * free)
+    stretch = bulge * np.cos(2 * tilt) + sun + (pairs * np.cos(2 * delta)).sum(-1)
+    size, sine2 = planet.gm * planet.radius**2, np.sin(satellites.i) ** 2
+    h, spin = np.abs(planet.momenta(satellites)), planet.polar_moment * size * planet.spin_rate
+    squares = (3 * turn * h / bend) ** 2 + (bend / stretch - 1) ** 2
+    circles = (h / spin * bulge / bend) ** 2 * planet.polar_moment / level / 2
+    each = (sine2 * q / torque) ** 2 * squares + (sine2 * circles) ** 2
+    share = sun / stretch
+    unequal = np.abs(share[:, :, np.newaxis] - share[:, np.newaxis])
+    pull = (pairs * (sine2 + sine2[:, np.newaxis]) * unequal).sum((1, 2)) / 2
+    pull /= (0.75 * planet.tide * size * torque)[:, 0]
+    return np.asarray(np.sqrt(each.sum(-1) + (1.5 * pull) ** 2))
 
 
 @dataclass(frozen=True)
