@@ -11,6 +11,7 @@ import logging
 import os
 import signal
 import sys
+import threading
 import traceback
 import warnings
 from collections.abc import Callable, Iterator
@@ -136,6 +137,29 @@ def _check_streams() -> None:
     for stream in (sys.stdout, sys.stderr):
         if stream in (sys.__stdout__, sys.__stderr__) and isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
+
+
+@contextmanager
+def signals_held() -> Iterator[None]:
+    """Hold all signals that have a handler until the block ends; a context manager.
+
+    A handler that raises an exception, such as KeyboardInterrupt, may strike inside a lock of
+    xarray, which stays locked, so that closing a netCDF file would wait for ever. Handlers run in
+    the main thread only.
+    """
+    received: list[int] = []
+    is_main = threading.current_thread() is threading.main_thread()
+    numbers = signal.valid_signals() if is_main else ()
+    handlers = {number: h for number in numbers if callable(h := signal.getsignal(number))}
+    try:
+        for number in handlers:
+            signal.signal(number, lambda number, _: received.append(number))
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        for number in received:
+            signal.raise_signal(number)
 
 
 @contextmanager

@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 from earthspin._lazy import xr
 from earthspin.errors import OutputError, Where, nearest
 from earthspin.numerics.arrays import FloatArray
+from earthspin.process import signals_held
 from earthspin.units import Whole, Word, by_name, is_whole, pack, unit_factor, unpack
 
 IntArray = NDArray[np.int64]
@@ -346,7 +347,8 @@ def _read_file(path: Path) -> xr.Dataset:
             return xr.Dataset(columns)
         if path.suffix in (".nc", ".zarr"):
             options: dict[str, Any] = {"engine": "zarr", "consolidated": False}
-            with xr.open_dataset(path, **(options if path.suffix == ".zarr" else {})) as dataset:
+            options = options if path.suffix == ".zarr" else {}
+            with signals_held(), xr.open_dataset(path, **options) as dataset:
                 return dataset.load()
     except Exception as error:  # pandas and xarray raise many types for damaged files
         raise OutputError(path, f"it cannot be read: {error}") from None

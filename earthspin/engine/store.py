@@ -27,6 +27,7 @@ from earthspin.engine import atomic_writes
 from earthspin.engine.question import SCENE, scene_of
 from earthspin.engine.variables import IN_FILES
 from earthspin.errors import EarthspinError, MissingExtraError, OutputError, in_bytes, one_line
+from earthspin.process import signals_held
 
 #: Attribute of the root: version of the way in which results are stored.
 FORMAT, VERSION = "earthspin_format", 2
@@ -109,7 +110,7 @@ def write_netcdf(result: xr.Dataset | xr.DataTree, path: Path) -> None:
     if scene := groups["/"].attrs.pop(SCENE, ""):
         groups["/"][SCENE] = ((), scene, {"long_name": "the complete question, a scene in TOML"})
     root = groups["/"].assign_attrs({CONTENT: content_hash(groups)})
-    with _NETCDF:
+    with signals_held(), _NETCDF:
         try:
             for group, node in (groups | {"/": root}).items():
                 mode: Any = "w" if group == "/" else "a"
@@ -369,7 +370,7 @@ def _read_netcdf(path: Path) -> dict[str, xr.Dataset]:
     """Read a netCDF file completely, and compare it with the checksum of its content."""
     if path.is_fifo():
         raise OutputError(path, "it is a pipe", "give a file")
-    with _NETCDF:
+    with signals_held(), _NETCDF:
         nodes = _open_groups(path, engine="netcdf4")
         try:
             for node in nodes.values():
