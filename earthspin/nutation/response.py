@@ -37,11 +37,11 @@ SUN_SYNCHRONOUS = (0, 1, 0, 0, 0)
 #: Initial estimate of the free core nutation (same table).
 CORE_NUTATION_START = (-1.0023181, 0.000025)
 
-#: Errors of the fitted period of the free core nutation, s, and of its quality factor, relative.
-#: Measured against the parameters of IAU 2000A (`interior.named`), after subtracting geodesic
-#: nutation and the added terms (`ADDITIONS`): 0.02 d and 0.4 %; with the amplitudes of REN-2000
-#: instead of the computed ones 0.03 d and 0.3 %.
-PERIOD_ERROR, QUALITY_ERROR = 0.1 * DAY, 0.02
+#: 95 % half-widths of the fitted period of the free core nutation, s, and of its quality factor,
+#: relative: twice what was measured against the parameters of IAU 2000A (`interior.named`), after
+#: subtracting geodesic nutation and the added terms (`ADDITIONS`): 0.02 d and 0.4 %; with the
+#: amplitudes of REN-2000 instead of the computed ones 0.03 d and 0.3 %.
+PERIOD_ERROR, QUALITY_ERROR = 0.05 * DAY, 0.008
 
 
 @dataclass(frozen=True)

@@ -242,8 +242,8 @@ def test_beside_the_rim_of_a_disc_the_bound_grows_as_the_error_does(distance: fl
         found, true = spheroid.attraction_integrals(1.0, f, place), _integrals(f, place)
         worst = max(float(abs(mp.mpf(float(a)) / b - 1)) for a, b in zip(found, true, strict=True))
         used = max(used, worst / float(spheroid.error_bound(f, place)))
-    # measured: 0.15 to 0.45 of the bound; below 1e-3 of a bound it would be no bound but a guess
-    assert 1e-3 < used < 1.0
+    # measured: 0.15 to 0.45 of the bound, 0.04 at the largest distance
+    assert (0.03 if distance > 0.01 else 0.1) < used < 1.0
 
 
 def test_the_answer_says_how_wrong_it_may_be() -> None:

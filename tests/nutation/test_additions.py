@@ -93,9 +93,14 @@ def blind() -> Response:
     return fit_response(known.frequency[used], known.rigid[used], known.iau[used], h, spin)
 
 
-def held(mode: complex) -> Response:
-    """The same with the mode of the core held."""
+def held(
+    mode: complex,
+    without: Sequence[Sequence[int]] = tuple(ADDED_TO.values()),
+    iau: ComplexArray | None = None,
+) -> Response:
+    """The same with the mode of the core held, or without other terms, or of other amplitudes."""
     known = terms()
+    iau = known.iau if iau is None else iau
     columns = []
     for strength in np.eye(4, dtype=complex):
         response = replace(blind(), core_nutation=mode, strengths=strength)
@@ -103,8 +108,8 @@ def held(mode: complex) -> Response:
     base = replace(blind(), core_nutation=mode, strengths=np.zeros(4, dtype=complex))
     none = base.transfer(known.frequency)
     design = (np.array(columns).T - none[:, np.newaxis]) * known.rigid[:, np.newaxis]
-    left = known.iau - none * known.rigid
-    used = known.all_but(list(ADDED_TO.values()))
+    left = iau - none * known.rigid
+    used = known.all_but(without)
     strengths = np.linalg.lstsq(design[used], left[used], rcond=None)[0]
     return replace(base, strengths=np.asarray(strengths, dtype=np.complex128))
 
@@ -173,6 +178,18 @@ DIFFERENT = {
 def test_additions_are_those_of_the_whole_series() -> None:
     for (multiple, added), other in zip(ADDITIONS.items(), HERRING, strict=True):
         assert abs(added - other) < DIFFERENT.get(multiple, 0.6), multiple
+
+
+def test_the_other_terms_tell_the_sign_in_retrograde_18_6_years() -> None:
+    """Fitted to all other terms, a response leaves 8.1 + 9.1i uas of this one of 8 arcsec.
+
+    This is nearer to +3.5 than to -3.5 uas; the two authors differ by more.
+    """
+    multiple = (0, 0, 0, 0, 1)
+    known = terms()
+    left = left_by(held(BUILT_IN, [multiple], known.iau - known.added), multiple)
+    published = ADDITIONS[multiple]
+    assert abs(left - published) < min(12, abs(left + published))
 
 
 def test_the_retrograde_fortnight_is_that_of_the_fit() -> None:

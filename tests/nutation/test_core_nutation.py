@@ -30,10 +30,14 @@ def simulated(
 @pytest.mark.parametrize("name", NOISES)
 @pytest.mark.parametrize("amplitude", [0.0, 0.05, 0.2])
 def test_intervals_hold_the_truth(name: str, amplitude: float) -> None:
-    """95 % of the cases, less two standard deviations of 400 draws, whatever the noise."""
+    """95 % of the cases, less two standard deviations of 400 draws, whatever the noise.
+
+    The half-widths are 0.96 to 1.21 times those that 95 % of the cases need.
+    """
     fits = simulated(name, amplitude)
-    inside = [abs(abs(fit.amplitude[0]) - amplitude) <= fit.error[0] for fit in fits]
-    assert np.mean(inside) > 0.95 - 2 * np.sqrt(0.95 * 0.05 / DRAWS)
+    ratios = [abs(abs(fit.amplitude[0]) - amplitude) / fit.error[0] for fit in fits]
+    assert np.mean(np.array(ratios) <= 1) > 0.95 - 2 * np.sqrt(0.95 * 0.05 / DRAWS)
+    assert np.quantile(ratios, 0.95) > 1 / 1.3
     off = [abs(np.angle(fit.amplitude[0] * np.exp(-1j))) <= fit.phase_error[0] for fit in fits]
     assert np.mean(off) > 0.95 - 2 * np.sqrt(0.95 * 0.05 / DRAWS)
 

@@ -363,6 +363,7 @@ def test_errors_on_kepler_orbits_are_neither_too_small_nor_far_too_large() -> No
     assert np.mean(ratio <= 1) > 0.9
     assert np.median(ratio) > 1 / 10
     assert np.min(ratio) > 1 / 250
+    assert np.max(ratio) > 0.45
     assert np.mean(differences[1] <= errors[1]) > 0.9
 
 

@@ -73,6 +73,13 @@ def test_seasons_are_those_of_the_tropical_year(turns_per_year: int) -> None:
     assert np.max(abs(left)) < 5e-3
 
 
+def test_the_error_of_the_period_is_not_far_too_large() -> None:
+    """Measured in 60 records: 1.29 times the half-width that 95 % of them need."""
+    fits = [observed.fit(*simulation.simulate(65, seed=seed), "burg") for seed in range(30)]
+    ratios = [abs(fit.period - 433) / fit.period_error for fit in fits]
+    assert 1 / 1.6 < np.quantile(ratios, 0.95) < 1.1
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "runs", "bias", "scatter", "coverage"),
