@@ -188,7 +188,7 @@ def omitted(
     motion2 = (planet.gm + satellites.gm) / satellites.a**3
     squares = (1.5 * ECCENTRICITY**2) ** 2 + 0.375**2 * planet.tide / motion2
     rest = squares * (q / (planet.j2 + q.sum(-1, keepdims=True))) ** 2
-    return np.hypot(np.sqrt(rest.sum(-1)), uneven(planet, satellites, q, moment))
+    return np.asarray(np.hypot(np.sqrt(rest.sum(-1)), uneven(planet, satellites, q, moment)))
 
 
 def uneven(planet: Planet, satellites: Satellites, q: FloatArray, moment: FloatArray) -> FloatArray:
