@@ -48,7 +48,7 @@ def residuals() -> Iterator[Row]:
     """Coverage of the residuals of `compare_iau`, without a fit and with a line removed."""
     for span in RESIDUALS:
         scene = earthspin.load_scene("iau", {"span": list(span)})
-        section = earthspin.run_tree(scene, sections=["residuals"])["residuals"]
+        section = earthspin.run_tree(scene, sections=["residuals"])["residuals"].to_dataset()
         years = f"{span[0][:4]} to {span[1][:4]}"
         offsets = [section[name].values for name in ("dX", "dY", "dX_error", "dY_error")]
         yield Row.comparing(
