@@ -16,6 +16,7 @@ import typing
 import warnings
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from types import NoneType
 from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeGuard, TypeVar
 
@@ -55,6 +56,53 @@ _SYMBOLS = {
 }  # fmt: skip
 _WORD = re.compile(rf"(?<![a-z])(?:julian )?({'|'.join(_SYMBOLS)})s?(?![a-z])", re.IGNORECASE)
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s+(\S.*?)\s*")
+
+#: Units of time as they are written, Julian years in each, and -1 if it counts into the past. A
+#: small m is never "million": thousandths of a year (myr, ma) are no unit here.
+_UNITS_OF_TIME = (
+    ("(?i:d|days?)", 1 / 365.25, 1),
+    ("(?i:a|y|yrs?|years?)", 1.0, 1),
+    ("(?i:century|centuries)", 1e2, 1),
+    ("(?i:ky|kyrs?|millennium|millennia|thousand years)", 1e3, 1),
+    ("M(?i:y|yrs?)|(?i:million years)", 1e6, 1),
+    ("(?i:gy|gyrs?|billion years)", 1e9, 1),
+    ("(?i:ka|kya)", 1e3, -1),
+    ("M(?i:a)|(?i:mya)", 1e6, -1),
+    ("(?i:ga|gya|bya)", 1e9, -1),
+)
+#: Words after the unit, the sign of such times, and their origin in Julian years from J2000.0.
+_SENSES_OF_TIME = (
+    (r"(from|after|since) j?2000(\.0)?", 1, 0.0),
+    (r"ago|b2k|before j?2000(\.0)?", -1, 0.0),
+    ("(from|after|since) 1950", 1, -50.0),
+    ("bp|before present|before 1950", -1, -50.0),
+)
+
+
+def time_scale(words: str) -> tuple[float, float] | None:
+    """Return the Julian years in a unit of time, and the origin in Julian years from J2000.0.
+
+    Parameters
+    ----------
+    words : str
+        Unit with its sense: ``"kyr"`` gives (1000, 0), ``"ka"`` and ``"kyr ago"`` (-1000, 0),
+        ``"kyr BP"`` (-1000, -50), ``"kyr from 1950"`` (1000, -50).
+
+    Returns
+    -------
+    tuple of float, or None
+        The years are negative if the numbers are ages, which are not negative themselves. None if
+        the words are no unit of time, or if an age would count into the future.
+    """
+    words = " ".join(words.replace("_", " ").split())
+    for unit, years, direction in _UNITS_OF_TIME:
+        if match := re.fullmatch(f"(?:{unit})( .*)?", words):
+            if not match[1]:
+                return direction * years, 0.0
+            for sense, sign, origin in _SENSES_OF_TIME:
+                if re.fullmatch(sense, match[1].strip(), re.IGNORECASE) and sign <= direction:
+                    return sign * years, origin
+    return None
 
 
 class Kind(Protocol[T]):
@@ -306,6 +354,30 @@ def real_numbers(value: Any) -> FloatArray:
     if array.dtype.kind not in "fiu":
         raise ValueError(f"an array of {array.dtype}; give real numbers")
     return array.astype(np.float64, copy=False)
+
+
+def as_written(numbers: Any, factor: float, origin: float = 0.0) -> Any:
+    """Compute numbers * factor + origin for the decimal numbers that the floats stand for.
+
+    The float that is written "-17.4" is not -17.4, so that its product by 1000 may differ from
+    -17400. Here each result is the float nearest to that of the decimal number with at most 15
+    places, and equal times are equal, in whatever unit they are given.
+    """
+    numbers = np.asarray(numbers, dtype=np.float64)
+    result = np.asarray(numbers * factor + origin)
+    ratio = Fraction(factor).limit_denominator(10**6)  # 1/24 is no float, either
+    rest = (np.abs(numbers) < 2**53) & (float(ratio) == factor)
+    numbers = np.where(rest, numbers, 0.0)
+    for places in range(16):
+        if not rest.any():
+            break
+        whole = np.rint(numbers * 10.0**places)
+        written = rest & (np.abs(whole) < 2**53) & (whole / 10.0**places == numbers)
+        scale = ratio / 10**places
+        products = whole[written] * scale.numerator + origin * scale.denominator
+        result[written] = products / scale.denominator
+        rest &= ~written
+    return result[()]
 
 
 # --- kinds -------------------------------------------------------------------------------------

@@ -3,6 +3,8 @@
 import datetime as dt
 import math
 import warnings
+from decimal import Decimal
+from fractions import Fraction
 
 import astropy.units as u
 import numpy as np
@@ -55,6 +57,44 @@ def test_units_of_time_are_read_as_words(words: str, symbols: str) -> None:
         assert size * int(words[0]) == found[0] * DAY
     with pytest.raises(UnitsError):
         units.quantity("5 lightyears", "s", Where("it"), "6 h")
+
+
+@pytest.mark.parametrize(
+    ("words", "scale"),
+    [
+        *[(words, (1e3, 0.0)) for words in ("kyr", "ky", "Kyr", "KYR", "thousand years")],
+        *[(words, (-1e3, 0.0)) for words in ("ka", "Ka", "kya", "kyr ago", "kyr b2k", "ka ago")],
+        *[(words, (-1e3, -50.0)) for words in ("kyr BP", "ka_BP", "ky bp", "kyr before present")],
+        *[(words, (1e6, 0.0)) for words in ("Myr", "MYR", "My", "Million years", "Myr from 2000")],
+        *[(words, (-1e6, 0.0)) for words in ("Ma", "MA", "mya", "Mya", "million years ago")],
+        *[("Ma BP", (-1e6, -50.0)), ("Gyr ago", (-1e9, 0.0)), ("Ga", (-1e9, 0.0))],
+        *[("Gyr", (1e9, 0.0)), ("kyr from 1950", (1e3, -50.0)), ("years after 1950", (1.0, -50.0))],
+        *[("yr before 2000", (-1.0, 0.0)), ("days", (1 / 365.25, 0.0)), (" a ", (1.0, 0.0))],
+        *[("century", (100.0, 0.0)), ("yr  BP", (-1.0, -50.0))],
+        # thousandths of a year, ages of the future, and what is no time
+        *[(words, None) for words in ("myr", "ma", "my", "mYr", "myr BP", "ma ago", "uyr", "ayr")],
+        *[(words, None) for words in ("ka from 2000", "kyr AD", "mas", "km", "", "BP", "ago", "m")],
+    ],
+)
+def test_words_of_time(words: str, scale: tuple[float, float] | None) -> None:
+    assert units.time_scale(words) == scale
+
+
+@given(st.decimals(-(10**6), 10**6, places=4), st.sampled_from([1e3, 60.0, 1 / 24, 1 / 365.25]))
+def test_numbers_are_converted_as_they_are_written(number: Decimal, factor: float) -> None:
+    ratio = Fraction(factor).limit_denominator(1461)
+    assert units.as_written(float(number), factor) == float(Fraction(number) * ratio)
+    assert units.as_written([float(number)], factor, -50.0)[0] == float(
+        Fraction(number) * ratio - 50
+    )
+
+
+def test_numbers_without_a_short_decimal_are_multiplied() -> None:
+    numbers = np.array([1e300, 1 / 3, 2**-1000, np.nan, np.inf, -17.4])
+    products = units.as_written(numbers, 1e3)
+    assert np.array_equal(products[:-1], 1e3 * numbers[:-1], equal_nan=True)
+    assert products[-1] == -17400.0
+    assert units.as_written(0.3, np.pi) == 0.3 * np.pi
 
 
 @pytest.mark.parametrize("unit", COMMON)
