@@ -15,6 +15,7 @@ import re
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from decimal import Decimal
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
@@ -24,7 +25,16 @@ from earthspin._lazy import erfa
 from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
 from earthspin.errors import SceneError, UnitsError, Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.units import Number, Plain, is_masked, pack, quantity, unpack
+from earthspin.units import (
+    Number,
+    Plain,
+    is_bare,
+    is_masked,
+    numbers_and_unit,
+    pack,
+    quantity,
+    unpack,
+)
 
 J2000 = np.datetime64("2000-01-01T12:00:00", "us")
 MICROSECONDS_PER_DAY = 86_400_000_000
@@ -230,6 +240,8 @@ def is_time(value: object) -> bool:
 def datetime64(days_tdb: FloatArray) -> NDArray[np.datetime64]:
     """Convert days from J2000.0 TDB to ``datetime64[us]``, the type of times in results.
 
+    Dates that were given to the millisecond are returned exactly.
+
     Raises
     ------
     SceneError
@@ -240,7 +252,10 @@ def datetime64(days_tdb: FloatArray) -> NDArray[np.datetime64]:
         problem = "the time axis of an answer holds the years 1 to 9999; choose dates within them"
         raise SceneError("time", date_text(days_tdb[outside][0], "s"), problem)
     counts: NDArray[np.int64] = np.rint(days_tdb * MICROSECONDS_PER_DAY).astype(np.int64)
-    return J2000 + counts.astype("timedelta64[us]")
+    # far from J2000.0 a float stands for the whole millisecond that it cannot be told from
+    rounded = (counts + 500) // 1000 * 1000
+    close = np.abs(rounded - counts) <= np.spacing(np.abs(days_tdb)) * MICROSECONDS_PER_DAY
+    return J2000 + np.where(close, rounded, counts).astype("timedelta64[us]")
 
 
 def date_text(day: float, unit: Literal["D", "s", "us"] = "D") -> str:
@@ -279,13 +294,13 @@ def _epochs(value: Any, where: Where) -> Any:
     SceneError
         If one of them is neither.
     """
-    if isinstance(value, np.ndarray) and value.dtype.kind in "OU" and value.ndim == 1:
-        value = value.tolist()
+    if _type_of(value) in ("O", "U") and np.ndim(value) == 1:
+        value = np.asarray(value).tolist()
     if isinstance(value, (list, tuple)):
         times = np.array([seconds(time, where) for time in value], dtype=float)
     elif _is_duration(value):
         try:
-            times = np.asarray(quantity(value, "s", where, DURATION))
+            times = np.asarray(quantity(value, "s", where, DURATION, epoch=True))
         except UnitsError:
             problem = f"give a time from J2000.0 like '{DURATION}', or a date like {EXAMPLES}"
             raise where.error(value, problem) from None
@@ -298,7 +313,7 @@ def _epochs(value: Any, where: Where) -> Any:
 
 def seconds(value: Any, where: Where) -> float:
     """Convert one time (a duration from J2000.0, or a date) to seconds from J2000.0 TDB."""
-    if isinstance(value, (int, float, list, tuple)) and not hasattr(value, "to_value"):
+    if isinstance(value, (list, tuple)) or is_bare(value):
         raise where.error(value, f"give it with its unit, like '{DURATION}', or a date")
     time = _epochs(value, where)
     if np.ndim(time):
@@ -309,11 +324,17 @@ def seconds(value: Any, where: Where) -> float:
 def _is_duration(value: Any) -> bool:
     if isinstance(value, str):
         return not _DATE.fullmatch(value.strip())
-    is_quantity = hasattr(value, "to_value") and not is_time(value)
-    kind = getattr(getattr(value, "dtype", None), "kind", "")
-    # numbers with a unit are labelled arrays, such as the epochs of an answer
-    has_unit = kind in "iuf" and "units" in getattr(value, "attrs", ())
-    return is_quantity or kind == "m" or has_unit or isinstance(value, dt.timedelta)
+    if is_time(value) or isinstance(value, dt.date):
+        return False
+    kind = _type_of(value)
+    # numbers with a unit are also labelled arrays, such as the epochs of an answer
+    has_unit = kind != "M" and numbers_and_unit(value)[1] is not None
+    return has_unit or kind == "m" or isinstance(value, dt.timedelta)
+
+
+def _type_of(value: Any) -> str:
+    """Letter for the type of the elements of an array of NumPy, xarray or pandas."""
+    return str(getattr(getattr(value, "dtype", None), "kind", ""))
 
 
 @dataclass(frozen=True)
@@ -525,4 +546,5 @@ def grid(span: YearSpan, step: float, where: Where) -> FloatArray:
     count = math.floor((span.last - span.first) / step * (1 + 1e-12)) + 1
     if count > MOST_TIMES:
         raise where.error(f"{step / JULIAN_YEAR:g} yr", f"{count} times; give a longer step")
-    return np.asarray(span.first + step * np.arange(count))
+    places = max(-int(Decimal(repr(time)).as_tuple().exponent) for time in (span.first, step))
+    return np.round(span.first + step * np.arange(count), max(places, 0))

@@ -22,7 +22,15 @@ from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeGuard, TypeV
 
 import numpy as np
 
-from earthspin.errors import EarthspinError, UnitsError, Where, is_one_line, nearest, one_line
+from earthspin.errors import (
+    EarthspinError,
+    SceneError,
+    UnitsError,
+    Where,
+    is_one_line,
+    nearest,
+    one_line,
+)
 from earthspin.numerics.arrays import Array, FloatArray
 
 #: What a scene file can hold: text, numbers, truth, lists and tables of them.
@@ -55,20 +63,34 @@ _SYMBOLS = {
     "decade": "dayr", "century": "hyr", "centurie": "hyr", "millennium": "kyr", "millennia": "kyr",
 }  # fmt: skip
 _WORD = re.compile(rf"(?<![a-z])(?:julian )?({'|'.join(_SYMBOLS)})s?(?![a-z])", re.IGNORECASE)
-_NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s+(\S.*?)\s*")
+_SPACE = "[ \u00a0\u2009\u202f]"
+#: A number, whose digits may stand in groups of three as in "6 378.137", and its unit.
+_NUMBER_AND_UNIT = re.compile(
+    rf"""\s*(?P<number>[-+]?
+          (?:[1-9]\d{{0,2}}(?:{_SPACE}\d{{3}})+(?!\d)|\d+|(?=\.\d)|nan|inf)
+          (?:\.\d{{3}}(?:{_SPACE}\d{{3}})+(?!\d)|\.\d*)?
+          (?:[eE][-+]?\d+)?)
+        \s*(?P<unit>.*?)\s*""",
+    re.VERBOSE | re.IGNORECASE,
+)
+_TIMES = {unit for unit, (measures, _) in COMMON.items() if measures == "s"}
+#: Units of which no fraction is meant, the smallest prefix of others, and what is meant instead.
+_LONG, _SMALLEST = ("yr", "a", "d", "h", "min", "wk", "fortnight"), 1e-14
+_MEANT = {"myr": "Myr", "ma": "Myr", "as": "arcsec"}
+TURN = 2 * math.pi
 
-#: Units of time as they are written, Julian years in each, and -1 if it counts into the past. A
-#: small m is never "million": thousandths of a year (myr, ma) are no unit here.
+#: Units of time as they are written, days in each, and -1 if it counts into the past. A small m is
+#: never "million": thousandths of a year (myr, ma) are no unit here.
 _UNITS_OF_TIME = (
-    ("(?i:d|days?)", 1 / 365.25, 1),
-    ("(?i:a|y|yrs?|years?)", 1.0, 1),
-    ("(?i:century|centuries)", 1e2, 1),
-    ("(?i:ky|kyrs?|millennium|millennia|thousand years)", 1e3, 1),
-    ("M(?i:y|yrs?)|(?i:million years)", 1e6, 1),
-    ("(?i:gy|gyrs?|billion years)", 1e9, 1),
-    ("(?i:ka|kya)", 1e3, -1),
-    ("M(?i:a)|(?i:mya)", 1e6, -1),
-    ("(?i:ga|gya|bya)", 1e9, -1),
+    ("d", 1.0, 1),
+    ("(?i:a|y|yrs?)", 365.25, 1),
+    ("hyr", 36525.0, 1),
+    ("(?i:ky|kyrs?|thousand yr)", 365.25e3, 1),
+    ("M(?i:y|yrs?)|(?i:million yr)", 365.25e6, 1),
+    ("(?i:gy|gyrs?|billion yr)", 365.25e9, 1),
+    ("(?i:ka|kya)", 365.25e3, -1),
+    ("M(?i:a)|(?i:mya)", 365.25e6, -1),
+    ("(?i:ga|gya|bya)", 365.25e9, -1),
 )
 #: Words after the unit, the sign of such times, and their origin in Julian years from J2000.0.
 _SENSES_OF_TIME = (
@@ -94,15 +116,22 @@ def time_scale(words: str) -> tuple[float, float] | None:
         The years are negative if the numbers are ages, which are not negative themselves. None if
         the words are no unit of time, or if an age would count into the future.
     """
-    words = " ".join(words.replace("_", " ").split())
-    for unit, years, direction in _UNITS_OF_TIME:
-        if match := re.fullmatch(f"(?:{unit})( .*)?", words):
-            if not match[1]:
-                return direction * years, 0.0
-            for sense, sign, origin in _SENSES_OF_TIME:
-                if re.fullmatch(sense, match[1].strip(), re.IGNORECASE) and sign <= direction:
-                    return sign * years, origin
+    days, direction, words = _unit_of_time(words)
+    if days and not words:
+        return direction * days / 365.25, 0.0
+    for sense, sign, origin in _SENSES_OF_TIME:
+        if days and sign <= direction and re.fullmatch(sense, words, re.IGNORECASE):
+            return sign * days / 365.25, origin
     return None
+
+
+def _unit_of_time(words: str) -> tuple[float, int, str]:
+    """Days in a unit of time, -1 if it counts into the past, and the words that follow it."""
+    words = _in_symbols(" ".join(words.replace("_", " ").split()))
+    for unit, days, direction in _UNITS_OF_TIME:
+        if match := re.fullmatch(f"(?:{unit})(?: (.*))?", words):
+            return days, direction, match[1] or ""
+    return 0.0, 0, ""
 
 
 class Kind(Protocol[T]):
@@ -137,20 +166,22 @@ def by_name(kind: object) -> bool:
 # --- values with units -------------------------------------------------------------------------
 
 
-def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
+def quantity(value: Any, unit: str, where: Where, example: str, *, epoch: bool = False) -> Any:
     """Convert a value with a unit to floats in the unit that the program uses.
 
     Parameters
     ----------
     value : str, Quantity, timedelta, number, array, DataArray, or list of them
-        ``"6 h"``, a Quantity, a DataArray that says its units, or plain numbers, which are in
-        `unit` already.
+        ``"6 h"``, a Quantity of astropy, pint or unyt, a DataArray that says its units, or plain
+        numbers, which are in `unit` already.
     unit : str
         The unit wanted, as astropy writes it.
     where : Where
         Name of the input.
     example : str
         Example for the message.
+    epoch : bool
+        Whether it is a time from J2000.0, of which ``"20 ka"`` and ``"20 kyr BP"`` are in the past.
 
     Returns
     -------
@@ -162,15 +193,12 @@ def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
     UnitsError
         If the unit is missing or unknown or has the wrong dimension, or the value is not a number.
     SceneError
-        If a number is masked, missing or not finite, or there is none.
+        If a number is masked, missing or not finite, or there is none or more than one in a text,
+        an age has a sign, or an angle without a unit is more than a turn.
     """
-    target = _Target(unit, where, example)
-    if unit and where.typed and _is_bare(value):
+    if unit and where.typed and is_bare(value):
         raise where.error(value, f"give it with its unit, like '{example}'")
-    try:
-        converted = _convert(value, target)
-    except RecursionError:  # lists in lists in lists
-        raise target.wrong(value) from None
+    converted = _converted(value, _Target(unit, where, example, epoch))
     plain = getattr(converted, "values", converted)
     if np.size(plain) == 0:
         raise where.error(f"shape {np.shape(plain)}", "give one number or more")
@@ -178,7 +206,20 @@ def quantity(value: Any, unit: str, where: Where, example: str) -> Any:
         raise where.error(value, "give finite numbers")
     if hasattr(converted, "dims"):
         return converted.copy(deep=True, data=frozen(plain))
-    return frozen(converted) if isinstance(converted, np.ndarray) else converted
+    return frozen(converted) if np.ndim(converted) else float(converted)
+
+
+def vectors(value: Any, unit: str, where: Where, example: str) -> FloatArray:
+    """Convert vectors that a user's function returns to floats, x, y and z along the last axis.
+
+    They may be plain numbers in `unit`, or have a unit and labels. NaN and infinity are allowed.
+
+    Raises
+    ------
+    UnitsError, SceneError
+        If their unit has another dimension, they are no numbers, or have other labels.
+    """
+    return np.asarray(_converted(in_order(value, where), _Target(unit, where, example)))
 
 
 def frozen(array: Array) -> Array:
@@ -195,22 +236,61 @@ class _Target:
     unit: str
     where: Where
     example: str
+    epoch: bool = False
 
     def wrong(self, value: object) -> UnitsError:
         return UnitsError(str(self.where), value, self.unit or "a pure number", self.example)
 
-    def factor(self, value: object, unit: str) -> float:
+    def converted(self, numbers: FloatArray, unit: Any, value: object) -> Any:
+        """Convert the numbers of a value from its unit, None if it has none."""
+        if unit is None:
+            largest = float(np.ravel(numbers)[np.argmax(np.abs(numbers))]) if numbers.size else 0.0
+            if self.unit == "rad" and abs(largest) > TURN:
+                problem = "plain numbers are radians, and this is more than a turn; write"
+                raise self.where.error(largest, f"{problem} '{largest!r} deg'")
+            return numbers
+        if self.unit in _TIMES:
+            return as_written(numbers, *self._time(numbers, unit, value))
+        return numbers * self.factor(value, unit)
+
+    def _time(self, numbers: FloatArray, unit: Any, value: object) -> tuple[float, float]:
+        """Factor from a unit of time to that of this input, and origin of times from J2000.0."""
+        day = COMMON["d"][1] / COMMON[self.unit][1]
+        scale = time_scale(str(unit)) if self.epoch else None
+        if scale is None:
+            days, direction, sense = _unit_of_time(str(unit))
+            return days * day if direction > 0 and not sense else self.factor(value, unit), 0.0
+        if scale[0] < 0 and np.any(numbers < 0):
+            problem = f"'{unit}' counts into the past already; leave out the sign"
+            raise self.where.error(value, problem)
+        return scale[0] * 365.25 * day, scale[1] * 365.25 * day
+
+    def factor(self, value: object, unit: Any) -> float:
         """Factor from a given unit to the unit of this input; refuse units of other dimensions."""
+        measures, size = COMMON.get(str(unit), (None, 1.0))
+        if measures == self.unit:
+            return size
         import astropy.units as u
 
-        try:
-            if len(unit) > LONGEST_QUANTITY:
-                raise ValueError("no unit is that long")
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", u.UnitsWarning)
-                return float((1.0 * u.Unit(_in_symbols(unit))).to_value(u.Unit(self.unit)))
-        except (TypeError, ValueError, u.UnitConversionError):
-            raise self.wrong(value) from None
+        with warnings.catch_warnings():  # several slashes, which are read from left to right
+            warnings.simplefilter("ignore", u.UnitsWarning)
+            try:
+                unit = u.Unit(unit if hasattr(unit, "to_string") else _in_symbols(str(unit)))
+                for base in unit.bases:
+                    self._refuse_fraction(value, base)
+                return float((1.0 * unit).to_value(u.Unit(self.unit)))
+            except (TypeError, ValueError, AttributeError) as error:
+                raise error if isinstance(error, SceneError) else self.wrong(value) from None
+
+    def _refuse_fraction(self, value: object, unit: Any) -> None:
+        """Raise an error for a unit like the thousandth of a year, which nobody means."""
+        from astropy.units import PrefixUnit
+
+        if isinstance(unit, PrefixUnit):
+            scale, root = unit.represents.scale, str(unit.represents.bases[0])
+            if scale < (1.0 if root in _LONG else _SMALLEST):
+                meant = _MEANT.get(str(unit), root)
+                raise self.where.error(value, f"'{unit}' is {scale:g} {root}; write '{meant}'")
 
 
 def unit_factor(unit: str, target: str, where: Where, example: str) -> float:
@@ -226,49 +306,62 @@ def unit_factor(unit: str, target: str, where: Where, example: str) -> float:
 
 def _in_symbols(text: str) -> str:
     """Replace units of time by symbols ("12 hours" by "12 h"), and degrees_north by degrees."""
-    text = re.sub("degrees?_(?:north|east)", "deg", text)
+    text = re.sub("degrees?_(?:north|east)", "deg", text).replace("dimensionless", "")
     return _WORD.sub(lambda match: _SYMBOLS[match[1].lower()], text)
 
 
+def _converted(value: Any, target: _Target) -> Any:
+    try:
+        return _convert(value, target)
+    except EarthspinError:
+        raise
+    except Exception:  # whatever somebody's class says of being no array; lists in lists in lists
+        raise target.wrong(value) from None
+
+
 def _convert(value: Any, target: _Target) -> Any:
-    if isinstance(value, (bool, np.bool_)):
-        raise target.wrong(value)
-    if isinstance(value, (int, float)) and not hasattr(value, "to_value"):
-        return _plain(value, target)
     if isinstance(value, str):
-        if len(value) > LONGEST_QUANTITY:
-            raise target.wrong(value)
-        match = _NUMBER_AND_UNIT.fullmatch(_in_symbols(value))
-        if match and match[2] in COMMON and COMMON[match[2]][0] == target.unit:
-            return float(match[1]) * COMMON[match[2]][1]
-        return _by_astropy(value, target)
-    if isinstance(value, (dt.timedelta, np.timedelta64)):
-        return _length_of_time(value, target)
+        return _from_text(value, target)
+    if isinstance(value, dt.timedelta):
+        return target.converted(np.asarray(value.total_seconds()), "s", value)
     if is_masked(value):
         raise target.where.error("a masked value", "give numbers that are all known")
-    if hasattr(value, "to_value"):
-        return _by_astropy(value, target)
-    if hasattr(value, "dims") and hasattr(value, "dtype"):
-        unit = None if value.dtype.kind == "m" else value.attrs.get("units")
-        plain = _plain(value.values, target)  # one that says its units is converted
-        if unit is None:
-            return value.copy(data=plain)
-        converted = value.copy(data=plain * target.factor(unit, unit))
-        converted.attrs["units"] = target.unit or "1"
+    if hasattr(value, "jd1"):  # a TimeDelta of astropy
+        value = value.to("s")
+    numbers, unit = numbers_and_unit(value)
+    if isinstance(numbers, (list, tuple)) and any(map(has_unit, numbers)):
+        return np.stack([_convert(inner, target) for inner in numbers])
+    array = np.asarray(numbers)
+    if array.dtype.kind == "m":
+        array, unit = array / np.timedelta64(1, "us") / 1e6, "s"  # a month has no length in seconds
+    if array.dtype.kind in "OU" and any(map(has_unit, array.flat)):
+        converted = np.reshape([_convert(inner, target) for inner in array.flat], array.shape)
+    else:
+        converted = target.converted(real_numbers(array), unit, value)
+    if not (hasattr(value, "dims") and hasattr(value, "dtype")):
         return converted
-    if isinstance(value, (list, tuple)) and any(_has_unit(inner) for inner in value):
-        try:
-            return np.stack([np.asarray(_convert(inner, target), dtype=float) for inner in value])
-        except ValueError as error:
-            raise error if isinstance(error, EarthspinError) else target.wrong(value) from None
-    return _plain(value, target)
+    labelled = value.copy(data=converted)
+    if "units" in value.attrs:
+        labelled.attrs["units"] = target.unit or "1"
+    return labelled
 
 
-def _is_bare(value: object) -> bool:
+def _from_text(text: str, target: _Target) -> Any:
+    match = None if len(text) > LONGEST_QUANTITY else _NUMBER_AND_UNIT.fullmatch(text)
+    if match is None or (target.unit and not match["unit"]):
+        raise target.wrong(text)
+    if re.match(r"[-+(]?[.,\d]", match["unit"]) and not re.match(r"1\s*/", match["unit"]):
+        problem = f"there is more than one number; write one, like '{target.example}'"
+        raise target.where.error(text, problem)
+    number = float(re.sub(_SPACE, "", match["number"]))
+    return target.converted(np.asarray(number), match["unit"], text)
+
+
+def is_bare(value: object) -> bool:
     """Return True for a number without a unit, or for a list that contains such a number."""
     if isinstance(value, (list, tuple)):
-        return any(map(_is_bare, value))
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+        return any(map(is_bare, value))
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and not has_unit(value)
 
 
 def is_masked(value: object) -> bool:
@@ -282,52 +375,28 @@ def is_masked(value: object) -> bool:
     return not callable(mask) and bool(np.any(mask))
 
 
-def _has_unit(value: object) -> bool:
+def numbers_and_unit(value: Any) -> tuple[Any, Any]:
+    """Split an object into its numbers and its unit, which is None if it has none.
+
+    A unit is an attribute `unit` or `units`, as in astropy, pint, unyt and columns of tables, or
+    stands in the attributes of a labelled array.
+    """
+    if isinstance(getattr(value, "attrs", None), Mapping):  # of xarray or pandas
+        numbers, unit = numbers_and_unit(value.data) if hasattr(value, "dims") else (value, None)
+        return numbers, value.attrs.get("units", unit)
+    unit = getattr(value, "unit", getattr(value, "units", None))
+    if unit is None:
+        return value, None
+    return getattr(value, "value", getattr(value, "magnitude", value)), unit
+
+
+def has_unit(value: object) -> bool:
     """Return True if a value has a unit, or any element of nested lists has one."""
-    nested = isinstance(value, (list, tuple)) and any(map(_has_unit, value))
-    return nested or isinstance(value, (str, dt.timedelta)) or hasattr(value, "to_value")
-
-
-def _by_astropy(value: Any, target: _Target) -> Any:
-    import astropy.units as u
-
-    try:
-        with warnings.catch_warnings():  # several slashes, which are read from left to right
-            warnings.simplefilter("ignore", u.UnitsWarning)
-            text = _in_symbols(value) if isinstance(value, str) else value
-            read = value.to(u.s) if hasattr(value, "jd1") else u.Quantity(text)
-        if isinstance(value, str) and read.unit == u.dimensionless_unscaled and target.unit:
-            raise ValueError("no unit")
-        # Angles may become pure numbers of radians, nothing else changes kind.
-        converted = real_numbers(read.to_value(u.Unit(target.unit)))
-    except (TypeError, ValueError, OverflowError, AttributeError, u.UnitConversionError):
-        raise target.wrong(value) from None
-    return float(converted) if converted.ndim == 0 else converted
-
-
-def _length_of_time(value: dt.timedelta | np.timedelta64, target: _Target) -> float:
-    if isinstance(value, dt.timedelta):
-        seconds = value.total_seconds()
-    elif np.isnat(value):
-        raise target.wrong(value)
-    else:
-        try:
-            seconds = float(value / np.timedelta64(1, "us")) * 1e-6
-        except TypeError:  # a month or a year has no length in seconds
-            raise target.wrong(value) from None
-    return seconds if target.unit == "s" else seconds * target.factor(value, "s")
-
-
-def _plain(value: Any, target: _Target) -> Any:
-    """Convert plain numbers, or timedelta64 (to s), to floats; refuse values of any other type."""
-    try:
-        array = np.asarray(value)
-        if array.dtype.kind == "m" and target.unit == "s" and not np.isnat(array).any():
-            return array / np.timedelta64(1, "us") * 1e-6
-        numbers = real_numbers(array)
-    except Exception:  # whatever somebody's class says of being no array
-        raise target.wrong(value) from None
-    return float(numbers) if numbers.ndim == 0 else numbers
+    if isinstance(value, (list, tuple)):
+        return any(map(has_unit, value))
+    if type(value) in (float, int):
+        return False
+    return isinstance(value, (str, dt.timedelta)) or numbers_and_unit(value)[1] is not None
 
 
 def real_numbers(value: Any) -> FloatArray:
@@ -364,9 +433,9 @@ def as_written(numbers: Any, factor: float, origin: float = 0.0) -> Any:
     places, and equal times are equal, in whatever unit they are given.
     """
     numbers = np.asarray(numbers, dtype=np.float64)
-    result = np.asarray(numbers * factor + origin)
+    result = np.asarray(numbers * factor + origin if origin else numbers * factor)
     ratio = Fraction(factor).limit_denominator(10**6)  # 1/24 is no float, either
-    rest = (np.abs(numbers) < 2**53) & (float(ratio) == factor)
+    rest = (numbers != 0) & (np.abs(numbers) < 2**53) & (float(ratio) == factor)
     numbers = np.where(rest, numbers, 0.0)
     for places in range(16):
         if not rest.any():
@@ -419,8 +488,7 @@ class Number:
 
     def read(self, value: object, where: Where) -> float:
         """Check a number, given with or without a unit, and convert it to a float in `unit`."""
-        real = isinstance(value, (int, float)) and not hasattr(value, "to_value")
-        if real and not self.plain:
+        if is_bare(value) and not self.plain:
             raise where.error(value, f"give it with its unit, like '{self.example}'")
         number = quantity(value, self.unit, where, self.example)
         if np.ndim(number) != 0:
@@ -475,7 +543,8 @@ class Numbers:
         if isinstance(value, Mapping):
             unit = str(value.get("unit", self.unit))
             value = unpack(value, where) * unit_factor(unit, self.unit, where, self.example)
-        converted = quantity(_in_order(value, where), self.unit, where, self.example)
+        value = in_order(value, where) if self.shape[-1] else value
+        converted = quantity(value, self.unit, where, self.example)
         values = np.array(getattr(converted, "values", converted), dtype=np.float64)
         if values.ndim == len(self.shape) - 1 and not self.optional_row:
             values = values[np.newaxis]
@@ -501,20 +570,30 @@ def _with_unit(values: Any, unit: str) -> Any:
     return f"{values!r} {unit}"
 
 
-def _in_order(value: Any, where: Where) -> Any:
-    """Order the components of a labelled array as x, y, z on the last axis; refuse other labels."""
-    if hasattr(value, "iloc"):
-        labels = getattr(value, "columns", value.index)
-        if labels.dtype.kind not in "iu":
-            raise where.error(list(labels), "labels are not read here; give the bare numbers")
-    if "component" not in getattr(value, "dims", ()):
+#: Labels of vectors and of quaternions, by the name of their dimension.
+_COMPONENTS = {"component": ["x", "y", "z"], "quaternion": ["w", "x", "y", "z"]}
+
+
+def in_order(value: Any, where: Where) -> Any:
+    """Order labelled components as x, y, z or w, x, y, z on the last axis; refuse other labels.
+
+    Labels are those of a dimension of xarray, of the columns of a table, or of a pandas Series.
+    """
+    if hasattr(value, "dims"):
+        texts = (dim for dim in value.dims if value[dim].dtype.kind in "OU")
+        dim = next((dim for dim in value.dims if dim in _COMPONENTS), next(texts, None))
+        value = value if dim is None else value.transpose(..., dim)
+        labels = value.coords.get(dim)
+    else:
+        dim, labels = "", getattr(value, "columns", getattr(value, "index", None))
+    if labels is None or callable(labels) or np.asarray(labels).dtype.kind in "iu":
         return value
-    ordered = value.transpose(..., "component")
-    if "component" not in value.coords:
-        return ordered
-    if sorted(value.component.values.tolist()) != ["x", "y", "z"]:
-        raise where.error(value.component.values.tolist(), "give the components x, y and z")
-    return ordered.sel(component=["x", "y", "z"])
+    words = np.asarray(labels).astype(str).tolist()
+    order = next((names for names in _COMPONENTS.values() if sorted(names) == sorted(words)), None)
+    if order is None:
+        problem = "give the components x, y and z (of quaternions w, x, y and z), or bare numbers"
+        raise where.error(words, problem)
+    return value.sel({dim: order}) if dim else value[order]
 
 
 def pack(values: FloatArray) -> dict[str, Plain]:

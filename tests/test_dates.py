@@ -3,6 +3,7 @@
 import datetime as dt
 import tomllib
 import warnings
+from fractions import Fraction
 from functools import cache
 from typing import Any
 
@@ -10,6 +11,7 @@ import astropy.units as u
 import cftime
 import numpy as np
 import pandas as pd
+import pint
 import pytest
 import xarray as xr
 from astropy.time import Time
@@ -18,9 +20,18 @@ from hypothesis import strategies as st
 from skyfield.api import load
 
 import earthspin
-from earthspin import CoverageError, EarthspinError, SceneError, dates, load_scene
+from earthspin import CoverageError, EarthspinError, SceneError, dates, load_scene, units
 from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
-from earthspin.dates import Span, TimeGrid, TimeList, YearList, YearSpan, grid, seconds
+from earthspin.dates import (
+    Span,
+    TimeGrid,
+    TimeList,
+    YearList,
+    YearSpan,
+    datetime64,
+    grid,
+    seconds,
+)
 from earthspin.engine.question import scene_text
 from earthspin.errors import Where
 from earthspin.frames import EquatorOfDate
@@ -388,6 +399,68 @@ test_what_is_no_span_is_refused = refused(
 )
 def test_durations_from_j2000(given: object, years: float) -> None:
     assert seconds(given, TIMES) / JULIAN_YEAR == pytest.approx(years, rel=1e-15, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("text", "years"),
+    [
+        *[("0 Kyr", 0.0), ("20 kya", -2e4), ("3 Mya", -3e6), ("20 ka", -2e4), ("3 Ma", -3e6)],
+        *[("2 kyr BP", -2050.0), ("0.1 Ma BP", -100_050.0), ("-2 kyr BP", None), ("0 BP", None)],
+        *[("11.7 kyr b2k", -11_700.0), ("0.1 Gyr ago", -1e8), ("2 ka ago", -2000.0)],
+        *[("-1 kyr from 1950", -1050.0), ("50 years after 1950", 0.0), ("12 000 yr", 12_000.0)],
+        *[("-3 myr", None), ("3 uyr", None), ("-20 ka", None), ("20 ka from 2000", None)],
+    ],
+)
+def test_ages_have_a_sign_and_an_origin(text: str, years: float | None) -> None:
+    if years is None:
+        with pytest.raises(earthspin.SceneError):
+            seconds(text, TIMES)
+    else:
+        assert seconds(text, TIMES) == years * JULIAN_YEAR
+        number, _, unit = text.partition(" ")
+        labelled = xr.DataArray([float(number)], dims="n", attrs={"units": unit})
+        assert text == "12 000 yr" or YearList.read(labelled, TIMES).listed == years * JULIAN_YEAR
+
+
+KYR_BEFORE = np.round(np.arange(-20, 0.05, 0.1), 1)
+
+
+@pytest.mark.parametrize(
+    "times",
+    [
+        *(KYR_BEFORE * u.kyr, pint.UnitRegistry().Quantity(KYR_BEFORE, "kiloyear")),
+        *([f"{k} kyr" for k in KYR_BEFORE], [f"{-k:g} ka" for k in KYR_BEFORE]),
+        *([f"{1000 * k:.0f} yr" for k in KYR_BEFORE], pd.Series([k * u.kyr for k in KYR_BEFORE])),
+        xr.DataArray(-KYR_BEFORE, dims="n", attrs={"units": "kyr ago"}),
+    ],
+    ids=["astropy", "pint", "kyr", "ka", "yr", "series", "labelled"],
+)
+def test_equal_epochs_are_equal_however_they_are_written(times: object) -> None:
+    even = grid(YearSpan.read(["-20 kyr", "0 kyr"], TIMES), 100 * JULIAN_YEAR, TIMES)
+    assert np.array_equal(YearList.read(times, TIMES).listed, even)
+    assert np.array_equal(even, np.arange(-200, 1) * 100 * 31_557_600)
+
+
+@given(st.integers(-(10**5), 10**5), st.integers(1, 10**6), st.sampled_from(["d", "yr", "kyr"]))
+def test_even_steps_are_the_decimal_numbers(first: int, step: int, unit: str) -> None:
+    start = Fraction(first, 1000) * {"d": 86_400, "yr": 31_557_600, "kyr": 31_557_600_000}[unit]
+    spacing = 86_400 + Fraction(step, 100)
+    begin = seconds(f"{first / 1000} {unit}", TIMES)
+    times = grid(YearSpan(begin, begin + 20 * float(spacing)), float(spacing), TIMES)
+    assert times.tolist() == [float(start + k * spacing) for k in range(times.size)]
+
+
+@pytest.mark.parametrize("step", ["7 h", "0.1 d", "1.5 h", "100 s", "0.7 s"])
+def test_dates_in_steps_are_those_of_a_list(step: str) -> None:
+    for first in ("0500-01-01", "2000-02-28T12:00", "9000-03-01"):
+        start = np.datetime64(first, "us")
+        length = np.timedelta64(round(units.quantity(step, "s", TIMES, "6 h") * 1e6), "us")
+        dates = start + length * np.arange(100)
+        even = TimeGrid.over(
+            Span.read((dates[0], dates[-1]), SPAN), length / np.timedelta64(1, "s")
+        )
+        for times in (even, TimeList.read(dates, TIMES), TimeList.read([*map(str, dates)], TIMES)):
+            assert np.array_equal(datetime64(times.days()), dates)
 
 
 @given(st.integers(-9999, 99_999), st.integers(1, 12), st.integers(1, 28))

@@ -30,7 +30,7 @@ from earthspin.numerics.arrays import Numeric
 from earthspin.sky.elements import Plane
 from earthspin.sky.poles import Direction, FixedPole, PoleInText, PoleModel, pole_of
 from earthspin.sky.sources import describe_position, read_position
-from earthspin.units import Text
+from earthspin.units import Text, has_unit
 
 #: Fields that hold a number, or None if it is not known.
 NumberName = Literal[
@@ -234,10 +234,9 @@ class Body(shapes.FromMass):
         """Replace fields given as text, tables or Quantities by their SI values."""
         for name in (*self.UNITS, "pole", "orbit_pole", "interior"):
             value = getattr(self, name)
-            pair = isinstance(value, (tuple, list)) and str in map(type, value)
-            table = isinstance(value, Mapping)
-            array = hasattr(value, "to_value") or hasattr(value, "dims")
-            if type(value) is str or pair or table or array:
+            angle = self.UNITS.get(name) == "rad" and isinstance(value, float)
+            table = isinstance(value, Mapping) or hasattr(value, "dims")
+            if angle or type(value) in (tuple, list) or table or has_unit(value):
                 read = self.KINDS[name].read(value, Where(f"{self.name}.{name}"))
                 object.__setattr__(self, name, read)
 

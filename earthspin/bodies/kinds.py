@@ -15,7 +15,7 @@ from earthspin.errors import EarthspinError, Where, nearest
 from earthspin.interior.layers import Layer, LayeredBody, from_samples
 from earthspin.interior.named import INTERIORS
 from earthspin.sky.sources import read_position, write_position
-from earthspin.units import Plain, Text, is_whole, pack, quantity, real_numbers, unpack
+from earthspin.units import TURN, Plain, Text, is_whole, pack, quantity, real_numbers, unpack
 
 # --- numbers, words, codes and positions ----------------------------------------------------------
 
@@ -49,8 +49,10 @@ class Magnitude:
         """Convert text, a number, a Quantity, an array or a table made by `write` to SI units."""
         if isinstance(value, Mapping):
             return _labelled(value, where)
-
-        return quantity(value, self.unit, where, self.text)
+        number = quantity(value, self.unit, where, self.text)
+        if self.unit == "rad" and np.ndim(number) == 0 and abs(number) > TURN:
+            return math.fmod(number, TURN)  # plain angles, as it is then, are within a turn
+        return number
 
     def write(self, value: Any) -> Plain:
         """Convert the value for a scene file: a number with its unit, or an array as a table."""

@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,7 +28,7 @@ from earthspin.questions.time_axes import DateSeries, epochs
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
 from earthspin.sky.protocol import Place
 from earthspin.torque.gravity import cross
-from earthspin.units import Plain, Several, Word, real_numbers
+from earthspin.units import Plain, Several, Word, vectors
 
 #: Samples of an orbit for its mean pull; the mean over an ellipse converges exponentially.
 ORBIT_SAMPLES = 400
@@ -398,10 +398,8 @@ class CustomTorque:
 
         def torque(times: FloatArray, q: FloatArray, omega: FloatArray) -> FloatArray:
             try:
-                returned: Any = self.law(times, q, omega)
-                if hasattr(returned, "to_value"):  # a Quantity
-                    returned = returned.to_value("N m")
-                values = np.broadcast_to(real_numbers(returned), omega.shape)
+                returned = vectors(self.law(times, q, omega), "N m", Where("torque"), "1 N m")
+                values = np.broadcast_to(returned, omega.shape)
             except EarthspinError:
                 raise
             except Exception as error:  # any error of the user's function

@@ -14,9 +14,9 @@ from typing import Protocol, TypeAlias, runtime_checkable
 import numpy as np
 
 from earthspin.dates import date_text
-from earthspin.errors import UndefinedError, one_line
+from earthspin.errors import UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.units import real_numbers
+from earthspin.units import vectors
 
 
 class Trajectory(Protocol):
@@ -149,11 +149,10 @@ def checked(positions: FloatArray, place: Place, days: FloatArray) -> FloatArray
     ------
     UndefinedError
         If the shape is wrong or a position is not finite; gives the first such day.
+    UnitsError, SceneError
+        If the positions are no lengths, or have other labels than x, y and z.
     """
-    try:
-        values = real_numbers(positions)
-    except (TypeError, ValueError) as error:
-        raise UndefinedError(f"{words(place)} gives positions that are {one_line(error)}") from None
+    values = vectors(positions, "m", Where(words(place)), "384399 km")
     if values.shape != (days.size, 3):
         raise UndefinedError(
             f"{words(place)} gives positions of shape {values.shape} at {days.size} times; one "

@@ -121,7 +121,7 @@ class _TrajectoryFunction(VectorFunction):  # type: ignore[misc]
 
     def _at(self, t: Time) -> tuple[FloatArray, FloatArray, None, None]:
         days = np.atleast_1d((t.whole - J2000_JD) + t.tdb_fraction)
-        positions = np.asarray(self.trajectory.positions(days)).T / AU_M
+        positions = checked(self.trajectory.positions(days), self.trajectory, days).T / AU_M
         return positions, np.full_like(positions, np.nan), None, None
 
     def __str__(self) -> str:
