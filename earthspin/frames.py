@@ -28,6 +28,7 @@ from earthspin.progress import progress
 from earthspin.questions.time_axes import epochs
 from earthspin.scenes import load_scene, members_of, run, run_tree, versions_of, warn_of_versions
 from earthspin.secular.derived_angles import NO_EQUINOX, equator_and_equinox, equinox_error
+from earthspin.units import in_order
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
@@ -391,7 +392,7 @@ def rotations(answer: xr.Dataset) -> Rotation:
     Raises
     ------
     SceneError
-        If the answer has no attitude.
+        If the answer has no attitude, or only some components of it.
     """
     from scipy.spatial.transform import Rotation
 
@@ -399,5 +400,5 @@ def rotations(answer: xr.Dataset) -> Rotation:
         word = getattr(answer, "attrs", {}).get("compute")
         given = f"an answer to '{word}'" if word else type(answer).__name__
         raise SceneError("answer", given, _give(("rotation", "free-rotor", "top")))
-    attitude = answer.attitude.transpose(..., "quaternion").values
-    return Rotation.from_quat(attitude, scalar_first=True)
+    attitude = in_order(answer.attitude, Where("answer.attitude"))
+    return Rotation.from_quat(attitude.values, scalar_first=True)

@@ -13,7 +13,7 @@ from earthspin.engine import Variables, labels, measured, number, si, words
 from earthspin.errors import SceneError, Where
 from earthspin.progress import progress
 from earthspin.sky.stars import STARS, directions
-from earthspin.units import Whole
+from earthspin.units import Whole, in_order
 
 
 class NearestStars(Variables, along=("nearest", "epoch")):
@@ -75,7 +75,7 @@ def pole_stars(result: xr.Dataset, count: int = 1) -> xr.Dataset:
         problem = "its pole is not that of IAU 2006, near which the stars of the list are"
         raise SceneError("result", f"an answer for {in_a_sentence(body.name)}", problem)
     count = Whole(1, len(STARS)).read(count, Where("count"))
-    axis = pole.transpose(..., "epoch", "component").values
+    axis = in_order(pole, Where("result.pole")).values
     seconds = np.asarray(result["epoch"].values * JULIAN_YEAR)
     stars = directions(seconds)
     sine = np.linalg.norm(np.cross(stars, axis), axis=-1)

@@ -334,7 +334,7 @@ def _convert(value: Any, target: _Target) -> Any:
     array = np.asarray(numbers)
     if array.dtype.kind == "m":
         array, unit = array / np.timedelta64(1, "us") / 1e6, "s"  # a month has no length in seconds
-    if array.dtype.kind in "OU" and any(map(has_unit, array.flat)):
+    if target.unit and array.dtype.kind in "OU" and any(map(has_unit, array.flat)):
         converted = np.reshape([_convert(inner, target) for inner in array.flat], array.shape)
     else:
         converted = target.converted(real_numbers(array), unit, value)

@@ -35,6 +35,23 @@ def turn(one: np.ndarray, other: np.ndarray) -> float:
     return float(np.degrees(Rotation.from_matrix(one @ other.T).magnitude())) * 3600
 
 
+def test_attitudes_are_read_by_their_labels() -> None:
+    answer = earthspin.rotation("2020-05-01", "2020-05-02", "12 h")
+    turned = answer.isel(quaternion=[1, 2, 3, 0]).transpose("quaternion", ...)
+    assert np.array_equal(rotations(turned).as_matrix(), rotations(answer).as_matrix())
+    ours = rotations(answer).as_quat()[0]
+    named = answer.attitude[0].sel(quaternion=["x", "y", "z", "w"])
+    assert ours == pytest.approx(named.values, rel=1e-14)
+    with pytest.raises(SceneError, match=r"answer.attitude = .*quaternions w, x, y and z"):
+        rotations(answer.isel(quaternion=[1, 2, 3]))
+    start = {"start_attitude": answer.attitude[0], "start_omega": answer.omega[0]}
+    other = {name: array[::-1] for name, array in start.items()}
+    first, second = (
+        earthspin.rotation("2020-05-01", "2020-05-02", "12 h", **given) for given in (start, other)
+    )
+    assert first.attitude.equals(second.attitude)
+
+
 @pytest.fixture(scope="module")
 def body_fixed() -> BodyFixed:
     answer = earthspin.rotation("2020-05-01", "2020-05-11", "5 d")

@@ -69,6 +69,8 @@ class Ensemble:
         Values of each input for all computed members; text for inputs that are names.
     which : ndarray of int
         Numbers of the computed members.
+    labels : Variable
+        Labels of all members: those given with their values, or else their numbers.
     dropped : list of int
         Numbers of the impossible members that were left out.
 
@@ -104,6 +106,8 @@ class Ensemble:
         self.values = draw(members, drawn, self.which, where)
         for name, listed in members.values.items():
             self.values[name] = listed.checked(kinds[name], where.at(name))[self.which]
+        word, labels = ("label", members.labels) if members.labels else ("number", np.arange(n))
+        self.labels = xr.Variable(MEMBER, np.array(labels), {"long_name": f"{word} of the member"})
         self.dropped: list[int] = []
         self._drop_impossible_members(members.impossible == "drop", n)
 
@@ -373,7 +377,7 @@ class Ensemble:
         An input with the name of a result, such as theta, is labelled ``<name>_given``.
         """
         labels = dict[str, Any]()
-        labels[MEMBER] = (MEMBER, self.which[which], {"long_name": "number of the member"})
+        labels[MEMBER] = self.labels[self.which[which]]
         for name, entry in self.inputs.items():
             values, label = self.values[name][which], name.replace(".", "_")
             dims = (MEMBER, *(f"{label}_{k}" for k in range(values.ndim - 1)))

@@ -27,7 +27,18 @@ from earthspin._lazy import xr
 from earthspin.errors import OutputError, Where, nearest
 from earthspin.numerics.arrays import FloatArray
 from earthspin.process import signals_held
-from earthspin.units import Whole, Word, by_name, is_whole, pack, unit_factor, unpack
+from earthspin.units import (
+    Whole,
+    Word,
+    by_name,
+    has_unit,
+    in_order,
+    is_whole,
+    numbers_and_unit,
+    pack,
+    unit_factor,
+    unpack,
+)
 
 IntArray = NDArray[np.int64]
 
@@ -142,8 +153,9 @@ def _scene_value(number: Any) -> Any:
         return number
     if isinstance(number, os.PathLike):
         return os.fspath(number)
-    if hasattr(number, "to_value"):
-        return f"{float(number.value)!r} {number.unit}"
+    number, unit = numbers_and_unit(number)
+    if unit is not None:
+        return f"{float(number)!r} {unit}"
     return number.item() if isinstance(number, np.generic) else number
 
 
@@ -172,10 +184,12 @@ class ListedValues(NamedTuple):
     @classmethod
     def of(cls, array: Any, where: Where) -> ListedValues:
         """Take the values of one input from a DataArray: finite numbers, or names."""
-        if array.dims[:1] != (MEMBER,):
+        if MEMBER not in array.dims:
             dims = f"dimensions {', '.join(map(str, array.dims)) or 'none'}"
-            raise where.error(dims, f"the first dimension must be '{MEMBER}'")
-        values, unit = array.values, array.attrs.get("units")
+            raise where.error(dims, f"one of the dimensions must be '{MEMBER}'")
+        array = array.drop_vars(MEMBER, errors="ignore").transpose(MEMBER, ...)
+        numbers, unit = numbers_and_unit(in_order(array, where))
+        values = np.asarray(numbers)
         if values.dtype.kind not in "fiu":
             return cls(_names(values.astype(object), where))
         if not np.isfinite(values).all():
@@ -227,6 +241,8 @@ class Members:
         Distributions by name of the input, like ``"body.j2"``.
     values : mapping of str to ListedValues
         Numbers or names of every member, by name of the input.
+    labels : tuple
+        Labels of the members that have values, as given; their numbers if empty.
     """
 
     n: int | None = None
@@ -237,6 +253,7 @@ class Members:
     correlations: tuple[tuple[str, str, float], ...] = ()
     distributions: Mapping[str, Distribution] = field(default_factory=dict)
     values: Mapping[str, ListedValues] = field(default_factory=dict)
+    labels: tuple[Any, ...] = ()
 
     words: ClassVar[str] = "how many, a table of distributions, or a Dataset along `member`"
     hint: ClassVar[str] = "int | Mapping[str, Any] | xr.Dataset | str"
@@ -259,7 +276,7 @@ class Members:
         if isinstance(value, (str, os.PathLike)):
             value = _read_file(Path(value))
         if hasattr(value, "data_vars"):
-            return cls(values=_values_of(value, where))
+            return cls(values=_values_of(value, where), labels=_labels_of(value))
         if not isinstance(value, Mapping):
             raise where.error(value, f"give {cls.words}")
         inputs = {name: entry for name, entry in value.items() if name not in _SETTINGS}
@@ -291,6 +308,7 @@ class Members:
             "correlations": [list(correlation) for correlation in self.correlations],
             **{name: {each.shape: list(each.numbers)} for name, each in self.distributions.items()},
             "values": {name: entry.write() for name, entry in self.values.items()},
+            "labels": list(self.labels),
         }
         return {name: value for name, value in table.items() if value or name == "seed"}
 
@@ -310,6 +328,7 @@ class Members:
         points = math.prod(grids)
         counts = {"n": self.n} if self.n is not None else {}
         counts |= {name: len(entry.values) for name, entry in self.values.items()}
+        counts |= {"labels": len(self.labels)} if self.labels else {}
         if len(set(counts.values())) > 1:
             raise where.error(counts, "these numbers of members differ; give equally many values")
         n = next(iter(counts.values()), points if grids else None)
@@ -343,8 +362,7 @@ def _read_file(path: Path) -> xr.Dataset:
                 # rows that are longer than the header would shift the columns
                 warnings.simplefilter("error", pd.errors.ParserWarning)
                 frame = pd.read_csv(path, skipinitialspace=True, index_col=False)
-            columns = {name: (MEMBER, frame[name].to_numpy()) for name in frame if name != MEMBER}
-            return xr.Dataset(columns)
+            return xr.Dataset({name: (MEMBER, frame[name].to_numpy()) for name in frame})
         if path.suffix in (".nc", ".zarr"):
             options: dict[str, Any] = {"engine": "zarr", "consolidated": False}
             options = options if path.suffix == ".zarr" else {}
@@ -369,13 +387,22 @@ def _values_of(dataset: Any, where: Where) -> dict[str, ListedValues]:
     return values
 
 
+def _labels_of(dataset: Any) -> tuple[Any, ...]:
+    """Labels of the members in a Dataset, as numbers or text; none if they are their numbers."""
+    labels = dataset[MEMBER].values if MEMBER in dataset.variables else np.arange(0)
+    if labels.dtype.kind not in "iuf":
+        labels = labels.astype(str)
+    return () if np.array_equal(labels, np.arange(labels.size)) else tuple(labels.tolist())
+
+
 def _names(values: NDArray[Any], where: Where) -> NDArray[Any]:
     """Check that an array has one text for each member, and return the array as text."""
     if values.ndim != 1 or not values.size:
         raise where.error(f"shape {values.shape}", "give one name for each member")
     for index, name in enumerate(values):
         if not isinstance(name, str):
-            raise where.error(f"member {index}", "give finite numbers, or a name for each member")
+            unit = "numbers with their unit as attrs['units']" if has_unit(name) else "numbers"
+            raise where.error(f"member {index}", f"give finite {unit}, or a name for each member")
     return values.astype(str)
 
 
@@ -429,6 +456,7 @@ _SETTINGS: dict[str, Callable[[Any, Where], Any]] = {
     "only": lambda value, where: tuple(_INDEX.read(m, where) for m in _list(value, where)),
     "correlations": lambda value, where: tuple(_correlation(r, where) for r in _list(value, where)),
     "values": _tables,
+    "labels": lambda value, where: tuple(_list(value, where)),
 }
 
 

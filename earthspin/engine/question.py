@@ -471,8 +471,8 @@ class Part(Generic[P, R]):
         Names of the required and of the optional parameters.
     gives : mapping of str to Variable
         The variables that the part adds to an answer or section; empty for an intermediate part.
-    fields : frozenset of str
-        Names of the declared variables and labels.
+    fields : mapping of str to Variable
+        Declarations of variables and labels.
     unless : tuple of callable
         Each takes keys of the question by name and returns a reason for leaving the part out.
     describe : callable or None
@@ -497,7 +497,7 @@ class Part(Generic[P, R]):
         self._stored: OrderedDict[Hashable, R] = OrderedDict()
         self._lock = Lock()
         returned = _returned(function)
-        self.gives, self.fields = returned.schema, frozenset(returned.fields)
+        self.gives, self.fields = returned.schema, returned.fields
         self.name = function.__name__
         line = (function.__doc__ or "").strip().split("\n")[0].rstrip(".")
         self.summary = line[:1].lower() + line[1:] if line[1:2].islower() else line
@@ -644,6 +644,12 @@ class Graph:
         """Names of all variables and dimensions that the results of the question may have."""
         dims = {name for variable in self.variables.values() for name in variable.dims}
         return {*dims, *self.variables}.union(*(part.fields for part in self.parts.values()))
+
+    @cached_property
+    def constant_labels(self) -> dict[str, list[str]]:
+        """Labels that are always the same, in their order, by dimension."""
+        fields = (field for part in self.parts.values() for field in part.fields.items())
+        return {name: entry.default for name, entry in fields if isinstance(entry.default, list)}
 
 
 Parts = Part[..., Any] | tuple[Part[..., Any], ...]

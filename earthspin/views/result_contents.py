@@ -94,7 +94,23 @@ def _first_case(data: xr.Dataset, attrs: Mapping[Hashable, str]) -> xr.Dataset:
         return data
     declared = question.graph.variables
     known = {"effect", "part", *question.graph.labels}
-    first = data.isel({dim: 0 for dim in data.dims if dim not in known}).copy()
+    first = _in_order(data.isel({dim: 0 for dim in data.dims if dim not in known}), question)
     for name in first.variables.keys() & declared.keys():
+        first[name] = first[name].transpose(*declared[str(name)].dims, ..., missing_dims="ignore")
         first[name].attrs |= {"short": declared[str(name)].short}
     return first
+
+
+def _in_order(data: xr.Dataset, question: type[Question]) -> xr.Dataset:
+    """Return a copy with labels in the order of an answer, such as x, y, z, and the total last."""
+    orders = question.graph.constant_labels
+    if "perturber" in data.coords:
+        names = data.perturber.values.ravel().tolist()
+        orders = orders | {"perturber": sorted(names, key=lambda name: name == "total")}
+    return data.copy().sel(
+        {
+            dim: order
+            for dim, order in orders.items()
+            if dim in data.dims and sorted(data[dim].values.tolist()) == sorted(order)
+        }
+    )

@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
+import pint
 import pytest
 import xarray as xr
 from astropy import units
@@ -416,7 +418,7 @@ test_bad_members_are_refused = refused(
     (NAN, "member 1"),
     (NAN.isel(member=[]), "it has no members"),
     (xr.Dataset(), "it has no members"),
-    (NAN.fillna(1e-3).rename(member="row"), "the first dimension must be 'member'"),
+    (NAN.fillna(1e-3).rename(member="row"), "one of the dimensions must be 'member'"),
     (NAN.fillna(1e-3).rename({"body.j2": "body.j3x"}), "did you mean 'body.j3'"),
     (NAN.fillna(1e-3).astype(str), "give finite numbers"),
     ({"n": 3}, "no input of this question"),
@@ -513,6 +515,50 @@ def test_units_of_members_are_read() -> None:
     for unit in ("km", "degs"):
         with pytest.raises(EarthspinError, match=f"obliquity_shift = '{unit}'"):
             earthspin.ensemble(now, shifted([1.0, 2.0], unit))
+
+
+@pytest.mark.parametrize("labels", [["low", "mid", "high"], [30, 10, 20], [0.5, 1.5, 2.5]])
+def test_members_keep_their_labels(tmp_path: Path, labels: list[Any]) -> None:
+    """The rate of precession goes with the length of the day."""
+    hours = xr.DataArray([12.0, 24.0, 48.0], {"member": labels}, "member", attrs={"units": "h"})
+    members = xr.Dataset({"body.spin_period": hours})
+    answer = earthspin.ensemble("precession", members).precession_rate.sel(perturber="total")
+    again = earthspin.run(earthspin.ensemble("precession", members))
+    assert again.member.values.tolist() == answer.member.values.tolist() == labels
+    ratio = answer.sel(member=labels[2]) / answer.sel(member=labels[0])
+    assert ratio.item() == pytest.approx(4.0, rel=1e-12)
+    members.to_dataframe().to_csv(tmp_path / "members.csv")
+    plain = pd.read_csv(tmp_path / "members.csv").assign(**{"body.spin_period": 86164.0})
+    plain.to_csv(tmp_path / "members.csv", index=False)
+    assert (
+        earthspin.ensemble("precession", tmp_path / "members.csv").member.values.tolist() == labels
+    )
+    few = earthspin.ensemble("precession", again.isel(member=[2, 0]))
+    assert few.member.values.tolist() == [labels[2], labels[0]]
+    assert few.precession_rate.sel(perturber="total").equals(answer.isel(member=[2, 0]))
+
+
+def test_members_in_any_order_of_dimensions_and_components() -> None:
+    rotor = {"rotor": {"moments": [1.0, 2.0, 3.0], "omega": [1.0, 0, 0], "times": [0.0, 1.0]}}
+    omega = xr.DataArray([[0.1, 0.2], [0.3, 0.4], [1.0, 2.0]], dims=("component", "member"))
+    omega = omega.assign_coords(component=["x", "y", "z"], member=["a", "b"])
+    scene = earthspin.load_scene("free-rotor", rotor)
+    sound = earthspin.ensemble(scene, xr.Dataset({"omega": omega}))
+    turned = earthspin.ensemble(scene, xr.Dataset({"omega": omega.isel(component=[2, 0, 1]).T}))
+    assert sound.omega_body.isel(time=0).values == pytest.approx(omega.T.values, rel=1e-14)
+    assert np.array_equal(turned.omega_body, sound.omega_body)
+
+
+def test_units_of_members_are_not_stripped() -> None:
+    hours = pint.UnitRegistry().Quantity(np.array([12.0, 24.0]), "hour")
+    answer = earthspin.ensemble("precession", xr.Dataset({"body.spin_period": ("member", hours)}))
+    assert answer.body_spin_period.values.tolist() == [43_200.0, 86_400.0]
+    grid = {"body.spin_period": {"grid": [*hours]}}
+    drawn = earthspin.run(earthspin.ensemble("precession", grid))
+    assert drawn.body_spin_period.values.tolist() == [43_200.0, 86_400.0]
+    objects = xr.Dataset({"body.spin_period": ("member", np.array([*hours], dtype=object))})
+    with pytest.raises(EarthspinError, match=r"their unit as attrs\['units'\]"):
+        earthspin.ensemble("precession", objects)
 
 
 def test_units_of_numbers_of_bodies_in_files_and_distributions(tmp_path: Path) -> None:

@@ -125,3 +125,14 @@ def test_answers_without_stars_near_the_pole() -> None:
             earthspin.pole_stars(answer)
     with pytest.raises(earthspin.SceneError, match="long_term"):
         earthspin.pole_stars(earthspin.wobble_ladder())
+
+
+def test_the_pole_is_read_by_its_labels() -> None:
+    """Thuban was the pole star of 2787 BC (Wikipedia, from Kaler)."""
+    answer = earthspin.long_term(times=["2787 BC", "2000-01-01"])
+    turned = answer.isel(component=[2, 1, 0]).transpose("component", ...)
+    stars = earthspin.pole_stars(turned)
+    assert stars.identical(earthspin.pole_stars(answer))
+    assert stars.star.squeeze().values.tolist() == ["Thuban", "Polaris"]
+    with pytest.raises(earthspin.SceneError, match=r"result.pole = .*components x, y and z"):
+        earthspin.pole_stars(answer.isel(component=[0, 1]))

@@ -103,3 +103,14 @@ def test_no_label_ends_the_element_that_holds_it() -> None:
     shown = page("t", solids=[solid])
     assert label not in shown
     assert shown.count("<script") == shown.count("</script>") == 2
+
+
+def test_pictures_do_not_depend_on_the_order_of_labels(poinsot: xr.DataTree) -> None:
+    labels = ("component", "quaternion", "in_plane", "bound")
+    other = poinsot.copy()
+    for path, node in poinsot.subtree_with_keys:
+        data = node.to_dataset(inherit=False)
+        turned = {dim: slice(None, None, -1) for dim in data.dims if dim in labels}
+        other[path].dataset = data.isel(turned).transpose()
+    for _, make in rotors.ROTOR_SOLIDS:
+        assert make(other).json() == make(poinsot).json()
