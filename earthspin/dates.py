@@ -25,16 +25,7 @@ from earthspin._lazy import erfa
 from earthspin.constants import DAY, J2000_JD, JULIAN_YEAR
 from earthspin.errors import SceneError, UnitsError, Where
 from earthspin.numerics.arrays import FloatArray
-from earthspin.units import (
-    Number,
-    Plain,
-    is_bare,
-    is_masked,
-    numbers_and_unit,
-    pack,
-    quantity,
-    unpack,
-)
+from earthspin.units import Number, Plain, has_unit, is_bare, is_masked, pack, quantity, unpack
 
 J2000 = np.datetime64("2000-01-01T12:00:00", "us")
 MICROSECONDS_PER_DAY = 86_400_000_000
@@ -324,12 +315,10 @@ def seconds(value: Any, where: Where) -> float:
 def _is_duration(value: Any) -> bool:
     if isinstance(value, str):
         return not _DATE.fullmatch(value.strip())
-    if is_time(value) or isinstance(value, dt.date):
-        return False
     kind = _type_of(value)
+    is_date = is_time(value) or isinstance(value, dt.date) or kind == "M"
     # numbers with a unit are also labelled arrays, such as the epochs of an answer
-    has_unit = kind != "M" and numbers_and_unit(value)[1] is not None
-    return has_unit or kind == "m" or isinstance(value, dt.timedelta)
+    return not is_date and (has_unit(value) or kind == "m")
 
 
 def _type_of(value: Any) -> str:

@@ -196,6 +196,8 @@ def quantity(value: Any, unit: str, where: Where, example: str, *, epoch: bool =
         If a number is masked, missing or not finite, or there is none or more than one in a text,
         an age has a sign, or an angle without a unit is more than a turn.
     """
+    if is_si(value, unit) and math.isfinite(value) and not (unit and where.typed):
+        return value
     if unit and where.typed and is_bare(value):
         raise where.error(value, f"give it with its unit, like '{example}'")
     converted = _converted(value, _Target(unit, where, example, epoch))
@@ -207,6 +209,11 @@ def quantity(value: Any, unit: str, where: Where, example: str, *, epoch: bool =
     if hasattr(converted, "dims"):
         return converted.copy(deep=True, data=frozen(plain))
     return frozen(converted) if np.ndim(converted) else float(converted)
+
+
+def is_si(value: object, unit: str) -> TypeGuard[float]:
+    """Return True for a float that can be in `unit` already: an angle is at most a turn."""
+    return type(value) is float and not (unit == "rad" and abs(value) > TURN)
 
 
 def vectors(value: Any, unit: str, where: Where, example: str) -> FloatArray:
@@ -293,15 +300,15 @@ class _Target:
                 raise self.where.error(value, f"'{unit}' is {scale:g} {root}; write '{meant}'")
 
 
-def unit_factor(unit: str, target: str, where: Where, example: str) -> float:
-    """Return the factor that converts numbers from `unit` to `target`.
+def in_unit(numbers: FloatArray, unit: str, target: str, where: Where, example: str) -> FloatArray:
+    """Convert numbers from `unit` to `target`.
 
     Raises
     ------
     UnitsError
         If the unit is unknown or has the wrong dimension.
     """
-    return _Target(target, where, example).factor(unit, unit)
+    return np.asarray(_Target(target, where, example).converted(numbers, unit, unit))
 
 
 def _in_symbols(text: str) -> str:
@@ -542,7 +549,7 @@ class Numbers:
         """Check an array of numbers, convert it to floats, and return a read-only copy."""
         if isinstance(value, Mapping):
             unit = str(value.get("unit", self.unit))
-            value = unpack(value, where) * unit_factor(unit, self.unit, where, self.example)
+            value = in_unit(unpack(value, where), unit, self.unit, where, self.example)
         value = in_order(value, where) if self.shape[-1] else value
         converted = quantity(value, self.unit, where, self.example)
         values = np.array(getattr(converted, "values", converted), dtype=np.float64)
@@ -589,7 +596,8 @@ def in_order(value: Any, where: Where) -> Any:
     if labels is None or callable(labels) or np.asarray(labels).dtype.kind in "iu":
         return value
     words = np.asarray(labels).astype(str).tolist()
-    order = next((names for names in _COMPONENTS.values() if sorted(names) == sorted(words)), None)
+    orders = [_COMPONENTS[dim]] if dim in _COMPONENTS else _COMPONENTS.values()
+    order = next((names for names in orders if sorted(names) == sorted(words)), None)
     if order is None:
         problem = "give the components x, y and z (of quaternions w, x, y and z), or bare numbers"
         raise where.error(words, problem)

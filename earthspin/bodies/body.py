@@ -30,7 +30,7 @@ from earthspin.numerics.arrays import Numeric
 from earthspin.sky.elements import Plane
 from earthspin.sky.poles import Direction, FixedPole, PoleInText, PoleModel, pole_of
 from earthspin.sky.sources import describe_position, read_position
-from earthspin.units import Text, has_unit
+from earthspin.units import Text, is_si
 
 #: Fields that hold a number, or None if it is not known.
 NumberName = Literal[
@@ -231,12 +231,11 @@ class Body(shapes.FromMass):
         return {f.name: getattr(self, f.name) for f in fields(self)}
 
     def _read_units(self) -> None:
-        """Replace fields given as text, tables or Quantities by their SI values."""
+        """Replace numbers, text, tables and Quantities by their SI values."""
         for name in (*self.UNITS, "pole", "orbit_pole", "interior"):
             value = getattr(self, name)
-            angle = self.UNITS.get(name) == "rad" and isinstance(value, float)
-            table = isinstance(value, Mapping) or hasattr(value, "dims")
-            if angle or type(value) in (tuple, list) or table or has_unit(value):
+            given = value is not None or name in ("gm", "cycle")
+            if given and not is_si(value, self.UNITS.get(name, "")):
                 read = self.KINDS[name].read(value, Where(f"{self.name}.{name}"))
                 object.__setattr__(self, name, read)
 

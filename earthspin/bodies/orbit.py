@@ -11,7 +11,7 @@ from typing import Annotated, Any, ClassVar
 from earthspin.bodies.kinds import Magnitude, kinds_of
 from earthspin.dates import MICROSECONDS_PER_DAY, microseconds
 from earthspin.errors import Where
-from earthspin.units import TURN, Plain, Text, Word
+from earthspin.units import Plain, Text, Word, is_si
 
 # --- orbits ---------------------------------------------------------------------------------------
 
@@ -190,9 +190,10 @@ def _checked(elements: Mapping[str, Any], where: Where) -> dict[str, Any]:
         if hasattr(value, "dims") or isinstance(value, Mapping):
             raise where.at(name).error("an array", "an element is one number")
         # already in SI; skips loading the converters
-        plain = type(value) is float and math.isfinite(value) and not where.typed
-        plain = plain and (getattr(_KINDS[name], "unit", "") != "rad" or abs(value) <= TURN)
-        read[name] = value if plain else _KINDS[name].read(value, where.at(name))
+        plain = is_si(value, getattr(_KINDS[name], "unit", "")) and math.isfinite(value)
+        read[name] = (
+            value if plain and not where.typed else _KINDS[name].read(value, where.at(name))
+        )
         if not isinstance(read[name], (float, str)):
             raise where.at(name).error(value, "an element is one number")
         if name in _RULES and not _RULES[name][0](read[name]):

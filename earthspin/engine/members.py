@@ -33,10 +33,10 @@ from earthspin.units import (
     by_name,
     has_unit,
     in_order,
+    in_unit,
     is_whole,
     numbers_and_unit,
     pack,
-    unit_factor,
     unpack,
 )
 
@@ -212,7 +212,7 @@ class ListedValues(NamedTuple):
             raise where.error(str(self.values[0]), "give finite numbers")
         elif self.unit is not None:
             example = f"1 {kind.unit}".strip()
-            return self.values * unit_factor(self.unit, kind.unit, where, example)
+            return in_unit(self.values, self.unit, kind.unit, where, example)
         return self.values
 
     def write(self) -> Any:

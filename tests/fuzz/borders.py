@@ -1,22 +1,27 @@
-"""Dates in every spelling, names with markup, attributes and whole numbers, all executed."""
+"""Dates, quantities, vectors, names with markup, attributes and whole numbers, all executed."""
 
 import datetime as dt
 import random
 from collections.abc import Callable
+from fractions import Fraction
 from typing import Any
 
 import cftime
 import numpy as np
 import pandas as pd
+import pint
 import xarray as xr
 from astropy import units as u
 from astropy.time import Time
 
 import earthspin
+from earthspin.errors import Where
 from earthspin.scenes import Scene
+from earthspin.units import Numbers
 from earthspin.views.rendering import scene_page
 
 Random = random.Random
+PINT = pint.UnitRegistry()
 
 
 def julian_day(year: int, month: int, day: int) -> int:
@@ -56,6 +61,47 @@ def date(rng: Random) -> tuple[str, Callable[[], None]]:
             raise AssertionError(f"epochs {epochs}, by the Julian day {years}")
 
     return f"{chosen!r}", ask
+
+
+def _grouped(number: float, space: str) -> str:
+    return f"{number:,}".replace(",", space)
+
+
+def quantity(rng: Random) -> tuple[str, Callable[[], None]]:
+    """Two spellings of one length of the day, which must be the decimal number times its unit."""
+    number = rng.choice((rng.randrange(1000, 10**7), rng.randrange(1, 10**6) / 100))
+    ours, theirs, seconds = rng.choice(
+        (("s", "second", 1), ("min", "minute", 60), ("h", "hour", 3600))
+    )
+    pints = PINT.Quantity(float(number), theirs)
+    words = [f"{number} {ours}", *(f"{_grouped(number, s)} {theirs}s" for s in " \u00a0\u202f")]
+    objects = [number * u.Unit(ours), pints, *words]
+    arrays = [pd.Series([value]) for value in objects] + [np.array([v], object) for v in objects]
+    arrays += [xr.DataArray(array, dims="n") for array in arrays]
+    value, array = rng.choice(objects), rng.choice(arrays)
+    exact = float(Fraction(str(number)) * seconds)
+
+    def ask() -> None:
+        period = earthspin.EARTH.replace(spin_period=value).spin_period
+        listed = Numbers("s", "6 h", (None,)).read(array, Where("times"))
+        if [period, *listed] != [exact, exact]:
+            raise AssertionError(f"read as {period!r} and {listed}, which is {exact!r}")
+
+    return f"{value!r}, {array!r}", ask
+
+
+def components(rng: Random) -> tuple[str, Callable[[], None]]:
+    """A vector with its labels in any order and along any axis: the same as in order."""
+    rows = np.array([[rng.random() for _ in "xyz"] for _ in range(rng.randrange(1, 4))])
+    name, order = rng.choice(("component", "axis", "c")), rng.sample("xyz", 3)
+    array = xr.DataArray(rows, dims=("n", name), coords={name: list("xyz")}).sel({name: order})
+    value = rng.choice((array, array.T, pd.DataFrame(array.values, columns=order)))
+
+    def ask() -> None:
+        if not np.array_equal(Numbers("m", "1 m", (None, 3)).read(value, Where("position")), rows):
+            raise AssertionError(f"not {rows}")
+
+    return f"{value!r}", ask
 
 
 #: Dates with a meaning or a limit of their own: an answer or one line.

@@ -11,9 +11,11 @@ from typing import Any
 import cftime
 import numpy as np
 import pandas as pd
+import pint
 import tomli_w
 import xarray as xr
 from astropy import units as u
+from astropy.table import Column
 from astropy.time import Time
 
 import earthspin
@@ -65,6 +67,8 @@ WORDS: tuple[str, ...] = (
     '{shape = [1], float64 = "AAAA"}', '{shape = [-1], float64 = "AAAAAAAA8D8="}',
     '{from = "nothing"}', '"\\u001b[2J"', '"a\\nb"', '"\\u0000"', '"\\u202e"',
     '"' + "x" * 3000 + '"',
+    '"6 378 km"', '"6\u00a0378.137 km"', '"23 26 arcmin"', '"3 myr"', '"20 ka"', '"-20 ka"',
+    '"2 kyr BP"',
     "9" * 400, "9" * 5000, "1" + "0" * 400 + ".0", "[" * 100 + "]" * 100, "[" * 3000 + "]" * 3000,
     '"' + "9" * 5000 + ' s"', '"1e5000 s"', '"/dev/zero"', '"/"', '"sun"', '["sun", "sun"]',
     '"earth"', '["moon", 3]', '"1 mas"', '"1e-9"', '"1 us"', '"433 d"', "1e-30", "4000000", "1e18",
@@ -75,6 +79,8 @@ def values() -> list[Any]:
     """What a call may be given, sound and unsound."""
     times = pd.date_range("2000-01-01", periods=3)
     labelled = xr.DataArray([1.0, 2.0], dims="member", coords={"member": ["a", "b"]})
+    vector = xr.DataArray([1.0, 2.0, 3.0], {"component": ["z", "x", "y"]}, "component")
+    pints = pint.UnitRegistry().Quantity(np.array([1.0, 2.0]), "hour")
     return [
         None, True, False, 0, 1, -1, 3, 10**400, 10**5000, -(10**18), 0.0, -0.0, 1e308, -1e308,
         5e-324, float("nan"), float("inf"), 1 + 2j, "", " ", "x", "6 h", "6 kg", "1e400 s",
@@ -110,6 +116,10 @@ def values() -> list[Any]:
         xr.Dataset({"x": 3}), xr.Dataset(attrs={"scene": "compute = 3"}), xr.DataTree(),
         xr.Dataset(attrs={"scene": 3}), xr.Dataset({"x": ("time", [1.0]), "y": ("time", [1.0])}),
         xr.Dataset({"x": ("time", [1.0]), "y": ("time", [1.0])}, {"time": times[:1]}),
+        "6 378 km", "6\u202f378.137 km", "6 37 km", "3 myr", "20 ka", "-20 ka", "2 kyr BP", 266.86,
+        pints, pints[0], [*pints], np.array([*pints, 3 * u.h], dtype=object), pd.Series([*pints]),
+        xr.DataArray(pints, dims="member"), Column([1.0, 2.0], unit="h"), vector, vector[:2],
+        vector.rename(component="quaternion"), pd.DataFrame([[1, 2, 3]], columns=["z", "x", "y"]),
         earthspin.EARTH, earthspin.SUN, (earthspin.SUN, 3), earthspin.Body, earthspin.load_scene,
         earthspin.load_scene("torque"), ("2000-01-01", "2000-02-01"), ("2000-01-01", None),
         ["2000-01-01", 3], ("2000-01-01", "2000-02-01", "2000-03-01"),

@@ -230,8 +230,9 @@ def answer(rng: random.Random) -> tuple[str, str]:
 
 
 def border(rng: random.Random) -> tuple[str, str]:
-    """Execute a call with a date, name, attribute or whole number: what it was, what escaped."""
-    shown, ask = rng.choice((borders.date, borders.odd))(rng)
+    """Execute a call with an input of one of the kinds of `borders`: what it was, what escaped."""
+    kinds = (borders.date, borders.odd, borders.quantity, borders.components)
+    shown, ask = rng.choice(kinds)(rng)
     return shown[:300], escapes(ask)
 
 
