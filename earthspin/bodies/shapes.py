@@ -17,7 +17,7 @@ from earthspin.constants import Constant, G
 from earthspin.errors import BodyError, SeriesError, Where, checked, nearest
 from earthspin.interior.equilibrium import equilibrium, figure
 from earthspin.numerics.arrays import FloatArray, Numeric
-from earthspin.units import is_masked, quantity
+from earthspin.units import in_order, is_masked, quantity
 
 if TYPE_CHECKING:
     from earthspin.mass.shape import Shape
@@ -137,7 +137,8 @@ def _mesh(mesh: Any, unit: str) -> tuple[FloatArray, NDArray[np.int64]]:
         raise BodyError("mesh", "mesh", mesh, "give a file, a Trimesh, or (vertices, faces)")
     if is_masked(mesh[1]):
         raise BodyError("mesh", "faces", "a masked value", "give numbers that are all known")
-    return scale * quantity(mesh[0], "", Where("vertices"), "0.5"), np.asarray(mesh[1])
+    where = Where("vertices")
+    return scale * quantity(in_order(mesh[0], where), "", where, "0.5"), np.asarray(mesh[1])
 
 
 def _read(file: Path) -> Any:
@@ -214,9 +215,10 @@ class FromMass:
         """
         from earthspin.mass.shape import Shape
 
+        where = Where("positions")
         shape = Shape.of_masses(
             quantity(masses, "kg", Where("masses"), "1e12 kg"),
-            quantity(positions, "m", Where("positions"), "500 m"),
+            quantity(in_order(positions, where), "m", where, "500 m"),
             _optional(radius, "m", "radius", "1 km"),
         )
         return cls(name=name, **_numbers_of(shape)).replace(**fields)
