@@ -584,7 +584,7 @@ _COMPONENTS = {"component": ["x", "y", "z"], "quaternion": ["w", "x", "y", "z"]}
 def in_order(value: Any, where: Where) -> Any:
     """Order labelled components as x, y, z or w, x, y, z on the last axis; refuse other labels.
 
-    Labels are those of a dimension of xarray, of the columns of a table, or of a pandas Series.
+    Labels are those of a dimension of xarray. Tables and Series must have them in this order.
     """
     if hasattr(value, "dims"):
         texts = (dim for dim in value.dims if value[dim].dtype.kind in "OU")
@@ -598,10 +598,10 @@ def in_order(value: Any, where: Where) -> Any:
     words = np.asarray(labels).astype(str).tolist()
     orders = [_COMPONENTS[dim]] if dim in _COMPONENTS else _COMPONENTS.values()
     order = next((names for names in orders if sorted(names) == sorted(words)), None)
-    if order is None:
+    if order is None or not (dim or words == order):
         problem = "give the components x, y and z (of quaternions w, x, y and z), or bare numbers"
         raise where.error(words, problem)
-    return value.sel({dim: order}) if dim else value[order]
+    return value.sel({dim: order}) if dim else value
 
 
 def pack(values: FloatArray) -> dict[str, Plain]:

@@ -147,7 +147,7 @@ XYZ = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]
         xr.DataArray(XYZ, dims=("n", "component")),
         xr.DataArray(XYZ, dims=("n", "component"), coords={"component": ["x", "y", "z"]}),
         xr.DataArray(XYZ, dims=("n", "c"), coords={"c": ["x", "y", "z"]})[:, ::-1].T,
-        pd.DataFrame(XYZ, columns=["x", "y", "z"])[["z", "x", "y"]],
+        pd.DataFrame(XYZ, columns=["x", "y", "z"]),
         pd.DataFrame(XYZ),
     ],
 )
@@ -159,17 +159,20 @@ def test_components_are_taken_by_their_labels(value: object) -> None:
 @pytest.mark.parametrize("columns", ["xyz", "zxy"])
 def test_masses_and_meshes_are_placed_by_labels(columns: str) -> None:
     """Three moments of two masses of 1 kg on the x axis: 0, 2 and 2 kg m2."""
-    places = pd.DataFrame([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]], columns=list("xyz"))[[*columns]]
+    labels = {"axis": list("xyz")}
+    places = xr.DataArray([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]], labels, ("n", "axis"))
+    places = places.sel(axis=[*columns])
     masses = earthspin.Body.from_masses([1.0, 1.0], places)
     assert masses.moments == pytest.approx([0.0, 2.0, 2.0], abs=1e-15)
-    corners = pd.DataFrame([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 2.0]], columns=list("xyz"))
-    mesh = corners[[*columns]], [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    corners = xr.DataArray([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 2.0]], labels, ("n", "axis"))
+    mesh = corners.sel(axis=[*columns]), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
     body = earthspin.Body.from_mesh(mesh, density=1.0)
     assert body.gm == pytest.approx(earthspin.constants.G.value / 3, rel=1e-14)
 
 
 test_other_labels_are_refused = refused(
     (xr.DataArray(XYZ, dims=("n", "c"), coords={"c": ["x", "y", "w"]}), "components x, y and z"),
+    (pd.DataFrame(XYZ, columns=["z", "x", "y"]), "or bare numbers"),
     (pd.DataFrame(XYZ, columns=["A", "B", "C"]), r"\['A', 'B', 'C'\]"),
     call=lambda value: Numbers("m", "1 km", (None, 3)).read(value, STEP),
 )
