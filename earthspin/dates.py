@@ -187,7 +187,8 @@ def _from_astropy(value: Any, where: Where, given: object) -> tuple[Any, Any]:
         iers.conf.set_temp("auto_max_age", None),
         warnings.catch_warnings(),
     ):
-        warnings.simplefilter("error")
+        warnings.simplefilter("ignore")  # such as that of a missing folder for downloads
+        warnings.simplefilter("error", erfa.ErfaWarning)  # UTC of a dubious year
         try:
             time = value if is_time(value) else Time(value, scale="utc")
             tdb = _with_tdb_minus_tt(time).tdb
@@ -196,7 +197,6 @@ def _from_astropy(value: Any, where: Where, given: object) -> tuple[Any, Any]:
                 raise ValueError("not known")
             return tdb.jd1 - J2000_JD, tdb.jd2
         except Exception as error:  # kinds of the library and of ERFA, warnings among them
-            warnings.simplefilter("ignore")
             if "end of day" in str(error):
                 raise where.error(given, "there is no such date: it has no leap second") from None
             scale = getattr(value, "scale", "utc").upper()

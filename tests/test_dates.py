@@ -35,6 +35,7 @@ from earthspin.dates import (
 from earthspin.engine.question import scene_text
 from earthspin.errors import Where
 from earthspin.frames import EquatorOfDate
+from tests.processes import printed
 from tests.refusals import refused
 
 SCALE = load.timescale(builtin=True)
@@ -526,3 +527,15 @@ def test_a_whole_number_of_steps_always_meets_the_end(count: int, years: float) 
     times = grid(YearSpan(-count * step, 0.0), step, TIMES)
     assert times.size == count + 1
     assert abs(times[-1]) < 1e-9 * step * count
+
+
+@pytest.mark.slow
+def test_a_missing_cache_folder_is_no_reason_to_refuse_utc() -> None:
+    """37 leap seconds and 32.184 s, and TDB - TT of -0.08 ms (Fairhead & Bretagnon 1990)."""
+    program = """
+import os
+os.environ["XDG_CACHE_HOME"] = "/no/such/folder"
+import earthspin
+print(earthspin.torque_series(times=["2026-01-01T00:00Z"]).time.values[0])
+"""
+    assert printed(program).strip().startswith("2026-01-01T00:01:09.18")
