@@ -12,7 +12,7 @@ import math
 import os
 import weakref
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack
 from functools import cached_property, lru_cache
 from importlib.util import find_spec
@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from earthspin import errors
 from earthspin._version import version
@@ -69,14 +70,12 @@ class Ephemeris:
         spk = _open_spk(self.path)
         self._file = self.path.resolve()
         weakref.finalize(self, spk.close)
-        self._segments = {(s.center, s.target): s for s in spk.segments}
-        if len(self._segments) < len(spk.segments):
-            problem = "it holds several segments for one body"
-            raise KernelError(path, problem, "cut out one span with `python -m jplephem excerpt`")
-        self._records = {step: kernel.Records(s, self.path) for step, s in self._segments.items()}
-        self._tables: dict[tuple[int, int], kernel.SegmentSeries] = {
-            step: records.table() for step, records in self._records.items()
-        }
+        self._segments: dict[int, list[Any]] = {}  # by target, in the order of the file
+        for segment in spk.segments:
+            self._segments.setdefault(segment.target, []).append(segment)
+        readable = filter(kernel.is_readable, spk.segments)
+        self._records = {segment: kernel.Records(segment, self.path) for segment in readable}
+        self._tables = {segment: records.table() for segment, records in self._records.items()}
 
     @cached_property
     def sha256(self) -> str:
@@ -99,7 +98,7 @@ class Ephemeris:
     @property
     def targets(self) -> set[int]:
         """NAIF codes of all bodies with positions in the kernel."""
-        return {target for _, target in self._segments} | {0}
+        return {*self._segments, 0}
 
     def code(self, codes: Iterable[int], name: str) -> int:
         """Return the first of a body's possible NAIF codes that the kernel contains.
@@ -138,8 +137,43 @@ class Ephemeris:
     def _covered(self, step: Step) -> tuple[float, float]:
         if not isinstance(step, tuple):
             return step.coverage
-        segment = self._segments[step]
-        return float(segment.start_jd - J2000_JD), float(segment.end_jd - J2000_JD)
+        spans = [_span(s) for s in self._segments[step[1]] if s in self._records]
+        return min(start for start, _ in spans), max(end for _, end in spans)
+
+    def _shares(
+        self, step: tuple[int, int], days: FloatArray
+    ) -> Iterator[tuple[Any, NDArray[np.bool_]]]:
+        """Yield the segments of a step, each with a mask of the times that it gives.
+
+        Where several cover a time, the last in the file gives the position, as in SPICE.
+
+        Raises
+        ------
+        KernelError
+            If no segment covers a time, or one that cannot be read gives it.
+        """
+        centre, target = step
+        free = np.ones(days.size, dtype=bool)
+        for segment in reversed(self._segments[target]):
+            start, end = _span(segment)
+            share = free & (start <= days) & (days <= end)
+            if not share.any():
+                continue
+            if segment not in self._records or segment.center != centre:
+                raise self._unread(segment)
+            yield segment, share
+            free &= ~share
+        if free.any():
+            problem = f"it has no position of NAIF {target} on {date_text(days[free][0])}"
+            raise KernelError(self.path, problem, "choose other dates, or another kernel")
+
+    def _unread(self, segment: Any) -> KernelError:
+        problem = (
+            f"its segment {(segment.center, segment.target)} is of type {segment.data_type} in "
+            f"frame {segment.frame}, and positions are read from types 2 and 3 in the ICRF "
+            "(frame 1), about one centre"
+        )
+        return KernelError(self.path, problem, "give the body a position, like position=...")
 
     def positions(
         self, targets: Mapping[str, Place], centre: Place, days: FloatArray
@@ -203,7 +237,10 @@ class Ephemeris:
         if not isinstance(step, tuple):
             return checked(step.positions(epochs.days), step, epochs.days).T
         with np.errstate(all="ignore"):  # overflow is refused below
-            position = self._tables[step].at(epochs)
+            position = np.empty((3, epochs.days.size))
+            for segment, share in self._shares(step, epochs.days):
+                own = epochs if share.all() else kernel.Epochs(epochs.days[share])
+                position[:, share] = self._tables[segment].at(own)
             position *= 1e3
             finite = np.isfinite(np.sum(position))  # any non-finite value makes the sum non-finite
         if not finite:
@@ -216,9 +253,13 @@ class Ephemeris:
         if not isinstance(place, int):
             path, place = [place], place.centre
         while place != 0:
-            step = next((step for step in self._segments if step[1] == place), None)
-            if step is None:
+            segments = self._segments.get(place)
+            if segments is None:
                 raise KernelError(self.path, f"no segment leads to NAIF {place}")
+            last = next(filter(self._records.get, reversed(segments)), None)
+            if last is None:
+                raise self._unread(segments[-1])
+            step = last.center, place
             if step in path:
                 raise KernelError(self.path, f"its segments lead NAIF {place} in a circle", AGAIN)
             path.append(step)
@@ -275,6 +316,14 @@ class Ephemeris:
                 (date_text(np.min(days), "s"), date_text(np.max(days), "s")),
                 (date_text(start, "s"), date_text(end, "s")),
             )
+        for step in self._steps(places):
+            for _ in self._shares(step, days):
+                pass  # refuses gaps between segments
+
+    def _steps(self, places: Iterable[Place]) -> set[tuple[int, int]]:
+        """Steps by segments of the kernel on the paths to all given bodies."""
+        steps = {step for place in places for step in self._path_to_root(place)}
+        return {step for step in steps if isinstance(step, tuple)}
 
     def check_records(self, days: FloatArray, places: Iterable[Place]) -> None:
         """Refuse a damaged kernel: check the hash of a named kernel, else the records to be used.
@@ -291,9 +340,14 @@ class Ephemeris:
                 problem = f"its SHA-256 is {self.sha256}, that of {self.name} is {self._published}"
                 raise KernelError(self.path, problem, "reinstall the package that contains it")
             return
-        for step in {step for place in places for step in self._path_to_root(place)}:
-            if isinstance(step, tuple):
-                self._records[step].check(days)
+        for step in self._steps(places):
+            for segment, share in self._shares(step, days):
+                self._records[segment].check(days[share])
+
+
+def _span(segment: Any) -> tuple[float, float]:
+    """First and last day of a segment, TDB from J2000.0."""
+    return float(segment.start_jd - J2000_JD), float(segment.end_jd - J2000_JD)
 
 
 @lru_cache
@@ -389,11 +443,6 @@ def _open_spk(path: Path) -> Any:
             raise KernelError(path, "it is not an SPK kernel", remedy) from None
         if not spk.segments:
             raise KernelError(path, "it holds no segments", AGAIN)
-        for segment in spk.segments:
-            if segment.data_type not in (2, 3) or segment.frame != 1:
-                problem = f"its segments are of type {segment.data_type} in frame {segment.frame}"
-                remedy = "give Chebyshev positions (type 2 or 3) in the ICRF (frame 1)"
-                raise KernelError(path, problem, remedy)
         kernel.check_words(spk.segments, size, path)
         close_on_error.pop_all()
     return spk

@@ -271,6 +271,11 @@ def check_summaries(daf: Any, path: Path) -> None:
         number = int(following)
 
 
+def is_readable(segment: Any) -> bool:
+    """Return True if a segment holds Chebyshev series of positions (type 2 or 3) in the ICRF."""
+    return segment.data_type in _COMPONENTS and segment.frame == 1
+
+
 def check_words(segments: Iterable[Any], size: int, path: Path) -> None:
     """Check that all segments of a kernel lie inside a file (size in bytes) and do not overlap.
 

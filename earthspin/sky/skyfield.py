@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from jplephem.spk import SPK
 from skyfield.api import load
 from skyfield.constants import AU_M
 from skyfield.framelib import mean_equator_and_equinox_of_date
@@ -34,6 +35,7 @@ from earthspin.constants import J2000_JD
 from earthspin.errors import EarthspinError, KernelError, UndefinedError, Where
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky.ephemeris import Ephemeris, open_ephemeris
+from earthspin.sky.kernel import is_readable
 from earthspin.sky.protocol import Place, Trajectory, checked, words
 
 # --- vector functions as trajectories -------------------------------------------------------------
@@ -213,7 +215,15 @@ def _read_segment(table: Mapping[str, Any], where: Where) -> VectorFunction:
 @lru_cache
 def _spice_kernel(path: str, sha256: str) -> SpiceKernel:
     """Open a kernel with Skyfield; a kernel with the same file and hash is opened once."""
-    return SpiceKernel(path)
+    return _ReadableSegments(path)
+
+
+class _ReadableSegments(SpiceKernel):  # type: ignore[misc]
+    """Kernel of Skyfield without segments of types that Skyfield does not read."""
+
+    def __init__(self, path: str) -> None:
+        self.path, self.filename, self.spk = path, os.path.basename(path), SPK.open(path)
+        self.segments = [SPICESegment(self, s) for s in self.spk.segments if is_readable(s)]
 
 
 # --- positions and directions by Skyfield ---------------------------------------------------------
@@ -252,7 +262,7 @@ class Skyfield(Ephemeris):
 
     def __init__(self, path: str | Path, name: str | None = None) -> None:
         super().__init__(path, name)
-        self.kernel = SpiceKernel(str(self.path))
+        self.kernel = _ReadableSegments(str(self.path))
         weakref.finalize(self, self.kernel.spk.close)
 
     @property

@@ -112,7 +112,7 @@ def _leg(segment: tuple[int, int], days: LongArray, records: FloatArray) -> Long
     days, records : ndarray
         Times, and times inside the records to be used, d from J2000.0 TDB.
     """
-    start, length, series = kernel()._segments[segment].load_array()
+    start, length, series = kernel()._segments[segment[1]][0].load_array()
     start = start - J2000_JD
     number = np.floor((records - start) / length).astype(int)
     x = 2 * (days - start - LONG(length) * number) / LONG(length) - 1

@@ -7,13 +7,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.polynomial.chebyshev import chebval
 
-from earthspin import EarthspinError, KernelError
+import earthspin
+from earthspin import Body, EarthspinError, KernelError
 from earthspin.bodies import MOON, SUN
 from earthspin.numerics.arrays import FloatArray
 from earthspin.sky import ephemeris
 from earthspin.sky.ephemeris import Ephemeris, find_kernel, open_ephemeris
 from earthspin.sky.kernel import DISTANCES, PUBLISHED
+from earthspin.sky.skyfield import Skyfield
+from earthspin.sky.sources import SourceName
 from tests.sky.kernel_files import FIRST_SUMMARY, RECORD, SUMMARY, Piece, from_de421, write_kernel
 
 NAMES = {(0, 10): 0, (0, 3): 1, (3, 399): 2, (3, 301): 3}
@@ -118,16 +122,88 @@ def test_records_that_are_not_used_are_not_read(tmp_path: Path, pieces: list[Pie
         torques(kernel, start + np.array([4 * 30 + 0.5]))
 
 
-def test_several_segments_for_one_body_are_refused(tmp_path: Path) -> None:
+def on_an_arc(piece: Piece, days: FloatArray) -> FloatArray:
+    """Positions by NumPy's Chebyshev series, m, shape (n, 3)."""
+    record, part = np.divmod(days * 86400.0 - piece.start, piece.length)
+    x = 2 * part / piece.length - 1
+    rows = [chebval(x, piece.series[int(r)].T) for x, r in zip(x, record, strict=True)]
+    return 1e3 * np.array(rows)
+
+
+@pytest.mark.parametrize("source", [Ephemeris, Skyfield])
+@pytest.mark.parametrize("reverse", [False, True])
+def test_the_last_segment_in_the_file_wins_where_several_cover(
+    tmp_path: Path, reverse: bool, source: type[Ephemeris]
+) -> None:
+    """As the SPK Required Reading of NAIF says of segments in one file."""
     early = circle(3, 8)
-    late = replace(early, start=early.start + 3 * early.length)
-    with pytest.raises(KernelError, match="several segments"):
-        Ephemeris(write_kernel(tmp_path / "two.bsp", [early, late]))
+    late = replace(early, start=early.start + 2 * early.length, series=1.5 * early.series)
+    pieces = [late, early] if reverse else [early, late]
+    kernel = source(write_kernel(tmp_path / "two.bsp", pieces))
+    days = np.array([1.0, 150.0, 70.5, 95.0, 33.0, 97.0])
+    first = days < (96.0 if reverse else 64.0)
+    expected = np.empty((6, 3))
+    expected[first], expected[~first] = (
+        on_an_arc(early, days[first]),
+        on_an_arc(late, days[~first]),
+    )
+    given = kernel.positions({"it": 2_000_001}, 0, days)["it"]
+    assert np.abs(given / expected - 1).max() < 1e-12
+    assert kernel.coverage([2_000_001]) == (0.0, 160.0)
+
+
+def test_a_gap_between_segments_is_refused(tmp_path: Path) -> None:
+    early = circle(3, 8)
+    late = replace(early, start=early.start + 4 * early.length)
+    kernel = Ephemeris(write_kernel(tmp_path / "gap.bsp", [early, late]))
+    kernel.positions({"it": 2_000_001}, 0, np.array([95.0, 129.0]))
+    with pytest.raises(KernelError, match="no position of NAIF 2000001 on 2000-04-11"):
+        kernel.positions({"it": 2_000_001}, 0, np.array([95.0, 101.0, 129.0]))
+
+
+@pytest.mark.parametrize("source", ["jplephem", "skyfield"])
+def test_segments_of_other_types_are_refused_if_they_are_asked_for(
+    tmp_path: Path, pieces: list[Piece], source: SourceName
+) -> None:
+    """An asteroid of type 21 beside Sun, Earth and Moon, whose torques are those without it."""
+    other = write_kernel(tmp_path / "21.bsp", [*pieces, circle(3, 8)])
+    content = bytearray(other.read_bytes())
+    at = RECORD + FIRST_SUMMARY + 4 * SUMMARY + 28
+    content[at : at + 4] = struct.pack("<i", 21)
+    other.write_bytes(content)
+    without = write_kernel(tmp_path / "2.bsp", pieces)
+    answers = [
+        earthspin.torque_series(times=["2000-03-01"], ephemeris=file, source=source)
+        for file in (other, without)
+    ]
+    assert np.array_equal(answers[0].torque, answers[1].torque)
+    asteroid = Body(name="it", gm=1e12, naif=(2_000_001,))
+    with pytest.raises(KernelError, match=r"type 21 in frame 1.*position="):
+        earthspin.torque_series(
+            times=["2000-03-01"], perturbers=[asteroid], ephemeris=other, source=source
+        )
+
+
+def test_two_segments_are_read_as_spice_reads_them(tmp_path: Path, pieces: list[Piece]) -> None:
+    spice = pytest.importorskip("spiceypy")
+    late = [replace(p, series=p.series * (1 + 1e-9)) for p in pieces]
+    late = [replace(p, start=p.start + 64 * 86400.0) for p in late]
+    file = write_kernel(tmp_path / "spice.bsp", [*pieces, *late])
+    file.write_bytes(file.read_bytes() + bytes(-file.stat().st_size % RECORD))  # whole records
+    days = np.linspace(span(pieces)[0], span(late)[1], 1000)
+    spice.furnsh(str(file))
+    try:
+        expected = [spice.spkgps(301, day * 86400.0, "J2000", 0)[0] for day in days]
+    finally:
+        spice.kclear()
+    given = Ephemeris(file).positions({"moon": 301}, 0, days)["moon"]
+    assert np.abs(given - 1e3 * np.array(expected)).max() < 1e-3
 
 
 def test_de421_passes_without_its_hash(de421: Ephemeris) -> None:
     """All records of all segments: times, distances (within 1 %), and joints to 8 eps."""
-    for step, records in de421._records.items():
+    for segment, records in de421._records.items():
+        step = segment.center, segment.target
         records.check(np.linspace(*de421._covered(step), 4 * records.count))
         if records.count > 1:
             assert np.max(records._gaps(np.arange(records.count - 1))[0]) < 8 * np.finfo(float).eps
