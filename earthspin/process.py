@@ -158,8 +158,8 @@ def signals_held() -> Iterator[None]:
     finally:
         for number, handler in handlers.items():
             signal.signal(number, handler)
-        for number in received:
-            signal.raise_signal(number)
+        for held in received:
+            signal.raise_signal(held)
 
 
 @contextmanager

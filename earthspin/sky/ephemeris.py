@@ -249,21 +249,20 @@ class Ephemeris:
 
     def _path_to_root(self, place: Place) -> list[Step]:
         """List the kernel segments, or trajectory and segments, from a body to the barycentre."""
-        path: list[Step] = []
-        if not isinstance(place, int):
-            path, place = [place], place.centre
-        while place != 0:
-            segments = self._segments.get(place)
+        path: list[Step]
+        path, code = ([], place) if isinstance(place, int) else ([place], place.centre)
+        while code != 0:
+            segments = self._segments.get(code)
             if segments is None:
-                raise KernelError(self.path, f"no segment leads to NAIF {place}")
+                raise KernelError(self.path, f"no segment leads to NAIF {code}")
             last = next(filter(self._records.get, reversed(segments)), None)
             if last is None:
                 raise self._unread(segments[-1])
-            step = last.center, place
+            step = last.center, code
             if step in path:
-                raise KernelError(self.path, f"its segments lead NAIF {place} in a circle", AGAIN)
+                raise KernelError(self.path, f"its segments lead NAIF {code} in a circle", AGAIN)
             path.append(step)
-            place = step[0]
+            code = step[0]
         return path
 
     def error(self, target: Place, centre: Place, day: float = 0.0) -> tuple[float, float]:
