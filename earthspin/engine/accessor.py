@@ -205,7 +205,7 @@ class Answer:
         epoch (yr),obliquity (deg),obliquity_error (deg)
         """
         if columns is None:
-            declared = self.scene.columns if scene_of(self.dataset) else ()
+            declared = self.scene.csv_columns if scene_of(self.dataset) else ()
             columns = [name for name in declared if name in self.dataset] or ALL
         frame, spread = self.to_frame(columns), _spread(self.dataset)
         units = {name: spread[name].attrs.get("units", "1") for name in frame}

@@ -170,7 +170,7 @@ class Question:
         Page of the documentation that explains the method; empty if there is none.
     headline : str
         Variable of the answer, or error of several variables, that is quoted first.
-    columns : tuple of str
+    csv_columns : tuple of str
         Variables of the answer that a CSV file has by default, with their errors; all if empty.
     positional : tuple of str
         Positional arguments of the call.
@@ -186,7 +186,7 @@ class Question:
     table: ClassVar[str]
     page: ClassVar[str] = ""
     headline: ClassVar[str] = ""
-    columns: ClassVar[tuple[str, ...]] = ()
+    csv_columns: ClassVar[tuple[str, ...]] = ()
     positional: ClassVar[tuple[str, ...]]
     exclusive: ClassVar[tuple[tuple[tuple[str, ...], ...], ...]] = ()
     by_body: ClassVar[tuple[str, ...]] = ()

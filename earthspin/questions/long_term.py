@@ -27,9 +27,9 @@ from earthspin.secular.averaged_torque import (
     geodesic_precession,
     moon_rate_factor,
 )
-from earthspin.sky.columns import is_table
 from earthspin.sky.orbit_files import read_orbit
 from earthspin.sky.orbit_table import OrbitTable, shipped
+from earthspin.tables import is_table
 from earthspin.torque import gravity, rates
 from earthspin.units import FileName, Number, Plain, pack, unpack
 
@@ -140,7 +140,7 @@ class LongTerm(
     """
 
     page, headline = "long_term", "obliquity"
-    columns = ("obliquity", "eccentricity", "longitude_of_perihelion", "climatic_precession")
+    csv_columns = ("obliquity", "eccentricity", "longitude_of_perihelion", "climatic_precession")
 
     exclusive = ((("times",), ("span", "step")),)
     array_masses = True

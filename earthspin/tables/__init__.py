@@ -1,0 +1,24 @@
+"""Tables of text and data frames of others, read into columns whose meaning is declared."""
+
+from earthspin.tables.calendar_dates import DATES, MJD_0, dates_of
+from earthspin.tables.columns import (
+    BLANK,
+    MORE,
+    Column,
+    column_of,
+    declared,
+    fits,
+    places,
+    with_words,
+    written,
+)
+from earthspin.tables.meaning import guessed, refuse_other_meaning
+from earthspin.tables.sheet import FRAME, Sheet, is_frame, of_frame, split, typed
+from earthspin.tables.text import checksum, is_number, is_table, lines_of
+
+__all__ = [
+    "BLANK", "DATES", "FRAME", "MJD_0", "MORE", "Column", "Sheet", "checksum", "column_of",
+    "dates_of", "declared", "fits", "guessed", "is_frame", "is_number", "is_table", "lines_of",
+    "of_frame",
+    "places", "refuse_other_meaning", "split", "typed", "with_words", "written",
+]  # fmt: skip

@@ -1,0 +1,158 @@
+"""Layouts of published tables, as data.
+
+A layout is recognised by words above its rows. Only tables without a header are recognised by their
+number of columns, and such a reading must be confirmed by comparison with known numbers.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Layout(NamedTuple):
+    """Layout of published files.
+
+    Attributes
+    ----------
+    name : str
+    columns : str
+        Declaration of its columns.
+    head : str
+        Pattern in the name of the file or above the rows; layouts without it have no header.
+    row : str
+        Pattern of its rows, if these do not begin with a number and a delimiter.
+    until : str
+        Pattern of the line where its rows end, if not at the end of the file.
+    edges : tuple of tuple of int
+        Where its columns begin and end, if these are not separated.
+    """
+
+    name: str
+    columns: str
+    head: str = ""
+    row: str = ""
+    until: str = ""
+    edges: tuple[tuple[int, int], ...] = ()
+
+
+# --- polar motion and celestial pole offsets ------------------------------------------------------
+
+_XY, _DXY = "x (arcsec), y (arcsec)", "dx (arcsec), dy (arcsec)"
+_ERRORS, _OFFSET_ERRORS = "e_x (arcsec), e_y (arcsec)", "e_dx (arcsec), e_dy (arcsec)"
+_IVS = f"mjd, {_XY},, {{offsets}}, {_ERRORS},, {{errors}}, ..."
+_C01_YEAR = "year, x (arcsec), e_x (arcsec), y (arcsec), e_y (arcsec)"
+#: Tables by Besselian years and of C04 without a header, told apart by their first cell.
+C04 = (
+    Layout("c04", f"year, month, day, mjd, {_XY},,, {_DXY}, {_ERRORS},,, {_OFFSET_ERRORS}"),
+    Layout(
+        "c04", f"year, month, day, hour, mjd, {_XY},, {_DXY},,,, {_ERRORS},, {_OFFSET_ERRORS},,,"
+    ),
+)
+C01_BY_MJD = Layout("c01", f"mjd, {_XY},, {_DXY}, {_ERRORS},, {_OFFSET_ERRORS},,,,,,,,,,,,,,,,,,")
+C01_BY_YEAR = (
+    Layout("c01", f"{_C01_YEAR},,, dx (arcsec), e_dx (arcsec), dy (arcsec), e_dy (arcsec)"),
+    Layout("c01", f"{_C01_YEAR}, ..."),
+    Layout("c01", _C01_YEAR),
+)
+#: Of the columns "type" of finals2000A, "I" if observed and "P" if predicted, the third belongs to
+#: dX, dY, here as in the CSV.
+FINALS2000A = Layout(
+    "finals2000A",
+    "year, month, day, mjd, type, x (arcsec), e_x (arcsec), y (arcsec), e_y (arcsec), type, "
+    "type, dx (mas), e_dx (mas), dy (mas), e_dy (mas)",
+    row=r".{16}[IP]|[\d ]{6} \d{5}\.\d\d\s*$",
+    edges=tuple(
+        zip(
+            (0, 2, 4, 7, 16, 18, 27, 37, 46, 57, 95, 97, 106, 116, 125),
+            (2, 4, 6, 15, 17, 27, 36, 46, 55, 58, 96, 106, 115, 125, 134),
+            strict=True,
+        )
+    ),
+)
+POLE_BY_HEAD = (
+    Layout(
+        "EOP2",
+        "mjd, x (mas), y (mas),, e_x (mas), e_y (mas),,,,, dx (mas), dy (mas), e_dx (mas), "
+        "e_dy (mas),,",
+        head=r"(?m)^\s*EOP2",
+    ),
+    Layout(
+        "EOP-All.txt",
+        f"year, month, day, mjd, {_XY},,,,, {_DXY},",
+        head="NUM_OBSERVED_POINTS",
+        until="^END OBSERVED",
+    ),
+    Layout(
+        "Bulletin B",
+        "year, month, day, mjd, x (mas), y (mas),, dx (mas), dy (mas), e_x (mas), e_y (mas),, "
+        "e_dx (mas), e_dy (mas)",
+        head=r"(?i)BULLETIN\s+B|B\s+U\s+L\s+L\s+E\s+T\s+I\s+N\s+B",
+        row=r"\s*\d{4}\s+\d+\s+\d+\s+\d{5}\s",
+        until=r"(?i)^\W*(2 - |preliminary)",
+    ),
+    Layout(
+        "IGS ERP",
+        "mjd, x (uas), y (uas),,, e_x (uas), e_y (uas), ...",
+        head=r"(?im)^\W*mjd\s+x-?pole\s+y-?pole\s+UT1",
+    ),
+    Layout("EOP-MOD", "jd, x (0.1 arcsec), y (0.1 arcsec), ...", head=r"(?m)^EOP-MOD Ver"),
+    Layout(
+        "IVS eoxy",
+        _IVS.format(offsets="dx (mas), dy (mas)", errors="e_dx (mas), e_dy (mas)"),
+        head=r"\.eoxy|%=IVS-EOP(?s:.*)\bdX\b",
+    ),
+    Layout("IVS eops", _IVS.format(offsets=",", errors=","), head=r"\.eops|%=IVS-EOP"),
+    FINALS2000A,
+)
+
+# --- solutions of obliquity, eccentricity and precession ------------------------------------------
+
+SOLUTIONS = (
+    Layout("La2010, ZB18a", "epoch (kyr), eccentricity"),
+    Layout("ZB20a", "epoch (kyr), eccentricity,"),
+    Layout(
+        "La2004, La93", "epoch (kyr), eccentricity, obliquity (rad), longitude_of_perihelion (rad)"
+    ),
+    # files of snvec (with the angle of precession), and of paleoinsolation
+    Layout("snvec", "epoch (kyr), obliquity (rad),, climatic_precession"),
+    Layout(
+        "snvec",
+        "epoch (kyr), eccentricity, obliquity (rad),, longitude_of_perihelion (rad), "
+        "climatic_precession",
+    ),
+    Layout("ZB18a", "epoch (kyr), eccentricity, obliquity (deg), longitude_of_perihelion (deg),"),
+    Layout(
+        "Berger & Loutre 1991",
+        "epoch (kyr from 1950), eccentricity, longitude_of_perihelion (deg), obliquity (deg), "
+        "climatic_precession,,,,",
+        head=r"ECC\s+OMEGA\s+OBL\s+PREC",
+    ),
+    Layout(
+        "astrochron getLaskar",
+        "epoch (ka), longitude_of_perihelion (rad), obliquity (rad), eccentricity",
+        head=r"Time_ka\W+prec_angle_\w+\W+tilt_\w+\W+ecc_\w+",
+    ),
+)
+#: Its rows may all lie far from J2000.0, so that nothing is known of them; no other layout has as
+#: many columns.
+ASTROGEO22 = Layout("AstroGeo22", "epoch (Gyr ago),,,,,,, obliquity (deg),,,,,")
+
+# --- orbits ---------------------------------------------------------------------------------------
+
+ORBITS = (
+    Layout("HNBody", "t (d), a, e, inc, varpi, Omega"),
+    Layout("La2010", "t (kyr), a, l, k, h, q, p"),
+    Layout("HNBody", "t (d), a, e, inc, varpi, Omega,,"),
+    Layout(
+        "Mercury6",
+        "t (yr), a, e, inc (deg), omega (deg), Omega (deg), ...",
+        head=r"(?m)^\s*Time \(years\)\s+a\s+e\s+i\s+peri\s+node",
+    ),
+)
+
+# --- effective angular momentum functions ---------------------------------------------------------
+
+ANGULAR_MOMENTUM = (
+    Layout("mass and motion", "year, month, day, hour, mjd, mass1, mass2,, motion1, motion2,"),
+    Layout("mass", "year, month, day, hour, mjd, mass1, mass2,"),
+)

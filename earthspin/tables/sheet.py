@@ -1,0 +1,253 @@
+"""Tables split into header and rows, from files of text and from data frames."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from earthspin.errors import SeriesError
+from earthspin.numerics.arrays import Array, FloatArray
+from earthspin.tables import text as text_of
+from earthspin.tables.columns import Column, column_of, declared, written
+from earthspin.tables.layouts import Layout
+from earthspin.units import COMMON, as_written, real_numbers, time_scale
+
+#: Number of lines above the rows in which a header is looked for, and in which names are.
+_HEAD, _NEAREST = 60, 6
+#: Longer cells above the rows are sentences, not names of columns.
+_LONGEST_NAME = 40
+#: Name of a data frame in messages.
+FRAME = "DataFrame"
+
+
+@dataclass(frozen=True, eq=False)
+class Sheet:
+    """Header and rows of a table.
+
+    Attributes
+    ----------
+    file : Path or str
+        File, or the name of a data frame.
+    words : str
+        Name of the file and the lines above its rows.
+    names : list of str
+        Names of the columns in the header; empty if there is none.
+    rows : list of sequence
+        Cells of the rows; arrays of the columns for a data frame.
+    lines : list of int
+        Line of each row in the file; empty for a data frame.
+    text : list of int
+        Lines of text among the rows.
+    layout : Layout or None
+        Layout that the words above the rows name.
+    """
+
+    file: Path | str
+    words: str
+    names: list[str]
+    rows: Sequence[Any]
+    lines: list[int] = field(default_factory=list)
+    text: list[int] = field(default_factory=list)
+    layout: Layout | None = None
+
+    @property
+    def is_frame(self) -> bool:
+        """Whether the table is a data frame."""
+        return self.file == FRAME
+
+    @property
+    def width(self) -> int:
+        """Number of columns, that of the first row in a file."""
+        return len(self.rows) if self.is_frame else len(self.rows[0])
+
+    def error(self, problem: str, remedy: str = "", row: int | None = None) -> SeriesError:
+        """Build an error whose message names the file, and the line of a row."""
+        if row is None:
+            return SeriesError(self.file, problem, remedy)
+        if self.is_frame:
+            return SeriesError(self.file, f"row {row}: {problem}", remedy)
+        return SeriesError(self.file, problem, remedy, self.lines[row])
+
+    def only(self, kept: Sequence[bool]) -> Sheet:
+        """Return the table with a selection of its rows."""
+        rows = [row for row, keep in zip(self.rows, kept, strict=True) if keep]
+        lines = [line for line, keep in zip(self.lines, kept, strict=True) if keep]
+        return replace(self, rows=rows, lines=lines)
+
+    def column(self, place: int) -> FloatArray:
+        """Return the numbers of a column; cells without a number are nan."""
+        if self.is_frame:
+            try:
+                return real_numbers(self.rows[place])
+            except (TypeError, ValueError):
+                raise self.error(f"column '{self.names[place]}' holds more than numbers") from None
+        cells = [row[place] for row in self.rows]
+        try:
+            return np.array(cells, dtype=float)
+        except ValueError:
+            return np.array([self._number(row, cell) for row, cell in enumerate(cells)])
+
+    def _number(self, row: int, cell: str) -> float:
+        try:
+            return np.nan if cell.strip().lower() in text_of.MISSING else float(cell)
+        except ValueError as error:
+            raise self.error(str(error), "a number is expected", row) from None
+
+    def converted(self, place: int, column: Column, unit: str) -> FloatArray:
+        """Return the numbers of a column in a unit."""
+        factor, origin = column.conversion(unit)
+        numbers = self.column(place)
+        return as_written(numbers, factor, origin) if origin or column.is_time else factor * numbers
+
+    def refuse_text(self) -> None:
+        """Refuse a table with lines of text among its rows."""
+        if self.text:
+            count = f"{len(self.text)} line{'s' * (len(self.text) > 1)}"
+            problem = f"{count} among the rows does not begin with a number"
+            remedy = "correct it, or begin a comment with #"
+            raise SeriesError(self.file, problem, remedy, self.text[0])
+
+    def refuse_other_lengths(self, columns: str = "") -> None:
+        """Refuse rows with another number of cells than the first row, or than declared."""
+        if self.is_frame:
+            return
+        count = len(declared(columns)) if columns and not columns.endswith("...") else self.width
+        for row, cells in enumerate(self.rows):
+            if len(cells) != count:
+                cut = (
+                    "is the file cut off?" if row == len(self.rows) - 1 > 0 else "is a column lost?"
+                )
+                raise self.error(f"{len(cells)} columns; {count} are expected", cut, row)
+
+    def not_understood(self, columns: Sequence[Column], needed: str = "") -> SeriesError:
+        """Build an error for a header that is not understood, with the columns to type."""
+        problem = f"its header '{', '.join(self.names)}' is not understood"
+        return self.error(problem, f"say what its columns are: {typed(columns)} {needed}".rstrip())
+
+
+def typed(columns: Sequence[Column], more: bool = False) -> str:
+    """Return the key that declares columns, as the user types it."""
+    return f"columns='{written(columns, more)}'"
+
+
+def is_frame(table: object) -> bool:
+    """Return True if an object is a data frame, of pandas or polars."""
+    return hasattr(table, "columns") and (hasattr(table, "iloc") or hasattr(table, "get_column"))
+
+
+def of_frame(frame: Any) -> Sheet:
+    """Return a data frame of pandas or polars as a table."""
+    arrays: list[Array] = [
+        frame.iloc[:, place].to_numpy() if hasattr(frame, "iloc") else frame[name].to_numpy()
+        for place, name in enumerate(frame.columns)
+    ]
+    return Sheet(FRAME, "", [str(name) for name in frame.columns], arrays)
+
+
+def split(file: Path, layouts: Sequence[Layout] = ()) -> Sheet:
+    """Split a file of text into header and rows.
+
+    Semicolons, tabs, commas or spaces separate columns, as in the first row; cells may be quoted,
+    decimals may be commas where these separate nothing, exponents those of Fortran.
+
+    Parameters
+    ----------
+    file : Path
+    layouts : sequence of Layout
+        Layouts whose words are looked for above the rows, and whose rows and columns may be
+        separated in their own way.
+
+    Raises
+    ------
+    SeriesError
+        If the file cannot be read, or holds no rows.
+    """
+    lines = text_of.lines_of(file)
+    start = next((place for place, line in enumerate(lines) if text_of.is_row(line)), len(lines))
+    head = [line for line in lines[max(start - _HEAD, 0) : start] if line.strip()]
+    words, first = "\n".join([file.name, *head]), "".join(lines[start : start + 1])
+    layout = next((x for x in layouts if _begins(x, words, first)), None)
+    rows, numbers, text = _rows(lines, start, layout)
+    if not rows:
+        raise SeriesError(file, "it holds no rows of numbers", "is it complete?")
+    if layout and layout.edges:
+        cut = [[line[begin:end] for begin, end in layout.edges] for line in rows]
+        return Sheet(file, words, [], cut, numbers, text, layout)
+    mark = text_of.delimiter_of(rows[0])
+    cells = text_of.cells_of(rows, mark)
+    cells, names = _cells_and_names(cells, head, mark)
+    return Sheet(file, words, names, cells, numbers, text, layout)
+
+
+def _begins(layout: Layout, words: str, first: str) -> bool:
+    """Return True if the words above the rows, or the first row, are those of a layout."""
+    if layout.head:
+        return re.search(layout.head, words) is not None
+    return bool(layout.row) and re.match(layout.row, first) is not None
+
+
+def _rows(
+    lines: list[str], start: int, layout: Layout | None
+) -> tuple[list[str], list[int], list[int]]:
+    """Rows of a file from the line `start` on, their line numbers, and lines of text among them."""
+    rows, numbers, text = [], [], []
+    for number, line in enumerate(lines[start:], start=start + 1):
+        if layout and layout.until and re.search(layout.until, line):
+            break
+        if re.match(layout.row, line) if layout and layout.row else text_of.is_row(line):
+            rows.append(line)
+            numbers.append(number)
+        elif rows and line.strip() and line.lstrip()[0] not in text_of.COMMENTS:
+            text.append(number)
+    return rows, numbers, text
+
+
+def _cells_and_names(
+    cells: list[Sequence[str]], head: list[str], mark: str
+) -> tuple[list[Sequence[str]], list[str]]:
+    """Cells of the rows and names of the columns.
+
+    The empty column after a delimiter at the end, and the names of rows that R writes, are left
+    out.
+    """
+    names = _header(head, mark, len(cells[0]))
+    if mark and len(cells[0]) > 1 and not any(row[-1] for row in cells):
+        shorter = _header(head, mark, len(cells[0]) - 1)
+        if (shorter and shorter[0]) or not (names and names[-1]):
+            cells, names = [row[:-1] for row in cells], shorter or names[:-1]
+    numbered = [row[0] for row in cells] == [str(row + 1) for row in range(len(cells))]
+    if numbered and names and not names[0] and len(cells) > 1:
+        cells, names = [row[1:] for row in cells], names[1:]
+    return cells, names
+
+
+def _header(head: list[str], mark: str, count: int) -> list[str]:
+    """Names of the columns: the last line that has as many, or one less if rows have names.
+
+    A line of units below the names is joined to them.
+    """
+    units: list[str] = []
+    for line in reversed(head[-_NEAREST:]):
+        for other in dict.fromkeys([mark, *text_of.DELIMITERS, ""]):
+            names = text_of.names_of(line, other)
+            names = ["", *names] if len(names) == count - 1 and count > 2 else names
+            prose = line.rstrip().endswith(".") or max(map(len, names), default=0) > _LONGEST_NAME
+            if len(names) != count or count < 2 or prose or not re.search("[A-Za-z]", line):
+                continue
+            if not units and all(map(_is_unit, names)):
+                units = names
+                break
+            pairs = zip(names, units or [""] * count, strict=True)
+            return [f"{name} ({unit.strip('()[]')})" if unit else name for name, unit in pairs]
+    return units
+
+
+def _is_unit(word: str) -> bool:
+    """Return True if a word is a unit, or stands for none."""
+    unit = column_of(f"x ({word.strip('()[] ')})").unit
+    return unit in COMMON or unit in ("", "1", "-", "uas") or time_scale(unit) is not None
