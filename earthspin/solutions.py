@@ -2,65 +2,87 @@
 
 from __future__ import annotations
 
+import math
+import re
+from collections.abc import Iterator, Sequence
+from functools import cache, partial
 from os import PathLike
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-from astropy.units import Unit
 
+from earthspin import tables
 from earthspin._lazy import xr
 from earthspin.engine.atomic_writes import as_path
-from earthspin.errors import SeriesError, Where, nearest
+from earthspin.errors import SceneError, SeriesError, Where, nearest
 from earthspin.numerics.arrays import FloatArray
-from earthspin.questions.long_term import LongTermSeries
-from earthspin.sky.columns import checksum, table_of
+from earthspin.questions.long_term import LongTermSeries, long_term
+from earthspin.tables import BLANK, Column, Sheet
+from earthspin.tables.layouts import ASTROGEO22, SOLUTIONS
+from earthspin.units import time_scale
 
-#: Columns of published files without names; one without a name is not read.
-LAYOUTS = (
-    # La2010; ZB18a, ZB20a (with the inclination)
-    "epoch (kyr),eccentricity",
-    "epoch (kyr),eccentricity,",
-    # La2004, La93
-    "epoch (kyr),eccentricity,obliquity (rad),longitude_of_perihelion (rad)",
-    # ZB18a: files of snvec (with the angle of precession), and of paleoinsolation
-    "epoch (kyr),obliquity (rad),,climatic_precession",
-    "epoch (kyr),eccentricity,obliquity (rad),,longitude_of_perihelion (rad),climatic_precession",
-    "epoch (kyr),eccentricity,obliquity (deg),longitude_of_perihelion (deg),",
-    # Berger & Loutre 1991 (with four insolations)
-    "epoch (kyr from 1950),eccentricity,longitude_of_perihelion (deg),obliquity (deg),"
-    "climatic_precession,,,,",
-    # AstroGeo22
-    "epoch (Gyr ago),,,,,,,obliquity (deg),,,,,",
-)
+if TYPE_CHECKING:
+    import pandas as pd
+
 #: Quantities of `long_term` that depend on the epoch alone, with their errors, and its epoch.
 QUANTITIES = {name: q for name, q in LongTermSeries.schema.items() if q.dims == ("epoch",)}
 QUANTITIES["epoch"] = LongTermSeries.fields["epoch"]
-#: Sign of epochs and their origin, Julian years from J2000.0, by the word after their unit.
-SENSES = {"": (1, 0.0), "ago": (-1, 0.0), "from 1950": (1, -50.0), "BP": (-1, -50.0)}
-#: Longest time between rows, Julian years, over which the perihelion can be followed.
-FARTHEST = 5000.0
-#: Upper limit of eccentricities in files without names.
-MOST_ECCENTRIC = 0.3
+#: Name of the Sun's perigee, whose longitude is that of the perihelion plus 180 degrees.
+_PERIGEE = "longitude_of_perigee"
 _WHERE = Where("columns", "read_solution")
+#: Longest time between rows over which the perihelion can be followed, Julian years.
+FARTHEST = 5000.0
+
+# --- known numbers of today -----------------------------------------------------------------------
+
+#: Bodies with which a solution is compared.
+KNOWN = ("earth", "mars")
+#: Interval around J2000.0 in which it is compared, Julian years, and fewest rows of a longer table
+#: in it: fewer do not tell the past from the future.
+NEAR, FEWEST = 20_000.0, 3
+#: Largest median difference, in the units of `long_term`. Published solutions differ by up to a
+#: third of it (Berger & Loutre 1991).
+BOUNDS = {"eccentricity": 0.0015, "obliquity": 0.1, "longitude_of_perihelion": 3.0}
+BOUNDS |= dict.fromkeys(("climatic_precession", "coprecession"), 0.002)
+#: Meanings of columns and times that are tried for a message, never read.
+_OPTIONS = (
+    Column("eccentricity"), Column("climatic_precession"), Column("coprecession"),
+    *(
+        Column(name, unit)
+        for name in ("obliquity", "longitude_of_perihelion", _PERIGEE)
+        for unit in ("deg", "rad")
+    ),
+)  # fmt: skip
+_TIMES = ("kyr", "kyr ago", "yr", "yr ago", "Myr", "Myr ago")
+#: Quantities by words in headers, for messages only.
+_WORDS = {
+    r"ecc|^e$": "eccentricity", r"obl|tilt|^eps": "obliquity", r"perigee": _PERIGEE,
+    r"perih|varpi|omega|lpe|angle": "longitude_of_perihelion", r"prec": "climatic_precession",
+    r"time|age|epoch|^t$|yr|\bk?a\b|bp": "epoch",
+}  # fmt: skip
 
 
-def read_solution(path: str | PathLike[str], *, columns: str | None = None) -> xr.Dataset:
+def read_solution(
+    path: str | PathLike[str] | pd.DataFrame, *, columns: str | None = None
+) -> xr.Dataset:
     """Read a published solution into a Dataset with the names and units of `long_term`.
 
-    Files of La2004, La93, La2010 (eccentricity), ZB18a, Berger & Loutre (1991, ``orbit91``) and
-    AstroGeo22 are recognised by their columns, and CSV files of `long_term` by their first line.
-    For orbital elements (La2010 ``alkhqp``, HNBody) use `read_orbit`.
+    Files of La2004, La93, La2010 (eccentricity), ZB18a, Berger & Loutre (1991, ``orbit91``),
+    AstroGeo22 and astrochron are recognised, and CSV files of `long_term` by their first line. For
+    orbital elements (La2010 ``alkhqp``, HNBody) use `read_orbit`. What the columns mean is compared
+    with the Earth and Mars around J2000.0.
 
     Parameters
     ----------
-    path : str or Path
-        Text file; spaces, commas or semicolons separate its columns.
+    path : str, Path or DataFrame
+        Text file, also compressed by gzip, or a table of pandas or polars.
     columns : str, optional
         Names of all columns with their units, separated by commas, like ``"epoch (kyr), obliquity
         (deg),, climatic_precession"``; a column without a name is not read. Names are those of
         `long_term`, or ``longitude_of_perigee``, which is that of the Sun and larger by 180
-        degrees. Epochs count from J2000.0 and are negative in the past. Those in ``kyr ago`` are
-        positive in the past; ``kyr from 1950`` counts from 1950, and ``kyr BP`` backwards from it.
+        degrees. Epochs count from J2000.0 and are negative in the past. Those in ``ka`` or ``kyr
+        ago`` are positive in the past; ``kyr from 1950`` counts from 1950, and ``kyr BP`` backwards
+        from it.
 
     Returns
     -------
@@ -69,12 +91,14 @@ def read_solution(path: str | PathLike[str], *, columns: str | None = None) -> x
         `long_term`. The longitude of perihelion is unwrapped if rows are at most 5000 years apart,
         and lies between 0 and 360 degrees in the row nearest to J2000.0. Where an orbit is nearly
         circular, two solutions may differ by whole turns. Climatic precession and coprecession are
-        computed from eccentricity and perihelion if the file lacks them.
+        computed from eccentricity and perihelion if the file lacks them. The attribute ``body`` is
+        the body, Earth or Mars, with which the solution agrees around J2000.0.
 
     Raises
     ------
     SeriesError
-        If the columns are those of no known solution, or an epoch is repeated.
+        If the columns are not understood, or agree with the Earth only in another meaning, or an
+        epoch is repeated. The message has the `columns` to give.
     SceneError
         If `columns` has an unknown name or unit.
 
@@ -89,23 +113,34 @@ def read_solution(path: str | PathLike[str], *, columns: str | None = None) -> x
     >>> print((past - laskar).longitude_of_perihelion.round(2).values)
     [0.01]
     """
-    file = as_path(path)
-    header, rows, _ = table_of(file)
-    values = np.array(rows)
-    if columns is None:
-        columns = header.lstrip("#%! ") if "epoch (" in header else _layout(file, values)
-    elif not isinstance(columns, str):
+    if not (columns is None or isinstance(columns, str)):
         raise _WHERE.error(columns, "give one text, like 'epoch (kyr), obliquity (deg)'")
-    data = _converted(columns, values)
-    if columns.count(",") + 1 != values.shape[1] or "epoch" not in data:
-        problem = f"{values.shape[1]} columns, of which {columns.count(',') + 1} are named"
-        raise SeriesError(file, problem, "name each, or leave its name empty; epoch is needed")
+    frame = tables.is_frame(path)
+    sheet = tables.of_frame(path) if frame else tables.split(as_path(path), SOLUTIONS)
+    sheet.refuse_text()
+    sheet.refuse_other_lengths()
+    meaning = tables.declared(columns) if columns else _understood(sheet)
+    data = _converted(sheet, meaning)
+    tables.refuse_other_meaning(sheet, meaning, _others(sheet, meaning), partial(_misfit, sheet))
+    body = next((body for body in KNOWN if _misfit(sheet, meaning, (body,)) <= 1), "")
+    origin = {"source": tables.FRAME if frame else as_path(path).name}
+    origin["columns"] = columns or tables.written(meaning)
+    origin |= {} if frame else {"sha256": tables.checksum(as_path(path))}
+    solution = xr.Dataset(attrs=origin | ({"body": body} if body else {}))
+    for name, column in _in_order(sheet, data).items():
+        attributes = {"long_name": QUANTITIES[name].long_name, "units": QUANTITIES[name].units}
+        solution[name] = ("epoch", column, attributes)
+    return solution
+
+
+def _in_order(sheet: Sheet, data: dict[str, FloatArray]) -> dict[str, FloatArray]:
+    """Sort columns by epoch, unwrap the perihelion, and compute climatic precession from it."""
     order = np.argsort(data["epoch"])
     data = {name: column[order] for name, column in data.items()}
     steps = np.diff(data["epoch"])
     if not np.all(steps > 0):
         epoch = data["epoch"][np.argmin(steps > 0)]
-        raise SeriesError(file, f"epoch {epoch:g} yr is repeated", "keep one of the rows")
+        raise sheet.error(f"epoch {epoch:g} yr is repeated", "keep one of the rows")
     if "longitude_of_perihelion" in data:
         longitude = data["longitude_of_perihelion"] % 360
         if steps.max(initial=0.0) <= FARTHEST:
@@ -116,52 +151,142 @@ def read_solution(path: str | PathLike[str], *, columns: str | None = None) -> x
             angle = np.radians(longitude)
             data.setdefault("climatic_precession", data["eccentricity"] * np.sin(angle))
             data.setdefault("coprecession", data["eccentricity"] * np.cos(angle))
-    origin = {"source": file.name, "columns": columns, "sha256": checksum(file)}
-    solution = xr.Dataset(attrs=origin)
-    for name, column in data.items():
-        attributes = {"long_name": QUANTITIES[name].long_name, "units": QUANTITIES[name].units}
-        solution[name] = ("epoch", column, attributes)
-    return solution
+    return data
 
 
-def _converted(columns: str, values: FloatArray) -> dict[str, FloatArray]:
-    """Columns of a solution file by variable name, converted to the units of `long_term`."""
+def _understood(sheet: Sheet) -> list[Column]:
+    """Columns as the header or a layout declares them; one without a header must be confirmed."""
+    if sheet.layout and tables.fits(sheet.layout.columns, sheet.width):
+        return tables.declared(sheet.layout.columns)
+    if sheet.names:
+        meaning = [tables.column_of(name) for name in sheet.names]
+        if all(column.quantity in (*QUANTITIES, _PERIGEE, "") for column in meaning):
+            return meaning
+        raise sheet.not_understood(_suggested(sheet))
+    readings = [tables.declared(layout.columns) for layout in SOLUTIONS if not layout.head]
+    for meaning in readings:
+        if len(meaning) == sheet.width and _misfit(sheet, meaning) <= 1:
+            return meaning
+    far = tables.declared(ASTROGEO22.columns)
+    if len(far) == sheet.width and math.isinf(_misfit(sheet, far)):
+        return far
+    share, guess = max(_guesses(sheet, range(1, sheet.width)), key=lambda pair: pair[0])
+    agreeing = f"; {tables.typed(guess)} would agree with what is known of today" if share else ""
+    problem = f"its {sheet.width} columns without names are not those of a known solution"
+    remedy = "name them, columns='epoch (kyr), obliquity (deg)', or use read_orbit for elements"
+    raise sheet.error(problem, f"name them{agreeing}" if share else remedy)
+
+
+def _converted(sheet: Sheet, meaning: Sequence[Column]) -> dict[str, FloatArray]:
+    """Columns of a solution by variable name, converted to the units of `long_term`."""
     data = {}
-    for header, column in zip(columns.split(","), values.T, strict=False):
-        name, _, unit = header.strip().removesuffix(")").partition(" (")
-        unit, _, sense = unit.partition(" ")
-        shift = 0.0
-        if name == "longitude_of_perigee":
-            name, shift = "longitude_of_perihelion", -180.0
+    for place, column in enumerate(meaning[: sheet.width]):
+        name = column.quantity.replace("perigee", "perihelion")
         if not name:
             continue
         if name not in QUANTITIES:
             raise _WHERE.error(name, nearest(name, QUANTITIES))
         units = QUANTITIES[name].units
         try:
-            sign, origin = SENSES[sense]
-            factor = sign * Unit(unit).to(Unit(units))
-        except (KeyError, ValueError):
-            raise _WHERE.error(header, f"write its unit like '{name} ({units})'") from None
-        data[name] = factor * column + origin + shift
+            data[name] = sheet.converted(place, column, units)
+        except ValueError as error:
+            if isinstance(error, SeriesError):
+                raise
+            raise _WHERE.error(str(column), f"write its unit like '{name} ({units})'") from None
+        data[name] = data[name] - 180.0 * (name != column.quantity)
+        if not np.isfinite(data[name]).all():
+            rest = [*meaning[:place], BLANK, *meaning[place + 1 :]]
+            remedy = f"fill it, leave out the row, or the column: {tables.typed(rest)}"
+            row = int(np.argmin(np.isfinite(data[name])))
+            raise sheet.error(f"{name} is missing", remedy, row)
+    if len(meaning) != sheet.width or "epoch" not in data:
+        problem = f"{sheet.width} columns, of which {len(meaning)} are named"
+        raise sheet.error(problem, "name each, or leave its name empty; epoch is needed")
     return data
 
 
-def _layout(file: Path, values: FloatArray) -> str:
-    """Names and units of unnamed columns, inferred from the number of columns and the values."""
-    fitting = [c for c in LAYOUTS if c.count(",") + 1 == values.shape[1] and _fits(c, values)]
-    if len(fitting) == 1:
-        return fitting[0]
-    problem = f"its {values.shape[1]} columns are not those of a known solution"
-    remedy = "name them, columns='epoch (kyr), obliquity (deg)', or use read_orbit for elements"
-    raise SeriesError(file, problem, remedy)
+# --- comparison with today ------------------------------------------------------------------------
 
 
-def _fits(columns: str, values: FloatArray) -> bool:
-    """Return True if the values fit the assumed column names, and the epochs have no large gaps."""
-    data = _converted(columns, values)
-    small = [data[name] for name in ("eccentricity", "climatic_precession") if name in data]
-    close = np.abs(np.diff(data["epoch"])).max(initial=0.0) <= FARTHEST or not small
-    # an obliquity of at most pi degrees is one in radians
-    tilted = np.pi < data.get("obliquity", np.array([90.0])).max() <= 180
-    return bool(close and tilted and np.abs(small).max(initial=0.0) <= MOST_ECCENTRIC)
+@cache
+def _known(body: str) -> dict[str, FloatArray]:
+    """Quantities around J2000.0 on which all published solutions agree."""
+    past = long_term("-20 kyr", "20 kyr", "0.5 kyr", body=body)
+    return {name: past[name].values for name in ("epoch", *BOUNDS)}
+
+
+def _misfit(sheet: Sheet, meaning: Sequence[Column], bodies: Sequence[str] = KNOWN) -> float:
+    """Largest median difference from a known body in units of its bound; inf if none is known."""
+    try:
+        data = _converted(sheet, meaning)
+    except (SeriesError, SceneError):
+        return math.inf
+    near = abs(data["epoch"]) <= NEAR
+    names = [name for name in BOUNDS if name in data]
+    if np.count_nonzero(near) < min(FEWEST, near.size) or not names:
+        return math.inf
+
+    def misfit(body: str, name: str) -> float:
+        known = _known(body)
+        off = data[name][near] - np.interp(data["epoch"][near], known["epoch"], known[name])
+        off = (off + 180) % 360 - 180 if name == "longitude_of_perihelion" else off
+        return float(np.median(abs(off))) / BOUNDS[name]
+
+    return min(max(misfit(body, name) for name in names) for body in bodies)
+
+
+def _guesses(
+    sheet: Sheet, places: Sequence[int], time: int = 0, unit: str = ""
+) -> Iterator[tuple[float, list[Column]]]:
+    """Meanings of columns that agree with a known body: share of the columns, and the meaning."""
+    blank = [BLANK] * sheet.width
+    units = dict.fromkeys([unit, *_TIMES] if unit else _TIMES)
+    times = [[*blank[:time], Column("epoch", u), *blank[time + 1 :]] for u in units]
+    for body in KNOWN:
+        yield tables.guessed(
+            blank, places, times, _OPTIONS, partial(_misfit, sheet, bodies=(body,))
+        )
+
+
+def _others(sheet: Sheet, meaning: Sequence[Column]) -> Iterator[list[Column]]:
+    """Other meanings of all columns that can be compared."""
+    names = [column.quantity for column in meaning]
+    compared = (*BOUNDS, _PERIGEE)
+    places = [place for place, name in enumerate(names) if name in compared]
+    time = names.index("epoch")
+    for share, other in _guesses(sheet, places, time, meaning[time].unit):
+        if share == 1:
+            kept = [
+                old if old.quantity not in compared and old.quantity != "epoch" else new
+                for old, new in zip(meaning, other, strict=True)
+            ]
+            yield kept
+
+
+def _suggested(sheet: Sheet) -> list[Column]:
+    """Columns to type for a header that is not understood, by its numbers and words."""
+    by_words = [_by_words(sheet, place) for place in range(sheet.width)]
+    times = [place for place, column in enumerate(by_words) if column.quantity == "epoch"]
+    time, unit = (times[0], by_words[times[0]].unit) if times else (0, "kyr")
+    places = [place for place in range(sheet.width) if place != time]
+    _, meaning = max(_guesses(sheet, places, time, unit), key=lambda guess: guess[0])
+    if not meaning[time].quantity:
+        meaning[time] = Column("epoch", unit)
+    for place, column in enumerate(by_words):
+        if column.quantity not in {c.quantity for c in meaning} and not meaning[place].quantity:
+            meaning[place] = column
+    return meaning
+
+
+def _by_words(sheet: Sheet, place: int) -> Column:
+    """Meaning of a column by the words of its header."""
+    words = sheet.names[place]
+    name = next((name for pattern, name in _WORDS.items() if re.search(pattern, words, re.I)), "")
+    if name == "epoch":
+        sense = re.search(r"BP|ago|b2k|(before|after|from) (present|1950|2000)", words, re.I)
+        unit = next((u for u in re.findall(r"[A-Za-z]+", words) if time_scale(u)), "kyr")
+        return Column(name, f"{unit} {sense[0]}" if sense else unit)
+    if name and QUANTITIES[name.replace("perigee", "perihelion")].units == "deg":
+        with_numbers = np.nanmax(abs(sheet.column(place)), initial=0.0)
+        return Column(name, "rad" if with_numbers < 7 else "deg")
+    return Column(name)

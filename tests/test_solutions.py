@@ -117,7 +117,9 @@ def told(text: str, columns: object = None) -> None:
 
 
 test_it_is_refused = refused(
-    ("0 0.0167 0.409 1.796\n-10 0.0194 0.4229 5.153", "name them"),  # rows too far apart
+    ("0 0.0167\n1 0.01716\n2 0.0175", r"columns='epoch \(kyr ago\), eccentricity'"),  # ages
+    ("kyr_BP,eccentricity\n0,0.0167", r"columns='epoch \(kyr BP\), eccentricity'"),
+    ("-400 0.0167\n-401 0.0168", "name them"),  # far from what is known
     ("0 0.4396\n-1 0.4376", "2 columns .*name them"),  # an obliquity
     ("0 1 0 .01 .01 0 0\n-1 1 0 .01 .01 0 0", "read_orbit"),
     ("0 0.0167 23.44 102.9\n-1 0.0172 23.57 85.8", "name them"),  # degrees
