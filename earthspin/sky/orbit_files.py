@@ -16,7 +16,7 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -26,13 +26,15 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import ArrayLike, NDArray
 
+from earthspin import tables
 from earthspin.constants import ARCSEC, DAY, JULIAN_YEAR
 from earthspin.errors import SeriesError, Where, nearest, no_plain_file
 from earthspin.numerics.arrays import FloatArray
-from earthspin.sky.columns import checksum, table_of
 from earthspin.sky.orbit_table import OrbitTable, fitted, load, shipped
 from earthspin.sky.poles import direction
-from earthspin.units import real_numbers
+from earthspin.tables import Column, Sheet
+from earthspin.tables.layouts import ORBITS
+from earthspin.units import real_numbers, time_scale
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -52,12 +54,20 @@ NAMES: dict[str, tuple[str, ...]] = {
     "k": ("k",), "h": ("h",), "q": ("q",), "p": ("p",),
 }  # fmt: skip
 LA2010 = ("t", "k", "h", "q", "p")
-#: Columns of files without names, by the number of columns.
-NAMELESS: dict[int, tuple[str, ...]] = {
-    6: ("t", "a", "e", "inc", "varpi", "Omega"),
-    7: ("t", "a", "l", "k", "h", "q", "p"),
-    8: ("t", "a", "e", "inc", "lph", "lan", "arp", "mna"),
-}
+#: Columns that are angles, without which elements cannot be read.
+_ANGLES = ("inc", "varpi", "argument", "node")
+#: Quantities by words in headers, for messages only.
+_WORDS = {
+    r"^t$|time|year|date|epoch": "t", r"^e$|ecc": "e", r"^i$|inc": "inc",
+    r"varpi|pomega|long.*peri|lph|lop": "varpi", r"omega_?$|peri|arg|aop": "omega",
+    r"node|lan|raan": "Omega", r"^([khqp])$": r"\1",
+}  # fmt: skip
+#: Interval around J2000.0 in which an orbit is compared with that of the package, s, and largest
+#: median distance of the eccentricity vectors of the same orbit; the argument of the perihelion for
+#: its longitude makes 0.007, degrees for radians 0.02.
+NEAR, SAME = 20_000 * JULIAN_YEAR, 0.0015
+#: Fewest rows in it that are compared.
+FEWEST_NEAR = 3
 #: Smallest number of rows, and smallest and largest spacing, s.
 FEWEST, CLOSEST, FARTHEST = 16, JULIAN_YEAR, 5000 * JULIAN_YEAR
 #: Ratio to the usual step above which a step is a gap.
@@ -79,9 +89,6 @@ SUN_POLE = (286.13, 63.87)
 #: Node and inclination of the Sun's equator on ECLIPJ2000 of snvec 3.7.5 and of the files of Zeebe
 #: & Lourens 2019, deg: 0.1 degrees from those of SPICE.
 SUN_EQUATOR = (75.5940, 7.155)
-#: Name of a pandas data frame in messages.
-_FRAME = "DataFrame"
-
 Table = Mapping[str, FloatArray]
 
 
@@ -124,16 +131,18 @@ def read_orbit(
     frame: Literal["ECLIPJ2000", "HCI", "HCI-snvec", "ICRF"] | ArrayLike = "ECLIPJ2000",
     time: Literal["d", "yr", "kyr"] | None = None,
     angles: Literal["deg", "rad"] | None = None,
+    columns: str | None = None,
 ) -> OrbitTable:
     """Read an orbit over millions of years from a file, for use in `long_term`.
 
     Parameters
     ----------
     path : str, Path or DataFrame
-        A file written by `OrbitTable.to_file` (``.npz``), a text file, or a pandas DataFrame, with
-        elements (t, a, e, inc, varpi or omega, Omega; also named lph, arp, lan) or in the layout of
-        La2010 (t, a, l, k, h, q, p). Text files without names are recognised by their number of
-        columns. Times are from J2000.0 TDB, negative in the past, in either order.
+        A file written by `OrbitTable.to_file` (``.npz``), a text file, or a table of pandas or
+        polars, with elements (t, a, e, inc, varpi or omega, Omega; also named lph, arp, lan) or in
+        the layout of La2010 (t, a, l, k, h, q, p). Text files without names are recognised by their
+        number of columns, and must agree with the orbit of the package around J2000.0. Times are
+        from J2000.0 TDB, negative in the past, in either order.
     body : str
         Name of the orbiting body.
     frame : str or array_like, shape (3, 3)
@@ -145,6 +154,9 @@ def read_orbit(
         Unit of the times; by default days for elements and thousands of years for La2010.
     angles : str, optional
         Unit of inclination, perihelion and node; by default detected from their size.
+    columns : str, optional
+        Names of all columns, like ``"t (kyr ago), a, e, inc (deg), omega (deg), Omega (deg)"``; a
+        column without a name is not read, and ``...`` at the end stands for any more columns.
 
     Returns
     -------
@@ -174,16 +186,148 @@ def read_orbit(
             raise where.at(name).error(word, nearest(word, allowed))
     if not isinstance(body, str):
         raise where.at("body").error(body, "give the name of a body, like 'mars'")
-    if hasattr(path, "columns") and hasattr(path, "iloc"):
-        rows = _Rows.of_frame(path)
+    if not (columns is None or isinstance(columns, str)):
+        raise where.at("columns").error(columns, "give one text, like 't (yr), k, h, q, p'")
+    if tables.is_frame(path):
+        sheet = tables.of_frame(path)
     elif not isinstance(path, (str, os.PathLike)) or not os.fspath(path).strip():
         raise where.at("path").error(path, "give the path of a file, or a DataFrame")
     elif Path(path).suffix == ".npz":
         return _load(Path(path))
     else:
-        rows = _Rows.of_text(Path(path))
-    table = _table(rows, body, axes, frame, time, angles)
-    return table if rows.source == _FRAME else replace(table, sha256=checksum(Path(path)))
+        sheet = tables.split(Path(path), ORBITS)
+    meaning, declared = _meaning(sheet, columns, time, angles)
+    rows = _Rows.of_sheet(sheet, meaning).in_order()
+    _check_times(rows)
+    _compare(sheet, _with_angles(rows, meaning), declared, axes, body)
+    table = _table(rows, body, axes, frame)
+    return table if sheet.is_frame else replace(table, sha256=tables.checksum(Path(path)))
+
+
+# --- columns and their meaning --------------------------------------------------------------------
+
+
+def _meaning(
+    sheet: Sheet, text: str | None, time: str | None, angles: str | None
+) -> tuple[list[Column], bool]:
+    """Columns with their units, and whether they are declared, and not told by their number.
+
+    They are declared by the user, by the header, or by a layout that the header names.
+    """
+    sheet.refuse_text()
+    layouts = [x for x in ORBITS if tables.fits(x.columns, sheet.width)]
+    layout = sheet.layout if sheet.layout in layouts else None
+    if text is not None:
+        meaning = tables.declared(text)
+        if not tables.fits(text, sheet.width):
+            problem = f"{sheet.width} columns, of which {len(meaning)} are named"
+            raise sheet.error(problem, f"name each, leave names empty, or end with '{tables.MORE}'")
+    elif sheet.names and not layout:
+        meaning = [tables.column_of(name) for name in sheet.names]
+    else:
+        layout = layout or next((x for x in layouts if not x.head), None)
+        if layout is None:
+            problem = f"{sheet.width} columns without names are no known layout"
+            raise sheet.error(
+                problem, "name them: columns='t (yr), e, inc (deg), varpi (deg), ...'"
+            )
+        meaning = tables.declared(layout.columns)
+    sheet.refuse_other_lengths(text or "")
+    places = _chosen(sheet, meaning)
+    units = {"t": time or "", **dict.fromkeys(_ANGLES, angles or "")}
+    for name, place in places.items():
+        unit = meaning[place].unit
+        if known := units.get(name):
+            same = unit in ("", known) or (name == "t" and time_scale(unit) == time_scale(known))
+            if not same and not (name == "t" and layout):
+                key = "time" if name == "t" else "angles"
+                problem = f"its header has '{meaning[place]}'"
+                raise sheet.error(problem, f"leave out {key} = {known!r}")
+            meaning[place] = meaning[place]._replace(unit=known)
+        elif name == "t" and not unit:
+            meaning[place] = Column("t", "kyr" if "k" in places else "d")
+    named = bool(text or sheet.names or (layout and layout.head))
+    return meaning, named
+
+
+def _with_angles(rows: _Rows, meaning: list[Column]) -> list[Column]:
+    """Give all angles their unit, also where their size tells it."""
+    units = {rows.places[name]: rows.unit_of(name) for name in _ANGLES if name in rows.places}
+    return [
+        column._replace(unit=units.get(place, column.unit)) for place, column in enumerate(meaning)
+    ]
+
+
+def _chosen(sheet: Sheet, meaning: Sequence[Column]) -> dict[str, int]:
+    """Return the column index of each orbital element, found by the column names."""
+    names = [column.quantity for column in meaning]
+    places = tables.places(names, NAMES)
+    if places.get("node") == places.get("argument") and "node" in places:
+        del places["argument"]
+    if set(LA2010) <= set(places):
+        return {name: places[name] for name in LA2010}
+    perihelion = next((name for name in ("varpi", "argument") if name in places), "varpi")
+    required = ("t", "e", "inc", perihelion, "node")
+    missing = [NAMES[name][0] for name in required if name not in places]
+    if missing:
+        problem = f"no column {' and none '.join(missing)} among {', '.join(names[:12])}"
+        key = tables.typed([_by_words(name) for name in names])
+        remedy = f"give t, e, inc, varpi, Omega, or t, k, h, q, p, like {key}"
+        raise sheet.error(problem, remedy)
+    return {name: places[name] for name in required}
+
+
+def _by_words(name: str) -> Column:
+    """Meaning of a column by the words of its header; blank if they are not known."""
+    word = next((m.expand(q) for p, q in _WORDS.items() if (m := re.search(p, name, re.I))), "")
+    return Column(word, "yr" if word == "t" else "")
+
+
+def _compare(
+    sheet: Sheet, meaning: list[Column], declared: bool, axes: FloatArray, body: str
+) -> None:
+    """Compare an orbit around J2000.0 with that of the package, if there is one of the body.
+
+    Raises
+    ------
+    SeriesError
+        If the columns agree with it only in another meaning, or their number alone tells their
+        meaning and they do not agree.
+    """
+    known = shipped(body)
+    if known is None:
+        return
+
+    def misfit(columns: Sequence[Column]) -> float:
+        try:
+            rows = _Rows.of_sheet(sheet, columns)
+            near = np.abs(rows.times) <= NEAR
+            if np.count_nonzero(near) < FEWEST_NEAR:
+                return math.nan
+            vectors = rows.vectors()[1][near] @ axes - known.at(rows.times[near])[1].T
+        except SeriesError:
+            return math.nan
+        return float(np.median(np.linalg.norm(vectors, axis=1))) / SAME
+
+    tables.refuse_other_meaning(sheet, meaning, _others(meaning), misfit)
+    if not declared and misfit(meaning) > 1:
+        problem = f"as {tables.typed(meaning)} its perihelion is not that of {body} today"
+        raise sheet.error(problem, "give the right columns='...', or body =")
+
+
+def _others(meaning: list[Column]) -> Iterator[list[Column]]:
+    """Other meanings: of times, of angles, argument for longitude, and exchanged components."""
+    unit = next(column.unit for column in meaning if column.quantity == "t")
+    units = dict.fromkeys([unit, *TIMES, *(f"{word} ago" for word in TIMES)])
+    exchanges: tuple[dict[str, str], ...] = (
+        {},
+        {"varpi": "omega", "omega": "varpi"},
+        {"k": "h", "h": "k", "q": "p", "p": "q"},
+    )
+    for words in exchanges:
+        for angles in ({}, {"deg": "rad", "rad": "deg"}):
+            for time in units:
+                yield tables.with_words(meaning, words | angles | {unit: time})
 
 
 def _axes(frame: object, where: Where) -> FloatArray:
@@ -225,60 +369,63 @@ class _Rows:
 
     Attributes
     ----------
-    source : object
-        File, or the name of a data frame.
+    sheet : Sheet
     columns : Table
-        Columns by the names used here.
-    lines : list of int or None
-        Line of each row in the file.
+        Columns by the names used here, in their units.
+    places : dict of str to int
+        Place of each column in the table.
+    units : dict of str to str
+        Units of times and angles; angles without a unit are in degrees or radians by their size.
+    numbers : array of int
+        Row of the table that each row was.
     """
 
-    source: object
+    sheet: Sheet
     columns: Table
-    lines: NDArray[np.int64] | None = None
+    places: dict[str, int]
+    units: dict[str, str]
+    numbers: NDArray[np.int64]
 
     @classmethod
-    def of_frame(cls, frame: pd.DataFrame) -> _Rows:
-        """Read the columns of orbital elements from a pandas data frame."""
-        chosen = _chosen([str(name) for name in frame.columns], _FRAME)
-        columns = {}
-        for name, place in chosen.items():
-            try:
-                columns[name] = real_numbers(frame.iloc[:, place])
-            except (TypeError, ValueError):
-                problem = f"column '{frame.columns[place]}' holds more than numbers"
-                raise SeriesError(_FRAME, problem) from None
-        return cls(_FRAME, columns)
+    def of_sheet(cls, sheet: Sheet, meaning: Sequence[Column]) -> _Rows:
+        """Read the columns of orbital elements from a table."""
+        places = _chosen(sheet, meaning)
+        data = {name: sheet.column(place) for name, place in places.items()}
+        units = {name: meaning[place].unit for name, place in places.items()}
+        scale = time_scale(units["t"])
+        if scale is None:
+            raise sheet.error(f"times in '{units['t']}'", "give a unit like d, yr, kyr or kyr ago")
+        if units["t"] not in TIMES:
+            data["t"], units["t"] = scale[0] * data["t"] + scale[1], "yr"
+        for name in _ANGLES:
+            if units.get(name, "") not in ("", *ANGLES):
+                raise sheet.error(f"{name} in '{units[name]}'", "give a unit, deg or rad")
+        return cls(sheet, data, places, units, np.arange(data["t"].size))
 
-    @classmethod
-    def of_text(cls, file: Path) -> _Rows:
-        """Read the columns of orbital elements from a text file; spaces or commas separate numbers.
+    @property
+    def times(self) -> FloatArray:
+        """Times from J2000.0, s."""
+        return np.asarray(self.columns["t"] * TIMES[self.units["t"]])
 
-        The last header line has the names of the columns, if any.
-        """
-        header, rows, lines = table_of(file)
-        values = np.array(rows)
-        names = [word for word in re.split(r"[\s,;]+", header) if word.strip("#%!")]
-        names = [re.sub(r"^[#%!]+|[(\[].*$", "", name) for name in names]
-        if len(names) != values.shape[1] or not any(n in NAMES["t"] for n in names):
-            names = list(NAMELESS.get(values.shape[1], ()))
-        if not names:
-            raise SeriesError(
-                file,
-                f"{values.shape[1]} columns without names are no known layout",
-                "name them in the first line, or give t, a, e, inc, varpi, Omega or t, a, l, k, "
-                "h, q, p",
-            )
-        chosen = _chosen(names, file)
-        return cls(file, {n: values[:, column] for n, column in chosen.items()}, np.array(lines))
+    def unit_of(self, name: str) -> str:
+        """Unit of an angle, degrees or radians; by the largest value if it is not declared."""
+        if self.units[name]:
+            return self.units[name]
+        largest = max(float(np.max(np.abs(column))) for column in _turning(self))
+        if np.max(self.columns["inc"]) > math.pi or 2 * math.pi * (1 + 1e-6) < largest <= 360.001:
+            return "deg"
+        if largest <= 2 * math.pi * (1 + 1e-6):
+            return "rad"
+        problem = f"angles reach {largest:g}: degrees or radians that go on past a turn?"
+        raise self.error(problem, "say which: angles = 'deg' or 'rad'")
+
+    def vectors(self) -> tuple[FloatArray, FloatArray]:
+        """Unit normals and eccentricity vectors, shape (n, 3) each."""
+        return (_from_sines if "k" in self.columns else _from_elements)(self)
 
     def error(self, problem: str, remedy: str = "", row: int | None = None) -> SeriesError:
         """Build an error whose message names the file, and the line if a row is given."""
-        if row is None:
-            return SeriesError(self.source, problem, remedy)
-        if self.lines is None:
-            return SeriesError(self.source, f"row {row}: {problem}", remedy)
-        return SeriesError(self.source, problem, remedy, int(self.lines[row]))
+        return self.sheet.error(problem, remedy, None if row is None else int(self.numbers[row]))
 
     def in_order(self) -> _Rows:
         """Return the rows in ascending time; refuse gaps, repeated times and too few rows."""
@@ -304,43 +451,13 @@ class _Rows:
             raise self.error(problem, "fill it, or give a part without gaps", row)
         if t[0] < t[-1]:
             return self
-        lines = None if self.lines is None else self.lines[::-1]
-        return replace(self, columns={n: c[::-1] for n, c in self.columns.items()}, lines=lines)
+        columns = {name: column[::-1] for name, column in self.columns.items()}
+        return replace(self, columns=columns, numbers=self.numbers[::-1])
 
 
-def _chosen(names: Sequence[str], source: object) -> dict[str, int]:
-    """Return the column index of each orbital element, found by the column names."""
-    places = {}
-    for name, words in NAMES.items():
-        exact = [index for index, column in enumerate(names) if column in words]
-        loose = [index for index, column in enumerate(names) if column.lower() in words]
-        if exact or loose:
-            places[name] = (exact or loose)[0]
-    if places.get("node") == places.get("argument") and "node" in places:
-        del places["argument"]
-    if set(LA2010) <= set(places):
-        return {name: places[name] for name in LA2010}
-    perihelion = next((name for name in ("varpi", "argument") if name in places), "varpi")
-    required = ("t", "e", "inc", perihelion, "node")
-    missing = [NAMES[name][0] for name in required if name not in places]
-    if missing:
-        problem = f"no column {' and none '.join(missing)} among {', '.join(names[:12])}"
-        raise SeriesError(source, problem, "give t, e, inc, varpi, Omega, or t, k, h, q, p")
-    return {name: places[name] for name in required}
-
-
-def _table(
-    unordered: _Rows,
-    body: str,
-    axes: FloatArray,
-    frame: object,
-    time: str | None,
-    angles: str | None,
-) -> OrbitTable:
-    rows = unordered.in_order()
-    of_la2010 = "k" in rows.columns
-    times = _seconds(rows, time or ("kyr" if of_la2010 else "d"))
-    n, e = (_from_sines if of_la2010 else _from_elements)(rows, angles)
+def _table(rows: _Rows, body: str, axes: FloatArray, frame: object) -> OrbitTable:
+    times = rows.times
+    n, e = rows.vectors()
     _check_moves(rows, n, e)
     present = np.array([np.interp(0.0, times, component) for component in n.T])
     if body == "earth":
@@ -354,12 +471,13 @@ def _table(
     first = np.cross(third, np.eye(3)[np.argmin(np.abs(third))])
     first /= np.linalg.norm(first)
     basis = np.stack([first, np.cross(third, first), third])
-    name = rows.source if rows.source == _FRAME else Path(str(rows.source)).name
+    name = Path(rows.sheet.file).name
     return fitted(body, times, n, e, basis, f"{name}, {'given axes' if frame is axes else frame}")
 
 
-def _seconds(rows: _Rows, unit: str) -> FloatArray:
-    times = rows.columns["t"] * TIMES[unit]
+def _check_times(rows: _Rows) -> None:
+    """Refuse times in another unit, and those without J2000.0."""
+    times, unit = rows.times, rows.units["t"]
     step = float(np.median(np.diff(times)))
     if not CLOSEST <= step <= FARTHEST:
         raise rows.error(
@@ -370,10 +488,9 @@ def _seconds(rows: _Rows, unit: str) -> FloatArray:
     if not times[0] <= 0 <= times[-1]:
         problem = f"it covers {times[0] / TIMES['kyr']:g} to {times[-1] / TIMES['kyr']:g} kyr"
         raise rows.error(problem, "J2000.0, from which the axis starts, must be among the times")
-    return np.asarray(times)
 
 
-def _from_sines(rows: _Rows, angles: str | None) -> tuple[FloatArray, FloatArray]:
+def _from_sines(rows: _Rows) -> tuple[FloatArray, FloatArray]:
     """Unit normals and eccentricity vectors from the variables k, h, q, p, shape (n, 3) each."""
     k, h, q, p = (rows.columns[name] for name in ("k", "h", "q", "p"))
     half = q * q + p * p  # squared sine of half the inclination
@@ -389,20 +506,21 @@ def _from_sines(rows: _Rows, angles: str | None) -> tuple[FloatArray, FloatArray
     return normal, k[:, np.newaxis] * f + h[:, np.newaxis] * g
 
 
-def _from_elements(rows: _Rows, angles: str | None) -> tuple[FloatArray, FloatArray]:
+def _from_elements(rows: _Rows) -> tuple[FloatArray, FloatArray]:
     """Unit normals and eccentricity vectors from Keplerian elements, shape (n, 3) each."""
     e = rows.columns["e"]
     _check_eccentricity(rows, e)
-    unit = ANGLES[angles or _unit_of(rows)]
-    _check_unit(rows, angles)
-    tilt, node = rows.columns["inc"] * unit, rows.columns["node"] * unit
+    _check_unit(rows)
+    angle = {
+        name: rows.columns[name] * ANGLES[rows.unit_of(name)]
+        for name in _ANGLES
+        if name in rows.columns
+    }
+    tilt, node = angle["inc"], angle["node"]
     if np.any((tilt < 0) | (tilt > math.pi)):
         row = int(np.argmax((tilt < 0) | (tilt > math.pi)))
         raise rows.error("an inclination lies between 0 and 180 degrees", "", row)
-    if "argument" in rows.columns:
-        argument = rows.columns["argument"] * unit
-    else:
-        argument = rows.columns["varpi"] * unit - node
+    argument = angle["argument"] if "argument" in angle else angle["varpi"] - node
     ci, si, cn, sn = np.cos(tilt), np.sin(tilt), np.cos(node), np.sin(node)
     cw, sw = np.cos(argument), np.sin(argument)
     normal = np.stack([si * sn, -si * cn, ci], axis=1)
@@ -424,22 +542,11 @@ def _turning(rows: _Rows) -> list[FloatArray]:
     ]
 
 
-def _unit_of(rows: _Rows) -> str:
-    """Detect from the largest value whether the angles in a file are in degrees or radians."""
-    largest = max(float(np.max(np.abs(column))) for column in _turning(rows))
-    if np.max(rows.columns["inc"]) > math.pi or 2 * math.pi * (1 + 1e-6) < largest <= 360.001:
-        return "deg"
-    if largest <= 2 * math.pi * (1 + 1e-6):
-        return "rad"
-    problem = f"angles reach {largest:g}: degrees or radians that go on past a turn?"
-    raise rows.error(problem, "say which: angles = 'deg' or 'rad'")
-
-
-def _check_unit(rows: _Rows, angles: str | None) -> None:
+def _check_unit(rows: _Rows) -> None:
     """Refuse an angle unit declared by the user (degrees, radians) that the values contradict."""
     largest = max(float(np.max(np.abs(column))) for column in _turning(rows))
     jump = max(float(np.max(np.abs(np.diff(column)))) for column in _turning(rows))
-    steepest = float(np.max(rows.columns["inc"]))
+    steepest, angles = float(np.max(rows.columns["inc"])), rows.units["node"]
     if angles == "rad" and (steepest > math.pi or 180 < jump <= 360.001):
         problem = f"angles reach {max(largest, steepest):g}: these are degrees, not radians"
         raise rows.error(problem, "give angles = 'deg'")

@@ -27,7 +27,7 @@ from earthspin.errors import CoverageError, OutputError, one_line
 from earthspin.number_text import plain
 from earthspin.numerics.arrays import FloatArray
 from earthspin.numerics.polynomials import rule
-from earthspin.sky.columns import checksum
+from earthspin.tables import checksum
 
 #: Length of a window, s, and number of terms per window.
 WINDOW, TERMS = 20_000 * JULIAN_YEAR, 16

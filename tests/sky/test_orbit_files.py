@@ -243,8 +243,8 @@ test_each_mistake_is_one_clear_line = refused(
         ("", "holds no rows"),
         ("nothing but words\n", "holds no rows"),
         ("1 2 3\n2 3 4\n", "3 columns without names are no known layout"),
-        ("0 1 0 0 0 0 0\n1 1 0 0\n", "line 2: 4 columns after 7; is it cut off"),
-        ("0 1 0 0 0 0 0\n1 x 0 0 0 0 0\n", "line 2: could not convert"),
+        ("0 1 0 0 0 0 0\n1 1 0 0\n", "line 2: 4 columns; 7 are expected; is the file cut off"),
+        ("0 1 0 0 0 0 0\n1 1 0 x 0 0 0\n", "line 2: could not convert"),
     ],
 )
 def test_files_that_hold_something_else(tmp_path: Path, content: str, words: str) -> None:
